@@ -10,7 +10,7 @@ import re
 import sys
 
 # What begins in the first column and declares something: a function, a constant, a type or another name for one.
-DECLARED = re.compile(r"^(?:(?:struct|class|enum class|using) (\w+)|[A-Za-z][^=;(){]*?\b(\w+)(?=[({=;]| =|\[))")
+DECLARED = re.compile(r"^(?:\[\[\w+\]\] )?(?:(?:struct|class|enum class) (\w+)|using (\w+) =|(?!using |namespace )[A-Za-z][^=;(){]*?\b(\w+)(?=[({=;]| =|\[))")
 
 
 def own_names(source):
@@ -20,10 +20,10 @@ def own_names(source):
     for line in pathlib.Path(source).read_text(encoding="utf-8").splitlines():
         if line == "namespace {":
             inside = True
-        elif line == "}  // namespace":
+        elif line.startswith("}") and line.endswith("// namespace"):
             inside = False
         elif inside and (found := DECLARED.match(line)):
-            names.add(found[1] or found[2])
+            names.add(found[1] or found[2] or found[3])
             # `constexpr double one = 1, other = 2;`
             if line.startswith("const"):
                 names.update(re.findall(r", (\w+) = ", line))

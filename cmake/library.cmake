@@ -1,6 +1,6 @@
 # One folder per word of the architecture; each may use only those before it. Each is compiled once, as objects of which
 # the library consists and on which its tests are linked together with the folders before it.
-set(GRAZE_FOLDERS symbolic model tape flow trajectory record bench acquire identify sweep orbit grazing branch results study design layout)
+set(GRAZE_FOLDERS base symbolic model tape flow trajectory record bench acquire identify sweep orbit grazing branch results study design layout)
 
 # What a folder needs besides.
 set(GRAZE_NEEDS_sweep Threads::Threads)
@@ -28,7 +28,7 @@ foreach(folder IN LISTS GRAZE_FOLDERS)
         if(GRAZE_PRECOMPILED_HEADERS AND folder MATCHES "^(orbit|grazing|branch)$")
             target_precompile_headers(graze_${folder} PRIVATE <Eigen/Dense> <fmt/format.h>)
         endif()
-        compile_together(graze_${folder} ${sources})
+        compile_together(graze_${folder} 8 ${sources})
         target_sources(graze PRIVATE $<TARGET_OBJECTS:graze_${folder}>)
         list(APPEND earlier ${folder})
     endif()

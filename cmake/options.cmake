@@ -12,7 +12,11 @@ if(PROJECT_IS_TOP_LEVEL)
     endif()
     find_program(CCACHE ccache)
     if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-        set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+        # Paths in this repository are hashed relative to it, so that a clone in another folder finds what one has compiled.
+        set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1
+                                        CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
+                                        ${CCACHE}
+        )
     endif()
 endif()
 

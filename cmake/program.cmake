@@ -3,7 +3,7 @@ file(GLOB program_sources CONFIGURE_DEPENDS src/program/*.cpp)
 list(FILTER program_sources EXCLUDE REGEX "/main\\.cpp$")
 if(program_sources)
     add_library(graze_program STATIC ${program_sources})
-    compile_together(graze_program ${program_sources})
+    compile_together(graze_program 8 ${program_sources})
     target_include_directories(graze_program PUBLIC include PRIVATE src)
     target_link_libraries(graze_program PUBLIC graze fmt::fmt CLI11::CLI11 PRIVATE graze_options)
     if(GRAZE_SANITIZERS)
@@ -18,8 +18,15 @@ if(TARGET graze_program AND EXISTS ${PROJECT_SOURCE_DIR}/src/program/main.cpp)
     # In a folder of its own, which can be put on the PATH without anything else.
     set_target_properties(
         graze_executable PROPERTIES OUTPUT_NAME graze RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin
-                                    INSTALL_RPATH $ORIGIN/../${CMAKE_INSTALL_LIBDIR}
     )
+    # A shared library lies beside that folder as it does where it is installed. The path to it must not change then:
+    # CMake would make room for the longer of two by empty ones, which mean whatever folder one is in.
+    if(BUILD_SHARED_LIBS)
+        set_target_properties(graze PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR})
+        set_target_properties(
+            graze_executable PROPERTIES INSTALL_RPATH $ORIGIN/../${CMAKE_INSTALL_LIBDIR} BUILD_WITH_INSTALL_RPATH ON
+        )
+    endif()
 endif()
 
 # Pages for man and completion for shells are what the program itself says of its options.

@@ -3,6 +3,16 @@
 find_package(GTest REQUIRED)
 include(GoogleTest)
 
+# Where things are is compiled in one small source alone, so that a compiler cache serves clones in other folders.
+file(WRITE ${PROJECT_BINARY_DIR}/generated/places.cpp.in
+     "#include \"places.hpp\"\n\nnamespace graze::testing {\n\n\
+const char* const source_folder = \"@PROJECT_SOURCE_DIR@\";\n\
+const char* const program_file = \"@PROJECT_BINARY_DIR@/bin/graze\";\n\n} // namespace graze::testing\n"
+)
+configure_file(${PROJECT_BINARY_DIR}/generated/places.cpp.in ${PROJECT_BINARY_DIR}/generated/places.cpp @ONLY)
+add_library(graze_places OBJECT ${PROJECT_BINARY_DIR}/generated/places.cpp)
+target_include_directories(graze_places PUBLIC tests)
+
 # Wrong uses of the library are tried on all of it.
 set(before_misuse ${GRAZE_FOLDERS})
 
@@ -24,12 +34,12 @@ foreach(folder IN LISTS test_folders)
     endif()
     add_executable(test_${folder} ${sources})
     target_include_directories(test_${folder} PRIVATE include src tests)
-    target_link_libraries(test_${folder} PRIVATE GTest::gtest_main graze_options graze_headers fmt::fmt)
+    target_link_libraries(test_${folder} PRIVATE GTest::gtest_main GTest::gmock graze_options graze_headers fmt::fmt)
     if(folder STREQUAL program)
         target_link_libraries(test_${folder} PRIVATE graze_program)
         if(TARGET graze_executable)
             add_dependencies(test_${folder} graze_executable)
-            target_compile_definitions(test_${folder} PRIVATE GRAZE_PROGRAM="$<TARGET_FILE:graze_executable>")
+            target_compile_definitions(test_${folder} PRIVATE GRAZE_PROGRAM_BUILT)
         endif()
     else()
         foreach(part IN LISTS before_${folder})
@@ -39,7 +49,9 @@ foreach(folder IN LISTS test_folders)
     if(GRAZE_PRECOMPILED_HEADERS)
         target_precompile_headers(test_${folder} PRIVATE <gtest/gtest.h> <fmt/format.h> <algorithm> <functional>)
     endif()
-    target_compile_definitions(test_${folder} PRIVATE GRAZE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    target_link_libraries(test_${folder} PRIVATE graze_places)
+    # Few at once: a test is changed, compiled and run again more often than anything else.
+    compile_together(test_${folder} 5 ${sources})
     # What is tested is fast enough already; tests are compiled more often than they are run.
     target_compile_options(test_${folder} PRIVATE $<$<CONFIG:Release>:-O1>)
     gtest_discover_tests(
@@ -72,6 +84,9 @@ find_package(Python3 COMPONENTS Interpreter QUIET)
 if(Python3_FOUND)
     add_test(NAME names COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/layers/check_names.py
                                 ${PROJECT_SOURCE_DIR}
+    )
+    add_test(NAME promises COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/documentation/check_promises.py
+                                   ${PROJECT_SOURCE_DIR}
     )
 endif()
 

@@ -1,19 +1,19 @@
-# Where much is compiled once and run once, sources of a folder are compiled several at once: parsing what they include,
-# and what they make of templates, is most of the work. Those whose own names collide stay apart, and so do tests, which
-# open namespaces.
+# Sources of a folder are compiled several at once: parsing what they include, and what they make of templates, is most
+# of the work. Those whose own names collide stay apart.
 option(GRAZE_TOGETHER "Compile several sources at once; needs Python" OFF)
 if(GRAZE_TOGETHER)
     find_package(Python3 COMPONENTS Interpreter)
-    # A name of one source may well be a local one of the next.
-    target_compile_options(graze_options INTERFACE $<$<CXX_COMPILER_ID:Clang>:-Wno-shadow>)
+    # A name of one source may well be a local one of the next; and g++ takes unnamed namespaces of what it compiles
+    # together for those of a header.
+    target_compile_options(graze_options INTERFACE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endif()
 
-function(compile_together target) # TARGET SOURCE...
+function(compile_together target most) # TARGET MOST SOURCE...
     if(NOT GRAZE_TOGETHER OR NOT Python3_FOUND)
         return()
     endif()
     execute_process(
-        COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/cmake/batches.py 8 ${ARGN}
+        COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/cmake/batches.py ${most} ${ARGN}
         OUTPUT_VARIABLE lines OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY
     )
     string(REPLACE "\n" " " lines "${lines}")

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <charconv>
 #include <cmath>
 #include <iterator>
 
@@ -27,33 +26,14 @@ std::string Experiment::settings() const {
                                     offset, rate, samples, hdf5 ? "h5" : "csv", fmt::join(channels, ","));
     lines += fmt::format("settle {} {} {} {} {} {}\n", settling.time, settling.most, settling.reference, settling.phase,
                          settling.repeats, settling.period);
+    if (generator.load != GeneratorOptions().load) // folders of old have no such line
+        lines += fmt::format("load {}\n", generator.load);
     for (const SettlingOptions::Tolerance& tolerance : settling.tolerances)
         lines += fmt::format("tolerance {} {}\n", tolerance.channel, tolerance.size);
     for (const Level& level : levels)
         fmt::format_to(std::back_inserter(lines), "level {} {} {} {}\n", level.number, level.frequency, level.amplitude,
                        level.direction);
     return lines;
-}
-
-DeviceAddress device_address(const std::string& text, const Place& place) {
-    DeviceAddress address;
-    const std::size_t first = text.find(':'), last = text.rfind(':');
-    const std::string kind = text.substr(0, first);
-    if (kind == "serial" && first != std::string::npos && first + 1 < text.size()) {
-        address.name = text.substr(first + 1);
-        return address;
-    }
-    const bool bracketed = text.find('[') == first + 1 && text.find(']') + 1 == last; // an IPv6 address
-    const bool one_name = bracketed || text.find(':', first + 1) == last;
-    if (kind == "tcp" && last != first && last > first + 1 && one_name) {
-        address.is_tcp = true;
-        address.name = bracketed ? text.substr(first + 2, last - first - 3) : text.substr(first + 1, last - first - 1);
-        const char* const end = text.data() + text.size();
-        if (std::from_chars(text.data() + last + 1, end, address.port).ptr == end && address.port > 0)
-            return address;
-    }
-    throw InputError(place, fmt::format("'{}' is no device of samples", text),
-                     "give \"tcp:HOST:PORT\" or \"serial:PATH\"");
 }
 
 Experiment parse_experiment(std::string_view text, const std::string& file) {

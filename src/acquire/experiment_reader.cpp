@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 namespace graze {
 
@@ -175,10 +176,21 @@ Experiment ExperimentReader::read(const toml::table& root) {
 
 void ExperimentReader::read_generator(const TomlEntry& entry) {
     const Keys keys = keys_of(entry, {"port", "baud", "parity", "stop_bits", "data_bits", "flow", "timeout", "attempts",
-                                      "tolerance", "identity"});
+                                      "tolerance", "identity", "load"});
     SerialSettings& serial = experiment_.serial;
     GeneratorOptions& generator = experiment_.generator;
-    with(keys, "port", [&](const TomlEntry& e) { serial.port = toml_.line(e); });
+    with(keys, "port", [&](const TomlEntry& e) {
+        serial.port = toml_.line(e);
+        generator_address(serial.port, toml_.place(*e.node));
+    });
+    with(keys, "load", [&](const TomlEntry& e) {
+        if (e.node->is_string()) {
+            choice(e, {"infinite"});
+            generator.load = std::numeric_limits<double>::infinity();
+        } else {
+            generator.load = number(e, 1, 1e6);
+        }
+    });
     with(keys, "baud", [&](const TomlEntry& e) { serial.baud = static_cast<unsigned>(count(e, 50, 4'000'000)); });
     with(keys, "data_bits", [&](const TomlEntry& e) { serial.data_bits = static_cast<unsigned>(count(e, 7, 8)); });
     with(keys, "parity", [&](const TomlEntry& e) {

@@ -1,14 +1,16 @@
 #include "graze/acquire/generator_client.hpp"
 
+#include "acquire/generator_answer.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/printable.hpp"
 #include "graze/symbolic/trimmed.hpp"
 
 #include <fmt/format.h>
 
-#include <charconv>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <thread>
 
 namespace graze {
@@ -16,10 +18,12 @@ namespace graze {
 namespace {
 
 constexpr const char* who = "the generator";
+constexpr int patient = 2; ///< times as many attempts where to ask or to say it once more does no harm
 
-/// Errors of a line that has not come as it was sent, which may come better the next time.
-bool is_of_transmission(int error) {
-    return (error <= -100 && error > -200) || error > 0;
+/// What may come better the next time.
+bool is_worth_another(AcquisitionEnding ending) {
+    return ending == AcquisitionEnding::garbled || ending == AcquisitionEnding::no_answer ||
+           ending == AcquisitionEnding::clipped;
 }
 
 void require_within(double value, double least, double most, const char* what) {
@@ -39,34 +43,26 @@ std::string GeneratorClient::asked(std::string_view question) {
     line_->discard(); // late answers to earlier questions
     line_->send(question);
     const auto nobody = std::function<bool()>();
-    return awaited_line(*line_, options_.timeout, making_safe_ ? nobody : options_.interrupted, who);
+    return awaited_line(*line_, options_.timeout, making_safe_ ? nobody : options_.interrupted, who, question);
 }
 
 double GeneratorClient::asked_number(std::string_view question) {
     const std::string answer = asked(question);
-    const char *begin = answer.data(), *const end = begin + answer.size();
-    if (begin != end && *begin == '+')
-        ++begin;
-    double value = 0;
-    const auto [next, error] = std::from_chars(begin, end, value);
-    if (error != std::errc() || next != end || !std::isfinite(value))
+    const std::optional<double> value = answered_number(trimmed(answer));
+    if (!value)
         throw InstrumentError(
             AcquisitionEnding::garbled,
             fmt::format("{} answers '{}' to {}", who, shortened(printable_line(answer), 100), question));
-    return value;
+    return *value;
 }
 
 /// Its oldest error, as in -113,"Undefined header". @return 0 for none
 int GeneratorClient::asked_error(std::string& text) {
     text = printable_line(shortened(asked("SYST:ERR?"), 200));
-    const char *begin = text.data(), *const end = begin + text.size();
-    if (begin != end && *begin == '+')
-        ++begin;
-    int number = 0;
-    const auto [next, error] = std::from_chars(begin, end, number);
-    if (error != std::errc() || next == end || *next != ',')
+    const std::optional<int> number = answered_error(text);
+    if (!number)
         throw InstrumentError(AcquisitionEnding::garbled, fmt::format("{} answers '{}' to SYST:ERR?", who, text));
-    return number;
+    return *number;
 }
 
 void GeneratorClient::take_control() {
@@ -74,35 +70,299 @@ void GeneratorClient::take_control() {
     line_->send("*CLS");
 }
 
-double GeneratorClient::set(const Setting& setting, double value) {
-    const auto failed = [&](AcquisitionEnding ending, const std::string& what) {
-        return InstrumentError(ending, what);
-    };
+/// Whether it answers what it is asked. An answer that came too late is taken for that to the next question, and all
+/// behind it likewise: then what comes is thrown away until nothing comes any more.
+bool GeneratorClient::is_in_step() {
+    if (!identified_ || asked("*IDN?") == identity_)
+        return true;
+    constexpr int most = 100;
+    for (int lines = 0; lines < most && line_->receive(options_.timeout); ++lines)
+        continue;
+    return false;
+}
+
+/// Again where lines are lost or garbled, but not when the output had to be silenced.
+template <class Work>
+void GeneratorClient::attempt(const Work& work, int factor) {
     for (int attempt = 1;; ++attempt) {
-        const bool last = attempt >= options_.attempts;
         try {
-            line_->send(fmt::format("{} {}", setting.command, value));
-            std::string text;
-            const int error = asked_error(text);
-            if (error != 0 && !is_of_transmission(error))
-                throw failed(AcquisitionEnding::refused,
-                             fmt::format("{} refuses {} {} {}: {}", who, setting.name, value, setting.unit, text));
-            if (error != 0)
-                throw failed(AcquisitionEnding::garbled, fmt::format("{} says: {}", who, text));
-            const double told = asked_number(std::string(setting.command) + "?");
-            if (std::abs(told - value) <= options_.tolerance * std::abs(value))
-                return told;
-            throw failed(AcquisitionEnding::clipped,
-                         fmt::format("{} gives {} of {} {} instead of {} {}", who, setting.name, told, setting.unit,
-                                     value, setting.unit));
+            return work();
         } catch (const InstrumentError& error) {
-            const bool again = error.ending() == AcquisitionEnding::garbled ||
-                               error.ending() == AcquisitionEnding::no_answer ||
-                               error.ending() == AcquisitionEnding::clipped;
-            if (!again || last)
+            const bool last = silenced_ || attempt >= factor * options_.attempts || !is_worth_another(error.ending());
+            if (error.ending() == AcquisitionEnding::clipped && !is_in_step()) {
+                if (last)
+                    throw InstrumentError(AcquisitionEnding::garbled,
+                                          fmt::format("answers of {} are garbled, or come so late that they are not "
+                                                      "those to the questions ({})",
+                                                      who, error.what()));
+            } else if (last) {
                 throw;
+            }
             take_control(); // which may have been lost, too
         }
+    }
+}
+
+/// @param at_once done when the value was sent, before anything else is asked
+double GeneratorClient::set(const Setting& setting, double value, const std::function<void()>& at_once) {
+    double told = 0;
+    bool again = false;
+    attempt([&] {
+        if (again && plain_) // it may have been switched off and on, and stand otherwise since
+            for (const Choice& choice : chosen_)
+                require(choice);
+        again = true;
+        line_->send(fmt::format("{} {}", setting.command, value));
+        if (at_once)
+            at_once();
+        std::string text;
+        const int error = asked_error(text);
+        if (error != 0 && !is_of_transmission(error))
+            throw InstrumentError(AcquisitionEnding::refused,
+                                  fmt::format("{} refuses {} {} {}: {}", who, setting.name, value, setting.unit, text));
+        if (error != 0)
+            throw InstrumentError(AcquisitionEnding::garbled, fmt::format("{} says: {}", who, text));
+        told = asked_number(std::string(setting.command) + "?");
+        if (!(std::abs(told - value) <= options_.tolerance * std::abs(value)))
+            throw InstrumentError(AcquisitionEnding::clipped,
+                                  fmt::format("{} gives {} of {} {} instead of {} {}", who, setting.name, told,
+                                              setting.unit, value, setting.unit));
+    });
+    return told;
+}
+
+void GeneratorClient::require(const Choice& choice) {
+    const std::string answer = asked(choice.command + "?");
+    if (!choice.is_right(compared(answer)))
+        throw InstrumentError(AcquisitionEnding::clipped,
+                              fmt::format("{} stands at {} {} instead of {}: no level is sent", who, choice.command,
+                                          shortened(printable_line(answer), 60), choice.value));
+}
+
+/// @param needed or the generator may not know of it
+/// @return whether it knows of it, and stands so
+bool GeneratorClient::choose(const Choice& choice, bool needed) {
+    bool known = true;
+    int attempts = 0;
+    attempt(
+        [&] {
+            ++attempts;
+            line_->send(choice.command + " " + choice.value);
+            std::string text;
+            const int error = asked_error(text);
+            known = !is_of_transmission(error);
+            if (!known && !needed && attempts >= options_.attempts)
+                return;
+            if (!known)
+                throw InstrumentError(AcquisitionEnding::garbled, fmt::format("{} does not understand {} {}: {}", who,
+                                                                              choice.command, choice.value, text));
+            require(choice); // whatever it has said, as long as it stands so
+        },
+        patient);
+    return known;
+}
+
+void GeneratorClient::switch_off() {
+    has_switch_ = choose({"OUTP", "OFF", tells_off}, false);
+}
+
+/// Without a switch, before anything is changed: in any unit its least amplitude is the least that it can give. One
+/// that does not know the word gets a number that is small in the unit in which it stands, and would be small as volts
+/// from peak to peak, too, if it keeps its number when the unit changes.
+void GeneratorClient::quieten(double safe) {
+    if (is_understood("VOLT MIN"))
+        return;
+    std::string unit;
+    attempt([&] { unit = compared(asked("VOLT:UNIT?")); }, patient);
+    constexpr double greatest_crest = 10; // from peak to peak over root mean square; of noise 6 to 8
+    if (unit == "DBM")
+        line_->send("VOLT -30");
+    else
+        lower(safe / greatest_crest);
+    take_control();
+}
+
+/// Whether it has no error after a command, which is tried again where the line may have garbled it.
+bool GeneratorClient::is_understood(std::string_view command) {
+    bool understood = false;
+    int attempts = 0;
+    attempt([&] {
+        line_->send(command);
+        std::string text;
+        understood = asked_error(text) == 0;
+        if (!understood && ++attempts < options_.attempts)
+            throw InstrumentError(AcquisitionEnding::garbled, text);
+    });
+    return understood;
+}
+
+/// To what is no more than a safe amplitude, whatever load the generator was told of; its unit is known.
+void GeneratorClient::lower(double safe) {
+    double load = 0;
+    attempt(
+        [&] {
+            const std::string answer = compared(asked("OUTP:LOAD?"));
+            load = tells_load(answer, std::numeric_limits<double>::infinity()) ? std::numeric_limits<double>::infinity()
+                                                                               : answered_number(answer).value_or(0);
+            if (!(load > 0))
+                throw InstrumentError(AcquisitionEnding::garbled, fmt::format("{} answers '{}' to OUTP:LOAD?", who,
+                                                                              shortened(printable_line(answer), 60)));
+        },
+        patient);
+    const double shown = safe * std::min(1.0, inner_by_shown(options_.load) / inner_by_shown(load));
+    line_->send(fmt::format("VOLT {}", shown)); // out of its range, the least one stays
+    take_control();
+}
+
+void GeneratorClient::prepare(double safe) {
+    plain_ = silenced_ = is_on_ = false;
+    chosen_.clear();
+    identify();
+    take_control();
+    switch_off();
+    if (!has_switch_)
+        quieten(safe);
+    line_->send("VOLT:OFFS 0"); // in volts whatever the unit; asked for when the shape is known
+    const auto add = [&](const Choice& choice) {
+        choose(choice, true);
+        chosen_.push_back(choice);
+    };
+    add({"VOLT:UNIT", "VPP", [](const std::string& told) { return told == "VPP"; }});
+    lower(safe); // before what may let more out: dc has no amplitude, and a burst may wait for its trigger
+    double number = 0;
+    attempt([&] { number = asked_number("VOLT?"); }, patient);
+    for (const char* name : {"AM", "FM", "PM", "FSK", "BPSK", "PWM", "BM", "SUM", "HARM", "BURS", "SWE"})
+        if (const Choice off{fmt::format("{}:STAT", name), "OFF", tells_off}; choose(off, false))
+            chosen_.push_back(off);
+    const auto is_one = [](const std::string& told) { return told == "CW" || told == "FIX" || told == "FIXED"; };
+    if (const Choice one{"FREQ:MODE", "CW", is_one}; choose(one, false))
+        chosen_.push_back(one);
+    const auto is_sine = [](const std::string& told) { return told == "SIN" || told == "SINUSOID"; };
+    const Choice shape{"FUNC:SHAP", "SIN", is_sine};
+    require_quiet(number);
+    if (choose(shape, false))
+        chosen_.push_back(shape);
+    else
+        add({"FUNC", "SIN", is_sine});
+    const double load = options_.load;
+    set({"an offset", "VOLT:OFFS", "V"}, 0); // told before its volts may become others
+    require_quiet(number);
+    const bool is_infinite = inner_by_shown(load) == 1;
+    add({"OUTP:LOAD", is_infinite ? "INF" : fmt::format("{}", load),
+         [load](const std::string& told) { return tells_load(told, load); }});
+    set({"an offset", "VOLT:OFFS", "V"}, 0); // of one that has kept its volts instead
+    offset_ = 0;
+    require_plain();
+    plain_ = true;
+}
+
+/// Before shape and load may let out more: it may have been switched off and on, and stand otherwise since.
+/// @param number of its amplitude, as it was lowered
+void GeneratorClient::require_quiet(double number) {
+    require_plain();
+    attempt(
+        [&] {
+            if (has_switch_)
+                require({"OUTP", "OFF", tells_off});
+            constexpr double close = 0.01;
+            if (const double told = asked_number("VOLT?"); !(told <= number + close * std::abs(number)))
+                throw InstrumentError(AcquisitionEnding::clipped,
+                                      fmt::format("{} has an amplitude of {} V, which was lowered to {} V: no level is "
+                                                  "sent",
+                                                  who, told, number));
+        },
+        patient);
+}
+
+/// Before a number of volts is sent, and before one counts.
+void GeneratorClient::require_plain() {
+    for (const Choice& choice : chosen_)
+        attempt([&] { require(choice); }, patient);
+}
+
+/// Asks once for a number that was set before.
+void GeneratorClient::check(const Setting& setting, double value) {
+    if (const double told = asked_number(std::string(setting.command) + "?");
+        !(std::abs(told - value) <= options_.tolerance * std::abs(value)))
+        throw InstrumentError(AcquisitionEnding::clipped,
+                              fmt::format("{} gives {} of {} {} instead of {} {}", who, setting.name, told,
+                                          setting.unit, value, setting.unit));
+}
+
+void GeneratorClient::require_offset() {
+    attempt([&] { check({"an offset", "VOLT:OFFS", "V"}, offset_); }, patient);
+}
+
+/// Nothing comes out of it from now on, or as little as before the first level. It is asked for by `make_safe`.
+void GeneratorClient::silence() {
+    silenced_ = true;
+    line_->send(has_switch_ ? std::string("OUTP OFF") : fmt::format("VOLT {}", least_));
+    if (!has_switch_)
+        line_->send("VOLT:OFFS 0");
+    plain_ = false; // so that all of it is chosen anew before anything else is sent
+}
+
+/// A frequency that was set may have changed the amplitude: too large a one is not asked for twice.
+void GeneratorClient::check_no_more() {
+    const double told = asked_number("VOLT?");
+    if ((has_switch_ && !is_on_) ||
+        told <= amplitude_ * (1 + options_.tolerance)) // without an output there is no hurry
+        return;
+    silence();
+    throw InstrumentError(AcquisitionEnding::clipped,
+                          fmt::format("{} gives an amplitude of {} V instead of {} V since its frequency was set: its "
+                                      "output was silenced at once",
+                                      who, told, amplitude_));
+}
+
+/// All that makes up what stands at the output, once each.
+void GeneratorClient::check_level() {
+    check({"an amplitude", "VOLT", "V"}, amplitude_);
+    for (const Choice& choice : chosen_)
+        require(choice);
+    check({"an offset", "VOLT:OFFS", "V"}, offset_);
+    check({"a frequency", "FREQ", "Hz"}, frequency_);
+}
+
+/// The switch may let out another level than was told before. Therefore all that makes up the level is asked for
+/// directly before and directly after, and at the first answer that is not as it should be it is switched off again.
+void GeneratorClient::switch_on() {
+    std::string changed; // what it has told when it was on
+    for (int times = 1;; ++times) {
+        try {
+            attempt([&] { check_level(); }, patient);
+            attempt([&] { check({"an amplitude", "VOLT", "V"}, amplitude_); }, patient);
+        } catch (const InstrumentError& error) {
+            if (changed.empty() || error.ending() != AcquisitionEnding::clipped)
+                throw;
+            throw InstrumentError(error.ending(), changed);
+        }
+        if (!has_switch_)
+            return;
+        line_->send("OUTP ON");
+        bool is_level = true; // in question, and not only the switch
+        try {
+            check_level();
+            is_level = false;
+            std::string text;
+            if (asked_error(text) != 0)
+                throw InstrumentError(AcquisitionEnding::garbled, fmt::format("{} says after OUTP ON: {}", who, text));
+            require({"OUTP", "ON", tells_on});
+            is_on_ = true;
+            return;
+        } catch (const InstrumentError& error) {
+            silence();
+            const bool second = !changed.empty();
+            if (is_level && error.ending() == AcquisitionEnding::clipped)
+                changed = fmt::format("{}; so it was since OUTP ON, and it was switched off at once", error.what());
+            if (second || times >= patient * options_.attempts || !is_worth_another(error.ending()))
+                throw InstrumentError(error.ending(), changed.empty() ? error.what() : changed);
+        }
+        // A letter of the answer may have been lost: with its output off it tells the same if not.
+        silenced_ = false;
+        plain_ = true;
+        take_control();
+        choose({"OUTP", "OFF", tells_off}, true);
     }
 }
 
@@ -130,35 +390,38 @@ void GeneratorClient::begin(double frequency, double amplitude, double offset) {
     require_within(frequency, limits.least_frequency, limits.greatest_frequency, "a frequency");
     require_within(amplitude, 0, limits.amplitude, "an amplitude");
     require_within(offset, -limits.offset, limits.offset, "an offset");
-    identify();
-    take_control();
+    least_ = amplitude_ = amplitude;
+    prepare(amplitude);
     // The amplitude comes first: with the offset it may not go beyond what the generator has.
-    line_->send(fmt::format("APPL:SIN {}, {}, {}", frequency, amplitude, offset));
     set({"an amplitude", "VOLT", "V"}, amplitude);
-    set({"a frequency", "FREQ", "Hz"}, frequency);
+    set_frequency(frequency);
     set({"an offset", "VOLT:OFFS", "V"}, offset);
+    offset_ = offset;
+    switch_on();
 }
 
 double GeneratorClient::set_amplitude(double amplitude) {
     require_within(amplitude, 0, options_.limits.amplitude, "an amplitude");
-    return set({"an amplitude", "VOLT", "V"}, amplitude);
+    require_plain();
+    require_offset();
+    amplitude_ = amplitude;
+    const double told = set({"an amplitude", "VOLT", "V"}, amplitude);
+    require_plain();
+    return told;
 }
 
 double GeneratorClient::set_frequency(double frequency) {
     require_within(frequency, options_.limits.least_frequency, options_.limits.greatest_frequency, "a frequency");
-    return set({"a frequency", "FREQ", "Hz"}, frequency);
+    frequency_ = frequency;
+    return set({"a frequency", "FREQ", "Hz"}, frequency, [&] { check_no_more(); });
 }
 
 double GeneratorClient::amplitude() {
-    for (int attempt = 1;; ++attempt) {
-        try {
-            return asked_number("VOLT?");
-        } catch (const InstrumentError& error) {
-            if (attempt >= options_.attempts ||
-                (error.ending() != AcquisitionEnding::garbled && error.ending() != AcquisitionEnding::no_answer))
-                throw;
-        }
-    }
+    require_plain();
+    require_offset();
+    double told = 0;
+    attempt([&] { told = asked_number("VOLT?"); }, patient);
+    return told;
 }
 
 double GeneratorClient::frequency() {
@@ -168,8 +431,21 @@ double GeneratorClient::frequency() {
 void GeneratorClient::try_safe(double amplitude) {
     identify();
     take_control();
+    silenced_ = false;
+    bool stands = plain_;
+    try {
+        require_plain();
+    } catch (const InstrumentError& error) {
+        if (error.ending() != AcquisitionEnding::clipped)
+            throw;
+        stands = false;
+    }
+    if (!stands)
+        prepare(amplitude); // its output stays off, where that can be
+    amplitude_ = amplitude;
     set({"an amplitude", "VOLT", "V"}, amplitude);
     set({"an offset", "VOLT:OFFS", "V"}, 0);
+    offset_ = 0;
     line_->send("SYST:LOC");
 }
 
@@ -182,7 +458,7 @@ bool GeneratorClient::make_safe(double amplitude, std::string& problem) noexcept
     do {
         try {
             if (lost) {
-                identified_ = false; // something else may be plugged in by now
+                identified_ = plain_ = false; // something else may be plugged in by now
                 line_->reopen();
             }
             try_safe(amplitude);
@@ -198,6 +474,24 @@ bool GeneratorClient::make_safe(double amplitude, std::string& problem) noexcept
     } while (!safe && Clock::now() < end);
     making_safe_ = false;
     return safe;
+}
+
+bool GeneratorClient::is_switched_off() noexcept {
+    making_safe_ = true;
+    bool off = false;
+    for (int times = 0; times < options_.attempts && !off; ++times) {
+        try {
+            if (!has_switch_ || !identified_)
+                break;
+            line_->send("OUTP OFF");
+            // Between two answers that are those to their questions so is the one that counts.
+            off = is_in_step() && tells_off(compared(asked("OUTP?"))) && is_in_step();
+        } catch (const std::exception&) { // then it has not told so
+            continue;
+        }
+    }
+    making_safe_ = false;
+    return off;
 }
 
 } // namespace graze

@@ -1,5 +1,7 @@
 #include "graze/acquire/instrument_line.hpp"
 
+#include "graze/symbolic/require.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,7 +34,10 @@ std::string_view name_of(AcquisitionEnding ending) {
 }
 
 std::string awaited_line(InstrumentLine& line, double timeout, const std::function<bool()>& interrupted,
-                         std::string_view who) {
+                         std::string_view who, std::string_view question) {
+    constexpr double longest = 1e6; // s: more does not fit into the clock everywhere
+    require_finite(timeout, "time to wait for an instrument");
+    timeout = std::clamp(timeout, 0.0, longest);
     using Clock = std::chrono::steady_clock;
     constexpr double slice = 0.05; // s, between looks at whether somebody interrupts
     const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout));
@@ -43,8 +48,9 @@ std::string awaited_line(InstrumentLine& line, double timeout, const std::functi
         if (auto received = line.receive(std::clamp(left, 0.0, slice)))
             return *std::move(received);
         if (left <= 0)
-            throw InstrumentError(AcquisitionEnding::no_answer,
-                                  fmt::format("{} has not answered for {} s", who, timeout));
+            throw InstrumentError(
+                AcquisitionEnding::no_answer,
+                fmt::format("{} has not answered {}{}for {} s", who, question, question.empty() ? "" : " ", timeout));
     }
 }
 

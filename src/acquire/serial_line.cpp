@@ -1,5 +1,7 @@
 #include "graze/acquire/serial_line.hpp"
 
+#include "graze/acquire/instrument_address.hpp"
+
 // Of Asio headers alone: nothing is linked.
 #define BOOST_ERROR_CODE_HEADER_ONLY 1
 #include <boost/asio/connect.hpp>
@@ -251,6 +253,15 @@ std::unique_ptr<InstrumentLine> open_tcp_line(const std::string& host, unsigned 
         [=](asio::io_context& context, asio::ip::tcp::socket& socket) {
             open_socket(host, port, timeout, context, socket);
         });
+}
+
+std::unique_ptr<InstrumentLine> open_generator_line(const SerialSettings& settings) {
+    const InstrumentAddress address = generator_address(settings.port, Place{"--port", 0, 0});
+    if (address.is_tcp)
+        return open_tcp_line(address.name, address.port);
+    SerialSettings serial = settings;
+    serial.port = address.name;
+    return open_serial_line(serial);
 }
 
 } // namespace graze

@@ -1,6 +1,10 @@
 #include "graze/acquire/settling.hpp"
 
 #include "graze/record/section.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +43,16 @@ std::size_t rows_of(double time, double rate) {
 } // namespace
 
 RepeatWatch::RepeatWatch(std::vector<double> tolerances, std::size_t repeats, std::size_t period)
-    : tolerances_(std::move(tolerances)), repeats_(repeats), longest_(period), runs_(period, 0) {}
+    : tolerances_(std::move(tolerances)), repeats_(repeats), longest_(period) {
+    constexpr std::size_t most = 100'000; // sections that are kept
+    require_finite(tolerances_, "the tolerance of a section");
+    if (std::any_of(tolerances_.begin(), tolerances_.end(), [](double one) { return one < 0; }))
+        throw InputError("the tolerance of a section is negative", "give a positive one, or 0");
+    if (repeats_ == 0 || longest_ == 0 || longest_ > most)
+        throw InputError(fmt::format("{} sections of periods up to {} cannot be compared", repeats_, longest_),
+                         fmt::format("compare one or more, of periods up to {} at most", most));
+    runs_.assign(longest_, 0);
+}
 
 bool RepeatWatch::close(const std::vector<double>& one, const std::vector<double>& other) const {
     for (std::size_t i = 0; i < tolerances_.size(); ++i)
@@ -49,6 +62,8 @@ bool RepeatWatch::close(const std::vector<double>& one, const std::vector<double
 }
 
 void RepeatWatch::add(std::vector<double> section) {
+    require_size(section.size(), tolerances_.size(), "values of a section");
+    require_finite(section, "a value of a section");
     for (std::size_t p = 1; p <= longest_; ++p) {
         const bool repeats = last_.size() >= p && close(section, last_[last_.size() - p]);
         runs_[p - 1] = repeats ? runs_[p - 1] + 1 : 0;
@@ -60,7 +75,7 @@ void RepeatWatch::add(std::vector<double> section) {
 
 std::size_t RepeatWatch::period() const {
     for (std::size_t p = 1; p <= longest_; ++p)
-        if (runs_[p - 1] >= repeats_ * p)
+        if (runs_[p - 1] / p >= repeats_)
             return p;
     return 0;
 }

@@ -41,7 +41,7 @@ void BenchMotion::drive(const GeneratorOutput& output) {
     const auto set = [&](const DrivenInput& input, double value) {
         parameters[input.parameter.place()] = input.factor * value;
     };
-    set(amplitude_, output.amplitude / 2);
+    set(amplitude_, output.fundamental() / 2);
     set(frequency_, output.frequency);
     if (offset_)
         set(*offset_, output.offset);

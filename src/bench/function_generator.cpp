@@ -1,15 +1,16 @@
 #include "graze/bench/function_generator.hpp"
 
+#include "bench/generator_unit.hpp"
+#include "bench/scpi_text.hpp"
+#include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/trimmed.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace graze {
@@ -25,38 +26,6 @@ constexpr std::string_view identity = "HEWLETT-PACKARD,33120A,0,8.0-5.0-2.0";
 // Of the register of standard events (IEEE 488.2).
 constexpr int operation_complete = 1, query_error = 4, device_error = 8, execution_error = 16, command_error = 32;
 
-std::string capitals(std::string_view text) {
-    std::string result(text);
-    for (char& letter : result)
-        letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
-    return result;
-}
-
-std::vector<std::string_view> parts(std::string_view text, char separator) {
-    std::vector<std::string_view> result;
-    for (std::size_t begin = 0;;) {
-        const std::size_t end = std::min(text.find(separator, begin), text.size());
-        result.push_back(trimmed(text.substr(begin, end - begin)));
-        if (end == text.size())
-            return result;
-        begin = end + 1;
-    }
-}
-
-/// Whether a word is the long or the short form of one written as in "FREQuency", whose capitals are the short form.
-bool is_form_of(std::string_view word, std::string_view pattern) {
-    const std::string whole = capitals(pattern);
-    const auto small = std::find_if(pattern.begin(), pattern.end(),
-                                    [](char letter) { return std::islower(static_cast<unsigned char>(letter)) != 0; });
-    return word == whole ||
-           word == std::string_view(whole).substr(0, static_cast<std::size_t>(small - pattern.begin()));
-}
-
-bool matches(std::string_view header, std::string_view pattern) {
-    const std::vector<std::string_view> words = parts(header, ':'), forms = parts(pattern, ':');
-    return words.size() == forms.size() && std::equal(words.begin(), words.end(), forms.begin(), is_form_of);
-}
-
 int event_of(int error) {
     return error > 0       ? device_error
            : error <= -400 ? query_error
@@ -67,23 +36,16 @@ int event_of(int error) {
 
 } // namespace
 
-std::string_view scpi_error_text(int number) {
-    static constexpr std::array<std::pair<int, std::string_view>, 14> texts{{{0, "No error"},
-                                                                             {-101, "Invalid character"},
-                                                                             {-102, "Syntax error"},
-                                                                             {-104, "Data type error"},
-                                                                             {-108, "Parameter not allowed"},
-                                                                             {-109, "Missing parameter"},
-                                                                             {-113, "Undefined header"},
-                                                                             {-131, "Invalid suffix"},
-                                                                             {-221, "Settings conflict"},
-                                                                             {-222, "Data out of range"},
-                                                                             {-224, "Illegal parameter value"},
-                                                                             {-350, "Too many errors"},
-                                                                             {521, "Input buffer overflow"},
-                                                                             {550, "Command not allowed in local"}}};
-    const auto found = std::find_if(texts.begin(), texts.end(), [&](const auto& one) { return one.first == number; });
-    return found == texts.end() ? std::string_view("Unknown error") : found->second;
+FunctionGenerator::FunctionGenerator(const GeneratorSettings& settings) : settings_(settings) {
+    if (settings.left_as.empty())
+        return;
+    remote_ = true;
+    execute(settings.left_as);
+    if (!errors_.empty())
+        throw InputError(fmt::format("the generator cannot be left by '{}': {:+d},\"{}\"", settings.left_as,
+                                     errors_.front(), scpi_error_text(errors_.front())),
+                         "give commands that it knows, as VOLT:UNIT VRMS;:VOLT 2;:FUNC:SHAP SQU");
+    remote_ = false;
 }
 
 struct FunctionGenerator::Unit {
@@ -103,7 +65,7 @@ struct FunctionGenerator::Command {
 
 std::span<const FunctionGenerator::Command> FunctionGenerator::commands() {
     using Self = FunctionGenerator;
-    static constexpr std::array<Command, 22> known{{
+    static constexpr std::array<Command, 27> known{{
         {"SYSTem:REMote", false, true, 0, 0, &Self::remote, true},
         {"SYSTem:RWLock", false, true, 0, 0, &Self::remote, true},
         {"SYSTem:LOCal", false, true, 0, 0, &Self::remote, true},
@@ -124,6 +86,11 @@ std::span<const FunctionGenerator::Command> FunctionGenerator::commands() {
         {"VOLTage:UNIT", true, true, 1, 1, &Self::voltage_unit},
         {"FUNCtion:SHAPe", true, true, 1, 1, &Self::shape},
         {"OUTPut:LOAD", true, true, 1, 1, &Self::load},
+        {"AM:STATe", true, true, 1, 1, &Self::modulation},
+        {"FM:STATe", true, true, 1, 1, &Self::modulation},
+        {"FSKey:STATe", true, true, 1, 1, &Self::modulation},
+        {"BM:STATe", true, true, 1, 1, &Self::modulation},
+        {"SWEep:STATe", true, true, 1, 1, &Self::modulation},
         {"*SRE", true, true, 1, 1, &Self::common},
         {"*ESE", true, true, 1, 1, &Self::common},
     }};
@@ -237,15 +204,17 @@ void FunctionGenerator::common(Unit& unit) {
 
 void FunctionGenerator::reset() {
     output_ = {};
-    high_load_ = in_rms_ = false;
+    high_load_ = false;
+    unit_ = VoltageUnit::vpp;
+    modulations_.clear();
 }
 
-/// A sine's root mean square is its amplitude from peak to peak divided by 2 sqrt(2).
-double FunctionGenerator::unit_factor() const {
-    return in_rms_ ? 1 / (2 * std::numbers::sqrt2) : 1;
+double FunctionGenerator::shown_amplitude() const {
+    return shown_voltage(output_.amplitude * load_factor(), unit_, output_.shape);
 }
 
-/// @param least, most for MIN and MAX @return false for what is no number in a unit that goes with it
+/// @param least, most for MIN and MAX @param value in Hz, or in V from peak to peak @return false for what is no number
+/// in a unit that goes with it
 bool FunctionGenerator::read_number(const std::string& text, bool is_frequency, double least, double most,
                                     double& value) {
     if (is_form_of(text, "MINimum") || is_form_of(text, "MAXimum")) {
@@ -262,22 +231,15 @@ bool FunctionGenerator::read_number(const std::string& text, bool is_frequency, 
     const std::string_view suffix = trimmed({next, static_cast<std::size_t>(end - next)});
     static constexpr std::array<std::pair<std::string_view, double>, 4> of_frequency{
         {{"", 1}, {"HZ", 1}, {"KHZ", 1e3}, {"MHZ", 1e6}}};
-    const std::array<std::pair<std::string_view, double>, 6> of_voltage{{{"", 1 / unit_factor()},
-                                                                         {"V", 1 / unit_factor()},
-                                                                         {"VPP", 1},
-                                                                         {"MV", 1e-3 / unit_factor()},
-                                                                         {"MVPP", 1e-3},
-                                                                         {"VRMS", 2 * std::numbers::sqrt2}}};
-    const auto look = [&](const auto& known) {
-        for (const auto& [name, factor] : known)
-            if (name == suffix) {
-                value *= factor;
-                return true;
-            }
-        raise(-131);
-        return false;
-    };
-    return is_frequency ? look(of_frequency) : look(of_voltage);
+    for (const auto& [name, factor] : of_frequency)
+        if (is_frequency && name == suffix) {
+            value *= factor;
+            return true;
+        }
+    if (!is_frequency && read_voltage(suffix, unit_, output_.shape, value))
+        return true;
+    raise(-131);
+    return false;
 }
 
 /// Of what is shown. The amplitude comes first: an offset for which there is no room any more gives way.
@@ -304,23 +266,34 @@ bool FunctionGenerator::set_voltages(double amplitude, double offset) {
 void FunctionGenerator::apply(Unit& unit) {
     const double factor = load_factor();
     if (unit.query) {
-        unit.answer = fmt::format("\"SIN {:+.12E},{:+.6E},{:+.6E}\"", output_.frequency,
-                                  output_.amplitude * factor * unit_factor(), output_.offset * factor);
+        shape(unit);
+        unit.answer = fmt::format("\"{} {:+.12E},{:+.6E},{:+.6E}\"", unit.answer, output_.frequency, shown_amplitude(),
+                                  output_.offset * factor);
         return;
     }
+    const WaveShape before = std::exchange(output_.shape, WaveShape::sine); // in which amplitudes are meant
     constexpr double usual_frequency = 1000, usual_amplitude = 0.1;
     std::array<double, 3> values{usual_frequency, usual_amplitude * factor, 0};
     const std::array<std::pair<double, double>, 3> limits{{{least_frequency, most_frequency},
                                                            {least_amplitude * factor, most_amplitude * factor},
                                                            {-most_voltage * factor, most_voltage * factor}}};
-    for (std::size_t i = 0; i < unit.arguments.size(); ++i)
-        if (!is_form_of(unit.arguments[i], "DEFault") &&
-            !read_number(unit.arguments[i], i == 0, limits[i].first, limits[i].second, values[i]))
-            return;
-    if (!(values[0] >= least_frequency && values[0] <= most_frequency))
-        return raise(-222);
-    if (set_voltages(values[1], values[2]))
-        output_.frequency = values[0];
+    bool good = true;
+    for (std::size_t i = 0; i < unit.arguments.size() && good; ++i) {
+        const VoltageUnit unit_before = i == 2 ? std::exchange(unit_, VoltageUnit::vpp) : unit_; // an offset is in V
+        good = is_form_of(unit.arguments[i], "DEFault") ||
+               read_number(unit.arguments[i], i == 0, limits[i].first, limits[i].second, values[i]);
+        unit_ = unit_before;
+    }
+    if (good && !(values[0] >= least_frequency && values[0] <= most_frequency)) {
+        raise(-222);
+        good = false;
+    }
+    if (!good || !set_voltages(values[1], values[2])) {
+        output_.shape = before;
+        return;
+    }
+    output_.frequency = values[0];
+    modulations_.clear();
 }
 
 void FunctionGenerator::frequency(Unit& unit) {
@@ -342,7 +315,7 @@ void FunctionGenerator::amplitude(Unit& unit) {
         !read_number(unit.arguments[0], false, least_amplitude * factor, most_amplitude * factor, value))
         return;
     if (unit.query)
-        unit.answer = fmt::format("{:+.6E}", value * unit_factor());
+        unit.answer = fmt::format("{:+.6E}", shown_voltage(value, unit_, output_.shape));
     else
         set_voltages(value, output_.offset * factor);
 }
@@ -350,11 +323,11 @@ void FunctionGenerator::amplitude(Unit& unit) {
 void FunctionGenerator::offset(Unit& unit) {
     const double factor = load_factor();
     double value = output_.offset * factor;
-    // A sine's offset has no other unit than volt.
-    const bool rms = std::exchange(in_rms_, false);
+    // An offset has no other unit than volt.
+    const VoltageUnit before = std::exchange(unit_, VoltageUnit::vpp);
     const bool good = unit.arguments.empty() ||
                       read_number(unit.arguments[0], false, -most_voltage * factor, most_voltage * factor, value);
-    in_rms_ = rms;
+    unit_ = before;
     if (!good)
         return;
     if (unit.query)
@@ -367,18 +340,47 @@ void FunctionGenerator::offset(Unit& unit) {
 
 void FunctionGenerator::voltage_unit(Unit& unit) {
     if (unit.query)
-        unit.answer = in_rms_ ? "VRMS" : "VPP";
-    else if (unit.arguments[0] == "VPP" || unit.arguments[0] == "VRMS" || is_form_of(unit.arguments[0], "DEFault"))
-        in_rms_ = unit.arguments[0] == "VRMS";
+        unit.answer = name_of(unit_);
+    else if (is_form_of(unit.arguments[0], "DEFault"))
+        unit_ = VoltageUnit::vpp;
+    else if (unit.arguments[0] == "DBM" && high_load_)
+        raise(-221); // a power at 50 ohm
+    else if (const std::optional<VoltageUnit> asked = voltage_unit_named(unit.arguments[0]))
+        unit_ = *asked;
     else
         raise(-224);
 }
 
 void FunctionGenerator::shape(Unit& unit) {
-    if (unit.query)
-        unit.answer = "SIN";
-    else if (!is_form_of(unit.arguments[0], "SINusoid"))
+    static constexpr std::array<std::pair<std::string_view, WaveShape>, 5> known{{{"SINusoid", WaveShape::sine},
+                                                                                  {"SQUare", WaveShape::square},
+                                                                                  {"TRIangle", WaveShape::triangle},
+                                                                                  {"RAMP", WaveShape::ramp},
+                                                                                  {"DC", WaveShape::dc}}};
+    for (const auto& [form, shape] : known) {
+        if (unit.query && shape == output_.shape)
+            unit.answer = std::string(form.substr(0, form == "RAMP" ? 4 : 3));
+        if (!unit.query && is_form_of(unit.arguments[0], form)) {
+            output_.shape = shape; // the amplitude from peak to peak stays
+            return;
+        }
+    }
+    if (!unit.query)
         raise(-224);
+}
+
+void FunctionGenerator::modulation(Unit& unit) {
+    const std::string name = unit.header.substr(0, 2); // AM, FM, FS, BM, SW
+    const auto found = std::find(modulations_.begin(), modulations_.end(), name);
+    if (unit.query) {
+        unit.answer = found == modulations_.end() ? "0" : "1";
+    } else if (unit.arguments[0] == "ON" || unit.arguments[0] == "1") {
+        modulations_.assign({name}); // one at a time
+    } else if (unit.arguments[0] != "OFF" && unit.arguments[0] != "0") {
+        raise(-224);
+    } else if (found != modulations_.end()) {
+        modulations_.erase(found);
+    }
 }
 
 void FunctionGenerator::load(Unit& unit) {
@@ -386,10 +388,13 @@ void FunctionGenerator::load(Unit& unit) {
         unit.answer = high_load_ ? "+9.90000E+37" : "+5.00000E+01";
     else if (unit.arguments[0] == "50" || is_form_of(unit.arguments[0], "MINimum"))
         high_load_ = false;
-    else if (is_form_of(unit.arguments[0], "INFinity") || is_form_of(unit.arguments[0], "MAXimum"))
+    else if (is_form_of(unit.arguments[0], "INFinity") || is_form_of(unit.arguments[0], "MAXimum")) {
         high_load_ = true;
-    else
+        if (unit_ == VoltageUnit::dbm)
+            unit_ = VoltageUnit::vpp;
+    } else {
         raise(-224);
+    }
 }
 
 } // namespace graze

@@ -73,7 +73,8 @@ struct VirtualBench::State {
 VirtualBench::VirtualBench(const BenchSettings& settings) {
     settings.validate();
     state_ = std::make_unique<State>(
-        State{settings, FunctionGenerator({settings.offset.has_value(), settings.clip}), BenchMotion(settings)});
+        State{settings, FunctionGenerator({settings.offset.has_value(), settings.clip, settings.left_as}),
+              BenchMotion(settings)});
     state_->header.time = {"t", "s"};
     for (const BenchChannel& channel : settings.channels)
         state_->header.channels.push_back({channel.value.name, channel.value.unit});

@@ -307,9 +307,11 @@ bool AccumulatingOrbit::solve() {
         if (halved == halvings)
             return false;
         unknowns_ += share * step;
-        // Broyden's update: the derivatives are those of the first iterate.
+        // Broyden's update: the derivatives are those of the first iterate. Of short steps round-off is too great a
+        // part.
         const VectorXd moved = share * step.cwiseQuotient(scales_);
-        jacobian_ += (next - values - jacobian_ * moved) * moved.transpose() / moved.squaredNorm();
+        if (share * size >= enough)
+            jacobian_ += (next - values - jacobian_ * moved) * moved.transpose() / moved.squaredNorm();
         values = next;
     }
     contacts_ = rest.contacts;

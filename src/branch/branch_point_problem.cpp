@@ -1,5 +1,6 @@
 #include "branch/branch_point_problem.hpp"
 
+#include "base/decompositions.hpp"
 #include "orbit/eigen_index.hpp"
 
 #include <Eigen/Dense>
@@ -52,9 +53,9 @@ bool BranchPointProblem::evaluate(std::span<const double> u) {
 
 /// The singular vectors of what is singular.
 bool BranchPointProblem::choose_borders() {
-    const Eigen::BDCSVD<MatrixXd> svd(matrix_.leftCols(matrix_.cols() - 1), Eigen::ComputeFullU | Eigen::ComputeFullV);
-    right_ = svd.matrixV().rightCols(2);
-    border_ = svd.matrixU().rightCols(1);
+    const SingularValues factors = singular_values_of_large(matrix_.leftCols(matrix_.cols() - 1));
+    right_ = factors.right.rightCols(2);
+    border_ = factors.left.rightCols(1);
     return right_.allFinite() && border_.allFinite();
 }
 

@@ -78,7 +78,8 @@ void BranchSettings::validate(const Model& model) const {
 
 bool ends_at_point(BranchOutcome outcome) {
     return outcome == BranchOutcome::bound || outcome == BranchOutcome::stopped ||
-           outcome == BranchOutcome::unphysical || outcome == BranchOutcome::returned;
+           outcome == BranchOutcome::unphysical || outcome == BranchOutcome::returned ||
+           outcome == BranchOutcome::shrunk;
 }
 
 std::string_view name_of(BranchOutcome outcome) {
@@ -95,6 +96,8 @@ std::string_view name_of(BranchOutcome outcome) {
         return "closed";
     case BranchOutcome::returned:
         return "returned";
+    case BranchOutcome::shrunk:
+        return "shrinks to an equilibrium";
     case BranchOutcome::no_convergence:
         return "no convergence";
     case BranchOutcome::undefined:

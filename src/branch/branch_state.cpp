@@ -4,7 +4,10 @@
 #include "branch/orbit_quantity.hpp"
 #include "branch/sensitivity_condition.hpp"
 #include "graze/symbolic/input_error.hpp"
+#include "orbit/cut.hpp"
+#include "orbit/family.hpp"
 #include "orbit/newton.hpp"
+#include "orbit/shooting.hpp"
 
 #include <fmt/format.h>
 
@@ -162,6 +165,28 @@ bool BranchState::keep_image_of_touch(const Orbit& orbit) {
     return true;
 }
 
+SpecialPoint special_of_type(PointType type, const BranchPoint& there) {
+    SpecialPoint special;
+    special.type = type;
+    special.solution = there.solution;
+    special.parameter = there.parameter;
+    special.arclength = there.arclength;
+    special.tangent = there.tangent;
+    special.monitors = there.monitors;
+    return special;
+}
+
+LastStep BranchState::last_step() const {
+    const double from = arclength(continuation_->previous().arclength);
+    return {from, arclength(continuation_->point().arclength) - from};
+}
+
+std::vector<double> BranchState::rates_at(const Orbit& orbit, std::size_t segment) const {
+    std::vector<double> inputs = orbit.starts[segment];
+    inputs.insert(inputs.end(), orbit.parameters.begin(), orbit.parameters.end());
+    return system().mode(orbit.signature[segment].mode).rates(inputs);
+}
+
 bool BranchState::is_outside(double parameter) const {
     return (settings_.least && parameter < *settings_.least) || (settings_.greatest && parameter > *settings_.greatest);
 }
@@ -210,6 +235,15 @@ std::optional<double> BranchState::error_of(const Orbit& orbit, const OrbitDirec
     return std::isfinite(error) ? std::optional(error) : std::nullopt;
 }
 
+bool BranchState::is_in_family(const Orbit& orbit) {
+    if (!settings_.free.empty() || !problem_->evaluate(problem_->unknowns_of(orbit)) ||
+        problem_->evaluation().system.undetermined() == 0)
+        return false;
+    Shooting shooting(simulation_, orbit, {});
+    OrbitEvaluation at = shooting.evaluation();
+    return shooting.evaluate(shooting.unknowns_of(orbit), at) && graze::is_in_family(shooting, at);
+}
+
 bool BranchState::pieces_are_unfit() {
     const OrbitEquations& equations = problem_->equations();
     const OrbitLayout& layout = equations.layout();
@@ -226,32 +260,109 @@ bool BranchState::pieces_are_unfit() {
     return false;
 }
 
+/// A direction as one across the motion, in which a cut that is laid anew leaves starts: what it had along the motion
+/// only moved them on their orbits, and would say the wrong way where that is most of it.
+OrbitDirection BranchState::across_cuts(const Orbit& orbit, OrbitDirection direction) const {
+    if (orbit.signature.front().end != SegmentEnd::cut)
+        return direction;
+    const std::size_t count = orbit.segments();
+    std::vector<double> times(count, 0.0);
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::vector<double> rates = rates_at(orbit, k);
+        double along = 0, all = 0;
+        for (std::size_t i = 0; i < rates.size(); ++i) {
+            if (model().states[i].drifting)
+                continue;
+            const double unit = problem_->scales()[i] * problem_->scales()[i];
+            along += direction.starts[k][i] * rates[i] / unit;
+            all += rates[i] * rates[i] / unit;
+        }
+        times[k] = all > 0 ? along / all : 0;
+        for (std::size_t i = 0; i < rates.size(); ++i)
+            direction.starts[k][i] -= times[k] * rates[i];
+    }
+    for (std::size_t k = 0; k < count; ++k)
+        direction.durations[k] += times[k] - times[(k + 1) % count];
+    return direction;
+}
+
 void BranchState::renew_pieces(const BranchPoint& from) {
+    const bool grown = pieces_are_unfit();
+    const std::size_t pieces = problem_->equations().layout().pieces();
+    const bool renewed = restart(from.solution.orbit, across_cuts(from.solution.orbit, from.tangent), from.arclength);
+    if (grown && problem_->equations().layout().pieces() <= pieces)
+        growth_ *= 10; // nothing was gained: ask again later
+    if (!renewed)
+        growth_ *= 10; // as it was, for some time
+}
+
+/// Goes on from a solution along other equations. @return false when these do not start there: all stays as it was
+bool BranchState::restart(const Orbit& orbit, const OrbitDirection& direction, double arclength) {
     const double length = continuation_->next_step();
+    const std::optional<SpecialPoint> kept = settings_.kept;
     std::unique_ptr<OrbitProblem> old = std::move(problem_);
     std::unique_ptr<Continuation> old_continuation = std::move(continuation_);
     const auto first = held_.begin() + static_cast<std::ptrdiff_t>(held_monitors());
     std::vector<std::unique_ptr<OrbitCondition>> old_kept(std::make_move_iterator(first),
                                                           std::make_move_iterator(held_.end()));
     held_.erase(first, held_.end());
-    const bool holds = make_problem(from.solution.orbit);
-    if (problem_->equations().layout().pieces() <= old->equations().layout().pieces())
-        growth_ *= 10; // nothing was gained: ask again later
-    const std::vector<double> u = problem_->unknowns_of(from.solution.orbit);
+    const bool holds = make_problem(orbit);
+    const std::vector<double> u = problem_->unknowns_of(orbit);
     if (!holds || !problem_->evaluate(u) ||
-        !continuation_->start_at(u, problem_->row_of(problem_->unknowns_of(from.tangent)))) {
-        growth_ *= 10; // as it was, for some time
+        !continuation_->start_at(u, problem_->row_of(problem_->unknowns_of(direction)))) {
         problem_ = std::move(old);
         continuation_ = std::move(old_continuation);
+        settings_.kept = kept;
         if (settings_.kept) {
             held_.resize(held_monitors());
             std::move(old_kept.begin(), old_kept.end(), std::back_inserter(held_));
             problem_->hold(held_);
         }
-        return;
+        return false;
     }
-    arclength_ = from.arclength;
+    arclength_ = arclength;
     continuation_->set_next_step(length);
+    return true;
+}
+
+/// Monitors that are taken where segments begin or end, and what is kept in one of segments that are put together.
+bool BranchState::needs_sections(const Orbit& orbit, const Orbit& without) const {
+    const bool taken = std::any_of(settings_.monitors.begin(), settings_.monitors.end(), [](const Monitor& monitor) {
+        return !monitor.segment.empty() || monitor.kind == Monitor::Kind::value || monitor.kind == Monitor::Kind::start;
+    });
+    return taken || (settings_.kept && kind_of(settings_.kept->type).limits && orbit.segments() != without.segments());
+}
+
+bool BranchState::leave_sections(const BranchPoint& from) {
+    const Orbit& orbit = from.solution.orbit;
+    const auto uncut = without_sections(model(), orbit, from.tangent);
+    return uncut && uncut->orbit.signature != orbit.signature && begin_anew(from, *uncut);
+}
+
+bool BranchState::begin_anew(const BranchPoint& from, const UncutOrbit& same) {
+    const Orbit& orbit = from.solution.orbit;
+    if (needs_sections(orbit, same.orbit))
+        return false;
+    if (monitors_)
+        monitors_->set_signature(same.orbit.signature);
+    if (restart(same.orbit, same.direction, from.arclength))
+        return true;
+    if (monitors_)
+        monitors_->set_signature(orbit.signature);
+    return false;
+}
+
+bool BranchState::begin_without_sections(const Orbit& candidate) {
+    OrbitDirection none;
+    none.starts.assign(candidate.segments(), std::vector<double>(model().states.size(), 0.0));
+    none.durations.assign(candidate.segments(), 0.0);
+    const auto uncut = without_sections(model(), candidate, none);
+    if (!uncut || uncut->orbit.signature == candidate.signature || needs_sections(candidate, uncut->orbit))
+        return false;
+    if (monitors_)
+        monitors_->set_signature(uncut->orbit.signature);
+    return make_problem(uncut->orbit) &&
+           continuation_->start(problem_->unknowns_of(uncut->orbit), problem_->parameter_place(), settings_.direction);
 }
 
 void BranchState::go_on(const BranchStart& start, double arclength) {

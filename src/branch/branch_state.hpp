@@ -5,12 +5,22 @@
 #include "graze/branch/orbit_branch.hpp"
 #include "graze/branch/switching.hpp"
 #include "orbit/certify.hpp"
+#include "orbit/cut.hpp"
 
 #include <memory>
 #include <optional>
 #include <vector>
 
 namespace graze {
+
+/// A step of the continuation, in arclength on the branch.
+struct LastStep {
+    double from = 0, length = 0;
+    double fraction(double arclength) const { return (arclength - from) / length; }
+};
+
+/// What a point that is found on a branch has from there; what it is besides is its type's.
+SpecialPoint special_of_type(PointType type, const BranchPoint& there);
 
 /// The equations that a branch follows, where on it the continuation is, and what can be said of its points.
 class BranchState {
@@ -25,6 +35,9 @@ public:
     Continuation& continuation() { return *continuation_; }
     /// Arclength on the branch of one in the present continuation, which may not have begun where the branch did.
     double arclength(double in_continuation) const { return arclength_ + in_continuation; }
+    LastStep last_step() const;
+    /// How an orbit moves where a segment of it begins.
+    std::vector<double> rates_at(const Orbit& orbit, std::size_t segment) const;
     bool is_outside(double parameter) const;
 
     /// What is known of a point of the branch. @return false where its equations are not defined
@@ -35,8 +48,18 @@ public:
     /// Whether derivatives have grown too much for their pieces, or the last piece of a segment, which alone has a
     /// duration that is free, has become too short for the others.
     bool pieces_are_unfit();
-    /// Splits the segments anew and goes on from a point.
+    /// Whether an orbit is one of many at the same parameters, which the branch's own parameter leaves as many.
+    bool is_in_family(const Orbit& orbit);
+    /// Splits the segments anew and goes on from a point, or lays its cuts anew.
     void renew_pieces(const BranchPoint& from);
+    /// Goes on from a point with equations that have no sections. @return false, and nothing is changed, where these
+    /// are needed: something is said of where they are passed
+    bool leave_sections(const BranchPoint& from);
+    /// Goes on from a point with another description of its orbit. @return false, and nothing is changed, where the
+    /// equations do not start there, or something is said of where sections are passed
+    bool begin_anew(const BranchPoint& from, const UncutOrbit& same);
+    /// The same before the branch has begun, which is done anew. @return false where the orbit has no sections, either
+    bool begin_without_sections(const Orbit& candidate);
     /// Goes on along other equations. @throws InputError when that is impossible
     void go_on(const BranchStart& start, double arclength);
     /// Goes on along a curve from a guess of another signature. @param direction of the parameter
@@ -55,6 +78,9 @@ private:
     std::optional<HeldLimit> held_limit() const;
     void note_kept(const OrbitSolution& solution);
     bool find_touch(const Orbit& orbit);
+    bool needs_sections(const Orbit& orbit, const Orbit& without) const;
+    OrbitDirection across_cuts(const Orbit& orbit, OrbitDirection direction) const;
+    bool restart(const Orbit& orbit, const OrbitDirection& direction, double arclength);
     bool make_problem(const Orbit& orbit);
 
     BranchSettings settings_;

@@ -1,5 +1,6 @@
 #include "graze/branch/continuation.hpp"
 
+#include "branch/longest_step.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/require.hpp"
 
@@ -147,9 +148,19 @@ bool Continuation::newton(std::vector<double>& u, std::span<const double> row, d
         // Newton's method squares what is wrong: a correction this small has been the last one. One that is no smaller
         // than the one before is round-off.
         constexpr double round_off = 1e-11;
-        if (size < options_.accuracy || (iterations > 2 && size < round_off && size > 0.5 * before) ||
-            (iterations > 1 && size < 0.1 * before && size * size < options_.accuracy * 1e-4)) {
+        const bool small = size < options_.accuracy || (iterations > 2 && size < round_off && size > 0.5 * before);
+        if (small || (iterations > 1 && size < 0.1 * before && size * size < options_.accuracy * 1e-4)) {
             pace_ = iterations <= good_iterations ? growth : shrinkage;
+            if (!problem_->evaluate(u))
+                return false;
+            if (small)
+                return true;
+            // Where orbits expand much, their flow is known to less than the accuracy, and differs with the steps of
+            // integration: one more correction finds the solution for those that are made here.
+            const double left = problem_->solve(row, 0, false, step_, nullptr) ? size_of(step_) : 0;
+            if (!(left > options_.accuracy && left <= before))
+                return true;
+            advance(u, step_, begin, moved);
             return problem_->evaluate(u);
         }
         if (iterations > 2 && size > before)
@@ -388,9 +399,10 @@ bool Continuation::step() {
         return false;
     if (point_.u.empty())
         throw std::logic_error("a continuation has no point to step from before it is started");
-    double length = std::clamp(next_step_, options_.smallest_step, options_.largest_step);
     bool undefined = false;
     problem_->accept(point_.u);
+    double length = std::clamp(next_step_, options_.smallest_step,
+                               longest_step(*problem_, previous_, point_, options_.largest_step));
     const double unit = std::sqrt(product(point_.tangent, point_.tangent)); // in units that may have changed
     for (double& entry : point_.tangent)
         entry /= unit;
@@ -414,12 +426,15 @@ bool Continuation::step() {
         if (angle > options_.largest_angle && length > 2 * options_.smallest_step)
             continue;
         next.arclength = point_.arclength + length;
+        const double longest = longest_step(*problem_, point_, next, options_.largest_step);
+        if (length > options_.largest_step && longest == options_.largest_step) // it has turned
+            continue;
         previous_ = std::move(point_);
         point_ = std::move(next);
         ++steps_;
         const double by_angle = angle > 0 ? 0.7 * options_.largest_angle / angle : growth;
         next_step_ = std::clamp(length * std::clamp(std::min(by_angle, pace_), shrinkage, growth),
-                                options_.smallest_step, options_.largest_step);
+                                options_.smallest_step, longest);
         if (closes())
             outcome_ = ContinuationOutcome::closed;
         else

@@ -10,7 +10,7 @@ namespace {
 
 /// Distances of the points from where the zero is thought to be, as fractions of the step: near enough for the
 /// polynomial to be exact, far enough for Newton's method to be.
-constexpr double offsets[] = {-0.12, -0.09, -0.06, -0.03, 0.03, 0.06, 0.09, 0.12};
+constexpr double usual_offsets[] = {-0.12, -0.09, -0.06, -0.03, 0.03, 0.06, 0.09, 0.12};
 constexpr std::size_t fewest = 6;
 constexpr int most_rounds = 8;
 constexpr double settled = 0.015;
@@ -18,6 +18,7 @@ constexpr double settled = 0.015;
 struct Sample {
     double fraction;
     ContinuationPoint point;
+    double value = 0;
 };
 
 /// Lagrange's weights of the samples at a place.
@@ -30,22 +31,22 @@ std::vector<double> weights_at(const std::vector<Sample>& samples, double fracti
     return weights;
 }
 
-double determinant_at(const std::vector<Sample>& samples, double fraction) {
+double value_at(const std::vector<Sample>& samples, double fraction) {
     const std::vector<double> weights = weights_at(samples, fraction);
     double sum = 0;
     for (std::size_t i = 0; i < samples.size(); ++i)
-        sum += weights[i] * samples[i].point.determinant;
+        sum += weights[i] * samples[i].value;
     return sum;
 }
 
 /// The zero of the polynomial through the samples, which has one between the first and the last.
 double zero_of(const std::vector<Sample>& samples) {
     double low = samples.front().fraction, high = samples.back().fraction;
-    const bool negative = samples.front().point.determinant < 0;
+    const bool negative = samples.front().value < 0;
     constexpr int halvings = 60;
     for (int i = 0; i < halvings; ++i) {
         const double middle = 0.5 * (low + high);
-        ((determinant_at(samples, middle) < 0) == negative ? low : high) = middle;
+        ((value_at(samples, middle) < 0) == negative ? low : high) = middle;
     }
     return 0.5 * (low + high);
 }
@@ -67,20 +68,31 @@ ContinuationPoint point_at(const std::vector<Sample>& samples, double fraction) 
 
 } // namespace
 
-std::optional<ContinuationPoint> locate_crossing(Continuation& continuation, const TestValue& begin,
-                                                 const TestValue& end) {
+std::optional<ContinuationPoint> locate_crossing(Continuation& continuation, const PointTest& test,
+                                                 const TestValue& begin, const TestValue& end) {
+    return locate_crossing(continuation, test, begin, end, usual_offsets);
+}
+
+std::optional<ContinuationPoint> locate_crossing(Continuation& continuation, const PointTest& test,
+                                                 const TestValue& begin, const TestValue& end,
+                                                 std::span<const double> offsets) {
     double low = begin.fraction, high = end.fraction;
     double guess = low + (high - low) * begin.value / (begin.value - end.value);
+    if (!std::isfinite(guess)) // a test may be infinite, as multipliers are beside a touch
+        return std::nullopt;
     for (int round = 0; round < most_rounds; ++round) {
         std::vector<Sample> samples;
         for (const double offset : offsets) {
             Sample sample{guess + offset, {}};
-            if (continuation.between(sample.fraction, sample.point))
+            if (!continuation.between(sample.fraction, sample.point))
+                continue;
+            sample.value = test(sample.point);
+            if (std::isfinite(sample.value))
                 samples.push_back(std::move(sample));
         }
         if (samples.size() < fewest)
             return std::nullopt;
-        if (samples.front().point.determinant * samples.back().point.determinant < 0) {
+        if (samples.front().value * samples.back().value < 0) {
             const double zero = zero_of(samples);
             if (std::abs(zero - guess) < settled)
                 return point_at(samples, zero);
@@ -88,7 +100,7 @@ std::optional<ContinuationPoint> locate_crossing(Continuation& continuation, con
             continue;
         }
         // Not where it was thought to be: the bracket is halved.
-        const bool before = (samples.front().point.determinant < 0) == (begin.value < 0);
+        const bool before = (samples.front().value < 0) == (begin.value < 0);
         (before ? low : high) = std::clamp(guess, low, high);
         guess = 0.5 * (low + high);
     }

@@ -2,7 +2,9 @@
 
 #include "graze/branch/continuation.hpp"
 
+#include <functional>
 #include <optional>
+#include <span>
 
 namespace graze {
 
@@ -11,11 +13,19 @@ struct TestValue {
     double fraction = 0, value = 0;
 };
 
-/// The point of the last step of a branch at which another branch crosses: where the determinant is zero. Nothing
-/// can be solved there, and next to it Newton's method may end on either branch; so points at a safe distance on both
-/// sides are made, through which polynomials tell where the zero is and what the branch does there.
-std::optional<ContinuationPoint> locate_crossing(Continuation& continuation, const TestValue& low,
-                                                 const TestValue& high);
+/// A test function of points of a branch; NaN where it has no value.
+using PointTest = std::function<double(const ContinuationPoint&)>;
+
+/// The point of the last step of a branch at which a test is zero, where another branch crosses: by the determinant
+/// that crossing itself, by others what lies beside it. Nothing can be solved at a crossing, and next to it Newton's
+/// method may end on either branch; so points at a safe distance on both sides are made, through which polynomials tell
+/// where the zero is and what the branch does there.
+std::optional<ContinuationPoint> locate_crossing(Continuation& continuation, const PointTest& test,
+                                                 const TestValue& low, const TestValue& high);
+/// @param offsets of those points from where the zero is thought to be, in rising order, as fractions of the step
+std::optional<ContinuationPoint> locate_crossing(Continuation& continuation, const PointTest& test,
+                                                 const TestValue& low, const TestValue& high,
+                                                 std::span<const double> offsets);
 
 /// Where between the last two of three points, whose values have the same sign, a test may yet have become zero twice:
 /// where the parabola through them has its vertex, if that comes near zero or goes beyond.

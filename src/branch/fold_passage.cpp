@@ -126,7 +126,7 @@ FoldPassage fold_passage(const System& system, const SpecialPoint& point, Parame
     OrbitEvaluation at = equations.evaluation();
     const bool followed = equations.evaluate(equations.unknowns_of(result.orbit), at);
     const auto form = followed ? fold_form(equations, at) : std::nullopt;
-    if (!form || form->coefficient == 0)
+    if (!form || form->coefficient == 0 || !form->is_simple)
         throw InputError("the normal form of the fold cannot be computed" +
                              (at.problem.empty() ? std::string() : ": " + at.problem),
                          "choose another fold");
@@ -175,6 +175,9 @@ SimulatedPassage simulated_passage(const System& system, const FoldPassage& fold
     options.validate();
     cycles_of_passage(fold, overshoot);
     const Segment& closing = fold.orbit.signature.back();
+    if (closing.end == SegmentEnd::cut)
+        throw InputError("the orbit at the fold passes none of the sections by which cycles could be counted",
+                         "declare a section that it passes, and follow the branch to its fold from there");
     std::optional<Probe> section;
     if (closing.end == SegmentEnd::section)
         section = section_probe(system.model(), system.model().sections[closing.index].name);

@@ -222,12 +222,25 @@ private:
     Segment last_;
 };
 
+/// Whether the determinants that vanish at folds and at flips have changed a sign between two orbits of a branch.
+/// Neither has a pole where a contact has no speed.
+bool are_parted(const Simulation& simulation, const Orbit& one, const Orbit& other) {
+    if (one.signature != other.signature)
+        return false;
+    Shooting first(simulation, one, {}), second(simulation, other, {});
+    OrbitEvaluation here = first.evaluation(), there = second.evaluation();
+    return first.layout().pieces() == second.layout().pieces() && first.evaluate(first.unknowns_of(one), here) &&
+           second.evaluate(second.unknowns_of(other), there) &&
+           (here.system.periodic_determinant() * there.system.periodic_determinant() < 0 ||
+            here.system.antiperiodic_determinant() * there.system.antiperiodic_determinant() < 0);
+}
+
 } // namespace
 
 BranchStart with_one_more_contact(const System& system, const SpecialPoint& point, const BranchSettings& settings) {
     const NewContact contact(system, point, settings);
     std::string why = "Newton's method does not find it";
-    for (const double share : speeds) {
+    const auto with_share = [&](double share) -> std::optional<BranchStart> {
         const double speed = share * contact.greatest_speed();
         for (const bool inserted : {true, false}) {
             auto orbit = contact.with_speed(speed, inserted, why);
@@ -235,8 +248,20 @@ BranchStart with_one_more_contact(const System& system, const SpecialPoint& poin
                 continue;
             const OrbitDirection direction = meet_at_speed(contact.simulation(), *orbit, speed, settings);
             if (!direction.is_empty() && is_admissible(contact.simulation(), *orbit, why))
-                return {*orbit, direction, 0, fmt::format("with one more contact at '{}'", contact.name())};
+                return BranchStart{*orbit, direction, 0, fmt::format("with one more contact at '{}'", contact.name())};
         }
+        return std::nullopt;
+    };
+    for (const double share : speeds) {
+        const auto start = with_share(share);
+        if (!start)
+            continue;
+        // Nearer to the touch, where a fold or flip lies between.
+        for (const double nearer : {1e-4, 1e-2})
+            if (const auto near = with_share(nearer * share);
+                near && are_parted(contact.simulation(), near->orbit, start->orbit))
+                return *near;
+        return *start;
     }
     throw InputError(fmt::format("no orbit with one more contact at '{}' was found: {}", contact.name(), why),
                      "the motion after the contact may accumulate contacts, or not come back");

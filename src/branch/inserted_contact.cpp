@@ -32,7 +32,7 @@ std::vector<Entry> two_rounds(const System& system, const Orbit& orbit) {
     return entries;
 }
 
-/// Puts segments that end at sections together with the ones after them.
+/// Puts segments that no event ends together with the ones after them.
 Orbit joined(const Orbit& like, const std::vector<Entry>& entries) {
     Orbit orbit;
     orbit.parameters = like.parameters;
@@ -47,7 +47,7 @@ Orbit joined(const Orbit& like, const std::vector<Entry>& entries) {
             orbit.signature.back() = entry.segment;
             orbit.durations.back() += entry.duration;
         }
-        goes_on = entry.segment.end == SegmentEnd::section;
+        goes_on = entry.segment.end != SegmentEnd::event;
     }
     return orbit;
 }

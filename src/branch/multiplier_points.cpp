@@ -1,6 +1,7 @@
 #include "branch/multiplier_points.hpp"
 
 #include "branch/branch_state.hpp"
+#include "branch/missed_points.hpp"
 #include "branch/normal_form.hpp"
 #include "branch/other_branch.hpp"
 #include "branch/singular_condition.hpp"
@@ -40,6 +41,64 @@ PointType where_curves_meet(const TestedPoint& point, PointType own) {
                                     : own;
 }
 
+/// How far the nearest multiplier is from a number.
+double off(const OrbitSolution& solution, double wanted) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const std::complex<double> one : multipliers_followed(solution))
+        nearest = std::min(nearest, std::abs(one - wanted));
+    return nearest;
+}
+
+/// How far the nearest pair of complex multipliers is from the unit circle.
+double pair_off_circle(const OrbitSolution& solution) {
+    constexpr double complex = 1e-6;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const std::complex<double> one : multipliers_followed(solution))
+        if (std::abs(one.imag()) > complex)
+            nearest = std::min(nearest, std::abs(std::abs(one) - 1));
+    return nearest;
+}
+
+/// Whether the multipliers at a located point are what its type says, to what they are uncertain by there. Next to a
+/// contact without speed they change without bound, and determinants vanish for other reasons, too: what cannot be
+/// told from that is none.
+/// @param distance of an orbit's multipliers from what they are to be
+/// @param close what they may always be off by
+template <class Distance>
+bool holds(BranchState& state, const SpecialPoint& special, const Distance& distance, double close) {
+    // Arclength, in units of the scales, within which it is seen how multipliers change; by how many of these a located
+    // point may be off next to a contact without speed; and what is no multiplier of that kind in any case.
+    constexpr double beside = 1e-10, times = 50, far = 2;
+    if (multipliers_followed(special.solution).empty()) // as all along a curve of contacts without speed
+        return state.settings().kept.has_value();
+    const double here = distance(special.solution);
+    if (here <= close || !(here < far))
+        return here <= close;
+    Continuation& continuation = state.continuation();
+    const LastStep step = state.last_step();
+    double change = 0;
+    for (const double aside : {-beside, beside}) {
+        ContinuationPoint at;
+        BranchPoint there;
+        std::vector<BranchTest> tests;
+        if (!continuation.between(step.fraction(special.arclength + aside), at) || !state.describe(at, there, tests))
+            return false;
+        change = std::max(change, std::abs(distance(there.solution) - here));
+    }
+    return here <= times * change;
+}
+
+bool has_multiplier(BranchState& state, const SpecialPoint& special, double wanted) {
+    constexpr double close = 1e-3; // two that are equal are off by a root of what is left uncertain
+    return holds(
+        state, special, [&](const OrbitSolution& solution) { return off(solution, wanted); }, close);
+}
+
+bool has_pair_on_circle(BranchState& state, const SpecialPoint& special) {
+    constexpr double close = 1e-5;
+    return holds(state, special, pair_off_circle, close);
+}
+
 } // namespace
 
 // Folds: where monitors are held, the parameter may turn although no multiplier is 1.
@@ -59,15 +118,33 @@ void test_fold(const TestedPoint& point, std::vector<BranchTest>& tests) {
     tests.push_back(test);
 }
 
+namespace {
+
+std::string in_words(const FoldForm& form, const BranchState& state) {
+    if (!form.turns)
+        return "the side on which two orbits are is not decided: a is zero up to round-off";
+    const std::string side = fmt::format("two orbits at {} {}", form.above ? "greater" : "smaller",
+                                         state.model().independent_parameters()[state.settings().parameter.place()]);
+    return form.is_simple ? fmt::format("{}, a = {:.6g}", side, form.coefficient)
+                          : side + ", a has no value: two multipliers are 1";
+}
+
+/// @param supercritical sign of a coefficient for which what leaves is stable
+std::string in_words(const Criticality& form, const char* name, int supercritical) {
+    if (!form.is_decided())
+        return fmt::format("criticality not decided, {} = 0 +- {:.1e}", name, form.error);
+    return fmt::format("{}critical, {} = {:.6g}", form.value * supercritical > 0 ? "super" : "sub", name, form.value);
+}
+
+} // namespace
+
 /// On which side two orbits are is said of branches in one parameter.
 bool confirm_fold(BranchState& state, SpecialPoint& special, const BranchTest&) {
     const OrbitProblem& problem = state.problem();
     if (special.located && state.settings().free.empty())
         if (const auto form = fold_form(problem.equations(), problem.evaluation()))
-            special.detail = fmt::format("two orbits at {} {}, a = {:.6g}", form->above ? "greater" : "smaller",
-                                         state.model().independent_parameters()[state.settings().parameter.place()],
-                                         form->coefficient);
-    return special.located;
+            special.detail = in_words(*form, state);
+    return special.located && has_multiplier(state, special, 1);
 }
 
 std::unique_ptr<OrbitCondition> condition_of_fold(const OrbitEquations& equations, const OrbitEvaluation& at,
@@ -90,9 +167,9 @@ void test_asymmetry(const TestedPoint& point, std::vector<BranchTest>& tests) {
 }
 
 bool confirm_flip(BranchState& state, SpecialPoint& special, const BranchTest&) {
-    if (const auto coefficient = flip_coefficient(state.problem().equations(), state.problem().evaluation()))
-        special.detail = fmt::format("{}critical, c = {:.6g}", *coefficient > 0 ? "super" : "sub", *coefficient);
-    return special.located;
+    if (const auto form = flip_criticality(state.problem().equations(), state.problem().evaluation()))
+        special.detail = in_words(*form, "c", 1);
+    return special.located && has_multiplier(state, special, -1);
 }
 
 std::unique_ptr<OrbitCondition> condition_of_flip(const OrbitEquations& equations, const OrbitEvaluation& at,
@@ -116,25 +193,21 @@ void test_branch_point(const TestedPoint& point, std::vector<BranchTest>& tests)
                      .singular = true});
 }
 
+/// Where monitors are held, branches may cross although no multiplier is 1.
+bool confirm_branch_point(BranchState& state, SpecialPoint& special, const BranchTest&) {
+    return special.located && (!state.settings().free.empty() || has_multiplier(state, special, 1));
+}
+
 std::vector<BranchStart> leave_branch_point(const System& system, const SpecialPoint& point,
                                             const BranchSettings& settings) {
     return along_null_vector(system, point.solution.orbit, settings, point.tangent, "other branch", true);
 }
 
-namespace {
-
-/// Multipliers of the shortest orbit that is followed.
-const std::vector<std::complex<double>>& own_multipliers(const OrbitSolution& solution) {
-    return solution.half_multipliers.empty() ? solution.multipliers : solution.half_multipliers;
-}
-
-} // namespace
-
 /// Product over pairs of multipliers of mu_i mu_j - 1, which vanishes where two of them are inverse to one another: on
 /// whole branches of conservative models.
 void test_torus(const TestedPoint& point, std::vector<BranchTest>& tests) {
     constexpr double least_growth = 1e-9; // of the product of a pair less one: less is round-off
-    const auto& multipliers = own_multipliers(point.solution);
+    const auto& multipliers = multipliers_followed(point.solution);
     BranchTest test{.type = where_curves_meet(point, PointType::torus), .value = nothing};
     std::complex<double> product = 1;
     double smallest = 1, others = 1;
@@ -152,20 +225,10 @@ void test_torus(const TestedPoint& point, std::vector<BranchTest>& tests) {
     tests.push_back(test);
 }
 
-namespace {
-
-bool has_pair_on_circle(const OrbitSolution& solution) {
-    const auto& multipliers = own_multipliers(solution);
-    return std::any_of(multipliers.begin(), multipliers.end(),
-                       [](auto one) { return std::abs(one.imag()) > 1e-6 && std::abs(std::abs(one) - 1) < 1e-5; });
-}
-
-} // namespace
-
 bool confirm_torus(BranchState& state, SpecialPoint& special, const BranchTest&) {
-    if (const auto coefficient = torus_coefficient(state.problem().equations(), state.problem().evaluation()))
-        special.detail = fmt::format("{}critical, d = {:.6g}", *coefficient < 0 ? "super" : "sub", *coefficient);
-    return special.located && has_pair_on_circle(special.solution);
+    if (const auto form = torus_criticality(state.problem().equations(), state.problem().evaluation()))
+        special.detail = in_words(*form, "d", -1);
+    return special.located && has_pair_on_circle(state, special);
 }
 
 namespace {
@@ -186,7 +249,7 @@ bool confirm_fold_flip(BranchState& state, SpecialPoint& special, const BranchTe
 bool confirm_with_torus(BranchState& state, SpecialPoint& special, const BranchTest&) {
     if (special.type == PointType::flip_torus)
         note_asymmetry(state, special);
-    return special.located && has_pair_on_circle(special.solution);
+    return special.located && has_pair_on_circle(state, special);
 }
 
 std::unique_ptr<OrbitCondition> condition_of_torus(const OrbitEquations& equations, const OrbitEvaluation& at,
@@ -199,7 +262,7 @@ std::unique_ptr<OrbitCondition> condition_of_torus(const OrbitEquations& equatio
 bool confirm_resonance(BranchState&, SpecialPoint& special, const BranchTest& test) {
     constexpr double near = 0.01; // a double multiplier is off by the root of what is left uncertain
     const double wanted = test.type == PointType::resonance_1 ? 1 : -1;
-    const auto& multipliers = own_multipliers(special.solution);
+    const auto& multipliers = multipliers_followed(special.solution);
     return special.located && std::count_if(multipliers.begin(), multipliers.end(),
                                             [&](auto one) { return std::abs(one - wanted) < near; }) >= 2;
 }

@@ -19,6 +19,7 @@ std::vector<BranchStart> leave_flip(const System& system, const SpecialPoint& po
 std::vector<BranchStart> leave_asymmetry(const System& system, const SpecialPoint& point,
                                          const BranchSettings& settings);
 void test_branch_point(const TestedPoint& point, std::vector<BranchTest>& tests);
+bool confirm_branch_point(BranchState& state, SpecialPoint& special, const BranchTest&);
 std::vector<BranchStart> leave_branch_point(const System& system, const SpecialPoint& point,
                                             const BranchSettings& settings);
 void test_torus(const TestedPoint& point, std::vector<BranchTest>& tests);

@@ -48,12 +48,13 @@ public:
         return vector.head(n).cwiseProduct(columns_.head(n)).norm();
     }
 
-    /// l^T F_2(v, v). @return false as below
-    bool second(const VectorXd& left, const VectorXd& vector, double& result) {
+    /// l^T F_2(v, v), and the size of its parts. @return false as below
+    bool second(const VectorXd& left, const VectorXd& vector, double& result, double& parts) {
         MatrixXd gradient;
         if (!contract(left, vector, gradient))
             return false;
         result = gradient.row(0).dot(vector);
+        parts = gradient.norm() * vector.norm();
         return std::isfinite(result);
     }
     /// l^T F_p for the first free parameter, in its own unit.
@@ -85,8 +86,8 @@ public:
         return true;
     }
 
-    /// l^T F_3(v, v, .) by differences of fourth order.
-    bool third(const VectorXcd& left, const VectorXd& vector, RowVectorXcd& result) {
+    /// l^T F_3(v, v, .) by differences of fourth order. @param parts sum of the sizes of what they are made of
+    bool third(const VectorXcd& left, const VectorXd& vector, RowVectorXcd& result, double& parts) {
         constexpr double share = 1e-3; // of the scales: the vector's length follows the model's units
         const double size = vector.cwiseAbs().maxCoeff(), step = share / size;
         result = RowVectorXcd::Zero(columns_.size());
@@ -99,8 +100,10 @@ public:
             shifted_.unknowns.head(columns_.size()) += length * columns_.cwiseProduct(vector);
             const bool followed = contract(weights, vector, one);
             shifted_.unknowns = here;
-            if (followed)
+            if (followed) {
                 sum += weight / (12 * step) * one;
+                parts += std::abs(weight) / (12 * step) * one.norm();
+            }
             return followed;
         };
         if (!at(step, 8) || !at(-step, -8) || !at(2 * step, -1) || !at(-2 * step, 1))
@@ -144,10 +147,19 @@ void null_vectors(const MatrixXcd& matrix, VectorXcd& right, VectorXcd& left) {
     }
 }
 
+/// Of numbers that are made of derivatives, in units of their largest parts.
+constexpr double round_off = 1e-12;
+
+/// A coefficient with what round-off may make of it.
+struct Cubic {
+    Complex value;
+    double error = 0;
+};
+
 /// F_3(q, q, q*) + 2 F_2(q, z_11) + F_2(q*, z_20), projected on the critical direction, where z_11 and z_20 are what
 /// the square of the motion along q adds to its mean and to its second harmonic.
-std::optional<Complex> cubic_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at, Complex multiplier,
-                                         SecondVariation& variation) {
+std::optional<Cubic> cubic_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at, Complex multiplier,
+                                       SecondVariation& variation) {
     if (equations.layout().start_of(at.pieces.size()) > Expansion::most_unknowns)
         return std::nullopt;
     Expansion expansion(equations, at, variation);
@@ -158,17 +170,26 @@ std::optional<Complex> cubic_coefficient(const OrbitEquations& equations, const 
     const VectorXcd conjugate = q.conjugate();
     MatrixXcd with_q;
     RowVectorXcd with_real, with_imaginary = RowVectorXcd::Zero(q.size());
-    if (!q.allFinite() || !expansion.second(q, with_q) || !expansion.third(left, q.real(), with_real) ||
-        (multiplier.imag() != 0 && !expansion.third(left, q.imag(), with_imaginary)))
+    double parts = 0;
+    if (!q.allFinite() || !expansion.second(q, with_q) || !expansion.third(left, q.real(), with_real, parts) ||
+        (multiplier.imag() != 0 && !expansion.third(left, q.imag(), with_imaginary, parts)))
         return std::nullopt;
+    const Eigen::PartialPivLU<MatrixXcd> at_rest(expansion.closed_by(1)),
+        twice(expansion.closed_by(multiplier * multiplier));
     const VectorXcd square = with_q * q, modulus = with_q * conjugate;
-    const VectorXcd mean = -expansion.closed_by(1).partialPivLu().solve(modulus);
-    const VectorXcd second = -expansion.closed_by(multiplier * multiplier).partialPivLu().solve(square);
+    const VectorXcd mean = -at_rest.solve(modulus), second = -twice.solve(square);
     // q q q* = (a a + b b) (a + i b) for q = a + i b; and F_2 is real.
     const VectorXcd from_second = with_q.conjugate() * second + 2.0 * with_q * mean;
     const Complex third = (with_real + with_imaginary) * q, rest = left.transpose() * from_second;
-    const Complex result = -(third + rest) / product;
-    if (!std::isfinite(result.real()) || !std::isfinite(result.imag()))
+    // What round-off of F_2(q, q) and F_2(q, q*) becomes by the mean and the second harmonic, and what it is itself.
+    const double size = with_q.norm() * q.norm();
+    const VectorXcd by_mean = with_q.transpose() * left, by_second = with_q.adjoint() * left;
+    const VectorXcd mean_spread = at_rest.transpose().solve(by_mean),
+                    second_spread = twice.transpose().solve(by_second);
+    const double spread = 2 * mean_spread.norm() + second_spread.norm();
+    const double error = spread * size + with_q.norm() * (second.norm() + 2 * mean.norm()) + parts * q.norm();
+    const Cubic result{-(third + rest) / product, round_off * error / std::abs(product)};
+    if (!std::isfinite(result.value.real()) || !std::isfinite(result.value.imag()) || !std::isfinite(result.error))
         return std::nullopt;
     return result;
 }
@@ -183,7 +204,7 @@ std::optional<double> flip_coefficient(const OrbitEquations& equations, const Or
 std::optional<double> flip_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at,
                                        SecondVariation& variation) {
     const auto cubic = cubic_coefficient(equations, at, -1, variation);
-    return cubic ? std::optional(cubic->real() / 6) : std::nullopt;
+    return cubic ? std::optional(cubic->value.real() / 6) : std::nullopt;
 }
 
 namespace {
@@ -214,9 +235,13 @@ std::optional<FoldForm> fold_form(const OrbitEquations& equations, const OrbitEv
     SecondVariation variation(equations);
     Expansion expansion(equations, at, variation);
     const Fold fold(expansion, expansion.closed_by(1));
-    double second = 0;
-    if (!fold.right.allFinite() || !expansion.second(fold.left, fold.right, second))
+    double second = 0, parts = 0;
+    if (!fold.right.allFinite() || !expansion.second(fold.left, fold.right, second, parts))
         return std::nullopt;
+    // Null vectors are known less well than round-off: the point that they are taken at is a located one.
+    constexpr double least = 1e-9;
+    const bool is_simple =
+        std::abs(fold.product) > least * fold.left.norm() * (expansion.closing() * fold.right).norm();
     // The equations are what the next start is less what the motion makes of this one.
     const double coefficient = -second / (2 * fold.product), sign = coefficient < 0 ? -1 : 1;
     const double rate = -sign * expansion.by_parameter(fold.left, at) / fold.product;
@@ -224,7 +249,14 @@ std::optional<FoldForm> fold_form(const OrbitEquations& equations, const OrbitEv
         return std::nullopt;
     const VectorXd critical = sign * expansion.start_along(fold.right),
                    adjoint = sign / fold.product * expansion.closing_row(fold.left);
-    return FoldForm{sign * coefficient, rate < 0, rate, list_of(critical), list_of(adjoint)};
+    const bool above = rate<0, turns = std::abs(second)> least * parts;
+    return FoldForm{.coefficient = sign * coefficient,
+                    .above = above,
+                    .turns = turns,
+                    .is_simple = is_simple,
+                    .rate = rate,
+                    .critical = list_of(critical),
+                    .adjoint = list_of(adjoint)};
 }
 
 /// As the coefficient of a flip, but that what the square of the motion along the null vector asks for is solved for
@@ -239,8 +271,9 @@ std::optional<double> cusp_coefficient(const OrbitEquations& equations, const Or
     const Fold fold(expansion, matrix);
     MatrixXcd with_right;
     RowVectorXcd third;
+    double parts = 0;
     if (!fold.right.allFinite() || !expansion.second(fold.right, with_right) ||
-        !expansion.third(fold.left.cast<Complex>(), fold.right, third))
+        !expansion.third(fold.left.cast<Complex>(), fold.right, third, parts))
         return std::nullopt;
     MatrixXd bordered = MatrixXd::Zero(count + 1, count + 1);
     bordered.topLeftCorner(count, count) = matrix.real();
@@ -267,7 +300,22 @@ std::optional<Complex> torus_form(const OrbitEquations& equations, const OrbitEv
     if (!multiplier)
         return std::nullopt;
     const auto cubic = cubic_coefficient(equations, at, *multiplier, variation);
-    return cubic ? std::optional(std::conj(*multiplier) * *cubic / 2.0) : std::nullopt;
+    return cubic ? std::optional(std::conj(*multiplier) * cubic->value / 2.0) : std::nullopt;
+}
+
+std::optional<Criticality> flip_criticality(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    SecondVariation variation(equations);
+    const auto cubic = cubic_coefficient(equations, at, -1, variation);
+    return cubic ? std::optional(Criticality{cubic->value.real() / 6, cubic->error / 6}) : std::nullopt;
+}
+
+std::optional<Criticality> torus_criticality(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    SecondVariation variation(equations);
+    const VectorXd ones = VectorXd::Ones(index(equations.layout().start_of(at.pieces.size())));
+    const auto multiplier = pair_on_circle(CyclicMatrix(at.system, 1, ones, ones).multipliers());
+    const auto cubic = multiplier ? cubic_coefficient(equations, at, *multiplier, variation) : std::nullopt;
+    return cubic ? std::optional(Criticality{(std::conj(*multiplier) * cubic->value / 2.0).real(), cubic->error / 2})
+                 : std::nullopt;
 }
 
 std::optional<Complex> pair_on_circle(const std::vector<Complex>& multipliers) {

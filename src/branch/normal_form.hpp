@@ -3,6 +3,7 @@
 #include "orbit/orbit_equations.hpp"
 #include "orbit/second_variation.hpp"
 
+#include <cmath>
 #include <complex>
 #include <optional>
 #include <vector>
@@ -34,11 +35,22 @@ std::optional<double> torus_coefficient(const OrbitEquations& equations, const O
 std::optional<std::complex<double>> torus_form(const OrbitEquations& equations, const OrbitEvaluation& at,
                                                SecondVariation& variation);
 
+/// The coefficient of a flip or of a torus point with what round-off of all that it is made of may be of it.
+struct Criticality {
+    double value = 0, error = 0;
+    /// Whether its sign means something: that of a linear or conservative model is zero up to round-off.
+    bool is_decided() const { return std::abs(value) > error; }
+};
+std::optional<Criticality> flip_criticality(const OrbitEquations& equations, const OrbitEvaluation& at);
+std::optional<Criticality> torus_criticality(const OrbitEquations& equations, const OrbitEvaluation& at);
+
 /// What happens at a fold, w -> w + b (p - p_0) + a w^2: two orbits on one side of the parameter, of which one is
 /// stable if there is no other unstable direction, at w^2 = -b (p - p_0)/a to first order.
 struct FoldForm {
     double coefficient = 0; ///< a > 0, which the sign of the critical vector decides: orbits at w < 0 are stable
     bool above = false;     ///< two orbits at greater values of the first free parameter, none at smaller ones
+    bool turns = true;      ///< false: the coefficient is zero up to round-off, and so is on which side
+    bool is_simple = true;  ///< false: two multipliers are 1 up to round-off, so that a and b have no values
     double rate = 0;        ///< b, by the first free parameter in its own unit
     /// The critical vector in the first start, and the adjoint one, in the model's units: w = adjoint (start - fold's).
     std::vector<double> critical, adjoint;

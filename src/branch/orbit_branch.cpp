@@ -1,11 +1,14 @@
 #include "graze/branch/orbit_branch.hpp"
 
+#include "branch/bounds.hpp"
 #include "branch/point_locator.hpp"
 #include "branch/point_rules.hpp"
 #include "branch/reordering.hpp"
+#include "branch/shrinking_orbit.hpp"
 #include "graze/branch/switching.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/require.hpp"
+#include "orbit/cut.hpp"
 
 #include <fmt/format.h>
 
@@ -39,8 +42,16 @@ public:
     bool start() {
         constexpr double near = 1e-2; // in units of the scales: a curve begins at the point that it is to keep
         const std::vector<double> u = state_.problem().unknowns_of(candidate_);
+        if (state_.is_in_family(candidate_)) {
+            begin(false);
+            detail = family_in_words();
+            return false;
+        }
         const bool begun =
             state_.continuation().start(u, state_.problem().parameter_place(), state_.settings().direction);
+        // At other parameters than the candidate's the orbit may pass no section any more.
+        if (!begun && !is_kept_point_ && state_.begin_without_sections(candidate_))
+            return begin(true);
         if (!begun || !is_kept_point_ || distance_from(u) < near)
             return begin(begun);
         const double off = distance_from(u);
@@ -69,30 +80,42 @@ public:
             return false;
         if (point.step >= state_.settings().steps)
             return end(BranchOutcome::steps, "");
-        if (state_.pieces_are_unfit()) {
+        if (equilibrium_)
+            return end_at_equilibrium();
+        if (state_.pieces_are_unfit() ||
+            cuts_are_oblique(state_.problem().equations(), state_.problem().evaluation())) {
             state_.renew_pieces(point);
-            locator_.forget();
-            describe_here();
+            renewed();
         }
+        const std::vector<double> rates = rates_here();
+        if (const auto touched = touched_section(rates)) {
+            if (!state_.leave_sections(point))
+                return end(BranchOutcome::undefined, touch_in_words(*touched));
+            renewed();
+        }
+        const Continuation here = state_.continuation();
         const BranchPoint before = point;
         const std::vector<BranchTest> tests_before = tests_;
-        Continuation& continuation = state_.continuation();
         const std::size_t work_before = state_.problem().equations().work();
-        if (!step_on_branch()) {
+        if (!step_on_branch(rates)) {
             if (const std::string edge = touch_at_edge(); !edge.empty()) {
                 if (!go_on_in_next_segment())
                     return end(BranchOutcome::undefined, edge);
                 ++point.step;
                 return true;
             }
-            return end(continuation.outcome() == ContinuationOutcome::undefined ? BranchOutcome::undefined
-                                                                                : BranchOutcome::no_convergence,
+            return end(state_.continuation().outcome() == ContinuationOutcome::undefined
+                           ? BranchOutcome::undefined
+                           : BranchOutcome::no_convergence,
                        state_.problem().problem());
         }
+        if (turned_section(rates, rates_here()) || (hopf_ && !equilibrium_))
+            return step_without_touch(here);
+        approach(before.solution.orbit);
         describe_here();
         const std::size_t work = state_.problem().equations().work() - work_before;
         ++point.step;
-        point.iterations = continuation.point().iterations;
+        point.iterations = state_.continuation().point().iterations;
         if (point.step == 1 && is_unphysical_curve(before)) {
             point = before;
             return end(BranchOutcome::unphysical, before.solution.certificate.reason);
@@ -105,7 +128,16 @@ public:
             point = before;
             return end(BranchOutcome::stopped, "this way the contact that begins there has a negative speed");
         }
+        if (equilibrium_ && point.arclength > equilibrium_->arclength) {
+            point = before;
+            return end_at_equilibrium();
+        }
         found = locator_.locate_all(before, tests_before);
+        if (!came_back_)
+            locator_.add_missed(found, before, tests_before);
+        if (locator_.misses_bound(found, tests_before))
+            return step_to_bound(here, before, tests_before);
+        attempts_ = 0;
         drop_origin(point.arclength - before.arclength);
         judge(before.solution.certificate.admissible);
         if (!ended_ && came_back_)
@@ -126,9 +158,83 @@ public:
     std::string detail;
 
 private:
+    /// Share of the way to an equilibrium that a step goes: from what is left of it the branch is known to end there.
+    static constexpr double close = 0.75;
+
+    /// Steps on. One that leads through an equilibrium, to which orbits shrink, tells where that is, and is made again
+    /// up to close before it, so that what happens on the way is told from what the equations do there.
+    bool step_on_branch(const std::vector<double>& rates) {
+        Continuation& continuation = state_.continuation();
+        const Continuation before = continuation;
+        const Orbit from = orbit_here();
+        if (!step_off_regular())
+            return false;
+        hopf_.reset();
+        if (state_.settings().kept)
+            return true;
+        const bool round = has_turned_round(state_, from, orbit_here());
+        if (!round && !turned_section(rates, rates_here()))
+            return true;
+        const double length = continuation.point().arclength - before.point().arclength;
+        hopf_ = hopf_ahead(state_, before.point(), length);
+        equilibrium_ = round ? locate_equilibrium(state_, from) : std::nullopt;
+        if (equilibrium_ && hopf_ && !agree(*equilibrium_, *hopf_))
+            equilibrium_.reset(); // the section misses it
+        if (!equilibrium_)
+            return true;
+        const double way = equilibrium_->arclength - point.arclength;
+        if (!(way > 0)) {
+            equilibrium_.reset();
+            return true;
+        }
+        const Continuation across = continuation;
+        continuation = before;
+        continuation.set_next_step(close * way);
+        if (step_off_regular() && !has_turned_round(state_, from, orbit_here()))
+            return true;
+        continuation = across;
+        return true;
+    }
+    /// Whether two ways to locate an equilibrium say the same, to what both are uncertain by.
+    bool agree(const SpecialPoint& located, const HopfPoint& hopf) {
+        const double unit = state_.problem().scales()[state_.problem().parameter_place()];
+        return std::abs(located.parameter - hopf.parameter) <= located.solution.error.value_or(0) * unit + hopf.error;
+    }
+    /// After a step towards a Hopf point: whether the branch goes there, so that it ends with the next one.
+    void approach(const Orbit& before) {
+        if (approached_ && shrinks_to(*approached_, state_.settings().parameter, before, orbit_here()))
+            equilibrium_ = end_in(state_, *approached_, state_.arclength(state_.continuation().point().arclength),
+                                  way_to(state_, state_.continuation().point(), *approached_));
+        approached_.reset();
+    }
+    /// Begins the orbit where it is farthest from the Hopf point ahead, and sets the next step towards that: once for
+    /// each point.
+    bool turn_to_hopf() {
+        const bool again = approached_ || (tried_ && !(point.arclength > *tried_));
+        approached_.reset();
+        if (!hopf_ || again)
+            return false;
+        tried_ = point.arclength;
+        const auto begun = begun_for_shrinking(state_, point.solution.orbit, *hopf_);
+        if (!begun || !state_.begin_anew(point, *begun))
+            return false;
+        renewed();
+        approached_ = hopf_;
+        state_.continuation().set_next_step(close * way_to(state_, state_.continuation().point(), *hopf_));
+        return true;
+    }
+    /// Ends the branch where its orbits shrink to an equilibrium: in that point, not beyond it.
+    bool end_at_equilibrium() {
+        equilibrium_->bracket = std::minmax(point.parameter, equilibrium_->parameter);
+        equilibrium_->step = ++point.step;
+        found = {*equilibrium_};
+        cut_after(0);
+        finish(BranchOutcome::shrunk, "");
+        return true;
+    }
     /// Steps on. One that ends on the branch of more regular orbits, which the present one left or comes back to, has
     /// gone past that crossing, and is made again with shorter steps.
-    bool step_on_branch() {
+    bool step_off_regular() {
         constexpr int most_attempts = 8;
         constexpr double shorter = 0.25;
         Continuation& continuation = state_.continuation();
@@ -149,7 +255,7 @@ private:
     bool start_on_other(const std::vector<double>& u, const std::vector<double>& direction, double distance) {
         constexpr double factors[] = {1, 0.1, 4, 0.01};
         const bool was_regular = is_degenerate(state_, candidate_, same_orbit);
-        bool came_back = false;
+        bool came_back = false, beyond = false;
         for (const double factor : factors) {
             if (!state_.continuation().start_along(u, direction, factor * distance))
                 continue;
@@ -159,10 +265,13 @@ private:
                 was_regular && !is_degenerate(state_, displaced(u, direction, factor * distance), resolved);
             const bool is_old = from_regular ? is_degenerate(state_, orbit_here(), resolved)
                                              : bends_back(u, direction, factor * distance);
-            if (!is_old)
-                return begin(true);
-            came_back = true;
+            if (!is_old && begin(true))
+                return true;
+            beyond = beyond || !is_old;
+            came_back = came_back || is_old;
         }
+        if (beyond)
+            return false;
         begin(false);
         if (came_back)
             detail = "Newton's method comes back to the branch that was to be left";
@@ -197,7 +306,73 @@ private:
         return bends || !continuation.start_along(u, direction, distance);
     }
 
-    void describe_here() { state_.describe(state_.continuation().point(), point, tests_); }
+    /// The rates at which sections are passed at the point of the continuation.
+    std::vector<double> rates_here() {
+        state_.problem().evaluate(state_.continuation().point().u);
+        return passing_rates(state_.problem().equations(), state_.problem().evaluation());
+    }
+    /// The equations are others from here on.
+    void renewed() {
+        locator_.forget();
+        describe_here();
+    }
+    /// Makes the last step again from where it began: towards the equilibrium to which the orbits shrink, without the
+    /// section that was touched within it or, where that is needed or a cut was touched, shorter.
+    bool step_without_touch(const Continuation& before) {
+        constexpr double shorter = 0.25;
+        const double length = state_.continuation().point().arclength - state_.continuation().previous().arclength;
+        state_.continuation() = before;
+        state_.problem().evaluate(state_.continuation().point().u);
+        if (turn_to_hopf())
+            return step();
+        if (state_.leave_sections(point))
+            renewed();
+        else if (shorter * length > state_.settings().continuation.smallest_step)
+            state_.continuation().set_next_step(shorter * length);
+        else
+            return end(BranchOutcome::no_convergence, "the orbit is only touched by a plane that is laid across it");
+        return step();
+    }
+    /// The same where a bound was gone beyond that could not be located: shorter steps come to it; or the branch ends
+    /// before it.
+    bool step_to_bound(const Continuation& before, const BranchPoint& from, const std::vector<BranchTest>& tests) {
+        constexpr int most_attempts = 8;
+        constexpr double shorter = 0.25;
+        const double length = state_.continuation().point().arclength - state_.continuation().previous().arclength;
+        found.clear();
+        point = from;
+        if (++attempts_ > most_attempts)
+            return end(BranchOutcome::bound, "no orbit was found on the bound itself");
+        tests_ = tests;
+        locator_.forget();
+        state_.continuation() = before;
+        state_.problem().evaluate(state_.continuation().point().u);
+        state_.continuation().set_next_step(shorter * length);
+        return step();
+    }
+    /// Equations that leave more than a branch free choose no branch.
+    std::string family_in_words() const {
+        const Model& model = state_.model();
+        return fmt::format(
+            "the orbit is one of a family at the same '{}' (a multiplier is 1: something is conserved). "
+            "Hold one of its numbers, such as monitors = {{ reach = {{ maximum = \"{}\", fixed = true }} "
+            "}}, with a parameter in `free` that ends the family, such as a damping of 0 (the model needs "
+            "one); `along` that parameter is the family itself",
+            model.independent_parameters()[state_.settings().parameter.place()], model.states.front().name);
+    }
+    std::string touch_in_words(std::size_t segment) const {
+        return fmt::format("the orbit only touches the section '{}', at which monitors are taken or a touch is kept: "
+                           "choose another section, or monitors along the whole orbit",
+                           end_name(state_.model(), point.solution.orbit.signature[segment]));
+    }
+
+    void describe_here() {
+        state_.describe(state_.continuation().point(), point, tests_);
+        if (!is_beyond_bounds(tests_)) {
+            put_on_bounds(state_.settings(), point.solution.orbit);
+            point.parameter = point.solution.orbit.parameters[state_.settings().parameter.place()];
+        }
+    }
 
     bool begin(bool begun) {
         ended_ = !begun;
@@ -210,12 +385,18 @@ private:
         }
         point = {};
         describe_here();
+        if (is_beyond_bounds(tests_)) {
+            outcome = BranchOutcome::bound;
+            detail = "at the first orbit " + beyond_in_words(state_, point);
+            ended_ = true;
+            return false;
+        }
         is_regular_ = is_degenerate(state_, orbit_here(), same_orbit);
         if (begins_at_bound())
             finish(BranchOutcome::bound, "");
         return true;
     }
-    /// Whether the first point lies beyond a bound of a parameter, or on one, and the branch goes across it.
+    /// Whether the first point lies on a bound of a parameter, and the branch goes across it.
     bool begins_at_bound() {
         const BranchSettings& settings = state_.settings();
         const OrbitLayout& layout = state_.problem().equations().layout();
@@ -260,6 +441,8 @@ private:
                     if (!guess || !state_.go_on_curve(*guess, side * rise < 0 ? -1 : 1, special.arclength))
                         continue;
                     describe_here();
+                    if (is_beyond_bounds(tests_))
+                        continue;
                     if (point.solution.certificate.admissible)
                         return true;
                 }
@@ -316,7 +499,7 @@ private:
             BranchPoint beyond;
             std::vector<BranchTest> tests;
             if (!state_.describe(state_.continuation().point(), beyond, tests) ||
-                !beyond.solution.certificate.admissible)
+                !beyond.solution.certificate.admissible || is_beyond_bounds(tests))
                 continue;
             point = std::move(beyond);
             point.step = steps;
@@ -410,18 +593,18 @@ private:
                (special.type == PointType::resonance_1 || special.type == PointType::resonance_2);
     }
 
+    /// The branch ends in the special point itself, not beyond it.
+    void cut_after(std::size_t i) {
+        found.resize(i + 1);
+        point.solution = found[i].solution;
+        point.parameter = found[i].parameter;
+        point.arclength = found[i].arclength;
+        point.tangent = found[i].tangent;
+        point.monitors = found[i].monitors;
+        point.stable = is_stable(point.solution);
+    }
     /// Ends the branch where what was found says so.
     void judge(bool was_admissible) {
-        // The branch ends in the special point itself, not beyond it.
-        const auto cut_after = [&](std::size_t i) {
-            found.resize(i + 1);
-            point.solution = found[i].solution;
-            point.parameter = found[i].parameter;
-            point.arclength = found[i].arclength;
-            point.tangent = found[i].tangent;
-            point.monitors = found[i].monitors;
-            point.stable = is_stable(point.solution);
-        };
         for (std::size_t i = 0; i < found.size(); ++i) {
             if (found[i].type == PointType::bound) {
                 cut_after(i);
@@ -450,8 +633,14 @@ private:
                 const bool reordering = state_.settings().reorder &&
                                         (!kept || !kind_of(kept->type).limits || keeps_touch()) &&
                                         !is_grazing(found[i].type);
-                if (!reordering || !go_on_reordered(found[i]))
-                    finish(BranchOutcome::unphysical, reason);
+                if (!reordering || !go_on_reordered(found[i])) {
+                    cut_after(i); // what was tried beyond is no part of it
+                    return finish(BranchOutcome::unphysical, reason);
+                }
+                if (is_beyond_bounds(tests_)) { // which lie just behind the point
+                    cut_after(i);
+                    finish(BranchOutcome::bound, "");
+                }
                 return;
             }
         }
@@ -464,9 +653,14 @@ private:
     std::vector<BranchTest> tests_; ///< at the last point
     PointLocator locator_;
     std::size_t reorderings_ = 0;
-    bool is_kept_point_;      ///< a curve is to begin at the point itself, not at other parameters
-    bool came_back_ = false;  ///< to more regular orbits, with the last step
-    bool is_regular_ = false; ///< an orbit several times over, or symmetric but not given by its half
+    bool is_kept_point_;                      ///< a curve is to begin at the point itself, not at other parameters
+    bool came_back_ = false;                  ///< to more regular orbits, with the last step
+    bool is_regular_ = false;                 ///< an orbit several times over, or symmetric but not given by its half
+    int attempts_ = 0;                        ///< to make a step that ends before a bound, or on it
+    std::optional<SpecialPoint> equilibrium_; ///< to which its orbits shrink, once that is known to lie ahead
+    std::optional<HopfPoint> hopf_;           ///< that may lie within the step that has just been tried
+    std::optional<HopfPoint> approached_;     ///< towards which the next step is to lead
+    std::optional<double> tried_;             ///< arclength of the point at which that was tried last
     bool ended_ = true;
 };
 

@@ -230,8 +230,8 @@ bool OrbitQuantity::duration(const OrbitEquations& equations, const OrbitEvaluat
 /// A touch is the one that is nearest in time: also across the section at which a motion without contacts is closed.
 double OrbitQuantity::off_touch(const OrbitEquations& equations, double share) const {
     const double off = std::abs(share - share_);
-    const bool goes_round = equations.signature().size() == 1 && equations.signature()[0].end == SegmentEnd::section &&
-                            !equations.symmetry();
+    const bool goes_round =
+        equations.signature().size() == 1 && equations.signature()[0].end != SegmentEnd::event && !equations.symmetry();
     return goes_round ? std::min(off, std::abs(1 - off)) : off;
 }
 

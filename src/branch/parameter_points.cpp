@@ -7,15 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace graze {
-
-namespace {
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-
-} // namespace
 
 // Extrema of the period. Where a parameter fixes it, as the frequency of a force, it turns with the parameter at each
 // fold, which says nothing more. A parameter that stands still, as the damping of a conservative model, fixes nothing.
@@ -81,27 +74,7 @@ bool confirm_extremum(BranchState& state, SpecialPoint& special, const BranchTes
     return special.located;
 }
 
-// Bounds and values of parameters and of monitors.
-
-void test_bounds(const TestedPoint& point, std::vector<BranchTest>& tests) {
-    const auto add = [&](std::optional<double> least, std::optional<double> greatest, double value, BranchTest test) {
-        const bool always = !test.monitor && !test.free;
-        test.type = PointType::bound;
-        if (test.value = least ? value - *least : nothing; least || always)
-            tests.push_back(test);
-        if (test.value = greatest ? *greatest - value : nothing; greatest || always)
-            tests.push_back(test);
-    };
-    const BranchSettings& settings = point.settings;
-    const std::vector<double>& parameters = point.at.parameters;
-    add(settings.least, settings.greatest, parameters[settings.parameter.place()], {});
-    for (std::size_t f = 0; f < settings.free_bounds.size(); ++f) {
-        const FreeBounds& bounds = settings.free_bounds[f];
-        add(bounds.least, bounds.greatest, parameters[bounds.parameter.place()], {.free = f});
-    }
-    for (std::size_t m = 0; m < settings.monitors.size(); ++m)
-        add(settings.monitors[m].least, settings.monitors[m].greatest, point.monitors[m], {.monitor = m});
-}
+// Values of monitors.
 
 void test_crossings(const TestedPoint& point, std::vector<BranchTest>& tests) {
     for (std::size_t m = 0; m < point.settings.monitors.size(); ++m) {
@@ -110,38 +83,6 @@ void test_crossings(const TestedPoint& point, std::vector<BranchTest>& tests) {
             tests.push_back(
                 {.type = PointType::crossing, .value = point.monitors[m] - wanted[c], .monitor = m, .crossing = c});
     }
-}
-
-namespace {
-
-/// By how much a parameter that varies changes over the last step.
-double length_of_step(BranchState& state, ParameterId parameter) {
-    const std::vector<ParameterId>& free = state.problem().equations().free();
-    const auto which = static_cast<std::size_t>(std::find(free.begin(), free.end(), parameter) - free.begin());
-    const std::size_t place = state.problem().equations().layout().parameter(which);
-    return std::abs(state.continuation().point().u[place] - state.continuation().previous().u[place]);
-}
-
-} // namespace
-
-bool confirm_bound(BranchState& state, SpecialPoint& special, const BranchTest& test) {
-    const BranchSettings& settings = state.settings();
-    if (test.monitor) {
-        special.detail =
-            fmt::format("{} = {:.10g}", settings.monitors[*test.monitor].name, special.monitors[*test.monitor]);
-        return special.located;
-    }
-    const FreeBounds bounds = test.free ? settings.free_bounds[*test.free]
-                                        : FreeBounds{settings.parameter, settings.least, settings.greatest};
-    double& value = special.solution.orbit.parameters[bounds.parameter.place()];
-    // Round-off would leave the bound on the one side or the other.
-    for (const auto& bound : {bounds.least, bounds.greatest})
-        if (bound && std::abs(value - *bound) < 1e-9 * length_of_step(state, bounds.parameter))
-            value = *bound;
-    special.parameter = special.solution.orbit.parameters[settings.parameter.place()];
-    special.detail =
-        fmt::format("{} = {:.10g}", state.model().independent_parameters()[bounds.parameter.place()], value);
-    return special.located;
 }
 
 bool confirm_crossing(BranchState& state, SpecialPoint& special, const BranchTest& test) {

@@ -4,13 +4,11 @@
 
 namespace graze {
 
-// Points at which periods, parameters and monitors have extrema, bounds or values that were asked for: see PointRule.
+// Points at which periods, parameters and monitors have extrema or values that were asked for: see PointRule.
 
 void test_extremum(const TestedPoint& point, std::vector<BranchTest>& tests);
 bool confirm_extremum(BranchState& state, SpecialPoint& special, const BranchTest& test);
-void test_bounds(const TestedPoint& point, std::vector<BranchTest>& tests);
 void test_crossings(const TestedPoint& point, std::vector<BranchTest>& tests);
-bool confirm_bound(BranchState& state, SpecialPoint& special, const BranchTest& test);
 bool confirm_crossing(BranchState& state, SpecialPoint& special, const BranchTest& test);
 
 } // namespace graze

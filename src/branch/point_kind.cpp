@@ -1,5 +1,6 @@
 #include "branch/point_kind.hpp"
 
+#include "branch/bounds.hpp"
 #include "branch/contact_points.hpp"
 #include "branch/multiplier_points.hpp"
 #include "branch/parameter_points.hpp"
@@ -65,6 +66,7 @@ constexpr std::array table{
                        .may_be_kept = true,
                        .mark = 5},
               .test = test_branch_point,
+              .confirm = confirm_branch_point,
               .leave = leave_branch_point},
     PointRule{.kind = {.type = PointType::asymmetry,
                        .short_name = "SB",
@@ -218,6 +220,7 @@ constexpr std::array table{
                        .changes = true,
                        .limits = true,
                        .mark = 15}},
+    PointRule{.kind = {.type = PointType::hopf, .short_name = "HB", .name = "Hopf point", .changes = true, .mark = 5}},
     PointRule{
         .kind = {.type = PointType::extremum, .short_name = "EX", .name = "extremum", .may_stop = true, .mark = 1},
         .test = test_extremum,

@@ -1,10 +1,13 @@
 #include "branch/point_locator.hpp"
 
+#include "branch/bounds.hpp"
+#include "branch/missed_points.hpp"
 #include "branch/point_kind.hpp"
 #include "branch/point_rules.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace graze {
 
@@ -13,6 +16,15 @@ namespace {
 constexpr int most_locating_steps = 60;
 /// Fraction of a step to which points are located.
 constexpr double located_within = 1e-13;
+/// Fraction of a step by which what is located on a bound may lie beyond it.
+constexpr double on_bound = 1e-8;
+
+/// Of a least value that appears in an arc, or vanishes from it, whether it does so elsewhere than at zero: as where an
+/// event's function has begun to rise from beyond its surface, which changes nothing.
+bool is_jump(const BranchTest& touch) {
+    constexpr double zero = 1e-5; // of the function's size along the arc
+    return is_grazing(touch.type) && !touch.at_end && std::abs(touch.value) * smallest_clearance > zero * touch.noise;
+}
 
 } // namespace
 
@@ -24,24 +36,144 @@ std::vector<SpecialPoint> PointLocator::locate_all(const BranchPoint& before, co
     for (std::size_t i = 0; i < tests.size(); ++i)
         for (const auto& [low, high] : brackets_of(i, tests[i].value))
             if (std::optional<SpecialPoint> special = locate(i, low, high)) {
-                special->bracket = std::minmax(before.parameter, point_->parameter);
-                special->step = point_->step;
-                accept_limit(*special, before.solution.certificate.admissible);
-                if (!tests[i].singular)
-                    special->solution.error = state_->error_of(special->solution.orbit, special->tangent);
+                note(*special, before, tests[i].singular);
                 found.push_back(std::move(*special));
             }
+    const std::size_t count = found.size();
+    add_bounds_before(found, tests);
+    for (std::size_t i = count; i < found.size(); ++i)
+        note(found[i], before, false);
     older_ = tests;
     older_arclength_ = from;
-    std::stable_sort(found.begin(), found.end(),
-                     [](const SpecialPoint& a, const SpecialPoint& b) { return a.arclength < b.arclength; });
+    sort_by_place(found);
+    for (SpecialPoint& special : found) {
+        if (special.type == PointType::bound)
+            break;
+        if (!is_beyond(special, tests)) {
+            put_on_bounds(state_->settings(), special.solution.orbit);
+            special.parameter = special.solution.orbit.parameters[state_->settings().parameter.place()];
+        }
+    }
     merge(found, length);
     drop_crossings_of_nothing(*state_, found, length);
     drop_multipliers_of_resonances(found, length);
     drop_parts_of_sensitivity(found, length);
     drop_folds_of_return(*state_, found, length);
+    drop_turns_at_branch_points(found, length);
     state_->problem().evaluate(state_->continuation().point().u);
     return found;
+}
+
+/// What happens on a bound happens before the branch ends there.
+void PointLocator::sort_by_place(std::vector<SpecialPoint>& found) const {
+    const Continuation& continuation = state_->continuation();
+    const double length = continuation.point().arclength - continuation.previous().arclength;
+    const auto place = [&](const SpecialPoint& special) {
+        return special.arclength + (special.type == PointType::bound ? on_bound * length : 0);
+    };
+    std::stable_sort(found.begin(), found.end(),
+                     [&](const SpecialPoint& a, const SpecialPoint& b) { return place(a) < place(b); });
+}
+
+void PointLocator::add_missed(std::vector<SpecialPoint>& found, const BranchPoint& before,
+                              const std::vector<BranchTest>& tests) {
+    constexpr double beside = 1e-4; // fraction of the step: where contacts end determinants vanish for that reason
+    constexpr double same_place = 1e-7;
+    const BranchSettings& settings = state_->settings();
+    if (settings.kept || !settings.free.empty() || tests.size() != tests_->size())
+        return; // there folds need no multiplier
+    const double from = before.arclength, length = point_->arclength - from;
+    if (!(length > 0))
+        return;
+    StepSample low{0, tests, multipliers_followed(before.solution)},
+        high{1, *tests_, multipliers_followed(point_->solution)};
+    std::vector<SpecialPoint> known;
+    for (const SpecialPoint& one : found) {
+        const bool is_limit = kind_of(one.type).limits || is_degenerate(*state_, one);
+        if (is_limit) {
+            ContinuationPoint at;
+            BranchPoint there;
+            high.fraction = (one.arclength - from) / length - beside;
+            if (!(high.fraction > 0) || !state_->continuation().between(high.fraction, at) ||
+                !state_->describe(at, there, high.tests))
+                return;
+            high.multipliers = multipliers_followed(there.solution);
+            break;
+        }
+        known.push_back(one);
+    }
+    const auto locate_test = [&](std::size_t test, const TestValue& first, const TestValue& last) {
+        return locate(test, first, last);
+    };
+    for (SpecialPoint& one : missed_points(*state_, low, high, known, locate_test)) {
+        // Where more cross than its test has told of, the one that says so takes the place of the other.
+        std::erase_if(found, [&](const SpecialPoint& other) {
+            return other.type == one.type && std::abs(other.arclength - one.arclength) < same_place * length;
+        });
+        note(one, before, one.type == PointType::branch_point);
+        found.push_back(std::move(one));
+    }
+    sort_by_place(found);
+    state_->problem().evaluate(state_->continuation().point().u);
+}
+
+void PointLocator::note(SpecialPoint& special, const BranchPoint& before, bool singular) {
+    special.bracket = std::minmax(before.parameter, point_->parameter);
+    special.step = point_->step;
+    accept_limit(special, before.solution.certificate.admissible);
+    if (!singular)
+        special.solution.error = state_->error_of(special.solution.orbit, special.tangent);
+}
+
+/// Bounds that the branch has crossed before a point that was found, to come back within the same step.
+void PointLocator::add_bounds_before(std::vector<SpecialPoint>& found, const std::vector<BranchTest>& tests) {
+    const LastStep step = state_->last_step();
+    const std::vector<SpecialPoint> all = found;
+    for (const SpecialPoint& one : all) {
+        const bool known = std::any_of(found.begin(), found.end(), [&](const SpecialPoint& other) {
+            return other.type == PointType::bound && other.arclength <= one.arclength;
+        });
+        if (known || !is_beyond(one, tests))
+            continue;
+        const std::vector<BranchTest> there =
+            tests_of_bounds(state_->settings(), one.solution.orbit.parameters, one.monitors);
+        std::size_t bound = 0;
+        for (std::size_t i = 0; i < tests.size(); ++i) {
+            if (tests[i].type != PointType::bound)
+                continue;
+            const double value = there[bound++].value;
+            if (tests[i].value > 0 && value < 0)
+                if (auto special = locate(i, {0, tests[i].value}, {step.fraction(one.arclength), value}))
+                    found.push_back(std::move(*special));
+        }
+    }
+}
+
+/// By more than what its location leaves uncertain.
+bool PointLocator::is_beyond(const SpecialPoint& special, const std::vector<BranchTest>& tests) const {
+    if (special.type == PointType::bound)
+        return false;
+    const std::vector<BranchTest> there =
+        tests_of_bounds(state_->settings(), special.solution.orbit.parameters, special.monitors);
+    std::size_t bound = 0;
+    for (std::size_t i = 0; i < tests.size(); ++i) {
+        if (tests[i].type != PointType::bound)
+            continue;
+        const double change = std::abs((*tests_)[i].value - tests[i].value), value = there[bound++].value;
+        if (value < -std::max(tests[i].noise, on_bound * change))
+            return true;
+    }
+    return false;
+}
+
+bool PointLocator::misses_bound(const std::vector<SpecialPoint>& found, const std::vector<BranchTest>& tests) const {
+    for (const SpecialPoint& special : found) {
+        if (special.type == PointType::bound)
+            return false;
+        if (is_beyond(special, tests))
+            return true;
+    }
+    return is_beyond_bounds(*tests_);
 }
 
 /// At the end of what is admissible round-off would decide: the limit of admissible orbits is one.
@@ -68,13 +200,14 @@ std::vector<std::pair<TestValue, TestValue>> PointLocator::brackets_of(std::size
     const bool is_zero = std::abs(low.value) <= noise || std::abs(high.value) <= noise;
     if ((*tests_)[test].type == PointType::double_grazing && is_zero && noise > 0)
         return {};
+    // What begins on a bound may lie beyond it by round-off, and comes within.
+    if ((*tests_)[test].type == PointType::bound && !(low.value > 0))
+        return {};
     if (low.value * high.value < 0 || appeared || vanished || (high.value == 0 && low.value != 0))
         return {{low, high}};
     if (older_.size() != tests_->size() || !(low.value * high.value > 0))
         return {};
-    const double from = state_->arclength(state_->continuation().previous().arclength);
-    const double length = state_->arclength(state_->continuation().point().arclength) - from;
-    const auto dip = possible_dip({(older_arclength_ - from) / length, older_[test].value}, low, high);
+    const auto dip = possible_dip({state_->last_step().fraction(older_arclength_), older_[test].value}, low, high);
     ContinuationPoint at;
     if (!dip || !state_->continuation().between(*dip, at))
         return {};
@@ -89,13 +222,28 @@ std::vector<std::pair<TestValue, TestValue>> PointLocator::brackets_of(std::size
 }
 
 std::optional<SpecialPoint> PointLocator::locate(std::size_t test, const TestValue& low, const TestValue& high) {
-    return (*tests_)[test].singular ? locate_branch_point(test, low, high) : locate_zero(test, low, high);
+    if ((*tests_)[test].singular)
+        return locate_by_crossing(test, low, high);
+    bool complete = true;
+    std::optional<SpecialPoint> special = locate_zero(test, low, high, complete);
+    const Continuation& continuation = state_->continuation();
+    const bool crossed = continuation.previous().determinant * continuation.point().determinant < 0;
+    if (!crossed || complete)
+        return special;
+    if (std::optional<SpecialPoint> beside = locate_by_crossing(test, low, high))
+        return beside;
+    if (special && special->type == PointType::bound)
+        return std::nullopt; // to be asked for again with shorter steps
+    if (special)
+        special->located = false;
+    return special;
 }
 
 /// The zero of a test within the last step, by the secant method kept within a bracket (M. Dowell and
 /// P. Jarratt's Illinois variant of regula falsi, 1971). A value without meaning, as where a minimum does not exist
 /// yet, counts as positive but of unknown size.
-std::optional<SpecialPoint> PointLocator::locate_zero(std::size_t test, const TestValue& begin, const TestValue& end) {
+std::optional<SpecialPoint> PointLocator::locate_zero(std::size_t test, const TestValue& begin, const TestValue& end,
+                                                      bool& complete) {
     double low = begin.fraction, low_value = begin.value, high = end.fraction, high_value = end.value;
     double fraction = 0;
     const double size = std::fmax(std::abs(low_value), std::abs(high_value));
@@ -103,15 +251,20 @@ std::optional<SpecialPoint> PointLocator::locate_zero(std::size_t test, const Te
     BranchPoint there;
     std::vector<BranchTest> tests;
     bool found_any = false;
+    std::optional<BranchTest> last; // of those whose value has a meaning
     int side = 0;
     for (int i = 0; i < most_locating_steps && high - low > located_within; ++i) {
         fraction = low - low_value * (high - low) / (high_value - low_value); // NaN if one of them is
         if (!(fraction > low && fraction < high) || i % 8 == 7)
             fraction = 0.5 * (low + high);
-        if (!state_->continuation().between(fraction, at) || !state_->describe(at, there, tests))
+        if (!state_->continuation().between(fraction, at) || !state_->describe(at, there, tests)) {
+            complete = false;
             break;
+        }
         found_any = true;
         const double value = tests[test].value;
+        if (std::isfinite(value))
+            last = tests[test];
         if (value == 0)
             break;
         if ((value < 0) == (low_value < 0)) {
@@ -126,31 +279,28 @@ std::optional<SpecialPoint> PointLocator::locate_zero(std::size_t test, const Te
             side = 1;
         }
     }
-    return found_any ? special_at(there, tests[test], size) : std::nullopt;
+    return found_any && !(last && is_jump(*last)) ? special_at(there, tests[test], size) : std::nullopt;
 }
 
-/// Where another branch crosses, at which determinants are zero.
-std::optional<SpecialPoint> PointLocator::locate_branch_point(std::size_t test, const TestValue& low,
-                                                              const TestValue& high) {
-    const std::optional<ContinuationPoint> at = locate_crossing(state_->continuation(), low, high);
-    if (!at)
-        return std::nullopt;
+/// Where another branch crosses, at which determinants are zero, or beside that.
+std::optional<SpecialPoint> PointLocator::locate_by_crossing(std::size_t test, const TestValue& low,
+                                                             const TestValue& high) {
     BranchPoint there;
     std::vector<BranchTest> tests;
-    if (!state_->describe(*at, there, tests))
+    const PointTest value = [&](const ContinuationPoint& sample) {
+        if ((*tests_)[test].singular)
+            return sample.determinant;
+        return state_->describe(sample, there, tests) ? tests[test].value : std::numeric_limits<double>::quiet_NaN();
+    };
+    const std::optional<ContinuationPoint> at = locate_crossing(state_->continuation(), value, low, high);
+    if (!at || !state_->describe(*at, there, tests))
         return std::nullopt;
     return special_at(there, tests[test], std::max(std::abs(low.value), std::abs(high.value)));
 }
 
 /// @param size of the test at the ends of the bracket
 std::optional<SpecialPoint> PointLocator::special_at(const BranchPoint& there, const BranchTest& here, double size) {
-    SpecialPoint special;
-    special.type = here.type;
-    special.solution = there.solution;
-    special.parameter = there.parameter;
-    special.arclength = there.arclength;
-    special.tangent = there.tangent;
-    special.monitors = there.monitors;
+    SpecialPoint special = special_of_type(here.type, there);
     special.segment = here.segment;
     special.event = here.event;
     special.time = here.time;

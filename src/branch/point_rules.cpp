@@ -2,6 +2,7 @@
 
 #include "branch/point_kind.hpp"
 #include "orbit/half_orbit.hpp"
+#include "orbit/orbit_flow.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +14,24 @@ int rank(const SpecialPoint& point) {
     return rank ? rank(point) : -1;
 }
 
+namespace {
+
+/// Whether an orbit without contacts is where it began after half of its time. Its cuts need not be at the same place.
+bool repeats_in_half(BranchState& state, const Orbit& orbit, double same) {
+    ModeFlow flow = flow_of(state.problem().equations().simulation());
+    flow.set_parameters(orbit.parameters);
+    std::vector<double> there = orbit.starts.front();
+    if (flow.run(orbit.signature.front().mode, there, 0.5 * orbit.round()) != ModeFlow::Ending::done)
+        return false;
+    const auto& active = state.problem().evaluation().active;
+    return std::all_of(active.begin(), active.end(), [&](std::size_t i) {
+        return state.model().states[i].period ||
+               std::abs(there[i] - orbit.starts.front()[i]) <= same * state.problem().scales()[i];
+    });
+}
+
+} // namespace
+
 bool is_degenerate(BranchState& state, const Orbit& orbit, double same) {
     const Model& model = state.model();
     if (orbit.symmetry)
@@ -22,6 +41,8 @@ bool is_degenerate(BranchState& state, const Orbit& orbit, double same) {
     const std::size_t half = orbit.segments() / 2;
     if (orbit.segments() % 2 != 0)
         return false;
+    if (orbit.signature.front().end == SegmentEnd::cut)
+        return repeats_in_half(state, orbit, same);
     for (std::size_t k = 0; k < half; ++k) {
         if (orbit.signature[k] != orbit.signature[k + half])
             return false;
@@ -62,12 +83,10 @@ namespace {
 bool is_singular_at(BranchState& state, const SpecialPoint& point) {
     constexpr double zero = 1e-3; // share of what it is at the ends
     Continuation& continuation = state.continuation();
-    const double from = state.arclength(continuation.previous().arclength),
-                 length = state.arclength(continuation.point().arclength) - from;
     const double usual =
         std::max(std::abs(continuation.previous().determinant), std::abs(continuation.point().determinant));
     ContinuationPoint there;
-    return !continuation.between((point.arclength - from) / length, there) ||
+    return !continuation.between(state.last_step().fraction(point.arclength), there) ||
            std::abs(there.determinant) < zero * usual;
 }
 
@@ -139,6 +158,25 @@ void drop_folds_of_return(BranchState& state, std::vector<SpecialPoint>& found, 
             return other.type == PointType::fold && std::abs(other.arclength - at) < near * length;
         });
         break;
+    }
+}
+
+void drop_turns_at_branch_points(std::vector<SpecialPoint>& found, double length) {
+    constexpr double same_place = 2e-3; // share of the step: a fold is ill-conditioned beside a branch point
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        if (found[i].type != PointType::branch_point)
+            continue;
+        SpecialPoint crossing = found[i];
+        const auto dropped = std::erase_if(found, [&](const SpecialPoint& other) {
+            return other.type == PointType::fold &&
+                   std::abs(other.arclength - crossing.arclength) < same_place * length;
+        });
+        if (dropped == 0)
+            continue;
+        for (SpecialPoint& one : found)
+            if (one.type == PointType::branch_point && one.arclength == crossing.arclength)
+                one.detail = "the branch turns there, as at a pitchfork";
+        i = 0;
     }
 }
 

@@ -35,4 +35,8 @@ void drop_parts_of_sensitivity(std::vector<SpecialPoint>& found, double length);
 /// Where a branch comes back to the one that it left, the parameter turns: no fold of its own.
 void drop_folds_of_return(BranchState& state, std::vector<SpecialPoint>& found, double length);
 
+/// Where another branch crosses just where this one turns, as a pitchfork seen from the branch that begins there, that
+/// is one point: the fold is left out.
+void drop_turns_at_branch_points(std::vector<SpecialPoint>& found, double length);
+
 } // namespace graze

@@ -115,7 +115,7 @@ TripOrigin trip_origin(const System& system, const FoldPassage& fold, double val
     const FollowedMotion motion =
         follow_motion(simulation, guess.parameters, state, guess.signature.front().mode, more * fold.cycle);
     const auto sections = std::any_of(guess.signature.begin(), guess.signature.end(),
-                                      [](const Segment& one) { return one.end == SegmentEnd::section; });
+                                      [](const Segment& one) { return one.end != SegmentEnd::event; });
     if (!sections && motion.segments.size() >= guess.signature.size() &&
         std::equal(guess.signature.begin(), guess.signature.end(), motion.segments.begin())) {
         for (std::size_t k = 0; k < guess.signature.size(); ++k) {

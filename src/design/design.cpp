@@ -27,7 +27,8 @@ void DesignDimension::require_first(double value) const {
 }
 
 bool Wanted::is_empty() const {
-    return !least && !greatest && !value && !outcome && !overshoot && !least_reset && !clear && sensitivities.empty();
+    return !least && !greatest && !value && !outcome && !overshoot && !least_reset && !clear && sensitivities.empty() &&
+           !least_yield;
 }
 
 std::optional<std::size_t> Design::find_dimension(std::string_view dimension) const {

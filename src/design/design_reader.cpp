@@ -1,6 +1,7 @@
 #include "design/design_reader.hpp"
 
 #include "design/design_keys.hpp"
+#include "design/wanted_reader.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/study/study_catalogue.hpp"
 #include "graze/symbolic/file_name.hpp"
@@ -16,18 +17,6 @@ namespace {
 
 constexpr std::size_t most_overshoots = 100, most_dimensions = 50, most_planes = 20, most_points = 401,
                       most_devices = 1'000'000;
-
-/// An error of what has no place of its own stands where it is named.
-template <class Work>
-auto at(const Place& place, const Work& work) {
-    try {
-        return work();
-    } catch (const InputError& error) {
-        if (!error.place().file.empty())
-            throw;
-        throw InputError(place, error.problem(), error.remedy());
-    }
-}
 
 } // namespace
 
@@ -62,7 +51,7 @@ Design DesignReader::read(const toml::table& root) {
         mistakes_.attempt([&] { read_dimensions(); });
         mistakes_.attempt([&] { read_choices(); });
         with("yield", [&](const TomlEntry& e) { read_yield(e); });
-        with("wanted", [&](const TomlEntry& e) { read_wanted(e); });
+        with("wanted", [&](const TomlEntry& e) { WantedReader(reader_, design_).read(e); });
     }
     mistakes_.throw_noted();
     return std::move(design_);
@@ -353,39 +342,6 @@ void DesignReader::read_yield(const TomlEntry& entry) {
         else
             std::tie(yield.least, yield.greatest) = reader_.range(design_.model, item);
     });
-}
-
-void DesignReader::read_wanted_item(const TomlEntry& item) {
-    Wanted& wanted = design_.wanted;
-    if (item.name == "value" && item.node->is_array()) {
-        std::tie(wanted.least, wanted.greatest) = reader_.range(design_.model, item);
-    } else if (item.name == "value") {
-        wanted.value = number(item);
-    } else if (item.name == "class") {
-        constexpr GrazingOutcome outcomes[] = {GrazingOutcome::lost, GrazingOutcome::persists, GrazingOutcome::folds};
-        wanted.outcome = outcomes[reader_.choice(item, {"trips", "persists", "folds"})];
-    } else if (item.name == "reset") {
-        std::tie(wanted.least_reset, wanted.greatest_reset) = reader_.range(design_.model, item);
-        wanted.reset_place = reader_.toml().place(*item.node);
-    } else if (item.name == "clear") {
-        wanted.clear = reader_.positive(design_.model, item);
-    } else if (item.name == "trip_time") {
-        reader_.each_of(item, {"overshoot", "longest"}, [&](const TomlEntry& one) {
-            (one.name == "overshoot" ? wanted.overshoot : wanted.longest_time) = reader_.positive(design_.model, one);
-        });
-        if (!wanted.overshoot || !wanted.longest_time)
-            reader_.fail(item, fmt::format("{} is not complete", item.path),
-                         "write { overshoot = A, longest = B }: the greatest time at that overshoot");
-    } else {
-        reader_.each_of(item, {}, [&](const TomlEntry& one) {
-            wanted.sensitivities.emplace_back(parameter_of(one, one.name), reader_.positive(design_.model, one));
-        });
-    }
-}
-
-void DesignReader::read_wanted(const TomlEntry& entry) {
-    reader_.each_of(entry, {"value", "class", "trip_time", "reset", "clear", "sensitivity"},
-                    [&](const TomlEntry& item) { read_wanted_item(item); });
 }
 
 } // namespace graze

@@ -32,8 +32,6 @@ private:
     std::optional<std::size_t> dimension_named(const TomlEntry& entry) const;
     void read_choices();
     void read_yield(const TomlEntry& entry);
-    void read_wanted(const TomlEntry& entry);
-    void read_wanted_item(const TomlEntry& item);
     const TomlEntry* key(const std::string& name) const;
     double number(const TomlEntry& entry) const { return reader_.number(design_.model, entry); }
     ParameterId parameter_of(const TomlEntry& entry, const std::string& name) const;

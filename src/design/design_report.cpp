@@ -1,5 +1,6 @@
 #include "graze/design/design_report.hpp"
 
+#include "design/design_yield.hpp"
 #include "graze/results/orbit_motion.hpp"
 #include "graze/symbolic/input_error.hpp"
 
@@ -123,18 +124,11 @@ private:
 
     void add_yield() {
         YieldSettings& settings = report_.yield_settings;
-        for (const DesignDimension& one : design_.dimensions)
-            if (one.tolerance)
-                settings.tolerances.push_back(
-                    one.tolerance->at(one.parameter, orbit_.parameters[one.parameter.place()]));
+        settings = yield_settings_of(design_, orbit_);
         if (settings.tolerances.empty()) {
             report_.no_yield = "no dimension has a tolerance";
             return;
         }
-        settings.devices = design_.yield.devices;
-        settings.seed = design_.yield.seed;
-        settings.least = design_.yield.least ? design_.yield.least : design_.wanted.least;
-        settings.greatest = design_.yield.greatest ? design_.yield.greatest : design_.wanted.greatest;
         settings.jobs = options_.jobs;
         settings.interrupted = options_.interrupted;
         if (options_.progress)

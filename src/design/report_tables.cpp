@@ -115,12 +115,12 @@ void add_wishes(FactRows& facts, const MetWishes& wishes) {
     facts.add("wishes", name_of(wishes.found.outcome),
               wishes.found.reason.empty() ? "the device has all that is wanted" : wishes.found.reason);
     for (std::size_t i = 0; i < wishes.found.wants.size(); ++i) {
+        const Want& want = wishes.list.wants[i];
         const FoundWant& one = wishes.found.wants[i];
-        const std::string text = fmt::format("{}{}", one.met ? "met" : "not met", one.binds ? ", binds" : "");
         if (one.value)
-            facts.add("want_" + wishes.list.wants[i].name, *one.value, "", text);
+            facts.add("want_" + want.name, *one.value, "", words_of(want, one));
         else
-            facts.add("want_" + wishes.list.wants[i].name, "none", text);
+            facts.add("want_" + want.name, "none", words_of(want, one));
     }
 }
 
@@ -289,7 +289,8 @@ Table facts_of(const Design& design, const TripPoint& trip, const DesignReport& 
     if (report.found.map && report.found.map->exists()) {
         facts.add("next_contact", static_cast<double>(report.found.verdict.next_contact), "",
                   "cycles from one contact to the next; 0 where they do not grow");
-        facts.add("first_speed", report.found.verdict.first_speed, "", "of the first contact by overshoot^(1/2)");
+        facts.add("speed_factor", report.found.verdict.first_speed, "",
+                  "speed of the first contact by overshoot^(1/2)");
     }
     facts.add("cycle", orbit.period(), model.time_unit, "time of one");
     add_earlier(facts, trip, report, unit);

@@ -128,6 +128,7 @@ Reset reset_of(const TripPoint& trip, const Orbit& orbit, const ResetOptions& op
     AttractorOptions settle;
     settle.section = section_of(model);
     settle.cycles = options.cycles;
+    settle.chaos_cycles = 0; // what is taken for chaotic here only tells where to go on
     constexpr std::size_t returns = 24;
     settle.largest_period = returns;
     const System system(model);

@@ -14,29 +14,29 @@ namespace {
 
 constexpr double round_off = 1e-13; ///< in scales: so near an end of a range is meant
 
-double scale_of(const Dimension& one) {
+double width_of(const Dimension& one) {
     const double width = one.highest - one.lowest;
     if (one.scale > 0)
         return one.scale;
     return std::isfinite(width) && width > 0 ? width : one.start != 0 ? std::abs(one.start) : 1;
 }
 
+} // namespace
+
 double scale_of(const Want& want) {
     if (want.scale > 0)
-        return want.scale;
+        return want.scale / want.importance;
     const double least = std::isfinite(want.least) ? std::abs(want.least) : 0,
                  most = std::isfinite(want.most) ? std::abs(want.most) : 0;
-    return std::max(least, most);
+    return std::max(least, most) / want.importance;
 }
-
-} // namespace
 
 ScaledWishes::ScaledWishes(const WishList& wishes, const WishOptions& options)
     : wishes_(wishes), options_(options), scale_(index(wishes.dimensions.size())), lowest_(scale_.size()),
       highest_(scale_.size()) {
     for (Eigen::Index i = 0; i < size(); ++i) {
         const Dimension& one = wishes.dimensions[static_cast<std::size_t>(i)];
-        scale_[i] = graze::scale_of(one);
+        scale_[i] = width_of(one);
         lowest_[i] = (one.lowest - one.start) / scale_[i];
         highest_[i] = (one.highest - one.start) / scale_[i];
     }

@@ -26,6 +26,9 @@ struct LimitRow {
     std::optional<double> cap;  ///< it may not be violated more; none: by as much as the elastic variable
 };
 
+/// The departure that counts as one.
+double scale_of(const Want& want);
+
 /// Why no more designs are asked for.
 enum class Left { not_at_all, interrupted, spent, thrown };
 

@@ -26,9 +26,9 @@ std::string own_study_text(const Design& design) {
             text += fmt::format("{}{} = {:.17g}", text.empty() ? "" : ", ", name, value);
         return "{ " + text + " }";
     };
-    const std::string path = design.model_path.ends_with(".toml")
-                                 ? std::filesystem::absolute(design.model_path).string()
-                                 : design.model_path;
+    std::error_code error; // where there is no current folder any more the path stays as it is
+    const std::filesystem::path absolute = std::filesystem::absolute(design.model_path, error);
+    const std::string path = design.model_path.ends_with(".toml") && !error ? absolute.string() : design.model_path;
     std::string text =
         fmt::format("name = {}\nmodel = {}\nset = {}\n", json_text(design.name), json_text(path), list(design.set));
     text += fmt::format("[runs.{}]\nkind = \"orbit\"\nset = {{ {} = {:.17g} }}\n", settled_run, design.control,

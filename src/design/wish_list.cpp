@@ -197,10 +197,12 @@ private:
             result.reason = "the search was interrupted";
         } else if (wishes_.left == Left::spent) {
             result.outcome = WishOutcome::unfinished;
-            result.reason = fmt::format("{} designs were tried, as many as were allowed", wishes_.evaluations);
+            result.reason = fmt::format("{} devices were tried, as many as are allowed; {}", wishes_.evaluations,
+                                        best_ ? "the best of them misses " + missed(result)
+                                              : "none of them has all that is asked for: " + wishes_.problem);
         } else if (!best_) {
             result.outcome = WishOutcome::nowhere;
-            result.reason = fmt::format("none of the {} designs that were tried has all values: {}",
+            result.reason = fmt::format("none of the {} devices that were tried has all that is asked for: {}",
                                         wishes_.evaluations, wishes_.problem);
         } else {
             result.outcome = WishOutcome::unmet;
@@ -208,18 +210,31 @@ private:
         }
     }
 
+    std::string missed(const FoundDesign& result) const {
+        std::string names;
+        for (std::size_t j = 0; j < result.wants.size(); ++j)
+            if (!result.wants[j].met)
+                names += (names.empty() ? "" : ", ") + wishes_.list().wants[j].in_words();
+        return names;
+    }
+
     std::string conflict(const FoundDesign& result) const {
         std::string names;
         for (std::size_t j = 0; j < result.wants.size(); ++j)
             if (result.wants[j].binds)
-                names += (names.empty() ? "'" : ", '") + wishes_.list().wants[j].name + "'";
+                names += (names.empty() ? "" : ", ") + wishes_.list().wants[j].in_words();
         for (std::size_t i = 0; i < result.dimensions.size(); ++i)
-            if (result.dimensions[i].binds)
-                names += fmt::format(", the range of '{}'", wishes_.list().dimensions[i].name);
+            if (result.dimensions[i].binds) {
+                const Dimension& one = wishes_.list().dimensions[i];
+                names += fmt::format("{}the range of '{}' ({:.6g} to {:.6g})", names.empty() ? "" : ", ", one.name,
+                                     one.lowest, one.highest);
+            }
         if (!result.stationary && wishes_.missing > 0)
-            return "the best design lies beside others without all values: " + wishes_.problem;
-        return result.stationary ? "no design beside this one is better; what holds it: " + names
-                                 : "no better design was found";
+            return fmt::format(
+                "missed: {}; the closest device lies beside others that have not all that is asked for: {}",
+                missed(result), wishes_.problem);
+        return result.stationary ? "no device near this one comes closer; in the way: " + names
+                                 : "missed: " + missed(result) + "; no closer device was found";
     }
 
     ScaledWishes wishes_;
@@ -234,6 +249,47 @@ private:
 }
 
 } // namespace
+
+std::string Want::limits_in_words() const {
+    if (!limits.empty())
+        return limits + " is wanted";
+    if (least == most)
+        return fmt::format("{:.6g} is wanted", least);
+    if (!std::isfinite(least))
+        return fmt::format("at most {:.6g} is wanted", most);
+    if (!std::isfinite(most))
+        return fmt::format("at least {:.6g} is wanted", least);
+    return fmt::format("{:.6g} to {:.6g} is wanted", least, most);
+}
+
+std::string Want::in_words() const {
+    return fmt::format("{} ({})", text.empty() ? "'" + name + "'" : text, limits_in_words());
+}
+
+FoundWant found_want(const Want& want, std::optional<double> value, double tolerance) {
+    FoundWant found;
+    found.value = value;
+    found.violation = std::numeric_limits<double>::infinity();
+    if (value)
+        found.violation = std::max({0.0, *value - want.most, want.least - *value}) / scale_of(want);
+    found.met = found.violation <= tolerance;
+    return found;
+}
+
+std::string words_of(const Want& want, const FoundWant& found) {
+    if (found.met)
+        return found.binds ? "met, binds" : "met";
+    std::string text = "not met: " + want.limits_in_words();
+    if (found.value) {
+        constexpr double percent = 100;
+        const double limit = *found.value > want.most ? want.most : want.least;
+        if (want.scale == 0 && limit != 0)
+            text += fmt::format(", {:.3g} percent off", percent * std::abs((*found.value - limit) / limit));
+    }
+    if (want.importance != 1)
+        text += fmt::format(", counted {:g} times", want.importance);
+    return text + (found.binds ? ", binds" : "");
+}
 
 void WishList::validate() const {
     for (const Dimension& one : dimensions) {
@@ -257,6 +313,9 @@ void WishList::validate() const {
             refuse(fmt::format("'{}' has no limit", want.name), "give a finite one");
         if (!(want.scale >= 0 && std::isfinite(want.scale)))
             refuse(fmt::format("the scale {} of '{}' is out of range", want.scale, want.name),
+                   "give a positive number");
+        if (!(want.importance > 0 && std::isfinite(want.importance)))
+            refuse(fmt::format("the importance {} of '{}' is out of range", want.importance, want.name),
                    "give a positive number");
         if (want.scale == 0 && !((below && want.least != 0) || (above && want.most != 0)))
             refuse(fmt::format("'{}' has no scale", want.name), "say which departure counts as one");

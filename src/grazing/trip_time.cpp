@@ -1,6 +1,7 @@
 #include "graze/grazing/trip_time.hpp"
 
 #include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/rounded.hpp"
 #include "grazing/trip_start.hpp"
 #include "orbit/eigen_index.hpp"
 
@@ -160,11 +161,11 @@ bool hand_over(PredictedTrip& trip, const Passes& passes, bool half) {
 
 std::vector<double> usual_overshoots(double value, int side) {
     const int size = value != 0 ? static_cast<int>(std::floor(std::log10(std::abs(value)))) : 0;
-    const char* sign = side < 0 ? "-" : "";
     constexpr int least = 20;
     std::vector<double> result;
     for (int digits = 2; digits <= least; digits += 2)
-        result.push_back(std::stod(fmt::format("{}1e{}", sign, size - digits)));
+        if (const double overshoot = rounded(std::pow(10.0, size - digits), 1); overshoot > 0) // not beyond all numbers
+            result.push_back(side < 0 ? -overshoot : overshoot);
     return result;
 }
 

@@ -1,5 +1,6 @@
 #include "graze/grazing/verdict.hpp"
 
+#include "base/decompositions.hpp"
 #include "graze/grazing/map_motion.hpp"
 #include "orbit/eigen_index.hpp"
 
@@ -44,21 +45,21 @@ struct Modes {
 };
 
 Modes modes_of(const Scaled& map, const std::vector<double>& projections) {
-    const Eigen::EigenSolver<Eigen::MatrixXd> solver(map.matrix);
+    const auto system = eigensystem(map.matrix);
     Modes modes;
-    if (solver.info() != Eigen::Success)
+    if (!system)
         return modes;
-    const Eigen::MatrixXcd vectors = solver.eigenvectors();
+    const Eigen::MatrixXcd& vectors = system->vectors;
     const Eigen::VectorXcd amounts = vectors.fullPivLu().solve(map.impact.cast<Complex>());
     const Eigen::RowVectorXcd seen = map.gradient.cast<Complex>().transpose() * vectors;
     std::vector<Eigen::Index> order(static_cast<std::size_t>(amounts.size()));
     for (std::size_t i = 0; i < order.size(); ++i)
         order[i] = index(i);
     std::sort(order.begin(), order.end(), [&](Eigen::Index one, Eigen::Index other) {
-        return std::abs(solver.eigenvalues()[one]) > std::abs(solver.eigenvalues()[other]);
+        return std::abs(system->values[one]) > std::abs(system->values[other]);
     });
     for (const Eigen::Index i : order) {
-        modes.multipliers.push_back(solver.eigenvalues()[i]);
+        modes.multipliers.push_back(system->values[i]);
         modes.weights.push_back(seen[i] * amounts[i]);
     }
     modes.known = true;

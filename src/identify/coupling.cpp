@@ -2,6 +2,7 @@
 
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/require.hpp"
+#include "identify/load_balance.hpp"
 
 #include <Eigen/Dense>
 
@@ -37,22 +38,6 @@ Eigen::Vector2d regression_of(std::span<const StaticLoad> loads, const CouplingS
     return {found[0] * found[0], found[1]};
 }
 
-/// Both sides of the equilibrium times (beta2 + d - q)^2, less one another, and derivatives.
-struct Balance {
-    double rest = 0;
-    double by_displacement = 0, by_current = 0, by_beta1 = 0, by_beta2 = 0, by_stiffness = 0;
-
-    Balance(const StaticLoad& load, const CouplingSettings& settings, const Eigen::Vector2d& betas) {
-        const double q = load.displacement, space = betas[1] + settings.gap - q, k = 2 * settings.stiffness;
-        rest = k * q * space * space - betas[0] * load.current * load.current;
-        by_displacement = k * (space * space - 2 * q * space);
-        by_current = -2 * betas[0] * load.current;
-        by_beta1 = -load.current * load.current;
-        by_beta2 = 2 * k * q * space; // and by the gap
-        by_stiffness = 2 * q * space * space;
-    }
-};
-
 void require_loads(std::span<const StaticLoad> loads, const CouplingSettings& settings) {
     for (const StaticLoad& load : loads) {
         require_finite(load.displacement, "the displacement of an equilibrium");
@@ -64,6 +49,8 @@ void require_loads(std::span<const StaticLoad> loads, const CouplingSettings& se
         if (value < 0)
             throw InputError("what is known beforehand is negative", "give positive numbers");
     }
+    if (settings.gap == 0)
+        throw InputError("there is no gap", "give the gap at rest");
     constexpr std::size_t fewest = 3;
     if (loads.size() < fewest || !(settings.stiffness > 0))
         throw InputError("there are too few equilibria, or no stiffness", "give three or more, and m w0^2");
@@ -93,7 +80,7 @@ Coupling coupling(std::span<const StaticLoad> loads, const CouplingSettings& set
     std::vector<double> deviations(loads.size());
     const auto weigh = [&] {
         for (std::size_t i = 0; i < loads.size(); ++i) {
-            const Balance balance(points[i], settings, betas);
+            const LoadBalance balance(points[i], settings, betas[0], betas[1]);
             const double deviation = std::hypot(balance.by_displacement * noise_q, balance.by_current * noise_i);
             if (!(deviation > 0))
                 throw InputError("an equilibrium is where neither noise would show", "give noise of the currents, too");
@@ -109,7 +96,7 @@ Coupling coupling(std::span<const StaticLoad> loads, const CouplingSettings& set
     };
     const auto move_points = [&](const Eigen::VectorXd& left) {
         for (std::size_t i = 0; i < loads.size(); ++i) {
-            const Balance balance(points[i], settings, betas);
+            const LoadBalance balance(points[i], settings, betas[0], betas[1]);
             const double share = left[static_cast<Eigen::Index>(i)] / deviations[i];
             points[i].displacement = loads[i].displacement - noise_q * noise_q * balance.by_displacement * share;
             points[i].current = loads[i].current - noise_i * noise_i * balance.by_current * share;
@@ -154,9 +141,10 @@ Coupling coupling(std::span<const StaticLoad> loads, const CouplingSettings& set
     const double both = std::sqrt(by_noise(0, 0) * by_noise(1, 1));
     result.correlation = both > 0 ? by_noise(0, 1) / both : 0;
     for (const StaticLoad& load : loads) {
-        const Balance balance(load, settings, betas);
+        const LoadBalance balance(load, settings, betas[0], betas[1]);
         result.residuals.push_back(balance.by_displacement != 0 ? balance.rest / balance.by_displacement : 0);
     }
+    result.reasons = reasons_against(loads, points, settings, betas[0], betas[1], noise_q, noise_i);
     return result;
 }
 

@@ -4,15 +4,13 @@
 #include "graze/record/spectrum.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/require.hpp"
+#include "identify/damped_sine.hpp"
 #include "record/local_polynomial.hpp"
 
-#include <Eigen/Dense>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <optional>
 
 namespace graze {
@@ -117,109 +115,6 @@ std::vector<Period> periods_of(const Samples& samples, const RecordHeader& heade
     return periods;
 }
 
-/// Where an oscillation comes to rest, and the noise about it.
-struct Rest {
-    double value = 0, error = 0;
-    double noise = 0;              ///< standard deviation of a sample
-    double peak = 0, distance = 1; ///< time of one of the oscillation's peaks, and from one to the next
-    double height = 0, decay = 0;  ///< of that one, and how the others' logarithms fall with time
-
-    double height_at(double time) const { return height * std::exp(-decay * (time - peak)); }
-
-    double peak_in(const Period& period) const {
-        const double middle = 0.5 * (period.begin + period.end);
-        return peak + distance * std::round((middle - peak) / distance);
-    }
-};
-
-/// c + exp(-decay s) (a cos(turn s) + b sin(turn s)) through the samples of whole periods by least squares, with s from
-/// 0 to 1.
-class DampedSine {
-public:
-    DampedSine(const std::vector<Period>& periods, const Samples& samples, std::size_t channel, double level)
-        : level_(level) {
-        const double begin = periods.front().begin, end = periods.back().end;
-        for (std::size_t i = 0; i < samples.rows(); ++i)
-            if (samples.times[i] >= begin && samples.times[i] <= end) {
-                places_.push_back((samples.times[i] - begin) / (end - begin));
-                values_.push_back(samples.values[channel][i] - level);
-            }
-        begin_ = begin;
-        length_ = end - begin;
-        turn_ = 2 * std::numbers::pi * static_cast<double>(periods.size());
-        decay_ = 0;
-        if (periods.size() > 1)
-            decay_ = std::log(range_of(periods.front(), channel) / range_of(periods.back(), channel)) *
-                     static_cast<double>(periods.size()) / static_cast<double>(periods.size() - 1);
-    }
-
-    /// @return none where the samples do not follow such an oscillation
-    std::optional<Rest> fit() {
-        constexpr Eigen::Index unknowns = 5;
-        const auto rows = static_cast<Eigen::Index>(places_.size());
-        if (rows <= 2 * unknowns || !std::isfinite(decay_))
-            return std::nullopt;
-        Eigen::MatrixXd slopes(rows, unknowns);
-        Eigen::VectorXd left(rows);
-        Eigen::VectorXd linear = Eigen::VectorXd::Zero(3); // c, a, b
-        constexpr int steps = 100;
-        constexpr double longest = 0.5; // change of the phase in a step, at the end
-        double before = std::numeric_limits<double>::infinity();
-        for (int step = 0; step < steps; ++step) {
-            fill(slopes, left, linear);
-            if (step == 0) { // what is linear is solved for first
-                linear = slopes.leftCols(3).colPivHouseholderQr().solve(left);
-                fill(slopes, left, linear);
-            }
-            const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(slopes);
-            const Eigen::VectorXd change = factors.solve(left);
-            linear += change.head(3);
-            const double size = std::abs(change[3]) + std::abs(change[4]);
-            if (!std::isfinite(size))
-                return std::nullopt;
-            const double share = std::min(1.0, longest / size);
-            turn_ += share * change[3];
-            decay_ += share * change[4];
-            constexpr double enough = 1e-13, nearly = 1e-9;
-            if (size < enough * turn_ || (size < nearly * turn_ && size >= before))
-                return rest_of(slopes, left, linear);
-            before = size;
-        }
-        return std::nullopt;
-    }
-
-private:
-    static double range_of(const Period& period, std::size_t channel) {
-        const std::vector<double>& values = period.samples.values[channel];
-        const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
-        return *greatest - *least;
-    }
-    void fill(Eigen::MatrixXd& slopes, Eigen::VectorXd& left, const Eigen::VectorXd& linear) const {
-        for (Eigen::Index i = 0; i < left.size(); ++i) {
-            const double s = places_[static_cast<std::size_t>(i)], falls = std::exp(-decay_ * s),
-                         c = falls * std::cos(turn_ * s), d = falls * std::sin(turn_ * s);
-            slopes.row(i) << 1, c, d, s * (linear[2] * c - linear[1] * d), -s * (linear[1] * c + linear[2] * d);
-            left[i] = values_[static_cast<std::size_t>(i)] - linear[0] - linear[1] * c - linear[2] * d;
-        }
-    }
-    Rest rest_of(const Eigen::MatrixXd& slopes, const Eigen::VectorXd& left, const Eigen::VectorXd& linear) const {
-        const double variance = left.squaredNorm() / static_cast<double>(left.size() - slopes.cols());
-        const Eigen::MatrixXd normal = slopes.transpose() * slopes;
-        const double of_rest = normal.ldlt().solve(Eigen::VectorXd::Unit(slopes.cols(), 0))[0];
-        const double lag = std::atan(decay_ / turn_), top = std::atan2(linear[2], linear[1]) - lag; // of the phase
-        return {level_ + linear[0],
-                std::sqrt(variance * std::max(0.0, of_rest)),
-                std::sqrt(variance),
-                begin_ + top / turn_ * length_,
-                2 * std::numbers::pi / turn_ * length_,
-                std::hypot(linear[1], linear[2]) * std::exp(-decay_ * top / turn_) * std::cos(lag),
-                decay_ / length_};
-    }
-
-    double level_, begin_ = 0, length_ = 1, turn_ = 0, decay_ = 0;
-    std::vector<double> places_, values_;
-};
-
 /// A polynomial near a peak, and where its top is.
 struct PeakFit {
     double time = 0, middle = 0, width = 1;
@@ -250,8 +145,25 @@ std::size_t powers_for(double noise_by_height) {
     return 8;
 }
 
+/// What is fitted to all peaks of a release, so that what is left of the wave is the same part of each of them: where
+/// noise alone decides from peak to peak, the later ones are lower by it, and damping comes out too strong.
+struct PeakShape {
+    bool noisy = false; ///< the highest sample says little, and it takes more of the wave to see that it bends
+    std::size_t degree = 2;
+};
+
+/// Of peaks with such heights. @param samples of the channel in about a third of a period
+PeakShape shape_of(double highest, double lowest, double noise, double samples) {
+    constexpr double much = 0.02;
+    PeakShape shape;
+    shape.noisy = noise > much * lowest;
+    if (!shape.noisy) // a parabola leaves more
+        shape.degree = powers_for(noise / std::sqrt(std::max(1.0, samples)) / highest);
+    return shape;
+}
+
 /// That of the samples around the highest one of a period. @return whether it has a top that stands out from the noise
-bool fit_peak(const Period& period, std::size_t channel, const Rest& rest, PeakFit& peak) {
+bool fit_peak(const Period& period, std::size_t channel, const Rest& rest, const PeakShape& shape, PeakFit& peak) {
     const std::vector<double>&times = period.samples.times, &values = period.samples.values[channel];
     std::size_t highest = times.size();
     for (std::size_t i = 0; i < times.size(); ++i)
@@ -268,11 +180,11 @@ bool fit_peak(const Period& period, std::size_t channel, const Rest& rest, PeakF
         --first;
     while (last + 1 < values.size() && values[last + 1] > nearly)
         ++last;
-    // Where there is much, the highest sample says little, and it takes more of the wave to see that it bends.
-    constexpr double much = 0.02, wider = 0.25;
-    const bool noisy = rest.noise > much * (values[highest] - rest.value);
-    const double middle = noisy ? rest.peak_in(period) : 0.5 * (times[first] + times[last]);
-    const double width = (noisy ? wider : reach) * rest.distance;
+    constexpr double wider = 0.25, fewest_within = 5;
+    const double spacing = rest.distance / static_cast<double>(std::max<std::size_t>(1, times.size()));
+    const bool wide = shape.noisy || 2 * reach * rest.distance < fewest_within * spacing;
+    const double middle = shape.noisy ? rest.peak_in(period) : 0.5 * (times[first] + times[last]);
+    const double width = (wide ? wider : reach) * rest.distance;
     std::vector<double> places, heights;
     for (std::size_t i = 0; i < times.size(); ++i)
         if (std::abs(times[i] - middle) <= width) {
@@ -282,10 +194,7 @@ bool fit_peak(const Period& period, std::size_t channel, const Rest& rest, PeakF
     constexpr std::size_t fewest = 4;
     if (places.size() < fewest)
         return false;
-    constexpr std::size_t parabola = 2; // leaves the same part of all heights
-    const double of_mean = rest.noise / std::sqrt(static_cast<double>(places.size()));
-    const std::size_t degree = noisy ? parabola : powers_for(of_mean / (values[highest] - rest.value));
-    const LocalPolynomial fit(places, std::min(degree, places.size() / 2));
+    const LocalPolynomial fit(places, std::min(shape.degree, places.size() / 2));
     const std::vector<double> powers = fit.powers(heights.data());
     double x = 0;
     constexpr int steps = 50;
@@ -340,6 +249,27 @@ DecayPeaks at_common_times(const std::vector<PeakFit>& fits) {
     return peaks;
 }
 
+/// Those that stand out, until one does not.
+std::vector<PeakFit> fits_of(const std::vector<Period>& periods, std::size_t channel, const Rest& rest) {
+    const auto fits_by = [&](std::size_t most, const auto& shape_at) {
+        std::vector<PeakFit> fits;
+        PeakFit fit;
+        for (std::size_t k = 0; k < most && fit_peak(periods[k], channel, rest, shape_at(k), fit); ++k)
+            fits.push_back(fit);
+        return fits;
+    };
+    constexpr double width = 0.3; // of a period
+    const double samples = width * static_cast<double>(periods.front().samples.rows());
+    const auto height = [&](std::size_t k) { return rest.height_at(rest.peak_in(periods[k])); };
+    const std::size_t count = fits_by(periods.size(), [&](std::size_t k) {
+                                  return shape_of(height(k), height(k), rest.noise, samples);
+                              }).size();
+    if (count == 0)
+        return {};
+    const PeakShape shape = shape_of(height(0), height(count - 1), rest.noise, samples);
+    return fits_by(count, [&](std::size_t) { return shape; });
+}
+
 } // namespace
 
 DecayPeaks decay_peaks(SampleSource& source, std::size_t channel, std::size_t most) {
@@ -362,13 +292,7 @@ DecayPeaks decay_peaks(SampleSource& source, std::size_t channel, std::size_t mo
     if (!found)
         throw InputError(fmt::format("'{}' is no oscillation that dies out", name),
                          "give the record of a single one, from its release on (graze identify ... --from T --to T)");
-    std::vector<PeakFit> fits;
-    PeakFit fit;
-    for (const Period& period : periods) {
-        if (!fit_peak(period, channel, *found, fit))
-            break;
-        fits.push_back(fit);
-    }
+    const std::vector<PeakFit> fits = fits_of(periods, channel, *found);
     if (fits.size() < 2)
         throw InputError(fmt::format("of the peaks of '{}' {} of {} stand out from the noise, of {:.2g} a sample", name,
                                      fits.size(), periods.size(), found->noise),
@@ -376,7 +300,8 @@ DecayPeaks decay_peaks(SampleSource& source, std::size_t channel, std::size_t mo
                          "release");
     DecayPeaks peaks = at_common_times(fits);
     peaks.rest = found->value;
-    peaks.rest_error = found->error;
+    peaks.rest_error = found->error * found->wave.left.widening;
+    peaks.wave = found->wave;
     return peaks;
 }
 

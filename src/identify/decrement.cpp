@@ -3,11 +3,12 @@
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/require.hpp"
 
-#include <fmt/format.h>
+#include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace graze {
 
@@ -116,6 +117,49 @@ Decrement logarithmic_decrement(std::span<const DecayPeaks> releases) {
     }
     result.pair_damping /= pairs;
     result.pair_frequency /= pairs;
+    return result;
+}
+
+DampedOscillation damped_oscillation(std::span<const DecayWave> releases) {
+    if (releases.empty())
+        throw InputError("there are no releases", "give one or more");
+    Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+    Eigen::Vector2d weighted = Eigen::Vector2d::Zero();
+    const auto point_of = [](const DecayWave& wave) { return Eigen::Vector2d(wave.turn, wave.decay); };
+    std::vector<Eigen::Matrix2d> weights;
+    double freedom = 0;
+    for (const DecayWave& wave : releases) {
+        for (const double value : {wave.turn, wave.decay, wave.turn_variance, wave.decay_variance, wave.covariance})
+            require_finite(value, "a number of a wave");
+        if (!(wave.turn > 0) || !(wave.freedom > 0))
+            throw InputError("a wave has no frequency, or no samples", "give waves of decay_peaks");
+        // Of exact samples the errors are nought: then all count the same, by round-off.
+        const double least = std::pow(1e-15 * wave.turn, 2);
+        Eigen::Matrix2d covariance;
+        covariance << wave.turn_variance + least, wave.covariance, wave.covariance, wave.decay_variance + least;
+        weights.emplace_back(covariance.inverse());
+        information += weights.back();
+        weighted += weights.back() * point_of(wave);
+        freedom += wave.freedom;
+    }
+    const Eigen::Matrix2d covariance = information.inverse();
+    const Eigen::Vector2d mean = covariance * weighted;
+    DampedOscillation result;
+    if (releases.size() > 1) {
+        double departures = 0;
+        for (std::size_t r = 0; r < releases.size(); ++r) {
+            const Eigen::Vector2d departure = point_of(releases[r]) - mean;
+            departures += departure.dot(weights[r] * departure);
+        }
+        const double count = 2 * static_cast<double>(releases.size() - 1);
+        result.chance = fisher_tail(departures / count, count, freedom);
+    }
+    const double size = mean.norm();
+    const Eigen::Vector2d by_frequency = mean / size,
+                          by_damping = Eigen::Vector2d(-mean[0] * mean[1], mean[0] * mean[0]) / std::pow(size, 3);
+    result.frequency = {size, std::sqrt(by_frequency.dot(covariance * by_frequency)), freedom};
+    result.damping = {mean[1] / size, std::sqrt(by_damping.dot(covariance * by_damping)), freedom};
+    result.covariance = by_frequency.dot(covariance * by_damping);
     return result;
 }
 

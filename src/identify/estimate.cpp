@@ -57,6 +57,12 @@ double student_quantile(double probability, double freedom) {
     return 0.5 * (low + high);
 }
 
+double fisher_tail(double ratio, double first, double second) {
+    if (!(ratio >= 0) || !(first > 0) || !(second > 0))
+        throw InputError("there is no such ratio of mean squares", "give no negative one, and positive freedoms");
+    return incomplete_beta(0.5 * second, 0.5 * first, second / (second + first * ratio));
+}
+
 double Estimate::half_width(double probability) const {
     return freedom > 0 ? student_quantile(probability, freedom) * error : 0;
 }

@@ -3,6 +3,7 @@
 #include "graze/symbolic/input_error.hpp"
 #include "identify/fit_beginning.hpp"
 #include "identify/fit_findings.hpp"
+#include "identify/fit_mismatch.hpp"
 #include "identify/fit_solver.hpp"
 #include "identify/fit_start.hpp"
 #include "identify/fit_twins.hpp"
@@ -65,7 +66,24 @@ public:
         point_ = starting_point(rows_);
     }
 
+    /// An ending that is no result tells what does not match, as far as that was computed.
     Fit run() {
+        Fit fit;
+        try {
+            fit = run_to_the_end();
+        } catch (const FitInterruption&) {
+            fit.ending = FitEnding::interrupted;
+            fit.detail = ended_early;
+        }
+        if (fit.ending != FitEnding::converged && !mismatch_.empty())
+            fit.detail += "; " + mismatch_;
+        return fit;
+    }
+
+private:
+    static constexpr const char* ended_early = "the fit was ended before it had converged";
+
+    Fit run_to_the_end() {
         require_noise();
         Fit fit;
         const Way best = best_way(fit);
@@ -73,7 +91,7 @@ public:
         rows_.noise = best.noise;
         if (const std::string broken = unreadable(rows_, best.known); !broken.empty()) {
             fit.ending = best.report.interrupted ? FitEnding::interrupted : FitEnding::broken;
-            fit.detail = broken;
+            fit.detail = best.report.interrupted ? ended_early : broken;
             return fit;
         }
         describe(rows_, best.point, best.known, last_joint, fit);
@@ -83,7 +101,6 @@ public:
         return chosen(best, std::move(fit));
     }
 
-private:
     /// Where a fit has come to.
     struct Way {
         FitLayout layout;
@@ -143,6 +160,7 @@ private:
 
     Way way_here(const StageReport& report) {
         Way way{rows_.layout, rows_.noise, point_, report, rows_.evaluate(point_)};
+        note_mismatch(way.known);
         for (const PieceRows& piece : way.known)
             way.contacts += piece.contacts;
         if (report.interrupted || !unreadable(rows_, way.known).empty())
@@ -168,7 +186,10 @@ private:
         constexpr double same = 0.01, one_error = 0.5; // of logarithms of likelihoods
         Way best = way_here(pass(false, fit));
         const double usual = usual_length();
-        bool again = best.contacts > 0 || !best.noise_alone;
+        // Of what not even free pieces come near no beginning makes a fit.
+        constexpr double hopeless = 0.2; // of the range
+        const bool is_hopeless = greatest_mismatch_ > hopeless;
+        bool again = !is_hopeless && (best.contacts > 0 || !best.noise_alone);
         for (int round = 1; again && round < most_passes && !best.exact && !best.report.interrupted; ++round) {
             restore(best);
             if (round > 1)
@@ -245,7 +266,13 @@ private:
     }
     std::vector<double> noise_here() {
         const std::vector<PieceRows> known = rows_.evaluate(point_);
+        note_mismatch(known);
         return unreadable(rows_, known).empty() ? noise_at(rows_, known) : rows_.noise;
+    }
+    void note_mismatch(const std::vector<PieceRows>& known) {
+        const std::vector<FitMismatch> found = mismatches_of(rows_, known);
+        mismatch_ = text_of(found, rows_.task());
+        greatest_mismatch_ = found.empty() ? 0 : found.front().size;
     }
 
     double usual_length() {
@@ -319,7 +346,7 @@ private:
             fit.detail = std::move(detail);
         };
         if (report.interrupted)
-            return end(FitEnding::interrupted, "the fit was ended before it had converged");
+            return end(FitEnding::interrupted, ended_early);
         if (!checks.broken.empty())
             return end(FitEnding::broken, checks.broken);
         if (!std::all_of(fit.numbers.begin(), fit.numbers.end(), [](const FittedNumber& number) {
@@ -365,6 +392,8 @@ private:
     const FitSettings* settings_;
     FitRows rows_;
     FitPoint point_;
+    std::string mismatch_;         ///< what did not match when all pieces were last looked at
+    double greatest_mismatch_ = 0; ///< relative to the range of the readings
 };
 
 } // namespace
@@ -393,10 +422,10 @@ Fit fit_model(const System& system, const FitTask& task, const FitSettings& sett
     require_task(system, task, settings);
     try {
         return Fitter(system, task, settings).run();
-    } catch (const FitInterruption&) {
+    } catch (const FitInterruption&) { // before there was a point
         Fit fit;
         fit.ending = FitEnding::interrupted;
-        fit.detail = "the fit was ended before it had converged";
+        fit.detail = "the fit was ended before the first motions were known";
         return fit;
     }
 }

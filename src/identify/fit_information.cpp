@@ -1,7 +1,8 @@
 #include "identify/fit_information.hpp"
 
+#include "base/decompositions.hpp"
+
 #include <Eigen/QR>
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
@@ -97,12 +98,12 @@ FitDecomposition decompose(const FitInformation& information, const std::vector<
     for (Eigen::Index c = 0; c < count; ++c)
         scaled.col(c) = result.lengths[c] > 1e-13 * longest ? Eigen::VectorXd(scaled.col(c) / result.lengths[c])
                                                             : Eigen::VectorXd::Zero(count);
-    const Eigen::JacobiSVD<Eigen::MatrixXd> factors(scaled, Eigen::ComputeThinU | Eigen::ComputeThinV);
-    result.values = factors.singularValues();
-    result.directions = factors.matrixV();
+    const SingularValues factors = singular_values(scaled, SingularVectors::thin);
+    result.values = factors.values;
+    result.directions = factors.right;
     result.covariance = Eigen::MatrixXd::Zero(count, count);
     result.step = Eigen::VectorXd::Zero(count);
-    const Eigen::VectorXd left = factors.matrixU().transpose() * information.rows.col(count).head(count);
+    const Eigen::VectorXd left = factors.left.transpose() * information.rows.col(count).head(count);
     result.known.assign(static_cast<std::size_t>(count), true);
     for (Eigen::Index k = 0; k < count; ++k) {
         const bool told = result.values[k] > nothing * result.values[0];

@@ -3,9 +3,12 @@
 #include "graze/identify/coupling.hpp"
 #include "graze/identify/decrement.hpp"
 #include "graze/identify/impedance.hpp"
+#include "graze/identify/residual_test.hpp"
 #include "graze/identify/restitution.hpp"
 #include "graze/record/impacts.hpp"
 #include "graze/symbolic/input_error.hpp"
+#include "identify/doubts.hpp"
+#include "identify/impact_proportion.hpp"
 
 #include <fmt/format.h>
 
@@ -91,6 +94,16 @@ void require_three_peaks(const std::vector<DecayPeaks>& releases, const std::vec
                      "give a longer record or one with less damping, and let --peaks be three or more");
 }
 
+/// A channel that does not jump has places that look like jumps, too: of a displacement they are its corners.
+void require_impacts(const std::string& name, const std::string& channel, const std::vector<RecordedImpact>& impacts) {
+    if (const std::size_t doubtful = doubtful_impacts(impacts); 2 * doubtful >= impacts.size())
+        throw InputError(fmt::format("{}: at {} of {} jumps of '{}' the velocity before is not larger than twice its "
+                                     "error, or has the sign of that after: these are no impacts",
+                                     name, doubtful, impacts.size(), channel),
+                         "look at which channel is the velocity, and give velocities relative to the stop (graze "
+                         "record FILE --what impacts shows them)");
+}
+
 } // namespace
 
 Identification identify_decrement(const EachRecord& records, const IdentificationSettings& settings) {
@@ -107,17 +120,30 @@ Identification identify_decrement(const EachRecord& records, const Identificatio
     });
     require_three_peaks(releases, names);
     const Decrement decrement = logarithmic_decrement(releases);
+    std::vector<DecayWave> waves;
+    for (const DecayPeaks& peaks : releases)
+        waves.push_back(peaks.wave);
+    const DampedOscillation oscillation = damped_oscillation(waves);
     const Channel &time = header.time, &velocity = header.channels[channel];
     const std::string per_time = time.unit.empty() ? "" : "rad/" + time.unit;
     Identification found;
-    found.values = {{"natural_frequency", per_time, decrement.frequency},
-                    {"damping_ratio", "", decrement.damping},
+    found.values = {{"natural_frequency", per_time, oscillation.frequency},
+                    {"damping_ratio", "", oscillation.damping},
                     {"natural_frequency_of_pairs", per_time, {decrement.pair_frequency, 0, 0}},
                     {"damping_ratio_of_pairs", "", {decrement.pair_damping, 0, 0}}};
     std::vector<Estimate> rests;
     for (const DecayPeaks& peaks : releases)
         rests.push_back({peaks.rest, peaks.rest_error, decrement.damping.freedom});
     found.values.push_back({"rest_position", velocity.unit, combine(rests).mean});
+    for (std::size_t r = 0; r < releases.size(); ++r)
+        doubt(found, names[r], velocity.name, releases[r].wave.left, "a damped sine");
+    constexpr double hardly = 1e-4;
+    if (oscillation.chance < hardly)
+        found.warnings.emplace_back(
+            "the releases differ by more than their noise: frequency or damping change from one "
+            "to the next, and intervals are too narrow");
+    if (!(oscillation.damping.value > 0))
+        refuse_value(found, "damping_ratio", "the oscillation grows");
     set_variances(found);
     found.x = {time.name + " since the first peak", time.unit};
     found.y = {"peaks of " + velocity.name, velocity.unit};
@@ -157,13 +183,17 @@ Identification identify_restitution(const EachRecord& records, const Identificat
         UsableSource usable(record, impact_settings.displacement
                                         ? std::vector{impact_settings.velocity, *impact_settings.displacement}
                                         : std::vector{impact_settings.velocity});
-        for (const RecordedImpact& impact : find_impacts(usable, impact_settings))
+        VelocityWatch watched(usable, impact_settings.velocity);
+        const std::vector<RecordedImpact> recorded = find_impacts(watched, impact_settings);
+        for (const RecordedImpact& impact : recorded)
             impacts.push_back({impact.before, impact.after, impact.before_error, impact.after_error});
         if (impacts.size() < 3) { // a sweep begins before there are any
             few = impacts;
             return;
         }
+        require_impacts(name, velocity.name, recorded);
         const Restitution one = restitution(impacts);
+        doubt_impacts(found, name, velocity.name, watched, recorded, one);
         sets.push_back(one.coefficient);
         names.push_back(name);
         Identification::Shown& shown = found.shown.emplace_back();
@@ -191,6 +221,7 @@ Identification identify_restitution(const EachRecord& records, const Identificat
         found.values.push_back({"restitution of " + names[i], "", sets[i]});
     if (sets.size() > 1)
         found.values.push_back({"spread_between_records", "", {all.spread, 0, 0}});
+    refuse_restitutions(found);
     set_variances(found);
     double fastest = 0, slowest = 0;
     for (const Identification::Shown& shown : found.shown)
@@ -243,10 +274,12 @@ Identification identify_coupling(const EachRecord& records, const Identification
                     {"correlation", "", {constants.correlation, 0, 0}},
                     {"beta1_of_regression", product, {constants.regression_beta1, 0, 0}},
                     {"beta2_of_regression", length, {constants.regression_beta2, 0, 0}}};
+    doubt_loads(found, loads, known, constants);
     set_variances(found);
     const std::size_t count = found.values.size();
-    found.covariance[1] = found.covariance[count] =
-        constants.correlation * constants.beta1.error * constants.beta2.error;
+    if (count > 1 && found.values[0].name == "beta1" && found.values[1].name == "beta2")
+        found.covariance[1] = found.covariance[count] =
+            constants.correlation * constants.beta1.error * constants.beta2.error;
     found.x = current;
     found.y = displacement;
     Identification::Shown& shown = found.shown.emplace_back();
@@ -291,19 +324,6 @@ Identification::Shown shown_current(const Samples& all, std::size_t current, con
     return shown;
 }
 
-/// Of coils that nobody has: a channel may be another one, or turned around.
-void warn_of_signs(Identification& found, const std::string& name, const Impedance& one) {
-    const auto warn = [&](const char* what, const Estimate& estimate, const char* remedy) {
-        if (estimate.value < 0)
-            found.warnings.push_back(
-                fmt::format("{}: the {} comes out below zero, as none of a coil does; {}", name, what, remedy));
-    };
-    warn("resistance", one.resistance, "look at the sign of the current or the voltage (--scale NAME=-1)");
-    warn("inductance", one.inductance,
-         "the current leads the voltage: look at which channel is which, at the frequency, and at filters that "
-         "delay one of them");
-}
-
 } // namespace
 
 Identification identify_impedance(const EachRecord& records, const IdentificationSettings& settings) {
@@ -327,7 +347,8 @@ Identification identify_impedance(const EachRecord& records, const Identificatio
         frequencies.push_back({one.frequency / (2 * std::numbers::pi), 0, 0});
         resistances.push_back(one.resistance);
         inductances.push_back(one.inductance);
-        warn_of_signs(found, name, one);
+        doubt(found, name, header.channels[v].name, one.voltage_left, "a sine");
+        doubt(found, name, header.channels[c].name, one.current_left, "a sine");
         if (settings.beta1)
             leakages.push_back(
                 leakage_inductance(one.inductance, *settings.beta1, *settings.beta2, *settings.gap, settings.clamped));
@@ -358,6 +379,7 @@ Identification identify_impedance(const EachRecord& records, const Identificatio
     for (std::size_t i = 0; i < frequencies.size(); ++i)
         found.values.push_back(
             {frequencies.size() == 1 ? "frequency" : "frequency of " + names[i], hertz, frequencies[i]});
+    refuse_signs(found);
     set_variances(found);
     return found;
 }

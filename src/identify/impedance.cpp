@@ -63,6 +63,15 @@ double guessed_frequency(std::span<const double> times, std::span<const double> 
     return best;
 }
 
+ResidualTest test_sine(std::span<const double> times, std::span<const double> values, const Harmonic& sine) {
+    std::vector<double> left;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        const double angle = sine.frequency * times[i];
+        left.push_back(values[i] - sine.offset - sine.sine * std::sin(angle) - sine.cosine * std::cos(angle));
+    }
+    return test_residuals(left, values);
+}
+
 } // namespace
 
 Impedance impedance(std::span<const double> times, std::span<const double> voltage, std::span<const double> current,
@@ -82,15 +91,20 @@ Impedance impedance(std::span<const double> times, std::span<const double> volta
     const double size = result.voltage.amplitude(), flow = result.current.amplitude();
     if (!(flow > 0) || !(size > 0))
         throw InputError("there is no voltage or no current", "give both, of a coil that carries a current");
+    result.voltage_left = test_sine(centred, voltage, result.voltage);
+    result.current_left = test_sine(centred, current, result.current);
+    const double wider_voltage = result.voltage_left.widening, wider_current = result.current_left.widening;
     constexpr double unknowns = 3;
     const double freedom = static_cast<double>(times.size()) - unknowns;
     const double magnitude = size / flow;
-    result.magnitude = {
-        magnitude,
-        magnitude * std::hypot(result.voltage.amplitude_error() / size, result.current.amplitude_error() / flow),
+    result.magnitude = {magnitude,
+                        magnitude * std::hypot(wider_voltage * result.voltage.amplitude_error() / size,
+                                               wider_current * result.current.amplitude_error() / flow),
+                        freedom};
+    result.lag = {
+        std::remainder(result.voltage.phase() - result.current.phase(), 2 * std::numbers::pi),
+        std::hypot(wider_voltage * result.voltage.phase_error(), wider_current * result.current.phase_error()),
         freedom};
-    result.lag = {std::remainder(result.voltage.phase() - result.current.phase(), 2 * std::numbers::pi),
-                  std::hypot(result.voltage.phase_error(), result.current.phase_error()), freedom};
     const double c = std::cos(result.lag.value), s = std::sin(result.lag.value);
     result.resistance = {magnitude * c, std::hypot(c * result.magnitude.error, magnitude * s * result.lag.error),
                          freedom};

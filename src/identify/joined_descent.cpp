@@ -1,10 +1,11 @@
 #include "identify/joined_descent.hpp"
 
+#include "base/decompositions.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "identify/fit_findings.hpp"
 #include "identify/fit_information.hpp"
 
-#include <Eigen/SVD>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -94,10 +95,10 @@ private:
         lengths_ = scaled.colwise().norm();
         for (Eigen::Index c = 0; c < count; ++c)
             scaled.col(c) /= lengths_[c] > 0 ? lengths_[c] : 1;
-        const Eigen::JacobiSVD<Eigen::MatrixXd> factors(scaled, Eigen::ComputeThinU | Eigen::ComputeThinV);
-        values_ = factors.singularValues();
-        directions_ = factors.matrixV();
-        left_ = factors.matrixU().transpose() * information.rows.col(count);
+        const SingularValues factors = singular_values(scaled, SingularVectors::thin);
+        values_ = factors.values;
+        directions_ = factors.right;
+        left_ = factors.left.transpose() * information.rows.col(count);
         for (Eigen::Index k = 0; k < count; ++k)
             left_[k] = is_told(k) ? left_[k] : 0;
         freedom_ = std::max(1.0, readings() - static_cast<double>(count));

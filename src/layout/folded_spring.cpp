@@ -154,8 +154,8 @@ SpringProperties properties_of(const FoldedSpring& spring) {
     if (spring.beams < 2)
         throw InputError(fmt::format("a folded spring has {} beams", spring.beams), "it takes at least two");
     require_positive(spring.beam_length, "length of the flexures");
-    require_positive(spring.beam_width.least(), "width of the flexures after the etch");
-    require_positive(spring.truss_width.least(), "width of the trusses after the etch");
+    require_positive(spring.beam_width, "width of the flexures after the etch");
+    require_positive(spring.truss_width, "width of the trusses after the etch");
     require_positive(spring.spacing, "distance between the flexures after the etch");
     require_positive(spring.half_middle, "distance of the flexures from the middle after the etch");
     require_positive(spring.height, "height of the flexures");
@@ -163,7 +163,7 @@ SpringProperties properties_of(const FoldedSpring& spring) {
     require_not_negative(spring.finger_length, "length of the frame's finger");
     require_not_negative(spring.bar_length, "length of the mass's bars after the etch");
     if (spring.bar_length > 0)
-        require_positive(spring.bar_width.least(), "width of the mass's bars after the etch");
+        require_positive(spring.bar_width, "width of the mass's bars after the etch");
     const Chain chain = chain_of(spring);
     const Load loads = chain.compliance().ldlt().solve(Load::UnitX());
     const double length = spring.beam_length, inertia = spring.beam_width.mean_cube() / 12;

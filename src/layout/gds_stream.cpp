@@ -1,5 +1,10 @@
 #include "graze/layout/gds_stream.hpp"
 
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
+
+#include <fmt/format.h>
+
 #include <cmath>
 #include <initializer_list>
 #include <limits>
@@ -34,7 +39,8 @@ enum GdsRecord : int {
     angle = 0x1c05,
 };
 
-constexpr std::size_t most_corners = 8190, longest_structure_name = 32;
+constexpr std::size_t most_corners = 8190, fewest_corners = 3, longest_structure_name = 32, longest_text = 512;
+constexpr int largest_layer = 32'767;
 
 class GdsWriter {
 public:
@@ -43,12 +49,17 @@ public:
         constexpr double user_unit = 1e-3, metres = 1e-9; // of a nanometre, in user units and in metres
         shorts(header, {version});
         dates(begin_library);
+        if (library.name.size() > longest_text)
+            throw InputError(fmt::format("the name of a library has {} letters, which are more than {}",
+                                         library.name.size(), longest_text),
+                             "shorten it");
         name(library_name, library.name);
         begin(units, 16);
         real(user_unit);
         real(metres);
         for (const LayoutCell& cell : library.cells)
             add(cell);
+        require_order_of_cells(library);
         begin(end_library, 0);
         return std::move(bytes_);
     }
@@ -62,9 +73,14 @@ private:
         for (const CellShape& shape : cell.shapes)
             add(shape);
         for (const CellText& one : cell.texts) {
+            require_finite(one.height, "height of a text");
+            if (one.text.size() > longest_text)
+                throw InputError(fmt::format("a text in cell '{}' has {} letters, which are more than {}", cell.name,
+                                             one.text.size(), longest_text),
+                                 "shorten it");
             begin(text, 0);
-            shorts(layer_number, {one.layer.layer});
-            shorts(text_type, {one.layer.datatype});
+            layer(layer_number, one.layer.layer);
+            layer(text_type, one.layer.datatype);
             shorts(transformation, {0});
             begin(magnification, 8);
             real(one.height);
@@ -80,9 +96,13 @@ private:
     void add(const CellShape& shape) {
         if (shape.polygon.size() > most_corners)
             throw std::length_error("a polygon has more corners than GDSII can have");
+        if (shape.polygon.size() < fewest_corners)
+            throw InputError(
+                fmt::format("a polygon has {} corners instead of {} or more", shape.polygon.size(), fewest_corners),
+                "leave out what has no area");
         begin(boundary, 0);
-        shorts(layer_number, {shape.layer.layer});
-        shorts(data_type, {shape.layer.datatype});
+        layer(layer_number, shape.layer.layer);
+        layer(data_type, shape.layer.datatype);
         GridPolygon closed = shape.polygon;
         closed.push_back(closed.front());
         points(closed);
@@ -91,6 +111,7 @@ private:
 
     void add(const CellReference& reference) {
         constexpr int mirrored = 0x8000;
+        require_finite(reference.degrees, "angle of a cell");
         begin(structure_reference, 0);
         name(referred_name, reference.cell);
         if (reference.mirrored || reference.degrees != 0) {
@@ -104,6 +125,12 @@ private:
         begin(end_element, 0);
     }
 
+    void layer(GdsRecord record, int number) {
+        if (number < 0 || number > largest_layer)
+            throw InputError(fmt::format("layer or datatype {} does not fit in GDSII", number),
+                             fmt::format("choose one from 0 to {}", largest_layer));
+        shorts(record, {number});
+    }
     void bits(std::uint64_t value, int count) {
         for (int shift = count - 8; shift >= 0; shift -= 8)
             bytes_ += static_cast<char>(static_cast<unsigned char>(value >> shift));
@@ -148,6 +175,11 @@ std::uint64_t gds_real(double value) {
     if (value == 0 || !std::isfinite(value))
         return 0;
     int exponent = 0;
+    constexpr double largest = 0x1p251, least = 0x1p-256; // 16^63 less a little, 16^-64
+    if (std::abs(value) > largest)
+        throw std::out_of_range(fmt::format("the number {} does not fit in GDSII", value));
+    if (std::abs(value) < least)
+        return 0;
     double fraction = std::frexp(std::abs(value), &exponent);
     while (exponent % digit_bits != 0) { // a power of 16, and a fraction from 1/16 to 1
         fraction /= 2;

@@ -1,5 +1,9 @@
 #include "graze/layout/layout_cell.hpp"
 
+#include "graze/symbolic/input_error.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -63,10 +67,18 @@ Transform within(const Transform& outer, const CellReference& reference) {
 
 using CellIndex = std::unordered_map<std::string_view, const LayoutCell*>;
 
+/// A cell contains only those before it: none itself.
 CellIndex index_of(const LayoutLibrary& library) {
     CellIndex index;
-    for (const LayoutCell& cell : library.cells)
-        index.emplace(cell.name, &cell);
+    for (const LayoutCell& cell : library.cells) {
+        for (const CellReference& reference : cell.references)
+            if (!index.contains(reference.cell))
+                throw InputError(
+                    fmt::format("cell '{}' refers to '{}', which is not before it", cell.name, reference.cell),
+                    "give each cell after those that it contains, and none within itself");
+        if (!index.emplace(cell.name, &cell).second)
+            throw InputError(fmt::format("there are two cells of the name '{}'", cell.name), "give each its own name");
+    }
     return index;
 }
 
@@ -120,6 +132,10 @@ const LayoutCell* LayoutLibrary::find(std::string_view cell) const {
     const auto found =
         std::find_if(cells.begin(), cells.end(), [&](const LayoutCell& one) { return one.name == cell; });
     return found == cells.end() ? nullptr : &*found;
+}
+
+void require_order_of_cells(const LayoutLibrary& library) {
+    index_of(library);
 }
 
 std::vector<PlacedShape> flattened(const LayoutLibrary& library, std::string_view cell) {

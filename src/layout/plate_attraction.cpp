@@ -20,7 +20,7 @@ EquivalentPlates equivalent_plates(const FacingPlates& plates) {
     require_positive(plates.length, "length of the electrode");
     require_positive(plates.height, "height of the electrode");
     require_not_negative(plates.backing, "depth of the electrode behind the gap");
-    require_positive(plates.gap.least(), "gap of the electrodes after the etch");
+    require_positive(plates.gap, "gap of the electrodes after the etch");
     const double top = plates.gap.top, bottom = plates.gap.bottom;
     const double gap = 2 * top * (bottom / (top + bottom));
     // A/d^2 = (height)(length)/(g0 g1)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "graze/layout/etched_wall.hpp"
 #include "graze/symbolic/input_error.hpp"
 
 #include <fmt/format.h>
@@ -20,6 +21,12 @@ inline std::string size_text(double value, std::string_view unit) {
 inline void require_positive(double value, std::string_view what, std::string_view unit = "m") {
     if (!(value > 0 && std::isfinite(value)))
         throw InputError(fmt::format("the {} is {}", what, size_text(value, unit)), "it must be positive and finite");
+}
+
+/// @throws InputError unless it is positive and finite all over the depth
+inline void require_positive(const EtchedWidth& width, std::string_view what) {
+    require_positive(width.least(), what);
+    require_positive(width.greatest(), what);
 }
 
 /// @throws InputError unless it is finite and not negative

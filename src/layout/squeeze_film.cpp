@@ -21,7 +21,7 @@ void require_gas(const Gas& gas) {
 void require_film(const GasFilm& film) {
     require_positive(film.length, "length of the film");
     require_positive(film.height, "height of the film");
-    require_positive(film.gap.least(), "gap of the film");
+    require_positive(film.gap, "gap of the film");
 }
 
 /// The share that remains of a long film's damping. @param ratio of the shorter side to the longer

@@ -18,11 +18,10 @@ constexpr const char *drive_name = "f", *frequency_name = "f0";
 /// What a model is driven with, by its own frequency.
 double drive_ratio(const Model& model, const DeviceFile& file) {
     const auto drive = model.find_parameter(drive_name), own = model.find_parameter(frequency_name);
-    if (!drive || !own || model.parameters[*drive].expression)
+    if (!drive || !own || model.parameters[*drive].expression || model.parameters[*own].expression)
         throw InputError(file.place("spread.drive"), "the model has no frequency 'f' that could be tuned",
                          "give drive = \"fixed\"");
-    const std::vector<double> values = model.parameter_values();
-    return values[*drive] / values[*own];
+    return *model.parameters[*drive].value / *model.parameters[*own].value;
 }
 
 LumpedModel departed(const DeviceFile& file, const DeviceDrawing& drawing, const ProcessDeparture& departure) {
@@ -57,8 +56,8 @@ public:
         add_effects();
         choose_overshoot();
         YieldSettings yield;
-        yield.least = design_->yield.least ? design_->yield.least : design_->wanted.least;
-        yield.greatest = design_->yield.greatest ? design_->yield.greatest : design_->wanted.greatest;
+        yield.least = design_->least_usable();
+        yield.greatest = design_->greatest_usable();
         yield.jobs = settings_->jobs;
         yield.interrupted = settings_->interrupted;
         yield.progress = settings_->progress;

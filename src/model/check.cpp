@@ -242,6 +242,37 @@ std::string dot_string(const std::string& text) {
     return result + '"';
 }
 
+/// Arrows between modes: one for all transitions that lead from one to another, each with a line of the label.
+class Arrows {
+public:
+    void add(const std::string& from, const std::string& to, const std::string& label, bool dashed) {
+        for (Arrow& arrow : all_)
+            if (arrow.from == from && arrow.to == to && arrow.dashed == dashed) {
+                arrow.label.insert(arrow.label.size() - 1, "\\n" + within_quotes(label));
+                return;
+            }
+        all_.push_back({from, to, dot_string(label), dashed});
+    }
+    std::string text() const {
+        std::string result;
+        for (const Arrow& arrow : all_)
+            result += fmt::format("    {} -> {} [label = {}{}];\n", arrow.from, arrow.to, arrow.label,
+                                  arrow.dashed ? ", style = dashed" : "");
+        return result;
+    }
+
+private:
+    static std::string within_quotes(const std::string& label) {
+        const std::string quoted = dot_string(label);
+        return quoted.substr(1, quoted.size() - 2);
+    }
+    struct Arrow {
+        std::string from, to, label;
+        bool dashed;
+    };
+    std::vector<Arrow> all_;
+};
+
 } // namespace
 
 std::vector<ModelWarning> located_warnings(const Model& model) {
@@ -273,6 +304,7 @@ std::string connectivity_graph(const Model& model) {
     if (std::any_of(model.transitions.begin(), model.transitions.end(), ends))
         result += "    end [shape = doublecircle, label = \"end\"];\n";
     result += fmt::format("    start -> {};\n", node(model.initial_mode));
+    Arrows arrows;
     for (const Transition& transition : model.transitions) {
         const std::string& event = model.events[transition.event].name;
         const std::string default_label = model.modes[transition.mode].name + ":" + event;
@@ -282,14 +314,13 @@ std::string connectivity_graph(const Model& model) {
         };
         for (const Alternative& alternative : transition.next) {
             const std::string when = alternative.when.empty() ? "" : " [" + alternative.when_text + "]";
-            result += fmt::format("    {} -> {} [label = {}];\n", node(transition.mode), node(alternative.mode),
-                                  dot_string(through(transition.jump) + when));
+            arrows.add(node(transition.mode), node(alternative.mode), through(transition.jump) + when, false);
         }
         if (transition.chatter)
-            result += fmt::format("    {} -> {} [label = {}, style = dashed];\n", node(transition.mode),
-                                  node(transition.chatter->mode),
-                                  dot_string(through(transition.chatter->jump) + " [chatter]"));
+            arrows.add(node(transition.mode), node(transition.chatter->mode),
+                       through(transition.chatter->jump) + " [chatter]", true);
     }
+    result += arrows.text();
     return result + "}\n";
 }
 

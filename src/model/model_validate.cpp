@@ -2,6 +2,7 @@
 
 #include "graze/symbolic/file_name.hpp"
 #include "graze/symbolic/input_errors.hpp"
+#include "graze/symbolic/name_list.hpp"
 #include "graze/symbolic/parser.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "model/model_expand.hpp"
@@ -9,7 +10,6 @@
 #include "symbolic/lexer.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -347,9 +347,7 @@ std::string name_remedy(std::string_view name, const std::vector<std::string>& k
         return fmt::format("did you mean '{}'?", near);
     if (known.empty())
         return "there are none";
-    constexpr std::size_t most = 20;
-    return fmt::format("known: {}{}", fmt::join(known.begin(), known.begin() + std::min(known.size(), most), ", "),
-                       known.size() > most ? ", ..." : "");
+    return fmt::format("known: {}", name_list(known, name));
 }
 
 void validate_names(const Model& model, const Places& places) {

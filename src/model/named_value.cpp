@@ -1,12 +1,12 @@
 #include "graze/model/named_value.hpp"
 
+#include "base/letter_case.hpp"
 #include "graze/symbolic/function.hpp"
 #include "graze/symbolic/parser.hpp"
 #include "graze/symbolic/trimmed.hpp"
 
 #include <fmt/format.h>
 
-#include <cctype>
 #include <cmath>
 
 namespace graze {
@@ -33,7 +33,8 @@ bool is_not_a_finite_number(std::string_view text) {
     std::string word;
     for (const char c : trimmed(text, blanks))
         if (c != '+' && c != '-')
-            word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+            word += c;
+    word = in_small_letters(word);
     return word == "nan" || word == "inf" || word == "infinity";
 }
 
@@ -58,6 +59,9 @@ NamedValue named_value(const Model& model, const std::string& text, const Place&
         result.unit = model.parameters[*parameter].unit;
         result.text = model.parameters[*parameter].text;
     }
+    for (const Definition& definition : model.definitions)
+        if (definition.name == text)
+            result.text = definition.text;
     return result;
 }
 

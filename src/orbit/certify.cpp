@@ -286,7 +286,7 @@ private:
     void look_at_end(std::size_t s) {
         const Segment& segment = equations_->signature()[s];
         const double rate = equations_->rate_at_end(*at_, s);
-        if (segment.end == SegmentEnd::section) {
+        if (segment.end != SegmentEnd::event) {
             certificate_.approach_speeds.push_back(std::abs(rate));
             certificate_.departures.push_back(rate);
             certificate_.guard_margins.push_back(std::numeric_limits<double>::infinity());

@@ -1,9 +1,9 @@
 #include "orbit/cyclic_matrix.hpp"
 
+#include "base/decompositions.hpp"
 #include "orbit/eigen_index.hpp"
 
 #include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -21,10 +21,10 @@ struct Spectrum {
     explicit Spectrum(const CyclicSystem& system) : relation(system.relation()) {
         if (relation.first.rows() == 0)
             return;
-        const Eigen::GeneralizedEigenSolver<Eigen::MatrixXd> solver(relation.first, -relation.second, false);
-        for (Eigen::Index i = 0; i < solver.betas().size(); ++i) {
-            const Complex one = solver.alphas()[i] / solver.betas()[i];
-            if (solver.info() == Eigen::Success && solver.betas()[i] != 0 && std::isfinite(std::abs(one)))
+        const auto found = generalized_eigenvalues(relation.first, -relation.second);
+        for (Eigen::Index i = 0; found && i < found->denominators.size(); ++i) {
+            const Complex one = found->numerators[i] / found->denominators[i];
+            if (found->denominators[i] != 0 && std::isfinite(std::abs(one)))
                 all.push_back(one);
         }
     }
@@ -40,8 +40,7 @@ struct Spectrum {
     }
     /// The start that belongs to one of them: what the relation with it takes to nothing.
     Eigen::VectorXcd vector_of(Complex multiplier) const {
-        const Eigen::MatrixXcd singular = relation.first + multiplier * relation.second;
-        return Eigen::JacobiSVD<Eigen::MatrixXcd>(singular, Eigen::ComputeFullV).matrixV().rightCols<1>();
+        return null_vector(relation.first + multiplier * relation.second);
     }
 
     std::pair<Eigen::MatrixXd, Eigen::MatrixXd> relation;
@@ -62,8 +61,7 @@ Eigen::MatrixXd plane_of_close(const Spectrum& others, double middle) {
         return std::cos(static_cast<double>(i) * (1.7 + static_cast<double>(j)) + 0.3);
     });
     for (int repetition = 0; repetition < repetitions && starts.allFinite(); ++repetition)
-        starts = Eigen::HouseholderQR<Eigen::MatrixXd>(shifted.solve(last * starts)).householderQ() *
-                 Eigen::MatrixXd::Identity(first.rows(), 2);
+        starts = orthogonal_factors(shifted.solve(last * starts)).orthogonal;
     return starts;
 }
 

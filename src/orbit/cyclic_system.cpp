@@ -1,13 +1,19 @@
 #include "orbit/cyclic_system.hpp"
+
+#include "base/decompositions.hpp"
 #include "orbit/eigen_index.hpp"
 
 #include <Eigen/Dense>
 
+#include <algorithm>
 #include <cmath>
 
 namespace graze {
 
 namespace {
+
+/// Singular values below this share of the largest one are what rounding and integration leave of zero.
+constexpr double hardly_determined = 1e-8;
 
 /// Makes the first columns of [a | b] upper triangular by reflections x - m (m^T x), whose mirrors m have the length
 /// sqrt(2). @return the sign of their determinant
@@ -107,8 +113,8 @@ double CyclicSystem::antiperiodic_determinant() const {
 double CyclicSystem::periodic_noise() const {
     constexpr double round_off = 1e-9; // of derivatives, which are integrated
     const Eigen::Index n = index(n_);
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(final_.leftCols(n) + final_.middleCols(n, n));
-    const Eigen::VectorXd& values = svd.singularValues();
+    const Eigen::VectorXd values =
+        singular_values(Eigen::MatrixXd(final_.leftCols(n) + final_.middleCols(n, n)), SingularVectors::none).values;
     return n == 0 ? 0 : round_off * values[0] * values.head(n - 1).prod();
 }
 
@@ -188,18 +194,50 @@ bool CyclicSystem::solve(const Closed& closed, const Eigen::VectorXd* blocks, co
     Eigen::VectorXd values = Eigen::VectorXd::Zero(n + q);
     values.tail(q) = right;
     std::vector<Eigen::VectorXd> constants;
-    for (std::size_t k = 0; blocks && k < count_; ++k) {
-        Eigen::VectorXd both(2 * n + 1);
-        both << values.head(n), blocks->segment(index(k) * (n + 1), n + 1);
-        reflect(both, eliminated_[k].mirrors);
-        constants.emplace_back(both.head(n + 1));
-        values.head(n) = both.tail(n);
+    if (blocks)
+        values.head(n) = reduced(*blocks, constants);
+    for (std::size_t k = 0; k < constants.size(); ++k)
         if (closed.shares_[k].size() > 0)
-            values.tail(q) -= closed.shares_[k] * constants.back();
-    }
+            values.tail(q) -= closed.shares_[k] * constants[k];
     const Eigen::VectorXd first = closed.lu_.solve(values);
     solution = expand(first, first.head(n), constants);
     return solution.allFinite();
+}
+
+/// The right-hand side of the equations of x_0 alone, and what the eliminated ones keep of theirs.
+Eigen::VectorXd CyclicSystem::reduced(const Eigen::VectorXd& blocks, std::vector<Eigen::VectorXd>& constants) const {
+    const Eigen::Index n = index(n_);
+    Eigen::VectorXd values = Eigen::VectorXd::Zero(n);
+    for (std::size_t k = 0; k < count_; ++k) {
+        Eigen::VectorXd both(2 * n + 1);
+        both << values, blocks.segment(index(k) * (n + 1), n + 1);
+        reflect(both, eliminated_[k].mirrors);
+        constants.emplace_back(both.head(n + 1));
+        values = both.tail(n);
+    }
+    return values;
+}
+
+bool CyclicSystem::solve_nearest(const Eigen::VectorXd& blocks, Eigen::VectorXd& solution, std::size_t& lost) const {
+    const Eigen::Index n = index(n_);
+    std::vector<Eigen::VectorXd> constants;
+    const Eigen::VectorXd values = reduced(blocks, constants);
+    const SingularValues factors =
+        singular_values(Eigen::MatrixXd(final_.leftCols(n) + final_.middleCols(n, n)), SingularVectors::full);
+    const Eigen::Index kept = std::min(factors.rank(hardly_determined), n - index(lost));
+    lost = static_cast<std::size_t>(n - kept);
+    const Eigen::VectorXd first =
+        factors.right.leftCols(kept) *
+        (factors.left.leftCols(kept).transpose() * values).cwiseQuotient(factors.values.head(kept));
+    solution = expand(first, first, constants);
+    return solution.allFinite();
+}
+
+std::size_t CyclicSystem::undetermined() const {
+    const Eigen::Index n = index(n_);
+    Eigen::MatrixXd matrix(n, n + index(q_));
+    matrix << final_.leftCols(n) + final_.middleCols(n, n), final_.rightCols(index(q_));
+    return static_cast<std::size_t>(n - singular_values(matrix, SingularVectors::none).rank(hardly_determined));
 }
 
 bool CyclicSystem::null_vector(const Eigen::MatrixXd& borders, Eigen::VectorXd& vector) const {
@@ -207,8 +245,7 @@ bool CyclicSystem::null_vector(const Eigen::MatrixXd& borders, Eigen::VectorXd& 
     const Eigen::MatrixXd matrix = condense(borders, shares);
     if (!matrix.allFinite())
         return false;
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(matrix, Eigen::ComputeFullV);
-    const Eigen::VectorXd first = svd.matrixV().rightCols(1);
+    const Eigen::VectorXd first = singular_values(matrix, SingularVectors::right).right.rightCols(1);
     vector = expand(first, first.head(index(n_)), {});
     return vector.allFinite();
 }

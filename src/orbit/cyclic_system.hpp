@@ -68,6 +68,12 @@ public:
     /// @return false when the system is singular
     bool solve(const Closed& closed, const Eigen::VectorXd* blocks, const Eigen::VectorXd& right,
                Eigen::VectorXd& solution) const;
+    /// The same without further equations, for systems without parameters: the solution of least first start, in all
+    /// directions but those that the equations hardly determine, whose equations are left out.
+    /// @param lost how many these are; given, how many they are at least
+    bool solve_nearest(const Eigen::VectorXd& blocks, Eigen::VectorXd& solution, std::size_t& lost) const;
+    /// How many directions of the first start the equations hardly determine, beyond one for each parameter.
+    std::size_t undetermined() const;
     /// The blocks' own.
     Eigen::VectorXd right_hand_sides() const;
     /// The vector that the blocks and the further equations' left-hand sides take nearest to zero, of any length: where
@@ -81,6 +87,7 @@ public:
     Eigen::VectorXd between(const Eigen::VectorXd& first, const Eigen::VectorXd& last) const;
 
 private:
+    Eigen::VectorXd reduced(const Eigen::VectorXd& blocks, std::vector<Eigen::VectorXd>& constants) const;
     Eigen::MatrixXd condense(const Eigen::MatrixXd& borders, std::vector<Eigen::MatrixXd>& shares) const;
     Eigen::VectorXd expand(const Eigen::VectorXd& first, const Eigen::VectorXd& last,
                            const std::vector<Eigen::VectorXd>& constants) const;

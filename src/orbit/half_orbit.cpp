@@ -29,7 +29,7 @@ double distance(std::span<const double> a, std::span<const double> b, const Orbi
 
 bool is_smooth(const Orbit& orbit) {
     return std::all_of(orbit.signature.begin(), orbit.signature.end(),
-                       [](const Segment& segment) { return segment.end == SegmentEnd::section; });
+                       [](const Segment& segment) { return segment.end != SegmentEnd::event; });
 }
 
 /// Ends an orbit without contacts after half its time, which is within its middle segment; the state there is appended
@@ -54,23 +54,41 @@ bool cut_in_half(const Simulation& simulation, Orbit& orbit, const Symmetry& sym
     return true;
 }
 
-/// Whether the second half of an orbit's segments is the image of the first.
-bool repeats_as_image(const Orbit& orbit, const Symmetry& symmetry, const Function& map,
-                      const OrbitEquations& equations, std::span<const double> periods, double tolerance) {
+/// Whether the symmetry takes the event that ends a segment to the one that ends another.
+bool takes_end_to(const System& system, const Orbit& orbit, std::size_t symmetry, std::size_t from, std::size_t to) {
+    try {
+        return image_of(system, symmetry, orbit.signature[from], orbit) == orbit.signature[to];
+    } catch (const InputError&) { // no event is its image
+        return false;
+    }
+}
+
+/// Whether the second half of an orbit's segments is the image of the first, and the first that of the second: a map
+/// that is a symmetry in one mode only, as of a clock that is set back, is none of the orbit.
+bool repeats_as_image(const Orbit& orbit, std::size_t index, const OrbitEquations& equations,
+                      std::span<const double> periods, double tolerance) {
+    const Symmetry& symmetry = equations.model().symmetries[index];
+    const Function& map = equations.system().symmetry(index).map;
     const std::size_t half = orbit.segments() / 2;
     if (orbit.segments() % 2 != 0)
         return false;
-    for (std::size_t k = 0; k < half; ++k) {
-        std::vector<double> state = orbit.starts[k + half];
+    const auto is_taken_to = [&](std::size_t from, std::size_t to) {
+        std::vector<double> state = orbit.starts[from];
         state.insert(state.end(), orbit.parameters.begin(), orbit.parameters.end());
-        if (symmetry.modes[orbit.signature[k].mode] != orbit.signature[k + half].mode ||
-            orbit.signature[k].end != orbit.signature[k + half].end ||
-            (orbit.signature[k].end == SegmentEnd::section &&
+        return symmetry.modes[orbit.signature[from].mode] == orbit.signature[to].mode &&
+               distance(map(state), orbit.starts[to], equations, periods) <= tolerance;
+    };
+    for (std::size_t k = 0; k < half; ++k)
+        if (orbit.signature[k].end != orbit.signature[k + half].end ||
+            (orbit.signature[k].end != SegmentEnd::event &&
              orbit.signature[k].index != orbit.signature[k + half].index) ||
             std::abs(orbit.durations[k] - orbit.durations[k + half]) > tolerance * orbit.period() ||
-            distance(map(state), orbit.starts[k], equations, periods) > tolerance)
+            !is_taken_to(k + half, k) || !is_taken_to(k, k + half))
             return false;
-    }
+    for (std::size_t k = 0; k < half; ++k)
+        if (!takes_end_to(equations.system(), orbit, index, k, k + half) ||
+            !takes_end_to(equations.system(), orbit, index, k + half, k))
+            return false;
     return true;
 }
 
@@ -86,7 +104,7 @@ std::optional<Orbit> half_of(const OrbitEquations& equations, const Orbit& orbit
         const Function& map = equations.system().symmetry(index).map;
         Orbit half = orbit;
         half.symmetry = index;
-        if (repeats_as_image(orbit, symmetry, map, equations, periods, tolerance)) {
+        if (repeats_as_image(orbit, index, equations, periods, tolerance)) {
             half.signature.resize(orbit.segments() / 2);
             half.starts.resize(orbit.segments() / 2);
             half.durations.resize(orbit.segments() / 2);

@@ -200,6 +200,9 @@ std::vector<std::complex<double>> floquet_multipliers(const OrbitEquations& equa
     for (std::size_t k = 0; k < equations.layout().pieces(); ++k)
         if (!factors.add(k))
             return {};
+    // Of a single state nothing is left but the shift along the flow: the map of its section forgets all.
+    if (at.active.size() == 1 && factors.without_shifts().front().size() == 0)
+        return {0.0};
     return product_eigenvalues(factors.without_shifts());
 }
 

@@ -23,48 +23,54 @@ double Orbit::period() const {
 
 namespace {
 
-/// The image of a segment that an event ends: in the image of its mode, the transition whose event function is the
-/// image of its own, which is judged by values at states of the orbit.
-std::size_t image_of_transition(const System& system, std::size_t symmetry, std::size_t mode, std::size_t transition,
-                                const Orbit& orbit) {
-    const Model& model = system.model();
+/// Whether one function is the image of another, judged by values at states of an orbit. Images of cyclic states are
+/// taken whole turns further: events of a clock may be those of one period only, as `pi - theta` and `2*pi - theta`.
+bool is_image(const Function& own, const Function& other, const Function& map, const Orbit& orbit,
+              std::span<const double> periods, double turns) {
+    constexpr double nothing = 1e-9; // a start that round-off has left beside zero says nothing of a size
+    const std::size_t states = periods.size();
     const auto at = [&](std::vector<double> state) {
         state.insert(state.end(), orbit.parameters.begin(), orbit.parameters.end());
         return state;
     };
-    const auto function_of = [&](std::size_t index) -> const Function& {
-        return system.event(model.transitions[index].event);
-    };
-    const Function &own = function_of(transition), &map = system.symmetry(symmetry).map;
-    std::vector<double> sizes(model.states.size(), 0.0);
+    std::vector<double> sizes(periods.begin(), periods.end());
     for (const std::vector<double>& start : orbit.starts)
-        for (std::size_t i = 0; i < start.size(); ++i)
+        for (std::size_t i = 0; i < states; ++i)
             sizes[i] = std::max(sizes[i], std::abs(start[i]));
-    for (double& size : sizes)
-        size = size > 0 ? size : 1;
-    for (std::size_t candidate = 0; candidate < model.transitions.size(); ++candidate) {
-        if (model.transitions[candidate].mode != mode)
-            continue;
-        const Function& other = function_of(candidate);
-        bool same = true;
-        double size = 0, difference = 0;
-        for (const std::vector<double>& start : orbit.starts) {
-            // Also away from the orbit, where different functions happen to be equal less often.
-            for (const double displacement : {0.0, 0.37, -0.61}) {
-                std::vector<double> state = start;
-                for (std::size_t i = 0; i < state.size(); ++i)
-                    state[i] += displacement * sizes[i] / static_cast<double>(i + 2);
-                const double value = own(at(state))[0], image = other(at(map(at(state))))[0];
-                same = same && std::isfinite(value) == std::isfinite(image);
-                if (std::isfinite(value) && std::isfinite(image)) {
-                    size = std::max({size, std::abs(value), std::abs(image)});
-                    difference = std::max(difference, std::abs(value - image));
-                }
+    double size = 0, difference = 0;
+    for (const std::vector<double>& start : orbit.starts)
+        // Also away from the orbit, where different functions happen to be equal less often.
+        for (const double displacement : {0.0, 0.37, -0.61}) {
+            std::vector<double> state = start;
+            for (std::size_t i = 0; i < states; ++i)
+                state[i] += displacement * (sizes[i] > nothing ? sizes[i] : 1) / static_cast<double>(i + 2);
+            std::vector<double> taken = map(at(state));
+            for (std::size_t i = 0; i < states; ++i)
+                taken[i] += turns * periods[i];
+            const double value = own(at(state))[0], image = other(at(taken))[0];
+            if (std::isfinite(value) != std::isfinite(image))
+                return false;
+            if (std::isfinite(value)) {
+                size = std::max({size, std::abs(value), std::abs(image)});
+                difference = std::max(difference, std::abs(value - image));
             }
         }
-        if (same && difference <= 1e-9 * size)
-            return candidate;
-    }
+    return difference <= 1e-9 * size;
+}
+
+/// The image of a segment that an event ends: in the image of its mode, the transition whose event function is the
+/// image of its own.
+std::size_t image_of_transition(const System& system, std::size_t symmetry, std::size_t mode, std::size_t transition,
+                                const Orbit& orbit) {
+    const Model& model = system.model();
+    const Function& own = system.event(model.transitions[transition].event);
+    const std::vector<double> periods = system.periods()(orbit.parameters);
+    for (const double turns : {0.0, -1.0, 1.0})
+        for (std::size_t candidate = 0; candidate < model.transitions.size(); ++candidate)
+            if (model.transitions[candidate].mode == mode &&
+                is_image(own, system.event(model.transitions[candidate].event), system.symmetry(symmetry).map, orbit,
+                         periods, turns))
+                return candidate;
     throw InputError(
         fmt::format("the symmetry does not take transition '{}' to any other", model.transitions[transition].label),
         "see graze check for what is wrong with the symmetry");

@@ -49,6 +49,7 @@ void OrbitEquations::lay_out(const Orbit& orbit, const std::vector<std::size_t>&
     }
     const Eigen::VectorXd unknowns = unknowns_of(orbit);
     set_scales(unknowns);
+    ends_.lay_cuts(orbit, scales_.head(index(layout_.states())));
     OrbitEvaluation at = evaluation();
     if (layout_.free() > 0 && evaluate(unknowns, at)) // only now is known what the parameters do
         set_scales(unknowns);
@@ -165,6 +166,40 @@ void OrbitEquations::set_scales(const Eigen::VectorXd& unknowns) {
     std::vector<double> parameters;
     set_parameters(unknowns, parameters);
     scales_ = orbit_scales_.choose(layout_, unknowns, modes_, flow_, ends_.periods());
+    raise_above_round_off(unknowns, parameters);
+}
+
+/// What nothing moves but the rounding of its rate, as a mode that symmetry leaves at rest, has no extent of its own:
+/// it is measured by that.
+void OrbitEquations::raise_above_round_off(const Eigen::VectorXd& unknowns, const std::vector<double>& parameters) {
+    constexpr double noise_share = 1e-11; // of the scale: less than by which orbits are to be accurate
+    const std::size_t n = layout_.states();
+    std::vector<double> inputs(n + parameters.size()), errors(inputs.size()), bounds(n), noise(n, 0.0),
+        work(2 * system().workspace());
+    std::copy(parameters.begin(), parameters.end(), inputs.begin() + static_cast<std::ptrdiff_t>(n));
+    double time = 0;
+    for (std::size_t k = 0; k < layout_.pieces(); ++k)
+        time += std::abs(unknowns[index(layout_.duration_of(k))]);
+    for (std::size_t k = 0; k < layout_.pieces(); ++k) {
+        std::copy_n(unknowns.data() + layout_.start_of(k), n, inputs.begin());
+        std::fill(errors.begin(), errors.end(), 0.0);
+        // What round-off makes of a speed it makes of the position, too.
+        for (int order = 0; order < 2; ++order) {
+            system().mode(mode_of(k)).rates.error_bounds(inputs, errors, bounds, work);
+            for (std::size_t i = 0; i < n; ++i) {
+                errors[i] = std::isfinite(bounds[i] * time) ? bounds[i] * time : 0;
+                noise[i] = std::max(noise[i], errors[i]);
+            }
+        }
+    }
+    for (std::size_t k = 0; k < layout_.pieces(); ++k) {
+        for (std::size_t i = 0; i < n; ++i)
+            scales_[index(layout_.start_of(k) + i)] =
+                std::max(scales_[index(layout_.start_of(k) + i)], noise[i] / noise_share);
+        for (std::size_t j = 0; j < layout_.inner(); ++j)
+            scales_[index(layout_.inner_of(k) + j)] =
+                std::max(scales_[index(layout_.inner_of(k) + j)], noise[j % n] / noise_share);
+    }
 }
 
 ModeFlow& OrbitEquations::flow_at(const OrbitEvaluation& at) {
@@ -240,6 +275,12 @@ void OrbitEquations::assemble(const Eigen::VectorXd& unknowns, OrbitEvaluation& 
         }
         assemble_closure(k, unknowns, at, neutral);
     }
+    // One that is reversed an odd number of times must be zero.
+    for (std::size_t i = 0; i < layout_.states(); ++i)
+        for (std::size_t k = 0, reversed = 0; neutral[i] && k < layout_.pieces(); ++k) {
+            reversed += at.system.block(k).own(1 + index(i), index(i)) > 0 ? 1 : 0;
+            neutral[i] = k + 1 < layout_.pieces() || reversed % 2 == 0;
+        }
     pin(unknowns, neutral, at);
 }
 
@@ -264,7 +305,7 @@ void OrbitEquations::assemble_end(std::size_t k, OrbitEvaluation& at) const {
 }
 
 /// What follows a piece begins where its jump leads: (x, T, p) -> end -> after.
-/// @param neutral states that all pieces so far have left exactly as they are
+/// @param neutral states that all pieces so far have left exactly as they are, or reversed
 void OrbitEquations::assemble_closure(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEvaluation& at,
                                       std::vector<bool>& neutral) const {
     const auto n = index(layout_.states()), q = index(layout_.free());
@@ -287,7 +328,7 @@ void OrbitEquations::assemble_closure(std::size_t k, const Eigen::VectorXd& unkn
         block.right[1 + i] = -difference / state_scales[i];
         bool unchanged = by_time[i] == 0 && difference == 0 && by_parameters.row(i).isZero(0);
         for (Eigen::Index j = 0; j < n && unchanged; ++j)
-            unchanged = by_start(i, j) == (i == j ? 1 : 0);
+            unchanged = std::abs(by_start(i, j)) == (i == j ? 1 : 0);
         neutral[state] = neutral[state] && unchanged;
     }
     if (n > 0)
@@ -368,6 +409,14 @@ bool OrbitEquations::solve(const OrbitEvaluation& at, const Closed& closed, cons
     if (!at.system.solve(closed.system, homogeneous ? nullptr : &blocks, values, outer))
         return false;
     step = expanded(at, outer, homogeneous);
+    return true;
+}
+
+bool OrbitEquations::solve_nearest(const OrbitEvaluation& at, Eigen::VectorXd& step, std::size_t& lost) const {
+    Eigen::VectorXd outer;
+    if (!at.system.solve_nearest(at.system.right_hand_sides(), outer, lost))
+        return false;
+    step = expanded(at, outer, false);
     return true;
 }
 

@@ -75,6 +75,10 @@ public:
                bool homogeneous, Eigen::VectorXd& step) const {
         return solve(at, close(at, borders), right, homogeneous, step);
     }
+    /// The same without free parameters, where equations need not determine all: the step of least change, in all
+    /// directions but `lost` ones, which they leave free. @param lost given, how many these are at least. @return false
+    /// when a number is not finite
+    bool solve_nearest(const OrbitEvaluation& at, Eigen::VectorXd& step, std::size_t& lost) const;
     /// Whether `chord` is possible.
     bool has_chords() const { return layout_.inner() == 0; }
     /// Whether derivatives cost more than many flows: by a few inputs they do not.
@@ -98,6 +102,8 @@ public:
     double usual_rate(const OrbitEvaluation& at, std::size_t segment) const;
     /// The same of another event's function there.
     double usual_rate(const OrbitEvaluation& at, std::size_t segment, std::size_t event) const;
+    /// The normal of the plane in which the segment after a cut starts; empty for other ends.
+    const Eigen::VectorXd& cut_normal(std::size_t segment) const { return ends_.cut_normal(segment); }
     /// The flow of the modes at an evaluation's parameters.
     ModeFlow& flow_at(const OrbitEvaluation& at);
 
@@ -114,6 +120,8 @@ protected:
 
 private:
     static constexpr std::size_t many_inputs = 12;
+
+    void raise_above_round_off(const Eigen::VectorXd& unknowns, const std::vector<double>& parameters);
 
     /// Sets the end of a piece with its derivatives, and its field. @return false, with the problem said, where it
     /// cannot be followed

@@ -1,5 +1,7 @@
 #include "orbit/product_eigenvalues.hpp"
 
+#include "base/decompositions.hpp"
+
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -28,10 +30,9 @@ std::vector<std::complex<double>> product_eigenvalues(const std::vector<Eigen::M
     for (int sweep = 0; sweep < sweeps; ++sweep) {
         before = basis;
         for (std::size_t k = 0; k < factors.size(); ++k) {
-            const Eigen::MatrixXd image = factors[k] * basis;
-            const Eigen::HouseholderQR<Eigen::MatrixXd> qr(image);
-            triangles[k] = qr.matrixQR().triangularView<Eigen::Upper>();
-            basis = qr.householderQ() * Eigen::MatrixXd::Identity(n, n);
+            OrthogonalFactors image = orthogonal_factors(factors[k] * basis);
+            triangles[k] = std::move(image.triangle);
+            basis = std::move(image.orthogonal);
         }
     }
     // In the basis before the last sweep the product is turn * (product of triangles).
@@ -59,11 +60,11 @@ std::vector<std::complex<double>> product_eigenvalues(const std::vector<Eigen::M
         if (!block.allFinite() || !std::isfinite(factor)) {
             result.insert(result.end(), static_cast<std::size_t>(size), std::numeric_limits<double>::infinity());
         } else {
-            const Eigen::EigenSolver<Eigen::MatrixXd> solver(block, false);
-            if (solver.info() != Eigen::Success)
+            const auto values = eigenvalues(block);
+            if (!values)
                 return {};
             for (Eigen::Index i = 0; i < size; ++i)
-                result.push_back(solver.eigenvalues()[i] * factor);
+                result.push_back((*values)[i] * factor);
         }
         begin = end;
     }

@@ -37,16 +37,20 @@ bool SecondVariation::contract(const OrbitEquations& equations, const OrbitEvalu
             const std::size_t s = layout.segment_of(k);
             const Segment& segment = equations.signature()[s];
             const bool half = equations.symmetry() && s + 1 == layout.segments();
-            const bool event = segment.end == SegmentEnd::event;
+            const bool event = segment.end == SegmentEnd::event, cut = segment.end == SegmentEnd::cut;
             const Transition* transition = event ? &equations.model().transitions[segment.index] : nullptr;
-            evaluate(event ? system_.event(transition->event)
-                           : system_.section(segment.index, half ? equations.symmetry() : std::nullopt),
-                     tangent);
-            change += weights.row(0).transpose() * derivative_of_gain(tangent, 1);
+            if (!cut) {
+                evaluate(event ? system_.event(transition->event)
+                               : system_.section(segment.index, half ? equations.symmetry() : std::nullopt),
+                         tangent);
+                change += weights.row(0).transpose() * derivative_of_gain(tangent, 1);
+            }
             if (event)
                 pass(system_.jump(transition->jump), tangent);
             if (half)
                 pass(system_.symmetry(*equations.symmetry()), tangent);
+            if (cut) // a linear condition of where the next segment starts
+                change += weights.row(0).transpose() * (equations.cut_normal(s).transpose() * tangent.of_gain);
         }
         if (k + 1 == layout.pieces()) // states that are held instead of being closed
             for (std::size_t i = 0; i < states_; ++i)

@@ -18,6 +18,8 @@ SegmentEnds::SegmentEnds(const System& system, const Orbit& orbit, std::vector<P
         EndFunction end;
         if (segment.end == SegmentEnd::event) {
             end.value = &system_.event(system_.model().transitions[segment.index].event);
+        } else if (segment.end == SegmentEnd::cut) {
+            end.normal = end.through = Eigen::VectorXd::Zero(index(n_)); // until it is laid
         } else {
             const Section& section = system_.model().sections[segment.index];
             end.cyclic = section.state.has_value();
@@ -42,6 +44,45 @@ void SegmentEnds::set_parameters(std::span<const double> parameters) {
             period_rates_(index(i), index(f)) = values_[i * count + free_[f].place()];
 }
 
+void SegmentEnds::lay_cuts(const Orbit& orbit, const Eigen::VectorXd& scales) {
+    Eigen::VectorXd rates;
+    for (std::size_t k = 0; k < ends_.size(); ++k) {
+        if (signature_[k].end != SegmentEnd::cut)
+            continue;
+        const std::size_t next = (k + 1) % ends_.size();
+        const std::vector<double>& start = orbit.starts[next];
+        field(next, start, rates);
+        for (std::size_t i = 0; i < n_; ++i) // where a drifting state is says nothing
+            if (system_.model().states[i].drifting)
+                rates[index(i)] = 0;
+        const Eigen::VectorXd direction = rates.cwiseQuotient(scales);
+        const double size = direction.norm();
+        ends_[k].through = Eigen::Map<const Eigen::VectorXd>(start.data(), index(n_));
+        ends_[k].normal = direction.cwiseQuotient(scales) / (size > 0 ? size : 1);
+    }
+}
+
+/// How far a state is from the plane of a cut. @param turns if not null: whole periods of cyclic states that were left
+/// out of its difference
+double SegmentEnds::off_cut(const EndFunction& end, std::span<const double> after, Eigen::VectorXd* turns) const {
+    double off = 0;
+    for (std::size_t i = 0; i < n_; ++i) {
+        const double difference = after[i] - end.through[index(i)], part = without_turns(difference, periods_[i]);
+        off += end.normal[index(i)] * part;
+        if (turns && periods_[i] > 0)
+            (*turns)[index(i)] = std::round((difference - part) / periods_[i]);
+    }
+    return off;
+}
+
+/// The condition of a cut, which is one of the state that the next segment starts with.
+void SegmentEnds::pass_cut(const EndFunction& end, OrbitEvaluation::Piece& piece) const {
+    Eigen::VectorXd turns = Eigen::VectorXd::Zero(index(n_));
+    piece.condition_value = off_cut(end, piece.after, &turns);
+    piece.condition = piece.jump.transpose() * end.normal;
+    piece.condition.tail(index(free_.size())) -= period_rates_.transpose() * turns.cwiseProduct(end.normal);
+}
+
 Eigen::VectorXd SegmentEnds::gradient_of(std::span<const double> values) const {
     Eigen::VectorXd gradient(index(n_ + free_.size()));
     for (std::size_t i = 0; i < n_; ++i)
@@ -60,10 +101,12 @@ void SegmentEnds::field(std::size_t segment, std::span<const double> state, Eige
 bool SegmentEnds::pass(std::size_t k, OrbitEvaluation::Piece& piece) {
     std::copy(piece.end.begin(), piece.end.end(), inputs_.begin());
     const EndFunction& end = ends_[k];
-    const std::span<double> values = std::span(values_).first(end.value->outputs());
-    end.value->evaluate(inputs_, values, work_);
-    piece.condition_value = values[0];
-    piece.condition = gradient_of(values);
+    if (end.value) {
+        const std::span<double> values = std::span(values_).first(end.value->outputs());
+        end.value->evaluate(inputs_, values, work_);
+        piece.condition_value = values[0];
+        piece.condition = gradient_of(values);
+    }
     if (end.cyclic) {
         const double turns = std::round(piece.condition_value / periods_[end.state]);
         piece.condition_value -= turns * periods_[end.state];
@@ -74,15 +117,19 @@ bool SegmentEnds::pass(std::size_t k, OrbitEvaluation::Piece& piece) {
         apply(system_.jump(system_.model().transitions[segment.index].jump), piece);
     if (symmetry_ && k + 1 == signature_.size())
         apply(system_.symmetry(*symmetry_), piece);
+    if (!end.value)
+        pass_cut(end, piece);
     return std::all_of(piece.after.begin(), piece.after.end(), [](double value) { return std::isfinite(value); });
 }
 
 bool SegmentEnds::pass(std::size_t k, std::vector<double>& state, double& condition) {
     std::copy(state.begin(), state.end(), inputs_.begin());
     const EndFunction& end = ends_[k];
-    const std::span<double> values = std::span(values_).first(end.value->outputs());
-    end.value->evaluate(inputs_, values, work_);
-    condition = end.cyclic ? without_turns(values[0], periods_[end.state]) : values[0];
+    if (end.value) {
+        const std::span<double> values = std::span(values_).first(end.value->outputs());
+        end.value->evaluate(inputs_, values, work_);
+        condition = end.cyclic ? without_turns(values[0], periods_[end.state]) : values[0];
+    }
     const auto apply = [&](const System::CompiledJump& map) {
         std::copy(state.begin(), state.end(), inputs_.begin());
         if (!map.identity)
@@ -93,6 +140,8 @@ bool SegmentEnds::pass(std::size_t k, std::vector<double>& state, double& condit
         apply(system_.jump(system_.model().transitions[segment.index].jump));
     if (symmetry_ && k + 1 == signature_.size())
         apply(system_.symmetry(*symmetry_));
+    if (!end.value)
+        condition = off_cut(end, state, nullptr);
     return std::all_of(state.begin(), state.end(), [](double value) { return std::isfinite(value); });
 }
 

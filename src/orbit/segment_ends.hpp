@@ -12,8 +12,8 @@
 
 namespace graze {
 
-/// What ends the segments of an orbit - event or section, jump, the symmetry's image after a half orbit's last one -
-/// with derivatives with respect to states and free parameters: the same for every discretisation.
+/// What ends the segments of an orbit - event, section or cut, jump, the symmetry's image after a half orbit's last one
+/// - with derivatives with respect to states and free parameters: the same for every discretisation.
 class SegmentEnds {
 public:
     SegmentEnds(const System& system, const Orbit& orbit, std::vector<ParameterId> free);
@@ -23,6 +23,11 @@ public:
     const std::vector<ParameterId>& free() const { return free_; }
 
     void set_parameters(std::span<const double> parameters);
+    /// Lays the planes of cuts across the motion, through where the next segments start in an orbit.
+    /// @param scales of the states
+    void lay_cuts(const Orbit& orbit, const Eigen::VectorXd& scales);
+    /// The normal of the plane in which the segment after a cut starts; empty for other ends.
+    const Eigen::VectorXd& cut_normal(std::size_t segment) const { return ends_[segment].normal; }
     /// Of cyclic states, 0 of others.
     const std::vector<double>& periods() const { return periods_; }
     /// Their derivatives, states x free.
@@ -40,11 +45,14 @@ public:
 
 private:
     struct EndFunction {
-        const Function* value = nullptr; ///< and its gradient, of the system
+        const Function* value = nullptr; ///< and its gradient, of the system; null for a cut
         bool cyclic = false;             ///< a phase section: holds up to whole periods of `state`
         std::size_t state = 0;
+        Eigen::VectorXd normal, through; ///< of a cut: its plane, of states after the segment
     };
     void apply(const System::CompiledJump& map, OrbitEvaluation::Piece& piece);
+    double off_cut(const EndFunction& end, std::span<const double> after, Eigen::VectorXd* turns) const;
+    void pass_cut(const EndFunction& end, OrbitEvaluation::Piece& piece) const;
 
     System system_;
     Signature signature_;

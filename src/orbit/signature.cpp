@@ -11,6 +11,11 @@
 
 namespace graze {
 
+const std::string& cut_name() {
+    static const std::string name = "~";
+    return name;
+}
+
 namespace {
 
 constexpr std::size_t most_segments = 100000;
@@ -69,7 +74,8 @@ public:
 
 private:
     static bool is_name(char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == ':';
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == ':' ||
+               c == cut_name().front();
     }
     void skip() {
         while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == ',' || text_[at_] == '\t'))
@@ -119,12 +125,16 @@ std::vector<Segment> candidates(const Model& model, const std::string& name) {
         for (std::size_t m = 0; m < model.modes.size(); ++m)
             if (!mode || m == *mode)
                 result.push_back({m, SegmentEnd::section, *section});
+    if (rest == cut_name())
+        for (std::size_t m = 0; m < model.modes.size(); ++m)
+            if (!mode || m == *mode)
+                result.push_back({m, SegmentEnd::cut, 0});
     return result;
 }
 
 bool can_follow(const Model& model, const Segment& before, const Segment& after) {
-    return before.end == SegmentEnd::section ? before.mode == after.mode
-                                             : can_lead_to(model.transitions[before.index], after.mode);
+    return before.end == SegmentEnd::event ? can_lead_to(model.transitions[before.index], after.mode)
+                                           : before.mode == after.mode;
 }
 
 /// Chooses one candidate for each place so that each can follow the one before, cyclically.
@@ -194,6 +204,8 @@ bool can_lead_to(const Transition& transition, std::size_t mode) {
 }
 
 const std::string& end_name(const Model& model, const Segment& segment) {
+    if (segment.end == SegmentEnd::cut)
+        return cut_name();
     if (segment.end == SegmentEnd::event)
         require_index(segment.index, model.transitions.size(), "transition");
     else
@@ -243,7 +255,7 @@ std::string to_string(const Model& model, const Signature& signature) {
     for (const Segment& segment : signature) {
         require_index(segment.mode, model.modes.size(), "mode");
         const std::string& name = end_name(model, segment);
-        const std::size_t meanings = segment.end == SegmentEnd::event ? candidates(model, name).size() : 1;
+        const std::size_t meanings = segment.end == SegmentEnd::section ? 1 : candidates(model, name).size();
         names.push_back(
             meanings > 1 && name.find(':') == std::string::npos ? model.modes[segment.mode].name + ":" + name : name);
     }
@@ -268,10 +280,12 @@ void validate_signature(const Model& model, const Signature& signature, const Pl
     if (symmetry)
         require_index(*symmetry, model.symmetries.size(), "symmetry");
     for (const Segment& segment : signature) {
-        if (segment.end != SegmentEnd::event && segment.end != SegmentEnd::section)
+        if (segment.end != SegmentEnd::event && segment.end != SegmentEnd::section && segment.end != SegmentEnd::cut)
             throw InputError(place, "a segment has no end", "let an event or a section end it");
-        const bool known = segment.end == SegmentEnd::event ? segment.index < model.transitions.size()
-                                                            : segment.index < model.sections.size();
+        const std::size_t ends = segment.end == SegmentEnd::event     ? model.transitions.size()
+                                 : segment.end == SegmentEnd::section ? model.sections.size()
+                                                                      : 1;
+        const bool known = segment.index < ends;
         if (!known || segment.mode >= model.modes.size() ||
             (segment.end == SegmentEnd::event && model.transitions[segment.index].mode != segment.mode))
             throw InputError(place, "the signature has a segment that the model does not have",

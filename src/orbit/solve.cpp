@@ -2,6 +2,7 @@
 
 #include "graze/symbolic/input_error.hpp"
 #include "orbit/certify.hpp"
+#include "orbit/family.hpp"
 #include "orbit/newton.hpp"
 #include "orbit/shooting.hpp"
 
@@ -71,6 +72,25 @@ std::size_t unstable_directions(const OrbitSolution& solution) {
                                                   [](auto one) { return std::abs(one) > 1 + on_circle; }));
 }
 
+namespace {
+
+/// Goes a step, or as much of it as makes the residuals smaller. @param tried set to the evaluation there
+bool improves(OrbitEquations& equations, const Eigen::VectorXd& unknowns, const Eigen::VectorXd& step,
+              const OrbitEvaluation& at, OrbitEvaluation& tried) {
+    const double size = largest(step, equations.scales());
+    double factor = 1;
+    bool improved = false;
+    tried.took_too_long = false;
+    for (int halving = 0; halving < most_halvings && !improved && !tried.took_too_long; ++halving, factor *= 0.5) {
+        const bool possible = equations.evaluate(unknowns + factor * step, tried);
+        // Near the solution round-off decides, and any residual will do.
+        improved = possible && (tried.residual <= (1 - 0.1 * factor) * at.residual || size < 1e-6);
+    }
+    return improved;
+}
+
+} // namespace
+
 OrbitOutcome solve_equations(OrbitEquations& equations, Eigen::VectorXd& unknowns, const OrbitOptions& options,
                              OrbitEvaluation& at, std::size_t& iterations, std::string& detail) {
     const Eigen::MatrixXd no_borders(0, static_cast<Eigen::Index>(equations.unknowns()));
@@ -79,31 +99,44 @@ OrbitOutcome solve_equations(OrbitEquations& equations, Eigen::VectorXd& unknown
         detail = at.problem;
         return OrbitOutcome::undefined;
     }
+    constexpr double far_off = 1e8; // a step, for residuals that are round-off
+    constexpr double round_off = 1e-11;
+    const auto singular = [&] {
+        detail = "the equations are singular: at a fold, or because states are not determined";
+        return OrbitOutcome::singular;
+    };
     OrbitEvaluation tried = equations.evaluation();
+    const auto damped = [&](const Eigen::VectorXd& step) { return improves(equations, unknowns, step, at, tried); };
     for (iterations = 1; iterations <= options.iterations; ++iterations) {
         Eigen::VectorXd step;
-        if (!equations.solve(at, no_borders, nothing, false, step)) {
-            detail = "the equations are singular: at a fold, or because states are not determined";
-            return OrbitOutcome::singular;
+        std::size_t lost = 0;
+        const bool solved = equations.solve(at, no_borders, nothing, false, step);
+        // Of a family of orbits the nearest one will do: round-off would lead anywhere along it.
+        if (!solved || largest(step, equations.scales()) > far_off * at.residual) {
+            Eigen::VectorXd nearest;
+            if (equations.solve_nearest(at, nearest, lost) && lost > 0)
+                step = nearest;
+            else if (!solved)
+                return singular();
         }
-        const double size = largest(step, equations.scales());
-        double factor = 1;
-        bool improved = false;
-        tried.took_too_long = false;
-        for (int halving = 0; halving < most_halvings && !improved && !tried.took_too_long; ++halving, factor *= 0.5) {
-            const bool possible = equations.evaluate(unknowns + factor * step, tried);
-            // Near the solution round-off decides, and any residual will do.
-            improved = possible && (tried.residual <= (1 - 0.1 * factor) * at.residual || size < 1e-6);
+        bool improved = damped(step);
+        // Beside a family equations are hardly regular, and steps along it lead far: the nearest member will do.
+        if (!improved && lost == 0 && tried.problem.empty()) {
+            lost = 1;
+            improved = equations.solve_nearest(at, step, lost) && damped(step);
         }
         if (!improved) {
+            if (lost > 0 && !solved && tried.problem.empty())
+                return singular();
             detail =
                 tried.problem.empty() ? fmt::format("residuals do not fall below {:.3g}", at.residual) : tried.problem;
             return tried.problem.empty() ? OrbitOutcome::not_converged : OrbitOutcome::undefined;
         }
         std::swap(at, tried);
         unknowns = at.unknowns;
-        if (size < options.accuracy)
-            return OrbitOutcome::converged;
+        // What is left free says nothing of how far off the equation is that does not determine it.
+        if (largest(step, equations.scales()) < options.accuracy)
+            return lost == 0 || at.residual < round_off ? OrbitOutcome::converged : singular();
     }
     detail = fmt::format("{} iterations were not enough; the residual is {:.3g}", options.iterations, at.residual);
     return OrbitOutcome::not_converged;
@@ -140,14 +173,19 @@ OrbitSolution solve_orbit(const System& system, const Orbit& candidate, const Or
     if (solution.outcome != OrbitOutcome::converged)
         return solution;
     describe_orbit(shooting, at, solution);
+    if (is_in_family(shooting, at))
+        solution.detail = "one of a family of orbits at the same parameters: a multiplier is 1";
     if (options.error_estimate) {
         const Simulation tighter(system, {}, {}, integration(0.01 * options.tolerance));
         Shooting again(tighter, solution.orbit, {});
         Eigen::VectorXd step;
         OrbitEvaluation there = again.evaluation();
         const Eigen::MatrixXd no_borders(0, static_cast<Eigen::Index>(again.unknowns()));
-        if (again.evaluate(again.unknowns_of(solution.orbit), there) &&
-            again.solve(there, no_borders, Eigen::VectorXd(0), false, step))
+        std::size_t lost = 0;
+        const bool defined = again.evaluate(again.unknowns_of(solution.orbit), there);
+        if (defined && there.system.undetermined() > 0
+                ? again.solve_nearest(there, step, lost)
+                : defined && again.solve(there, no_borders, Eigen::VectorXd(0), false, step))
             solution.error = largest(step, again.scales());
     }
     return solution;

@@ -19,8 +19,10 @@ namespace {
 /// The experiment with what the command line has in the place of it.
 Experiment asked_experiment(const AcquireArguments& arguments) {
     Experiment experiment = read_experiment(arguments.experiment);
-    if (!arguments.port.empty())
+    if (!arguments.port.empty()) {
+        generator_address(arguments.port, Place{"--port", 0, 0});
         experiment.serial.port = arguments.port;
+    }
     if (!arguments.device.empty()) {
         device_address(arguments.device, Place{"--device", 0, 0});
         experiment.device = arguments.device;
@@ -53,7 +55,7 @@ void print_levels(const Experiment& experiment, const Console& console) {
 }
 
 std::unique_ptr<InstrumentLine> open_device(const Experiment& experiment) {
-    const DeviceAddress address = device_address(experiment.device, Place{experiment.file, 0, 0});
+    const InstrumentAddress address = device_address(experiment.device, Place{experiment.file, 0, 0});
     if (address.is_tcp)
         return open_tcp_line(address.name, address.port);
     SerialSettings settings;
@@ -135,7 +137,7 @@ AcquisitionReport carried_out(const Experiment& experiment, RecordFolder& folder
     options.recorded = [&](const RecordEntry& entry) { watcher.record(entry); };
     AcquisitionReport report;
     try {
-        const auto generator = open_serial_line(experiment.serial);
+        const auto generator = open_generator_line(experiment.serial);
         const auto samples = open_device(experiment);
         TextSampleDevice device(*samples, experiment.sample_timeout, options.interrupted, experiment.sample_patience);
         report = acquire(experiment, *generator, device, folder, options);
@@ -194,9 +196,10 @@ int tell(const AcquisitionReport& report, const Experiment& experiment, const st
                                        : fmt::format("{}: ", name_of(report.ending)),
                                    report.detail, remedy_of(report.ending));
     if (!report.safe) {
-        console.err << fmt::format("graze: the generator could not be brought to its safe amplitude, {} V ({}): "
-                                   "switch it off by hand\n",
-                                   experiment.safe, report.unsafe_because);
+        console.err << fmt::format("graze: the generator could not be brought to its safe amplitude, {} V ({}): {}\n",
+                                   experiment.safe, report.unsafe_because,
+                                   report.off ? "its output is switched off, as it tells itself"
+                                              : "switch it off by hand");
         return exit_irregular;
     }
     if (report.ending == AcquisitionEnding::interrupted && InterruptGuard::requested())

@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <sstream>
@@ -83,8 +84,7 @@ void declare_check(CLI::App& app, CheckArguments& arguments) {
     command
         .add_option("--graph", arguments.graph,
                     "Draw the modes and the transitions between them (svg, png or pdf by Graphviz; dot without it)")
-        ->type_name("FILE")
-        ->check(not_empty());
+        ->type_name("FILE");
     declare_output(command, arguments.output);
 }
 
@@ -93,7 +93,7 @@ void declare_models(CLI::App& app, ModelsArguments& arguments) {
     command.footer(models_examples);
     command.add_option("NAME", arguments.name, "The model to tell about")->type_name("");
     command.add_flag("--show", arguments.show, "Print the model file");
-    command.add_option("--write", arguments.file, "Write the model file there")->type_name("FILE")->check(not_empty());
+    command.add_option("--write", arguments.file, "Write the model file there")->type_name("FILE");
     command.add_option("--beam-modes", arguments.beam_modes, "Eigenmodes of the microbeam (1)")
         ->type_name("N")
         ->group("Microbeam");
@@ -160,10 +160,15 @@ void declare_plot(CLI::App& command, SimulateArguments& arguments) {
     const char* group = "Picture";
     declare_option(
         command, group, "--plot", arguments.plot, "FILE",
-        "Time histories and phase portrait as svg, png or pdf, by gnuplot. --quantity chooses what is shown");
+        "Time histories and phase portrait as svg, png, pdf or eps, by gnuplot. --quantity chooses what is shown");
     declare_option(command, group, "--portrait", arguments.portraits, "X,Y",
                    "Phase portraits of these (a state and its velocity)")
         ->expected(1, -1);
+    declare_option(command, group, "--size", arguments.style.size, "W[xH]",
+                   "Width of the picture in mm, such as 85 or 170, and height (as wide as it takes)");
+    declare_option(command, group, "--font", arguments.style.font, "FONT",
+                   "Size of its letters in points, or NAME or NAME,SIZE (9)");
+    command.add_flag("--grey", arguments.style.grey, "Without colours, for printers that have none")->group(group);
     declare_option(command, group, "--data,--plot-data", arguments.plot_data, "FILE",
                    "Keep data and commands of the picture, to be changed and drawn by `gnuplot FILE`");
 }
@@ -250,6 +255,10 @@ std::string explain_conversion(const std::string& message, const std::string& he
 std::string explain_missing(const std::string& message, const std::string& help) {
     const std::size_t colon = message.find(": "), required = message.find(" required ");
     const std::size_t missing = message.rfind(" missing");
+    if (const std::size_t end = message.find(" was given a disallowed flag"); end != std::string::npos) {
+        const std::size_t begin = std::min(end, message.find_first_not_of('-'));
+        return fmt::format("--{}: it takes no value; leave out what follows it", message.substr(begin, end - begin));
+    }
     if (colon == std::string::npos || required == std::string::npos || missing == std::string::npos)
         return fmt::format("{}; {}", message, help);
     const std::string option = message.substr(0, colon), type = message.substr(required + 10, missing - required - 10);
@@ -273,6 +282,25 @@ std::string explain_required(const std::string& message, const CLI::App& command
                        name, all);
 }
 
+/// @param allowed whether a finite number will do; @param words for such numbers
+template <class Allowed>
+CLI::Validator checked_number(const Allowed& allowed, const std::string& words) {
+    return CLI::Validator(
+        [=](std::string& text) {
+            double value = 0;
+            const std::size_t sign = text.starts_with('+') ? 1 : 0; // which from_chars does not take
+            const auto [end, error] = std::from_chars(text.data() + sign, text.data() + text.size(), value);
+            const bool whole = error == std::errc() && end == text.data() + text.size();
+            return whole && std::isfinite(value) && allowed(value) ? std::string()
+                                                                   : fmt::format("'{}' is not {}", text, words);
+        },
+        "");
+}
+
+CLI::Validator not_empty() {
+    return CLI::Validator([](std::string& text) { return text.empty() ? "its value is empty" : std::string(); }, "");
+}
+
 } // namespace
 
 CLI::Validator whole_number(long least, long most) {
@@ -288,21 +316,36 @@ CLI::Validator whole_number(long least, long most) {
         "");
 }
 
+CLI::Validator finite_number() {
+    return checked_number([](double) { return true; }, "a finite number");
+}
+
+CLI::Validator positive_number() {
+    return checked_number([](double value) { return value > 0; }, "a finite number above 0");
+}
+
+CLI::Validator non_negative_number() {
+    return checked_number([](double value) { return value >= 0; }, "a finite number from 0 on");
+}
+
+CLI::Validator number_between(double least, double most) {
+    return checked_number([=](double value) { return value >= least && value <= most; },
+                          fmt::format("a number from {} to {}", least, most));
+}
+
 CLI::Validator one_of(const std::vector<std::string>& words) {
     return CLI::Validator(
         [words](std::string& text) {
             if (std::find(words.begin(), words.end(), text) != words.end())
                 return std::string();
             const std::string nearest = nearest_name(text, words);
-            return fmt::format("'{}' is no value for it; {}", text,
-                               nearest.empty() ? fmt::format("choose {}", fmt::join(words, ", "))
-                                               : fmt::format("did you mean '{}'?", nearest));
+            return fmt::format(
+                "'{}' is no value for it; {}", text,
+                nearest.empty()
+                    ? fmt::format("choose {} or {}", fmt::join(words.begin(), words.end() - 1, ", "), words.back())
+                    : fmt::format("did you mean '{}'?", nearest));
         },
         "");
-}
-
-CLI::Validator not_empty() {
-    return CLI::Validator([](std::string& text) { return text.empty() ? "its value is empty" : std::string(); }, "");
 }
 
 int threads_for(int jobs) {
@@ -326,6 +369,12 @@ void declare_arguments(CLI::App& app, Arguments& arguments) {
     declare_identify_command(app, arguments);
     declare_experiment_commands(app, arguments);
     declare_help_commands(app, arguments);
+    for (CLI::App* command : app.get_subcommands({}))
+        for (CLI::Option* option : command->get_options())
+            if (option->get_items_expected_max() == 0)
+                option->disable_flag_override();
+            else if (option->get_type_name() != "TEXT")
+                option->check(not_empty());
 }
 
 std::vector<std::string> with_joined_counts(std::vector<std::string> arguments) {

@@ -34,6 +34,12 @@ struct ModelsArguments {
 };
 
 /// Texts are expressions in the model's parameters, still to be evaluated. Empty ones were not given.
+/// How a picture looks, rather than what it shows.
+struct StyleArguments {
+    std::string size, font;
+    bool grey = false;
+};
+
 struct SimulateArguments {
     std::string model, mode;
     std::vector<std::string> set, from;
@@ -51,6 +57,7 @@ struct SimulateArguments {
 
     std::string plot, plot_data;
     std::vector<std::string> portraits;
+    StyleArguments style;
 
     double tolerance = 1e-12;
     int order = 0;
@@ -74,7 +81,8 @@ struct ExportArguments {
 };
 
 struct PlotArguments {
-    std::string file, kind, x, title, x_range, y_range, fit, group, output, data, x_label, size, font;
+    std::string file, kind, x, title, x_range, y_range, fit, group, output, data, x_label;
+    StyleArguments style;
     std::vector<std::string> runs, y, samples, directions, at, points, logarithmic, names, y_labels;
     bool successive = false;
 };
@@ -130,7 +138,7 @@ struct DesignArguments {
 };
 
 struct LayoutArguments {
-    std::string design, file, picture, parameters, recipe, folder;
+    std::string design, from_design, file, picture, parameters, recipe, markers, verilog, folder;
     std::optional<std::size_t> yield; ///< wafers
     std::uint64_t seed = 1;
     int jobs = 0;
@@ -144,6 +152,7 @@ struct LayoutArguments {
 struct RecordArguments {
     std::vector<std::string> files;
     std::string columns, group;
+    std::size_t skip = 0, names_line = 0, units_line = 0;
     std::vector<std::string> scales;
     std::optional<double> from, to;
     std::optional<double> pass, stop;
@@ -171,6 +180,8 @@ struct IdentifyArguments {
     // Of fits: NAME=VALUE and the like, still to be split.
     std::vector<std::string> free, set, start, known, meanings, gains, offsets, noises, own;
     std::string mode, loss = "squares", piece, table = "numbers", save;
+    std::optional<double> time_limit; ///< s, of a fit
+    bool progress = false;
 };
 
 /// Lists are of NAME=VALUE, still to be split.
@@ -188,6 +199,7 @@ struct BenchArguments {
     double speed = 1;
     bool on_demand = false;
     std::optional<double> clip;
+    std::string left_as;
     double drop = 0, delay = 0, break_for = 1;
     std::size_t break_after = 0, break_samples = 0;
 };
@@ -240,15 +252,19 @@ struct Arguments {
 
 /// Refuses anything but whole numbers within these bounds.
 CLI::Validator whole_number(long least, long most);
+/// Refuse anything but finite numbers: any, those above zero, those from zero, and those within bounds.
+CLI::Validator finite_number();
+CLI::Validator positive_number();
+CLI::Validator non_negative_number();
+CLI::Validator number_between(double least, double most);
 /// Refuses anything but these words.
 CLI::Validator one_of(const std::vector<std::string>& words);
-/// Refuses what an unset variable of a script leaves: it would silently count as if the option were not there.
-CLI::Validator not_empty();
 
 /// Threads of an option `--jobs`: as many as there are cores if it is 0.
 int threads_for(int jobs);
 
-/// Declares the command line: one sub-command each for the members of `arguments`.
+/// Declares the command line: one sub-command each for the members of `arguments`. Empty values are refused, but of
+/// options declared as TEXT: what an unset variable of a script leaves would silently count as if nothing were there.
 void declare_arguments(CLI::App& app, Arguments& arguments);
 
 /// Makes `--contacts 4` one word, since `--contacts` may also stand alone before the model's name.

@@ -65,6 +65,7 @@ BenchSettings bench_settings(const BenchArguments& arguments) {
     settings.seed = arguments.seed;
     if (arguments.clip)
         settings.clip = *arguments.clip;
+    settings.left_as = arguments.left_as;
     return settings;
 }
 

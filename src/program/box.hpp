@@ -2,6 +2,10 @@
 
 #include "graze/study/figure.hpp"
 
+#include <algorithm>
+#include <optional>
+#include <utility>
+
 namespace graze {
 
 /// A rectangle on the page, in points (1/72 inch) from its lower left corner.
@@ -24,5 +28,23 @@ struct Box {
         return {centre.x - width / 2, centre.y - height / 2, centre.x + width / 2, centre.y + height / 2};
     }
 };
+
+/// Which part of a line between two points runs through a box: shares of its length, or nothing (Liang and Barsky
+/// 1984).
+inline std::optional<std::pair<double, double>> part_within(const PlanePoint& from, const PlanePoint& to,
+                                                            const Box& box) {
+    double first = 0, last = 1;
+    const auto clip = [&](double start, double step, double low, double high) {
+        if (step == 0)
+            return start >= low && start <= high;
+        const double one = (low - start) / step, other = (high - start) / step;
+        first = std::max(first, std::min(one, other));
+        last = std::min(last, std::max(one, other));
+        return first <= last;
+    };
+    if (clip(from.x, to.x - from.x, box.left, box.right) && clip(from.y, to.y - from.y, box.low, box.high))
+        return std::pair(first, last);
+    return std::nullopt;
+}
 
 } // namespace graze

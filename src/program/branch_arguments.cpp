@@ -117,7 +117,7 @@ void declare_orbit(CLI::App& app, OrbitArguments& arguments) {
         ->check(whole_number(1, 1'000'000));
     declare_table(command, arguments.output);
     group = "Picture";
-    declare_option(command, group, "--plot", arguments.plot, "FILE", "Draw it instead, as svg, png or pdf");
+    declare_option(command, group, "--plot", arguments.plot, "FILE", "Draw it instead, as svg, png, pdf or eps");
     declare_option(command, group, "--x", arguments.x, "NAME",
                    "Horizontal axis: a value, or t for histories (a state)");
     declare_option(command, group, "--y", arguments.y, "NAME",
@@ -140,12 +140,12 @@ void declare_disturbances(CLI::App& command, TripArguments& arguments) {
                    "It rises or falls steadily: rates by time, as a list or by decades");
     declare_option(command, group, "--wave", arguments.waves, "AMPLITUDES", "It swings about the value of --at");
     declare_option(command, group, "--wave-period", arguments.wave_period, "CYCLES", "Period of the wave (100)")
-        ->check(CLI::PositiveNumber);
+        ->check(positive_number());
     declare_option(command, group, "--noise", arguments.noises, "LEVELS",
                    "It is the value of --at plus noise of these standard deviations, constant in each cycle");
     declare_option(command, group, "--memory", arguments.memory, "CYCLES",
                    "After which the noise has forgotten all but 1/e of itself (0: at once)")
-        ->check(CLI::NonNegativeNumber);
+        ->check(non_negative_number());
     declare_option(command, group, "--at", arguments.at, "VALUE",
                    "Of the parameter at rest, before the point; of a ramp, where it begins");
     declare_option(command, group, "--motions", arguments.motions, "N", "How many under noise (1000)")
@@ -174,7 +174,7 @@ void declare_trip(CLI::App& app, TripArguments& arguments) {
                        "fold is passed)");
     declare_option(command, group, "--greatest-speed", arguments.greatest_speed, "SPEED",
                    "End at a contact of this approach speed")
-        ->check(CLI::PositiveNumber)
+        ->check(positive_number())
         ->excludes(until);
     declare_option(command, group, "--cycles", arguments.cycles, "N",
                    "Cycles that are simulated at most (2000; 100 under noise; of a ramp those beyond the point)")
@@ -182,7 +182,7 @@ void declare_trip(CLI::App& app, TripArguments& arguments) {
     declare_disturbances(command, arguments);
     declare_table(command, arguments.output);
     group = "Picture";
-    declare_option(command, group, "--plot", arguments.plot, "FILE", "Draw the table instead, as svg, png or pdf");
+    declare_option(command, group, "--plot", arguments.plot, "FILE", "Draw the table instead, as svg, png, pdf or eps");
     declare_data(command, arguments.data);
 }
 
@@ -207,8 +207,7 @@ void declare_tolerance(CLI::App& app, ToleranceArguments& arguments) {
         "with "
         ":uniform behind it the largest departure");
     declare_option(command, group, "--within", arguments.within, "LOW:HIGH",
-                   "Values that are wanted; one side may be left out")
-        ->check(not_empty());
+                   "Values that are wanted; one side may be left out");
     declare_option(command, group, "--devices", arguments.devices, "N", "How many are made (10000)")
         ->check(whole_number(1, 100'000'000));
     declare_option(command, group, "--seed", arguments.seed, "N", "Of what is drawn (1)")

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <string>
 
@@ -46,21 +47,23 @@ Place place_of(const std::string& model, const std::string& part) {
     return place;
 }
 
-/// Ends a motion after a number of steps.
+/// Ends a motion after a number of steps: of models of which a step takes long there are fewer.
 class Limit : public Observer {
 public:
+    explicit Limit(const System& system)
+        : most_(std::clamp(work / (system.operations() + 1), fewest_steps, most_steps)) {}
     void step(const Step&) override { ++steps_; }
-    bool stop() override { return steps_ > most; }
+    bool stop() override { return steps_ > most_; }
 
 private:
-    static constexpr std::size_t most = 2000;
-    std::size_t steps_ = 0;
+    static constexpr std::size_t most_steps = 2000, fewest_steps = 20, work = 40'000'000; ///< a second or two
+    std::size_t most_, steps_ = 0;
 };
 
 /// Whether the motion from the initial state soon leads where the model itself says that it must not.
 std::vector<ModelWarning> motion_warnings(const Model& model) {
     const Simulation simulation{System(model)};
-    Limit limit;
+    Limit limit(simulation.system());
     Trajectory trajectory(simulation, model.parameter_values(), limit);
     trajectory.start(model.initial_state(), model.initial_mode, 0, 1e300);
     JetSet jets(simulation, LaneKind::single);
@@ -84,9 +87,6 @@ std::vector<ModelWarning> motion_warnings(const Model& model) {
 
 int check_command(const CheckArguments& arguments, const Console& console) {
     const Model model = load_model(arguments.model);
-    require_distinct({{"the model", is_model_path(arguments.model) ? arguments.model : ""},
-                      {"--graph", arguments.graph},
-                      {"--output", arguments.output.file}});
     std::vector<ModelWarning> warnings = located_warnings(model);
     for (ModelWarning& warning : motion_warnings(model))
         warnings.push_back(std::move(warning));

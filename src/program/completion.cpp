@@ -228,8 +228,8 @@ Choices choices_for(const CLI::App& app, const CLI::App& command, const Declared
                                : std::vector<std::string>{"table", "csv", "json"},
                 false};
     if (starts("KIND"))
-        return {{"bifurcation", "branch", "basin", "map", "spectrum", "history", "portrait", "regression", "scatter",
-                 "residuals"},
+        return {{"bifurcation", "branch", "basin", "map", "spectrum", "history", "portrait", "poincare", "regression",
+                 "scatter", "residuals"},
                 false};
     if (starts("RULE"))
         return {{"simpson", "gauss"}, false};

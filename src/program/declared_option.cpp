@@ -7,9 +7,11 @@ namespace graze {
 CLI::Option* declare_format(CLI::App& command, OutputArguments& output) {
     static const std::map<std::string, TableFormat> formats{
         {"table", TableFormat::table}, {"csv", TableFormat::csv}, {"json", TableFormat::json}};
-    return command.add_option("--format", output.format, "table (default), csv or json")
+    // Read by hand: a conversion to an enumeration takes any number.
+    const auto read = [&output](const std::string& word) { output.format = formats.at(word); };
+    return command.add_option_function<std::string>("--format", read, "table (default), csv or json")
         ->type_name("FORMAT")
-        ->transform(CLI::Transformer(formats).description(""))
+        ->check(one_of({"table", "csv", "json"}))
         ->group("Output");
 }
 

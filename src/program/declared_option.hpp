@@ -4,20 +4,26 @@
 
 #include <CLI/App.hpp>
 
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
 
 namespace graze {
 
-/// An option with the word for its type, in a group of the help. Empty texts are refused.
+template <class Target, class... Types>
+constexpr bool is_one_of = (std::is_same_v<Target, Types> || ...);
+
+/// An option with the word for its type, in a group of the help. Numbers that are not finite are refused. FILE is what
+/// an option writes (KeptInputs compares it with what is read), PATH and `FILE:...` what it reads.
 template <class Target>
 CLI::Option* declare_option(CLI::App& command, const char* group, const char* name, Target& target, const char* type,
                             const char* text) {
     CLI::Option* option = command.add_option(name, target, text)->type_name(type)->group(group);
-    return std::is_same_v<Target, std::string> || std::is_same_v<Target, std::vector<std::string>>
-               ? option->check(not_empty())
-               : option;
+    if constexpr (is_one_of<Target, double, std::optional<double>, std::vector<double>>)
+        return option->check(finite_number());
+    else
+        return option;
 }
 
 /// `--format`.

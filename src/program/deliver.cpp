@@ -1,10 +1,10 @@
 #include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/name_list.hpp"
 #include "program/commands.hpp"
 #include "program/output_file.hpp"
 #include "program/table_fit.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <sstream>
 
@@ -28,7 +28,9 @@ void deliver(const Table& given, const OutputArguments& output, const JsonObject
     }
     if (const std::size_t count = chosen.left_out.size(); count > 0)
         console.err << fmt::format("graze: {} column{} left out for lack of room ({}); --all shows everything\n", count,
-                                   count == 1 ? " is" : "s are", fmt::join(chosen.left_out, ", "));
+                                   count == 1 ? " is" : "s are", name_list(chosen.left_out));
+    else if (chosen.shortened)
+        console.err << "graze: long signatures are shortened; --all shows them whole\n";
 }
 
 void require_delivered(const Console& console) {

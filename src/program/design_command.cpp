@@ -1,4 +1,5 @@
 #include "graze/design/design_report.hpp"
+#include "graze/layout/verilog_a.hpp"
 #include "graze/model/model_file.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "program/commands.hpp"
@@ -6,6 +7,7 @@
 #include "program/figure.hpp"
 #include "program/interrupt.hpp"
 #include "program/json_rows.hpp"
+#include "program/kept_inputs.hpp"
 #include "program/output_file.hpp"
 #include "program/process.hpp"
 #include "program/trip_location.hpp"
@@ -49,6 +51,8 @@ int list_designs(const DesignArguments& arguments, const Console& console) {
     return exit_success;
 }
 
+constexpr const char* device_model = "device.toml";
+constexpr const char* circuit_module = "device.va";
 constexpr const char* designed_results = "designed.sqlite"; ///< of the way of the finished device
 
 /// Removes the way that a finished device of an earlier run has gone, if that is what it is and nobody writes to it.
@@ -64,12 +68,12 @@ void remove_designed(const std::string& path) {
     }
 }
 
-/// Whether a file has the name and the first line of a table, or the name of a page, of which a run writes one or not:
-/// as dimensions, planes and wants are.
-bool is_of_a_run(const std::filesystem::path& path) {
+constexpr const char* report_name = "report.json";
+
+/// Whether a file has the name and the first line of a table of which a run writes one or not, as dimensions, planes
+/// and wants are.
+bool is_table_of_a_run(const std::filesystem::path& path) {
     const std::string name = path.filename().string();
-    if (name == "page.svg" || name == "page.pdf")
-        return true;
     const auto table_of = [&](const char* stem) { return name.starts_with(stem) && name.ends_with(".csv"); };
     std::string first;
     std::getline(std::ifstream(path), first);
@@ -77,17 +81,22 @@ bool is_of_a_run(const std::filesystem::path& path) {
            (table_of("plane-") && first.ends_with(",class,problem")) ||
            (name == "tuning.csv" && first.ends_with(",usable,problem")) ||
            (name == "devices.csv" && first.starts_with("device,")) ||
-           (name == "wishes.csv" && first.starts_with("what,"));
+           (name == "wishes.csv" && first.starts_with("what,")) ||
+           (name == circuit_module && first.find("Written by graze") != std::string::npos);
 }
 
 class Workplace {
 public:
-    Workplace(const Design& design, std::string folder) : design_(design), folder_(std::move(folder)) {}
+    explicit Workplace(std::string folder) : folder_(std::move(folder)) {
+        std::ifstream stream(std::filesystem::path(folder_) / report_name);
+        std::string first(longest_start, ' ');
+        stream.read(first.data(), static_cast<std::streamsize>(first.size()));
+        used_ = first.find("\"graze\":") != std::string::npos; // the report of an earlier run
+    }
 
     std::string path(const std::string& name) const {
         const std::string path = (std::filesystem::path(folder_) / name).string();
         require_inside(path, folder_);
-        require_distinct({{"the design", design_.file}, {"a result", path}});
         return path;
     }
     void write(const std::string& name, const std::string& text) {
@@ -119,10 +128,17 @@ public:
     const std::vector<std::string>& written() const { return written_; }
 
 private:
-    const Design& design_;
+    /// Pages have nothing in them that tells whose they are: they are those of an earlier run if there was one.
+    bool is_of_a_run(const std::filesystem::path& path) const {
+        const std::string name = path.filename().string();
+        return (used_ && (name == "page.svg" || name == "page.pdf")) || is_table_of_a_run(path);
+    }
+
     std::string folder_;
     std::vector<std::string> written_;
+    static constexpr std::size_t longest_start = 100;
     bool designed_ = false;
+    bool used_ = false; ///< whether an earlier run has left its report
 };
 
 /// What has gone wrong with some devices.
@@ -138,8 +154,11 @@ void write_all(Workplace& place, const Design& design, const TripPoint& trip, co
     const std::vector<NamedTable> tables = tables_of(design, trip, report);
     for (const NamedTable& table : tables)
         place.write(table.name + ".csv", csv_text(table.table));
-    place.write("report.json", json_of(design, tables));
-    place.write("device.toml", write_model(model_of_device(trip)));
+    place.write(report_name, json_of(design, tables));
+    const Model device = model_of_device(trip);
+    place.write(device_model, write_model(device));
+    if (has_verilog_a(device))
+        place.write(circuit_module, verilog_a_text(device, design.name, "graze " GRAZE_VERSION));
     if (!arguments.no_pictures) {
         try {
             const Figure page = design_page(design, trip, report);
@@ -154,6 +173,7 @@ void write_all(Workplace& place, const Design& design, const TripPoint& trip, co
 
 MetWishes wished(const Design& design, const TripPoint& trip, const DesignReportOptions& options) {
     WishesOptions wishes;
+    wishes.jobs = options.jobs;
     wishes.interrupted = options.interrupted;
     wishes.progress = [&](std::size_t devices) {
         options.progress(fmt::format("{} devices tried for what is wanted", devices));
@@ -195,7 +215,10 @@ int design_command(const DesignArguments& arguments, const Console& console) {
     const Design first = load_design(arguments.design);
     const std::string folder = arguments.folder.empty() ? first.name : arguments.folder;
     make_folder(folder, "--output");
-    Workplace place(first, folder);
+    Workplace place(folder);
+    keep_inputs_of(first);
+    for (const char* name : {report_name, device_model, circuit_module, "page.svg", "page.pdf"})
+        KeptInputs::require_none_at(place.path(name)); // before the work
     const InterruptGuard guard;
     StatusLine line(console, console.terminal);
     const DesignReportOptions options = interactive_options(arguments.jobs, line);

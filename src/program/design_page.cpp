@@ -2,6 +2,7 @@
 
 #include "graze/symbolic/input_error.hpp"
 #include "program/contour_lines.hpp"
+#include "program/trip_series.hpp"
 #include "program/yield_picture.hpp"
 
 #include <fmt/format.h>
@@ -194,22 +195,22 @@ private:
         panel.y_unit = time_unit_;
         panel.logarithmic_x = true;
         panel.roomy_x = panel.roomy_y = true;
-        FigureSeries best, simulated;
-        best.title = "map, then simulation";
-        best.style = FigureSeries::Style::line;
-        best.colour = 1;
+        std::vector<std::pair<double, TripTime>> best;
+        FigureSeries simulated;
         simulated.title = "simulation alone";
         simulated.style = FigureSeries::Style::circles;
         simulated.colour = 2;
         for (const TripTimeRow& row : report_.times.rows) {
             if (row.continued && row.continued->ended)
-                best.points.push_back({std::abs(row.overshoot), row.continued->time});
+                best.emplace_back(std::abs(row.overshoot), *row.continued);
             if (row.simulated && row.simulated->ended)
                 simulated.points.push_back({std::abs(row.overshoot), row.simulated->time});
         }
-        for (FigureSeries* one : {&best, &simulated})
-            if (!one->points.empty())
-                panel.series.push_back(std::move(*one));
+        constexpr int disc = 7; // gnuplot's symbol
+        const bool at_fold = !trip_.is_touch();
+        add_trips(panel, best, at_fold ? "normal form, then simulation" : "map, then simulation", 1, disc, at_fold);
+        if (!simulated.points.empty())
+            panel.series.push_back(std::move(simulated));
         if (!panel.series.empty())
             figure_.panels.push_back(std::move(panel));
     }

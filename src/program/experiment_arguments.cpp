@@ -1,5 +1,7 @@
 #include "program/experiment_arguments.hpp"
 
+#include "program/declared_option.hpp"
+
 #include <string>
 #include <vector>
 
@@ -27,68 +29,68 @@ constexpr const char* acquire_examples = R"(Examples:
   graze acquire sweep.toml --output records --live sections.svg --reference V --channel v
   graze acquire sweep.toml --port /tmp/generator --device tcp:127.0.0.1:4711)";
 
-template <class Value>
-CLI::Option* add(CLI::App& command, const char* group, const char* name, Value& value, const char* type,
-                 const char* text) {
-    return command.add_option(name, value, text)->type_name(type)->group(group);
-}
-
 void declare_drive(CLI::App& command, BenchArguments& arguments) {
     const char* group = "Model and drive";
-    add(command, group, "--set", arguments.set, "NAME=VALUE", "Values of parameters");
-    add(command, group, "--from", arguments.from, "NAME=VALUE", "Initial values of states");
-    add(command, group, "--amplitude", arguments.amplitude, "NAME[=FACTOR]",
-        "Parameter that is FACTOR (1), an amplifier's, times half of the amplitude from peak to peak in V (V0)")
-        ->check(not_empty());
-    add(command, group, "--frequency", arguments.frequency, "NAME[=FACTOR]",
-        "Parameter that is FACTOR (1) times the frequency in Hz (f)")
-        ->check(not_empty());
-    add(command, group, "--offset", arguments.offset, "NAME[=FACTOR]",
-        "Parameter that is FACTOR (1) times the offset in V (none: the generator gives no offset)")
-        ->check(not_empty());
-    add(command, group, "--time-unit", arguments.time_unit, "S", "Seconds that a unit of the model's time lasts (1)")
-        ->check(CLI::PositiveNumber);
+    declare_option(command, group, "--set", arguments.set, "NAME=VALUE", "Values of parameters");
+    declare_option(command, group, "--from", arguments.from, "NAME=VALUE", "Initial values of states");
+    declare_option(
+        command, group, "--amplitude", arguments.amplitude, "NAME[=FACTOR]",
+        "Parameter that is FACTOR (1), an amplifier's, times half of the amplitude from peak to peak in V (V0)");
+    declare_option(command, group, "--frequency", arguments.frequency, "NAME[=FACTOR]",
+                   "Parameter that is FACTOR (1) times the frequency in Hz (f)");
+    declare_option(command, group, "--offset", arguments.offset, "NAME[=FACTOR]",
+                   "Parameter that is FACTOR (1) times the offset in V (none: the generator gives no offset)");
+    declare_option(command, group, "--time-unit", arguments.time_unit, "S",
+                   "Seconds that a unit of the model's time lasts (1)")
+        ->check(positive_number());
 }
 
 void declare_sensors(CLI::App& command, BenchArguments& arguments) {
     const char* group = "Sensors";
-    add(command, group, "--channel", arguments.channels, "NAME[=EXPR][:UNIT]",
+    declare_option(
+        command, group, "--channel", arguments.channels, "NAME[=EXPR][:UNIT]",
         "What is measured, such as x=q/beta2 or I:A (quantity `voltage` as V, and all states that are not cyclic)");
-    add(command, group, "--noise", arguments.noise, "NAME=VALUE", "Standard deviation of its noise (0)");
-    add(command, group, "--bias", arguments.bias, "NAME=VALUE", "What is added to it (0)");
-    add(command, group, "--drift", arguments.drift, "NAME=VALUE", "What that gains in a second (0)");
-    add(command, group, "--range", arguments.range, "NAME=VALUE",
-        "Its converter goes from -VALUE to VALUE (without a converter)");
-    add(command, group, "--bits", arguments.bits, "N", "Of converters (16)")->check(whole_number(1, 32));
-    add(command, group, "--anti-alias", arguments.anti_alias, "HZ",
-        "Corner of a low-pass filter of fourth order in each channel (none)")
-        ->check(CLI::PositiveNumber);
-    add(command, group, "--seed", arguments.seed, "N", "Of noise and of what gets lost (1)");
+    declare_option(command, group, "--noise", arguments.noise, "NAME=VALUE", "Standard deviation of its noise (0)");
+    declare_option(command, group, "--bias", arguments.bias, "NAME=VALUE", "What is added to it (0)");
+    declare_option(command, group, "--drift", arguments.drift, "NAME=VALUE", "What that gains in a second (0)");
+    declare_option(command, group, "--range", arguments.range, "NAME=VALUE",
+                   "Its converter goes from -VALUE to VALUE (without a converter)");
+    declare_option(command, group, "--bits", arguments.bits, "N", "Of converters (16)")->check(whole_number(1, 32));
+    declare_option(command, group, "--anti-alias", arguments.anti_alias, "HZ",
+                   "Corner of a low-pass filter of fourth order in each channel (none)")
+        ->check(positive_number());
+    declare_option(command, group, "--seed", arguments.seed, "N", "Of noise and of what gets lost (1)")
+        ->check(whole_number(0, 1'000'000'000));
 }
 
 void declare_service(CLI::App& command, BenchArguments& arguments) {
     const char* group = "Connections and time";
-    add(command, group, "--port", arguments.port, "PATH", "Name of the serial line")->check(not_empty());
-    add(command, group, "--tcp", arguments.tcp, "PORT", "For samples, on 127.0.0.1 (one that is free)")
+    declare_option(command, group, "--port", arguments.port, "PATH", "Name of the serial line");
+    declare_option(command, group, "--tcp", arguments.tcp, "PORT", "For samples, on 127.0.0.1 (one that is free)")
         ->check(whole_number(0, 65535));
-    add(command, group, "--speed", arguments.speed, "FACTOR", "Seconds of the bench in a second (1)")
-        ->check(CLI::PositiveNumber);
+    declare_option(command, group, "--speed", arguments.speed, "FACTOR", "Seconds of the bench in a second (1)")
+        ->check(positive_number());
     command
         .add_flag("--on-demand", arguments.on_demand,
                   "Time passes only as samples are read, as fast as can be: the same commands give the same samples")
         ->group(group);
     group = "What goes wrong";
-    add(command, group, "--clip", arguments.clip, "V", "The generator gives no larger amplitude, and has no error")
-        ->check(CLI::PositiveNumber);
-    add(command, group, "--drop", arguments.drop, "P", "Probability of a letter on the serial line to get lost (0)")
-        ->check(CLI::Range(0.0, 1.0));
-    add(command, group, "--delay", arguments.delay, "S", "Before each answer of the generator (0)")
-        ->check(CLI::NonNegativeNumber);
-    add(command, group, "--break-after", arguments.break_after, "N", "The serial line breaks after N lines")
+    declare_option(command, group, "--clip", arguments.clip, "V",
+                   "The generator gives no larger amplitude, and has no error")
+        ->check(positive_number());
+    declare_option(command, group, "--left-as", arguments.left_as, "TEXT",
+                   "The generator stands as these commands have left it, such as \"VOLT:UNIT VRMS;:FUNC:SHAP SQU\"");
+    declare_option(command, group, "--drop", arguments.drop, "P",
+                   "Probability of a letter on the serial line to get lost (0)")
+        ->check(number_between(0, 1));
+    declare_option(command, group, "--delay", arguments.delay, "S", "Before each answer of the generator (0)")
+        ->check(non_negative_number());
+    declare_option(command, group, "--break-after", arguments.break_after, "N", "The serial line breaks after N lines")
         ->check(whole_number(1, 1'000'000'000));
-    add(command, group, "--break-for", arguments.break_for, "S", "For so long (1)")->check(CLI::NonNegativeNumber);
-    add(command, group, "--break-samples", arguments.break_samples, "N",
-        "The connection for samples breaks after N rows, each time")
+    declare_option(command, group, "--break-for", arguments.break_for, "S", "For so long (1)")
+        ->check(non_negative_number());
+    declare_option(command, group, "--break-samples", arguments.break_samples, "N",
+                   "The connection for samples breaks after N rows, each time")
         ->check(whole_number(1, 1'000'000'000));
 }
 
@@ -106,25 +108,24 @@ void declare_acquire(CLI::App& app, AcquireArguments& arguments) {
     command.footer(acquire_examples);
     command.add_option("EXPERIMENT", arguments.experiment, "File of the experiment")->type_name("")->required();
     const char* group = "Instruments";
-    add(command, group, "--port", arguments.port, "PATH", "Serial line of the generator, in the place of the file's")
-        ->check(not_empty());
-    add(command, group, "--device", arguments.device, "ADDRESS",
-        "Where samples come from, in the place of the file's: tcp:HOST:PORT or serial:PATH")
-        ->check(not_empty());
+    declare_option(command, group, "--port", arguments.port, "PATH",
+                   "Serial line of the generator, in the place of the file's");
+    declare_option(command, group, "--device", arguments.device, "ADDRESS",
+                   "Where samples come from, in the place of the file's: tcp:HOST:PORT or serial:PATH");
     group = "Output";
-    add(command, group, "--output", arguments.folder, "FOLDER", "For the records (the name of the experiment)")
-        ->check(not_empty());
+    declare_option(command, group, "--output", arguments.folder, "FOLDER",
+                   "For the records (the name of the experiment)");
     command.add_flag("--dry-run", arguments.dry_run, "Check all, print the levels, and send nothing")->group(group);
     command.add_flag("--progress", arguments.progress, "Show progress even if standard error is no terminal")
         ->group(group);
     group = "Picture while it goes on";
-    add(command, group, "--live", arguments.live, "FILE", "Sections of the records over the amplitude: svg, png or pdf")
-        ->check(not_empty());
-    add(command, group, "--reference", arguments.reference, "NAME", "Channel whose periods count (the first)")
-        ->check(not_empty());
-    add(command, group, "--phase", arguments.phase, "PART", "Part of the period at which the section is (0)")
-        ->check(CLI::Range(0.0, 1.0));
-    add(command, group, "--channel", arguments.channel, "NAME", "What is drawn (the last)")->check(not_empty());
+    declare_option(command, group, "--live", arguments.live, "FILE",
+                   "Sections of the records over the amplitude: svg, png or pdf");
+    declare_option(command, group, "--reference", arguments.reference, "NAME",
+                   "Channel whose periods count (the first)");
+    declare_option(command, group, "--phase", arguments.phase, "PART", "Part of the period at which the section is (0)")
+        ->check(number_between(0, 1));
+    declare_option(command, group, "--channel", arguments.channel, "NAME", "What is drawn (the last)");
 }
 
 } // namespace

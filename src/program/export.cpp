@@ -1,17 +1,62 @@
+#include "graze/branch/special_point.hpp"
 #include "graze/results/hdf5.hpp"
+#include "graze/results/name_advice.hpp"
 #include "graze/results/result_table.hpp"
+#include "graze/sweep/attractor.hpp"
 #include "program/commands.hpp"
 #include "program/output_file.hpp"
 #include "program/values.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 
 namespace graze {
 
 namespace {
+
+/// What stands in some columns of the points of a file, once each.
+std::vector<std::string> words_in(const ResultFile& file, const std::vector<std::string>& of_points,
+                                  const std::vector<std::string>& of_branches) {
+    std::vector<std::string> words;
+    const auto add = [&](const std::string& column, const char* view) {
+        auto rows = file.query(fmt::format("SELECT DISTINCT {0} FROM {1} WHERE {0} <> ''", column, view));
+        while (rows.next())
+            words.push_back(rows.text(0));
+    };
+    const std::vector<RunRecord> runs = file.runs();
+    const auto is_branch = [](const RunRecord& run) { return run.is_branch(); };
+    if (!std::all_of(runs.begin(), runs.end(), is_branch))
+        for (const std::string& column : of_points)
+            add(column, "all_points");
+    if (std::any_of(runs.begin(), runs.end(), is_branch))
+        for (const std::string& column : of_branches)
+            add(column, "branch_points");
+    return words;
+}
+
+/// Words that no point has, but might have, choose no rows; others are mistakes.
+void require_selection(const ResultTableRequest& request, const ResultFile& file) {
+    const auto require = [](const char* option, const std::string& word, const std::vector<std::string>& there,
+                            const char* what) {
+        if (std::find(there.begin(), there.end(), word) == there.end())
+            throw InputError({option, 0, 0}, fmt::format("no point has the {} '{}'", what, word),
+                             name_advice(word, there, "leave it out"));
+    };
+    const auto is_label = [](const std::string& word) {
+        for (int i = 0; i <= static_cast<int>(Label::failed); ++i)
+            if (word == name_of(static_cast<Label>(i)))
+                return true;
+        return point_type(word).has_value();
+    };
+    if (!request.label.empty() && !is_label(request.label))
+        require("--label", request.label, words_in(file, {"label"}, {"label", "type"}), "label");
+    if (!request.direction.empty() && request.direction != "up" && request.direction != "down")
+        require("--direction", request.direction, words_in(file, {"direction"}, {"part"}), "direction");
+}
 
 ResultTable table_asked_for(const ExportArguments& arguments, const ResultFile& file, const Console& console) {
     ResultTableRequest request;
@@ -23,6 +68,7 @@ ResultTable table_asked_for(const ExportArguments& arguments, const ResultFile& 
     request.place_of_what = Place{"--what", 0, 0};
     if (!arguments.sql.empty())
         return queried_table(file, arguments.sql, request.runs, request.place_of_runs);
+    require_selection(request, file);
     ResultTable table = result_table(file, request);
     if (!table.left_out.empty())
         console.err << fmt::format("graze: branches have other columns and are left out: see graze points {0}, or "
@@ -76,15 +122,45 @@ Table table_of(ResultTable& given) {
     return table;
 }
 
+/// Whether an output is a folder, into which each run is written by itself.
+bool is_folder(const std::string& path) {
+    std::error_code error;
+    return path.ends_with('/') || std::filesystem::is_directory(path, error);
+}
+
+/// A file for each run, since runs may have different columns.
+void export_each(const ExportArguments& arguments, const ResultFile& file, const Console& console) {
+    if (!arguments.sql.empty())
+        throw InputError({"--output", 0, 0}, "a query has one table, and a folder is given", "name a file");
+    const std::string& folder = arguments.output.file;
+    make_folder(folder, "--output");
+    const std::string ending = arguments.hdf5.empty() || arguments.hdf5 == "table" ? "txt" : arguments.hdf5;
+    for (const std::string& run : chosen_runs(file, split_list(arguments.runs), {"--run", 0, 0})) {
+        const bool branch = file.find_run(run)->is_branch(); // which has segments and no samples
+        if (arguments.runs.empty() && arguments.what == (branch ? "samples" : "segments"))
+            continue;
+        ExportArguments one = arguments;
+        one.runs = {run};
+        one.output.file = (std::filesystem::path(folder) / (run + "." + ending)).string();
+        export_command(one, console);
+        console.out << one.output.file << '\n';
+    }
+}
+
 } // namespace
 
 int export_command(const ExportArguments& arguments, const Console& console) {
     const ResultFile file(result_path(arguments.file), ResultFile::Access::read);
+    if (arguments.hdf5 != "hdf5" && arguments.what != "runs" && is_folder(arguments.output.file)) {
+        export_each(arguments, file, console);
+        return exit_success;
+    }
     if (arguments.hdf5 == "hdf5") {
         if (arguments.output.file.empty())
             throw InputError("HDF5 cannot be written to standard output", "name a file by --output FILE.h5");
         FileReplacement target(arguments.output.file);
-        export_hdf5(file, chosen_runs(file, split_list(arguments.runs), {"--run", 0, 0}), target.temporary_path());
+        const std::vector<std::string> runs = chosen_runs(file, split_list(arguments.runs), {"--run", 0, 0});
+        target.written_by([&](const std::string& path) { export_hdf5(file, runs, path); });
         target.commit();
         return exit_success;
     }

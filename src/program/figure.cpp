@@ -5,16 +5,18 @@
 #include "program/curve.hpp"
 #include "program/dot_strokes.hpp"
 #include "program/figure_layout.hpp"
+#include "program/figure_look.hpp"
+#include "program/figure_terminal.hpp"
 #include "program/gnuplot_text.hpp"
 #include "program/mingled_crosses.hpp"
 #include "program/mingled_dots.hpp"
 #include "program/output_file.hpp"
+#include "program/page_line.hpp"
 #include "program/picture.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -27,80 +29,34 @@ namespace graze {
 
 namespace {
 
-constexpr double dots_per_inch = 200, points_per_inch = 72, svg_per_inch = 96;
-constexpr double usual_font = 9;      ///< points: for which the widths of lines are given
-constexpr double dash_of_cairo = 1.6; ///< for dashes as long as those of legends
 /// By how much of a panel's size a line may be moved.
 constexpr double unseen = 1e-4;
-/// That of Okabe and Ito (2008), whose colours the colour-blind tell apart too; brown and grey in the place of yellow
-/// and black.
-constexpr std::array<std::uint32_t, 8> palette{0x0072b2, 0xd55e00, 0x009e73, 0xe69f00,
-                                               0xcc79a7, 0x56b4e9, 0x7f4f24, 0x606060};
-constexpr std::uint32_t light_grey = 0xb0b0b0;
 
-std::uint32_t colour_number(std::size_t colour) {
-    if (colour == FigureSeries::grey)
-        return light_grey;
-    return colour == FigureSeries::black ? 0 : palette[colour % palette.size()];
+bool draws_line(FigureSeries::Style style) {
+    return style == FigureSeries::Style::line || style == FigureSeries::Style::dashed ||
+           style == FigureSeries::Style::dotted;
 }
 
-/// What differs between the kinds of files.
-struct Terminal {
-    std::string command;
-    double point = 1;   ///< gnuplot's size of a symbol with a diameter of 4.5 points
-    double letters = 1; ///< the font's size, for a point
-    std::string font;   ///< its name
-    bool latex = false;
-    bool pixels = false;
-    bool svg = false;
-
-    std::string text(const RichText& rich) const {
-        return latex ? latex_markup(rich) : svg ? firm_blanks(gnuplot_markup(rich)) : gnuplot_markup(rich);
-    }
-    std::string font_text(double size) const { return fmt::format("font '{},{:.4g}'", font, size * letters); }
-};
-
-Terminal terminal_of(const Figure& figure, const FigureLayout& page, const std::string& ending) {
-    Terminal terminal;
-    require_quotable(figure.style.font);
-    terminal.font = figure.style.font.empty() ? "sans" : figure.style.font;
-    const double width = page.width / points_per_inch, height = page.height / points_per_inch;
-    const double stroke = page.font / usual_font; // lines become thicker as letters become larger
-    if (ending == "png") {
-        terminal.pixels = true;
-        const double scale = dots_per_inch / svg_per_inch;
-        terminal.command = fmt::format(
-            "pngcairo noenhanced size {:.0f},{:.0f} fontscale {:.4g} linewidth {:.4g} pointscale {:.4g} "
-            "dashlength {:.4g}",
-            width * dots_per_inch, height * dots_per_inch, scale, scale * stroke, scale, dash_of_cairo * stroke);
-    } else if (ending == "pdf") {
-        terminal.point = 0.75;
-        terminal.command = fmt::format("pdfcairo enhanced size {:.4f}in,{:.4f}in fontscale 0.75 linewidth {:.4g} "
-                                       "dashlength {:.4g}",
-                                       width, height, 1.5 * stroke, dash_of_cairo * stroke);
-    } else if (ending == "tex") {
-        terminal.point = 0.75;
-        terminal.latex = true;
-        terminal.font = figure.style.font;
-        terminal.command = fmt::format("cairolatex pdf input size {:.4f}in,{:.4f}in linewidth {:.4g} dashlength {:.4g}",
-                                       width, height, 1.5 * stroke, dash_of_cairo * stroke);
-    } else {
-        terminal.svg = true;
-        terminal.letters = svg_per_inch / points_per_inch;
-        terminal.point = 7.2 / (page.font * terminal.letters);
-        terminal.command = fmt::format("svg enhanced size {:.0f},{:.0f} linewidth {:.4g} background rgb 'white'",
-                                       width * svg_per_inch, height * svg_per_inch, stroke);
-    }
-    terminal.command += ' ' + terminal.font_text(page.font);
-    return terminal;
+/// Diameter of dots in points, where they are so many: all panels of a picture have the same.
+double dot_width(std::size_t dots, bool pixels) {
+    constexpr double largest = 2, few = 50, falling = 0.27;
+    return std::clamp(largest * std::pow(few / static_cast<double>(std::max<std::size_t>(dots, 1)), falling),
+                      pixels ? 0.36 : 0.5, largest);
 }
 
 /// Writes one figure in the language of gnuplot.
 class FigureScript {
 public:
     FigureScript(const Figure& figure, const std::string& ending)
-        : figure_(&figure), page_(layout_of(figure)), terminal_(terminal_of(figure, page_, ending)),
-          symbol_(terminal_.point * mark_size(page_.font) / 4.5) {}
+        : figure_(&figure), page_(layout_of(figure)), terminal_(terminal_of(figure.style, page_, ending)),
+          symbol_(terminal_.point * mark_size(page_.font) / 4.5) {
+        std::size_t most = 0;
+        for (std::size_t p = 0; p < figure.panels.size(); ++p) {
+            dots_.push_back(mingled_dots(figure.panels[p], page_.panels[p]));
+            most = std::max(most, dots_.back().size());
+        }
+        dot_width_ = dot_width(most, terminal_.pixels) * stroke();
+    }
 
     std::string text(const std::string& output) {
         std::string text = "set terminal " + terminal_.command + '\n';
@@ -109,18 +65,22 @@ public:
         text += "set output " + quoted_path(output) + "\nset encoding utf8\n";
         text += "set tics out nomirror scale 0.6,0.35\nset border lw 0.8\nunset key\nset multiplot\n";
         for (std::size_t p = 0; p < figure_->panels.size(); ++p) {
-            text += "unset arrow\nunset label\n";
+            text += "unset arrow\nunset label\nunset object\n";
             if (p == 0) {
                 for (const PlacedText& line : page_.title)
                     text += text_command(line);
                 text += legend_commands(page_.legend);
             }
-            text += panel_commands(figure_->panels[p], page_.panels[p]);
+            text += panel_commands(p);
         }
         return text + "unset multiplot\nset output\n";
     }
 
 private:
+    bool grey() const { return figure_->style.grey; }
+    /// How thick lines are, compared to those beside usual letters.
+    double stroke() const { return page_.font / font_of_strokes; }
+
     std::string at(const PlanePoint& point) const {
         return fmt::format("screen {:.6f},{:.6f}", point.x / page_.width, point.y / page_.height);
     }
@@ -140,44 +100,47 @@ private:
                            placed.upright ? " rotate by 90" : "", terminal_.font_text(placed.size));
     }
 
-    static std::string line_text(const FigureSeries::Style style, double wider = 0) {
-        switch (style) {
-        case FigureSeries::Style::dashed:
-            return fmt::format("lw {:.3g} dt (7,4)", 1.3 + wider);
-        case FigureSeries::Style::dotted:
-            return fmt::format("lw {:.3g} dt (2,3.5)", 1.1 + wider);
-        case FigureSeries::Style::impulses:
-            return "lw 1.1";
-        default:
-            return fmt::format("lw {:.3g}", 1.3 + wider);
-        }
+    static double line_width(const FigureSeries::Style style) {
+        return style == FigureSeries::Style::dotted || style == FigureSeries::Style::impulses ? 1.1 : 1.3;
     }
 
     /// @param over how many series lie on this one
     std::string style_text(const FigureSeries& series, std::size_t over) const {
-        const std::string colour = fmt::format("lc rgb '{}'", colour_text(series.colour));
+        const auto wider = static_cast<double>(over);
+        const std::string colour = fmt::format("lc rgb '{}'", colour_text(series.colour, grey()));
         switch (series.style) {
         case FigureSeries::Style::dots:
             return fmt::format("with points pt 7 ps {:.3g} {}", 0.17 * symbol_, colour);
         case FigureSeries::Style::circles:
-            return fmt::format("with points pt 6 ps {:.3g} lw 1.2 {}", circle_size(series.colour), colour);
+            return fmt::format("with points pt {} ps {:.3g} lw 1.2 {}", grey() ? circle_mark(series.colour) : 6,
+                               circle_size(series.colour), colour);
         case FigureSeries::Style::symbols: {
             constexpr std::size_t many = 200; // beyond, thin small ones hide less of one another
-            const bool crowded = series.points.size() > many;
-            return fmt::format("with points pt {} ps {:.3g} lw {} {}", series.symbol, (crowded ? 0.6 : 1) * symbol_,
-                               crowded ? 0.7 : 1.2, colour);
+            constexpr std::size_t very_many = 1000;
+            const std::size_t count = series.points.size();
+            return fmt::format("with points pt {} ps {:.3g} lw {} {}", series.symbol,
+                               (count > very_many ? 0.35
+                                : count > many    ? 0.6
+                                                  : 1) *
+                                   symbol_,
+                               count > many ? 0.7 : 1.2, colour);
         }
-        case FigureSeries::Style::impulses: {
-            // Spectra may coincide: the first are drawn wide, so that each is seen beside those on it.
-            const auto wider = static_cast<double>(over);
+        case FigureSeries::Style::impulses: // Spectra may coincide: the first are drawn wide, to be seen beside the
+                                            // others
             return fmt::format("with linespoints pt 7 ps {:.3g} lw {:.3g} {}", (0.45 + 0.2 * wider) * symbol_,
-                               1.1 + 0.6 * wider, colour);
-        }
+                               line_width(series.style) + 0.6 * wider, colour);
         case FigureSeries::Style::cells:
-            return fmt::format("with boxxyerror fs solid 1 noborder {}", colour);
+            return fmt::format("with boxxyerror {} lc rgb '#{:06x}'", fill_text(series.colour, series.hatch),
+                               cell_number(series.colour, grey()));
         default: // each line on it leaves an edge of it
-            return fmt::format("with lines {} {}", line_text(series.style, 1.6 * static_cast<double>(over)), colour);
+            return fmt::format("with lines lw {:.3g} {}", line_width(series.style) + 1.6 * wider, colour);
         }
+    }
+
+    /// How cells are filled: with a pattern, if the shade alone does not tell what they are.
+    std::string fill_text(std::size_t colour, int hatch) const {
+        const int pattern = hatch != 0 ? hatch : grey() ? cell_hatch(colour) : 0;
+        return pattern != 0 ? fmt::format("fs transparent pattern {} noborder", pattern) : "fs solid 1 noborder";
     }
 
     /// Circles of different colours may lie in one place, where each is to be seen.
@@ -190,43 +153,58 @@ private:
 
     /// A sample of each style, and what it is.
     std::string legend_commands(const std::vector<LegendEntry>& legend) const {
-        using Style = FigureSeries::Style;
         std::string text;
         for (const LegendEntry& entry : legend) {
-            const double y = (entry.box.low + entry.box.high) / 2, right = entry.box.left + entry.sample;
-            const PlanePoint middle{(entry.box.left + right) / 2, y};
-            const bool line = entry.style == Style::line || entry.style == Style::dashed ||
-                              entry.style == Style::dotted || entry.style == Style::impulses;
-            const std::string colour = colour_text(entry.colour);
-            if (entry.sampled && line)
-                text += sample_commands(entry, right, y, colour);
-            else if (entry.sampled)
-                text += fmt::format("set label \"\" at {} point pt {} ps {:.3g} lw 1.2 lc rgb '{}'\n", at(middle),
-                                    entry.style == Style::symbols   ? entry.symbol
-                                    : entry.style == Style::circles ? 6
-                                    : entry.style == Style::cells   ? 5
-                                                                    : 7,
-                                    (entry.style == Style::cells ? 1.4 : 1) * symbol_, colour);
+            const double y = (entry.box.low + entry.box.high) / 2;
+            if (entry.sampled)
+                text += sample_commands(entry, y);
             text += fmt::format("set label \"{}\" at {} left {}\n", text_of(entry.text, legend_font(page_.font)),
                                 at({entry.title_left, y}), terminal_.font_text(legend_font(page_.font)));
         }
         return text;
     }
 
-    /// A line of a style, dash by dash: not all of gnuplot's terminals have arrows with dashes.
-    std::string sample_commands(const LegendEntry& entry, double right, double y, const std::string& colour) const {
-        const bool dashed = entry.style == FigureSeries::Style::dashed,
-                   dotted = entry.style == FigureSeries::Style::dotted;
-        const double stroke = page_.font / usual_font;
-        const double length = dashed   ? 4 * stroke
-                              : dotted ? stroke
-                                       : right - entry.box.left,
-                     gap = (dashed ? 2.2 : 2) * stroke; // points
-        const std::string width = dotted ? "lw 1.1" : dashed ? "lw 1.3" : line_text(entry.style);
+    std::string sample_commands(const LegendEntry& entry, double y) const {
+        using Style = FigureSeries::Style;
+        const double left = entry.box.left, right = left + entry.sample;
+        const PlanePoint middle{(left + right) / 2, y};
+        const std::string colour = colour_text(entry.colour, grey());
+        const auto point = [&](int symbol, double size) {
+            return fmt::format("set label \"\" at {} point pt {} ps {:.3g} lw 1.2 lc rgb '{}'\n", at(middle), symbol,
+                               size * symbol_, colour);
+        };
+        switch (entry.style) {
+        case Style::symbols:
+            return point(entry.symbol, 1);
+        case Style::circles:
+            return point(grey() ? circle_mark(entry.colour) : 6, 1);
+        case Style::dots:
+            return fmt::format("set label \"\" at {} point pt 7 ps {:.3g} lc rgb '#{:06x}'\n", at(middle), symbol_,
+                               dot_number(entry.colour, grey()));
+        case Style::cells: {
+            const double half = entry.sample / 2;
+            return fmt::format("set object rectangle from {} to {} noclip fc rgb '#{:06x}' {}\n", at({left, y - half}),
+                               at({right, y + half}), cell_number(entry.colour, grey()),
+                               fill_text(entry.colour, entry.hatch));
+        }
+        default: {
+            std::string text = line_sample(entry, y, colour);
+            if (const int mark = grey() ? line_mark(entry.colour) : 0; mark != 0)
+                text += point(mark, line_mark_size);
+            return text;
+        }
+        }
+    }
+
+    /// A line of a style, dash by dash.
+    std::string line_sample(const LegendEntry& entry, double y, const std::string& colour) const {
+        const double left = entry.box.left, right = left + entry.sample;
+        const bool whole = entry.style == FigureSeries::Style::line || entry.style == FigureSeries::Style::impulses;
+        const DashPattern pattern = whole ? DashPattern{entry.sample, 1} : dash_pattern(entry.style, stroke());
         std::string text;
-        for (double x = entry.box.left; x < right; x += length + gap)
-            text += fmt::format("set arrow from {} to {} nohead {} lc rgb '{}'\n", at({x, y}),
-                                at({std::min(x + length, right), y}), width, colour);
+        for (double x = left; x < right; x += pattern.length())
+            text += fmt::format("set arrow from {} to {} nohead lw {} lc rgb '{}'\n", at({x, y}),
+                                at({std::min(x + pattern.dash, right), y}), line_width(entry.style), colour);
         return text;
     }
 
@@ -236,7 +214,8 @@ private:
             const PlanePoint middle{(label.box.left + label.box.right) / 2, (label.box.low + label.box.high) / 2};
             text += fmt::format("set label \"{}\" at {} center {} tc rgb '{}' front\n",
                                 text_of(rich(label.text), label_font(page_.font)), at(middle),
-                                terminal_.font_text(label_font(page_.font)), colour_text(label.colour));
+                                terminal_.font_text(label_font(page_.font)),
+                                colour_text(grey() ? FigureSeries::black : label.colour));
             if (label.led)
                 text += fmt::format("set arrow from {} to {} nohead lw 0.5 lc rgb '#606060' front\n",
                                     at(label.leader_start), at(label.leader_end));
@@ -254,7 +233,8 @@ private:
                            axis.logarithmic ? "" : "un", axis.low, axis.high, tics);
     }
 
-    std::string panel_commands(const FigurePanel& panel, const PanelLayout& layout) const {
+    std::string panel_commands(std::size_t number) const {
+        const PanelLayout& layout = page_.panels[number];
         const Box& frame = layout.frame;
         std::string text = fmt::format("set lmargin at screen {:.6f}\nset rmargin at screen {:.6f}\nset bmargin at "
                                        "screen {:.6f}\nset tmargin at screen {:.6f}\n",
@@ -264,23 +244,17 @@ private:
         for (const PlacedText& placed : layout.texts)
             text += text_command(placed);
         text += legend_commands(layout.legend);
-        for (const double mark : panel.marks) {
-            if (!(layout.x.share(mark) >= 0 && layout.x.share(mark) <= 1)) // gnuplot would draw it beside the panel
-                continue;
-            text += fmt::format(
-                "set arrow from first {0:.10g},graph 0 to first {0:.10g},graph 1 nohead lw 0.5 dt (2,3.5) lc "
-                "rgb '#808080'\n",
-                mark);
-        }
         text += label_commands(layout.labels);
-        const std::string plots = plot_commands(panel, layout);
+        const std::string plots = plot_commands(number);
         if (!plots.empty())
             return text + plots;
         return text + fmt::format("set label \"no data\" at {} center\nplot 1/0 notitle\n",
                                   at({(frame.left + frame.right) / 2, (frame.low + frame.high) / 2}));
     }
 
-    std::string plot_commands(const FigurePanel& panel, const PanelLayout& layout) const {
+    std::string plot_commands(std::size_t number) const {
+        const FigurePanel& panel = figure_->panels[number];
+        const PanelLayout& layout = page_.panels[number];
         std::string plots, data;
         // Inline data: what gnuplot calls blocks takes it quadratic time to read.
         const auto add = [&](const std::string& points, const std::string& style) {
@@ -293,11 +267,14 @@ private:
                                        [](const FigureSeries& series) { return !series.cells.empty(); });
         const std::vector<std::size_t> covering = covering_lines(panel, layout);
         bool dots = false;
+        for (const double mark : panel.marks)
+            add(line_text({{mark, layout.y.low}, {mark, layout.y.high}}, FigureSeries::Style::dotted, layout),
+                "with lines lw 0.5 lc rgb '#808080'");
         for (std::size_t s = 0; s < panel.series.size(); ++s) {
             const FigureSeries& series = panel.series[s];
             if (series.style == FigureSeries::Style::dots) {
                 if (!dots)
-                    add_dots(panel, layout, add);
+                    add_dots(number, add);
                 dots = true;
                 continue;
             }
@@ -316,6 +293,10 @@ private:
             add(data_text(series, panel, layout),
                 style_text(series,
                            series.style == FigureSeries::Style::impulses ? panel.series.size() - 1 - s : covering[s]));
+            if (const int mark = grey() && draws_line(series.style) ? line_mark(series.colour) : 0; mark != 0)
+                add(marks_text(series, panel, layout),
+                    fmt::format("with points pt {} ps {:.3g} lc rgb '{}'", mark, line_mark_size * symbol_,
+                                colour_text(series.colour, true)));
         }
         return data.empty() ? "" : "plot " + plots + '\n' + data;
     }
@@ -328,17 +309,63 @@ private:
         return simplified(line, layout.x.high - layout.x.low, layout.y.high - layout.y.low, unseen);
     }
 
-    static std::string data_text(const FigureSeries& series, const FigurePanel& panel, const PanelLayout& layout) {
-        using Style = FigureSeries::Style;
-        const bool line = series.style == Style::line || series.style == Style::dashed || series.style == Style::dotted;
+    /// Dashes are laid here, where those of lines that coincide can be made to coincide.
+    std::string line_text(const Polyline& line, FigureSeries::Style style, const PanelLayout& layout) const {
+        std::string text;
+        if (style == FigureSeries::Style::line) {
+            for (const PlanePoint& point : line)
+                text += fmt::format("{:.10g} {:.10g}\n", point.x, point.y);
+            return text;
+        }
+        for (const Polyline& dash : dashes_of(page_line(line, layout), dash_pattern(style, stroke()), layout.frame)) {
+            for (const PlanePoint& place : dash) {
+                const PlanePoint point = off_page(place, layout);
+                text += fmt::format("{:.10g} {:.10g}\n", point.x, point.y);
+            }
+            text += '\n';
+        }
+        return text;
+    }
+
+    static Polyline page_line(const Polyline& line, const PanelLayout& layout) {
+        Polyline placed;
+        for (const PlanePoint& point : line)
+            placed.push_back(on_page(point, layout));
+        return placed;
+    }
+
+    /// Symbols along a line, which tell it from others where there are no colours.
+    static std::string marks_text(const FigureSeries& series, const FigurePanel& panel, const PanelLayout& layout) {
+        constexpr double distance = 60, first = 12, later = 9; // points
+        std::string text;
+        Polyline piece;
+        const auto write = [&] {
+            const double start = first + later * static_cast<double>(series.colour % 6);
+            for (const PlanePoint& place : spread_along(page_line(piece, layout), distance, start, layout.frame)) {
+                const PlanePoint point = off_page(place, layout);
+                text += fmt::format("{:.10g} {:.10g}\n", point.x, point.y);
+            }
+            piece.clear();
+        };
+        for (const PlanePoint& point : smoothed(series.points, series.along, series.corners))
+            if (is_drawn(point, panel))
+                piece.push_back(point);
+            else
+                write();
+        write();
+        return text;
+    }
+
+    std::string data_text(const FigureSeries& series, const FigurePanel& panel, const PanelLayout& layout) const {
+        const bool line = draws_line(series.style);
         std::string text;
         for (const PlaneBox& cell : series.cells)
             text += fmt::format("{:.10g} {:.10g} {:.10g} {:.10g} {:.10g} {:.10g}\n", (cell.left + cell.right) / 2,
                                 (cell.low + cell.high) / 2, cell.left, cell.right, cell.low, cell.high);
         Polyline piece;
         const auto write = [&] {
-            for (const PlanePoint& point : line ? thinned(piece, layout) : piece)
-                text += fmt::format("{:.10g} {:.10g}\n", point.x, point.y);
+            text += line ? line_text(thinned(piece, layout), series.style, layout)
+                         : line_text(piece, FigureSeries::Style::line, layout);
             piece.clear();
         };
         for (const PlanePoint& point : smoothed(series.points, series.along, series.corners))
@@ -352,43 +379,46 @@ private:
         return text;
     }
 
-    static constexpr std::size_t few = 1000, crowd = 20000;
-
     /// @param add is given data and style
     template <class Add>
-    void add_dots(const FigurePanel& panel, const PanelLayout& layout, const Add& add) const {
-        const std::vector<MingledDot> dots = mingled_dots(panel, layout);
+    void add_dots(std::size_t number, const Add& add) const {
+        constexpr std::size_t few = 1000;
+        const FigurePanel& panel = figure_->panels[number];
+        const std::vector<MingledDot>& dots = dots_[number];
         if (dots.size() > few && !terminal_.pixels)
-            return add_strokes(panel, layout, dots, add);
+            return add_strokes(number, add);
         std::string text;
         for (const MingledDot& dot : dots)
-            text +=
-                fmt::format("{:.7g} {:.7g} {}\n", dot.at.x, dot.at.y, colour_number(panel.series[dot.series].colour));
-        const double size = dots.size() > few ? 0.17 : 0.22;
+            text += fmt::format("{:.7g} {:.7g} {}\n", dot.at.x, dot.at.y,
+                                dot_number(panel.series[dot.series].colour, grey()));
+        constexpr double of_pixel = 0.4; ///< points: such dots are as large as gnuplot's own, which are drawn fast
         const std::string style =
-            dots.size() > crowd ? "with dots" : fmt::format("with points pt 7 ps {:.3g}", size * symbol_);
+            terminal_.pixels && dot_width_ < of_pixel
+                ? "with dots"
+                : fmt::format("with points pt 7 ps {:.3g}", dot_width_ / mark_size(page_.font) * symbol_);
         add(text, style + " lc rgb variable");
     }
 
     /// A file with each dot of a crowd would have tens of megabytes.
     template <class Add>
-    void add_strokes(const FigurePanel& panel, const PanelLayout& layout, const std::vector<MingledDot>& dots,
-                     const Add& add) const {
+    void add_strokes(std::size_t number, const Add& add) const {
         constexpr double of_unit = 0.75; ///< points: what is as wide as gnuplot's unit where lines are as usual
-        const double width = dots.size() > crowd ? 1 : 0.17 * mark_size(page_.font); // as those of dots
-        std::map<std::pair<std::size_t, std::size_t>, std::string> texts;            // by layer, then by series
-        for (const DotStroke& stroke : dot_strokes(dots, layout, width))
+        std::map<std::pair<std::size_t, std::size_t>, std::string> texts; // by layer, then by series
+        for (const DotStroke& stroke : dot_strokes(dots_[number], page_.panels[number], dot_width_))
             texts[{stroke.layer, stroke.series}] +=
                 fmt::format("{:.7g} {:.7g}\n{:.7g} {:.7g}\n\n", stroke.from.x, stroke.from.y, stroke.to.x, stroke.to.y);
         for (const auto& [key, text] : texts)
-            add(text, fmt::format("with lines lw {:.3g} lc rgb '{}'", width / (of_unit * page_.font / usual_font),
-                                  colour_text(panel.series[key.second].colour)));
+            add(text, fmt::format("with lines lw {:.3g} lc rgb '#{:06x}'", dot_width_ / (of_unit * stroke()),
+                                  dot_number(figure_->panels[number].series[key.second].colour, grey())));
     }
 
+    static constexpr double line_mark_size = 0.75; ///< of symbols along lines, compared to those of points
     const Figure* figure_;
     FigureLayout page_;
-    Terminal terminal_;
-    double symbol_; ///< gnuplot's size of symbols
+    FigureTerminal terminal_;
+    double symbol_;                             ///< gnuplot's size of symbols
+    std::vector<std::vector<MingledDot>> dots_; ///< of each panel
+    double dot_width_ = 0;                      ///< points
 };
 
 std::string contents_of(const std::string& path) {
@@ -420,24 +450,12 @@ void take_latex(const FileReplacement& file, const std::string& path, double fon
 
 } // namespace
 
-const char* colour_text(std::size_t colour) {
-    static const auto texts = [] {
-        std::array<std::string, palette.size()> result;
-        std::transform(palette.begin(), palette.end(), result.begin(),
-                       [](std::uint32_t number) { return fmt::format("#{:06x}", number); });
-        return result;
-    }();
-    if (colour == FigureSeries::grey)
-        return "#b0b0b0";
-    return colour == FigureSeries::black ? "#000000" : texts[colour % texts.size()].c_str();
-}
-
 std::string figure_script(const Figure& figure, const std::string& ending, const std::string& output) {
     return FigureScript(figure, ending).text(output);
 }
 
 std::vector<std::string> figure_endings() {
-    return {"svg", "png", "pdf", "tex"};
+    return {"svg", "png", "pdf", "eps", "tex"};
 }
 
 void draw_figure(const Figure& figure, const std::string& path, const std::string& data_path) {

@@ -7,11 +7,8 @@
 
 namespace graze {
 
-/// The colour as gnuplot reads it.
-const char* colour_text(std::size_t colour);
-
 /// A figure in the language of gnuplot, data included.
-/// @param ending svg, png, pdf or tex; @param output the file that the commands write
+/// @param ending svg, png, pdf, eps or tex; @param output the file that the commands write
 std::string figure_script(const Figure& figure, const std::string& ending, const std::string& output);
 
 /// Endings of the files that can be drawn.

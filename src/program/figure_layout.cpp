@@ -16,10 +16,13 @@ constexpr double least_panel = 42;  ///< mm: of the axes of panels that stand be
 constexpr double flat = 0.62;       ///< height of a panel, of its width
 constexpr double flattest = 0.38;   ///< where a picture has only one column
 constexpr double least_height = 30; ///< points: of panels, whatever height was asked for
+constexpr double sheet = 250;       ///< mm: pictures whose height nobody asked for go onto a sheet of A4
+constexpr double legible = 20;      ///< mm: of panels that are made less high for that
 
 // In sizes of the font.
-constexpr double line = 1.3, margin = 0.6, tic_length = 0.45, gap_at_tic = 0.3, gap_of_panels = 1, title_size = 1.1;
-constexpr std::size_t most_title_lines = 3;
+constexpr double line = 1.3, note_line = 1.25, margin = 0.6, tic_length = 0.45, gap_at_tic = 0.3, gap_of_panels = 1,
+                 title_size = 1.1;
+constexpr std::size_t most_title_lines = 3, most_note_lines = 3;
 
 double font_of(const FigureStyle& style, double width) {
     if (style.font_size > 0)
@@ -63,7 +66,7 @@ std::vector<RichText> axis_label(const std::string& name, const std::string& wor
         };
         if (width_of(with_end(text)) <= room)
             return {with_end(text)};
-        const std::vector<std::string> lines = wrapped(text, room, 3);
+        const std::vector<std::string> lines = wrapped_lines(text, room, 3);
         if (lines.size() == 1 && width_of(end) <= room)
             return {rich_words(lines[0], symbols), is_symbol ? end : bracket};
         if (lines.size() == 2 && width_of(with_end(lines[1])) <= room)
@@ -75,7 +78,8 @@ std::vector<RichText> axis_label(const std::string& name, const std::string& wor
 /// Works out the places of one figure.
 class Arrangement {
 public:
-    explicit Arrangement(const Figure& figure) : figure_(&figure) {
+    /// @param columns of panels, at most
+    Arrangement(const Figure& figure, std::size_t columns) : figure_(&figure) {
         const double width = figure.style.width > 0 ? figure.style.width : usual_width;
         page_.font = font_of(figure.style, width);
         page_.width = width * points_per_mm;
@@ -83,7 +87,9 @@ public:
         titles_.resize(figure.panels.size());
         x_labels_.resize(figure.panels.size());
         y_labels_.resize(figure.panels.size());
-        columns_ = std::clamp<std::size_t>(figure.columns, 1, std::max<std::size_t>(1, figure.panels.size()));
+        notes_.resize(figure.panels.size());
+        reserved_.resize(figure.panels.size());
+        columns_ = std::clamp<std::size_t>(columns, 1, std::max<std::size_t>(1, figure.panels.size()));
         while (columns_ > 1 && width / static_cast<double>(columns_) < least_panel + 3 * page_.font / points_per_mm)
             --columns_;
         rows_ = std::max<std::size_t>(1, (figure.panels.size() + columns_ - 1) / columns_);
@@ -93,15 +99,24 @@ public:
     }
 
     FigureLayout arrange() {
-        constexpr int rounds =
-            3; // heights decide on numbers beside axes, these on widths, these on legends and heights
+        // Heights decide on numbers beside axes, these on widths, these on legends and heights; where labels find no
+        // room they are listed, which needs height too.
+        constexpr int rounds = 3;
         for (int round = 0; round < rounds; ++round)
             measure();
-        write_title();
+        place_all();
+        while (needs_more_lines()) { // ends, for the room of lists only grows, and no list is longer than its names
+            for (int round = 0; round < rounds; ++round)
+                measure();
+            place_all();
+        }
         for (std::size_t p = 0; p < page_.panels.size(); ++p)
-            place(p);
+            write_notes(p);
         return std::move(page_);
     }
+    /// Whether panels are too flat to be read because so many stand below one another.
+    bool is_crowded() const { return crowded_; }
+    std::size_t columns() const { return columns_; }
 
 private:
     double font() const { return page_.font; }
@@ -117,10 +132,10 @@ private:
         std::vector<std::vector<LegendEntry>> legends;
         for (const FigurePanel& panel : figure_->panels)
             legends.push_back(legend_entries(panel));
-        for (std::size_t p = 1; p < legends.size(); ++p)
-            shared = shared && same_legend(legends[p], legends[0]);
+        const auto all = shared ? joined_legend(legends) : std::nullopt;
+        shared = all.has_value();
         if (shared)
-            page_.legend = legends[0];
+            page_.legend = *all;
         for (std::size_t p = 0; p < legends.size() && !shared; ++p)
             page_.panels[p].legend = legends[p];
     }
@@ -143,7 +158,7 @@ private:
     void write_labels(std::size_t p) {
         const FigurePanel& panel = figure_->panels[p];
         const double width = frame_width_ / font();
-        titles_[p] = wrapped(panel.title, width, 2);
+        titles_[p] = wrapped_lines(panel.title, width, 2);
         x_labels_[p] =
             axis_label(panel.x_label, panel.x_words, panel.x_unit, page_.panels[p].x.power, width, figure_->symbols);
         // Beside title and numbers below there is room for it as well.
@@ -152,6 +167,37 @@ private:
             axis_label(panel.y_label, panel.y_words, panel.y_unit, page_.panels[p].y.power, height, figure_->symbols);
     }
     double room_above(std::size_t p) const { return font() * (line * static_cast<double>(titles_[p].size()) + 0.5); }
+    /// Where a height was asked for, panels come first.
+    double room_of_notes(std::size_t p) const {
+        return note_line * legend_font(font()) * static_cast<double>(reserved_[p]);
+    }
+    /// What a panel says of itself, then what its labels' places do, as lines.
+    std::vector<std::string> notes_of(std::size_t p) const {
+        constexpr std::size_t most_on_given_height = 2;
+        std::vector<std::string> all = figure_->panels[p].notes;
+        const std::vector<std::string>& of_labels = page_.panels[p].labels.notes;
+        all.insert(all.end(), of_labels.begin(), of_labels.end());
+        std::vector<std::string> lines;
+        for (const std::string& note : all)
+            for (std::string& text :
+                 wrapped_lines(note, column_width(column_of(p)) / legend_font(font()), most_note_lines))
+                lines.push_back(std::move(text));
+        if (figure_->style.height > 0 && lines.size() > most_on_given_height) {
+            lines.resize(most_on_given_height);
+            lines.back() += "…";
+        }
+        return lines;
+    }
+    /// Takes over the notes that there are now. @return whether they need more room than is left for them
+    bool needs_more_lines() {
+        bool more = false;
+        for (std::size_t p = 0; p < page_.panels.size(); ++p) {
+            notes_[p] = notes_of(p);
+            more = more || notes_[p].size() > reserved_[p];
+            reserved_[p] = std::max(reserved_[p], notes_[p].size());
+        }
+        return more;
+    }
     double room_of_axis(std::size_t p) const {
         return font() * (tic_length + gap_at_tic + 1 + 0.2 + line * static_cast<double>(x_labels_[p].size()) + 0.2);
     }
@@ -177,26 +223,41 @@ private:
             const double legend =
                 place_legend(panel.legend, 0, 0, column_width(column_of(p)), font(), figure_->symbols);
             above_[row_of(p)] = std::max(above_[row_of(p)], room_above(p));
-            below_[row_of(p)] = std::max(below_[row_of(p)], room_of_axis(p) + legend + gap_of_panels * font());
+            below_[row_of(p)] =
+                std::max(below_[row_of(p)], room_of_axis(p) + legend + room_of_notes(p) + gap_of_panels * font());
         }
         title_height_ = font() * (margin + title_size * line * static_cast<double>(figure_title().size()));
         legend_height_ =
             place_legend(page_.legend, margin * font(), 0, page_.width - 2 * margin * font(), font(), figure_->symbols);
         const double around = title_height_ + legend_height_ + std::accumulate(above_.begin(), above_.end(), 0.0) +
                               std::accumulate(below_.begin(), below_.end(), 0.0);
-        frame_height_ =
-            figure_->style.height > 0
-                ? std::max(least_height, (figure_->style.height * points_per_mm - around) / static_cast<double>(rows_))
-                : usual_height();
+        const auto height_on = [&](double page) {
+            return std::max(least_height, (page * points_per_mm - around) / static_cast<double>(rows_));
+        };
+        frame_height_ = usual_height();
+        if (figure_->style.height > 0)
+            frame_height_ = height_on(figure_->style.height);
+        else if (frame_height_ > height_on(sheet)) {
+            crowded_ = height_on(sheet) < legible * points_per_mm;
+            frame_height_ = std::min(usual_height(), std::max(height_on(sheet), legible * points_per_mm));
+        }
         page_.height = around + static_cast<double>(rows_) * frame_height_;
     }
 
     std::vector<std::string> figure_title() const {
-        return wrapped(figure_->title, (page_.width - 2 * margin * font()) / (title_size * font()), most_title_lines);
+        return wrapped_lines(figure_->title, (page_.width - 2 * margin * font()) / (title_size * font()),
+                             most_title_lines);
     }
     double column_width(std::size_t column) const { return left_[column] + frame_width_ + right_[column]; }
 
+    void place_all() {
+        write_title();
+        for (std::size_t p = 0; p < page_.panels.size(); ++p)
+            place(p);
+    }
+
     void write_title() {
+        page_.title.clear();
         double y = page_.height - font() * margin / 2;
         for (const std::string& text : figure_title()) {
             y -= title_size * line * font() / 2;
@@ -221,10 +282,27 @@ private:
         frame.right = frame.left + frame_width_;
         frame.high = top - above_[row_of(p)];
         frame.low = frame.high - frame_height_;
+        panel.texts.clear();
         write(p);
         place_legend(panel.legend, left, frame.low - room_of_axis(p), column_width(column_of(p)), font(),
                      figure_->symbols);
         panel.labels = place_labels(figure_->panels[p], frame, panel.x, panel.y, font());
+    }
+
+    /// Below the legend.
+    void write_notes(std::size_t p) {
+        PanelLayout& panel = page_.panels[p];
+        const double size = legend_font(font()), left = panel.frame.left - left_[column_of(p)];
+        double y = panel.frame.low - room_of_axis(p);
+        for (const LegendEntry& entry : panel.legend)
+            y = std::min(y, entry.box.low);
+        for (const std::string& text : notes_[p]) {
+            y -= note_line * size / 2;
+            PlacedText placed{rich_words(text, figure_->symbols), {left, y}, size, PlacedText::Align::left, false};
+            placed.box = box_of(placed);
+            panel.texts.push_back(placed);
+            y -= note_line * size / 2;
+        }
     }
 
     void add(PanelLayout& panel, const RichText& text, const PlanePoint& at, PlacedText::Align align, bool upright) {
@@ -272,14 +350,22 @@ private:
     double frame_width_ = 0, frame_height_ = 0, title_height_ = 0, legend_height_ = 0;
     std::vector<double> left_, right_; ///< of each column: room beside its frames
     std::vector<double> above_, below_;
-    std::vector<std::vector<std::string>> titles_; ///< lines, of each panel
+    bool crowded_ = false;
+    std::vector<std::vector<std::string>> titles_, notes_; ///< lines, of each panel
+    std::vector<std::size_t> reserved_;                    ///< room for so many lines of notes
     std::vector<std::vector<RichText>> x_labels_, y_labels_;
 };
 
 } // namespace
 
 FigureLayout layout_of(const Figure& figure) {
-    return Arrangement(figure).arrange();
+    for (std::size_t columns = std::max<std::size_t>(1, figure.columns);; ++columns) {
+        Arrangement arrangement(figure, columns);
+        FigureLayout layout = arrangement.arrange();
+        const bool wider = arrangement.is_crowded() && columns < figure.panels.size();
+        if (!wider || arrangement.columns() < columns) // a row has as many panels as are legible beside one another
+            return layout;
+    }
 }
 
 } // namespace graze

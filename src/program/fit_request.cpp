@@ -64,7 +64,8 @@ UnknownParameter unknown_of(const Model& model, const std::string& item) {
 
 class Requester {
 public:
-    explicit Requester(const IdentifyArguments& arguments) : arguments_(&arguments) {}
+    Requester(const IdentifyArguments& arguments, const Console& console)
+        : arguments_(&arguments), console_(&console) {}
 
     FitRequest make() {
         const std::vector<std::string>& files = arguments_->reading.files;
@@ -166,7 +167,7 @@ private:
     }
 
     void read_record(const std::string& file) {
-        RecordStages stages(file, arguments_->reading);
+        RecordStages stages(file, arguments_->reading, *console_);
         const RecordHeader header = stages.header();
         for (const auto& [name, text] : meanings_)
             header.channel(name, "--reading");
@@ -257,6 +258,7 @@ private:
     static std::string unit_text(const std::string& unit) { return unit.empty() ? "no unit" : unit; }
 
     const IdentifyArguments* arguments_;
+    const Console* console_;
     FitRequest request_;
     std::vector<std::size_t> unknown_;
     std::map<std::string, std::string> meanings_;
@@ -265,8 +267,8 @@ private:
 
 } // namespace
 
-FitRequest fit_request(const IdentifyArguments& arguments) {
-    return Requester(arguments).make();
+FitRequest fit_request(const IdentifyArguments& arguments, const Console& console) {
+    return Requester(arguments, console).make();
 }
 
 } // namespace graze

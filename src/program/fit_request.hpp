@@ -4,6 +4,7 @@
 #include "graze/model/model.hpp"
 #include "graze/record/samples.hpp"
 #include "program/arguments.hpp"
+#include "program/program.hpp"
 
 #include <string>
 #include <vector>
@@ -21,6 +22,6 @@ struct FitRequest {
 };
 
 /// Reads the records. @throws InputError
-FitRequest fit_request(const IdentifyArguments& arguments);
+FitRequest fit_request(const IdentifyArguments& arguments, const Console& console);
 
 } // namespace graze

@@ -54,7 +54,13 @@ std::size_t letters_of_tics(const Axis& axis) {
 
 } // namespace
 
-GnuplotScript::GnuplotScript(const PlotRecorder& recorder) : recorder_(&recorder) {
+GnuplotScript::GnuplotScript(const PlotRecorder& recorder, const FigureStyle& style)
+    : recorder_(&recorder), style_(style) {
+    constexpr double usual_size = 9, pixels_of_mm = 96 / 25.4;
+    if (style.font_size > 0)
+        unit_ = style.font_size / usual_size;
+    asked_width_ = style.width * pixels_of_mm / unit_;
+    asked_height_ = style.height * pixels_of_mm / unit_;
     make_panels();
     place_panels();
     for (const PlotRecorder::Jump& jump : recorder.jumps())
@@ -65,12 +71,13 @@ GnuplotScript::GnuplotScript(const PlotRecorder& recorder) : recorder_(&recorder
 
 void GnuplotScript::make_panels() {
     const PlotContents& contents = recorder_->contents();
-    for (const std::size_t column : contents.histories) {
+    const std::vector<std::size_t> histories = shown_histories();
+    for (const std::size_t column : histories) {
         Panel panel;
         panel.x.is_time = true;
         panel.y.column = column;
         panel.name = fmt::format("history{}", panels_.size() + 1);
-        panel.x_labels = column == contents.histories.back() && panels_.size() + 1 == contents.histories.size();
+        panel.x_labels = panels_.size() + 1 == histories.size();
         panels_.push_back(panel);
     }
     for (std::size_t i = 0; i < contents.portraits.size(); ++i) {
@@ -82,32 +89,107 @@ void GnuplotScript::make_panels() {
     }
 }
 
-/// Heights first; they decide about tics and labels, which decide how much room the columns need beside them.
+bool GnuplotScript::changes(std::size_t column) const {
+    const std::size_t columns = recorder_->contents().columns.size();
+    double least = std::numeric_limits<double>::infinity(), greatest = -least;
+    for (const PlotRecorder::Arc& arc : recorder_->arcs())
+        for (std::size_t i = 0; i < arc.times.size(); ++i) {
+            least = std::min(least, arc.values[i * columns + column]);
+            greatest = std::max(greatest, arc.values[i * columns + column]);
+        }
+    constexpr double resolved = 1e-9; // as axis_for draws a constant
+    return greatest - least > resolved * std::max(std::abs(least), std::abs(greatest));
+}
+
+std::vector<std::size_t> GnuplotScript::shown_histories() const {
+    const PlotContents& contents = recorder_->contents();
+    std::vector<std::size_t> shown;
+    for (const std::size_t column : contents.histories)
+        if (contents.chosen || changes(column))
+            shown.push_back(column);
+    return shown.empty() ? contents.histories : shown;
+}
+
 void GnuplotScript::place_panels() {
-    const auto histories = static_cast<double>(recorder_->contents().histories.size());
-    const auto portraits = static_cast<double>(recorder_->contents().portraits.size());
-    double inner = histories > 0 ? histories * history_height + (histories - 1) * history_gap : 0;
+    place_columns();
+    if (asked_width_ == 0)
+        return;
+    fit_width(asked_width_);
+    constexpr double least_stretch = 0.55; // beside one another, panels would be too narrow
+    const bool both = panels_.front().x.is_time && !panels_.back().x.is_time;
+    if (both && stretch_ < least_stretch) {
+        stacked_ = true;
+        stretch_ = 1;
+        place_columns();
+        fit_width(asked_width_);
+    }
+}
+
+void GnuplotScript::fit_width(double asked) {
+    constexpr int rounds = 4; // numbers beside the axes depend on their lengths
+    constexpr double narrowest = 0.2;
+    for (int round = 0; round < rounds; ++round) {
+        double panels = 0;
+        for (const bool over_time : {true, false})
+            for (const Panel& panel : panels_)
+                if (panel.x.is_time == over_time) {
+                    panels = stacked_ ? std::max(panels, panel.width) : panels + panel.width;
+                    break;
+                }
+        stretch_ = std::max(narrowest, stretch_ * (asked - (width_ - panels)) / panels);
+        place_columns();
+    }
+    width_ = asked;
+}
+
+/// Heights first; they decide about tics and labels, which decide how much room the columns need beside them.
+void GnuplotScript::place_columns() {
+    double histories = 0, portraits = 0;
+    for (const Panel& panel : panels_)
+        (panel.x.is_time ? histories : portraits) += 1;
+    const double above = top_margin + bottom_margin;
+    double one = history_height;
+    double inner = histories > 0 ? histories * one + (histories - 1) * history_gap : 0;
     const double gaps = (portraits - 1) * portrait_gap;
-    const double side = portraits > 0 ? std::clamp((inner - gaps) / portraits, smallest_portrait, largest_portrait) : 0;
-    if (portraits > 0)
-        inner = std::max(inner, portraits * side + gaps);
-    height_ = inner + top_margin + bottom_margin;
+    const double least = smallest_portrait * std::min(stretch_, 1.0), most = largest_portrait * std::max(stretch_, 1.0);
+    double side = portraits > 0 ? std::clamp((inner - gaps) / portraits * stretch_, least, most) : 0;
+    if (stacked_)
+        side = history_width * stretch_;
+    double portrait_height =
+        portraits > 0 ? std::min((std::max(inner, portraits * side + gaps) - gaps) / portraits, 1.4 * side) : 0;
+    if (stacked_)
+        portrait_height = 0.8 * side;
+    const double of_portraits = portraits > 0 ? portraits * portrait_height + gaps : 0;
+    double rows = stacked_ ? inner + portrait_gap + of_portraits : std::max(inner, of_portraits);
+    if (asked_height_ > 0) {
+        constexpr double flattest = 24;
+        const double free = (stacked_ ? histories * one + portraits * portrait_height : rows);
+        const double factor =
+            std::max(flattest * std::max(histories, portraits), asked_height_ - above - (rows - free)) / free;
+        one *= factor;
+        portrait_height = stacked_ ? portrait_height * factor : (rows * factor - gaps) / std::max(portraits, 1.0);
+        rows = (rows - free) + free * factor;
+    }
+    if (!stacked_ && histories > 0)
+        one = (rows - (histories - 1) * history_gap) / histories;
+    height_ = rows + above;
     double top = height_ - top_margin, portrait_top = top;
+    if (stacked_)
+        portrait_top = top - histories * one - (histories - 1) * history_gap - portrait_gap;
     for (Panel& panel : panels_) {
-        panel.width = panel.x.is_time ? history_width : side;
-        panel.height = panel.x.is_time ? (inner - (histories - 1) * history_gap) / histories
-                                       : std::min((inner - gaps) / portraits, 1.4 * side);
+        panel.width = panel.x.is_time ? history_width * stretch_ : side;
+        panel.height = panel.x.is_time ? one : portrait_height;
         double& next = panel.x.is_time ? top : portrait_top;
         panel.bottom = next - panel.height;
         next = panel.bottom - (panel.x.is_time ? history_gap : portrait_gap);
-        panel.x_axis = axis_of(panel.x, static_cast<int>(panel.width / pixels_of_tic), panel.x.is_time ? 0 : 0.05);
+        panel.x_axis =
+            axis_of(panel.x, std::max(2, static_cast<int>(panel.width / pixels_of_tic)), panel.x.is_time ? 0 : 0.05);
         panel.y_axis = axis_of(panel.y, std::max(2, static_cast<int>(panel.height / 35)), 0.08);
     }
     choose_labels();
-    double left = 0;
-    if (histories > 0)
-        left = place_column(0, true) + right_margin;
-    width_ = portraits > 0 ? place_column(left, false) + right_margin : left;
+    const double beside = histories > 0 ? place_column(0, true) + right_margin : 0;
+    width_ = portraits > 0 ? place_column(stacked_ ? 0 : beside, false) + right_margin : beside;
+    width_ = std::max(width_, beside);
 }
 
 /// Aligns the panels of a column and their labels. Returns where it ends.
@@ -306,25 +388,29 @@ std::string GnuplotScript::legend() const {
 
 std::string GnuplotScript::text(const std::string& ending, const std::string& output) const {
     std::string text = "# Drawn by gnuplot; to change the picture, change this file and run gnuplot on it.\n";
-    const auto pixels = [](double length) { return static_cast<int>(std::lround(length)); };
+    const auto pixels = [&](double length) { return static_cast<int>(std::lround(unit_ * length)); };
+    const std::string name = style_.font.empty() ? "Arial" : style_.font;
     if (ending == "svg")
-        text += fmt::format("set terminal svg size {},{} enhanced font \"Arial,12\" background \"white\"\n",
-                            pixels(width_), pixels(height_));
+        text += fmt::format("set terminal svg size {},{} enhanced font \"{},{:.4g}\" linewidth {:.4g} background "
+                            "\"white\"\n",
+                            pixels(width_), pixels(height_), name, 12 * unit_, unit_);
     else if (ending == "png")
-        text += fmt::format(
-            "set terminal pngcairo size {},{} enhanced font \"Arial,10\" fontscale 2 linewidth 2 pointscale 2\n",
-            pixels(2 * width_), pixels(2 * height_));
+        text += fmt::format("set terminal pngcairo size {},{} enhanced font \"{},{:.4g}\" fontscale 2 linewidth {:.4g} "
+                            "pointscale 2\n",
+                            pixels(2 * width_), pixels(2 * height_), name, 10 * unit_, 2 * unit_);
     else
-        text += fmt::format("set terminal pdfcairo size {:.4f}in,{:.4f}in enhanced font \"Arial,9\" linewidth 1\n",
-                            width_ / 96, height_ / 96);
+        text +=
+            fmt::format("set terminal {}cairo size {:.4f}in,{:.4f}in enhanced font \"{},{:.4g}\" linewidth {:.4g}\n",
+                        ending, unit_ * width_ / 96, unit_ * height_ / 96, name, 9 * unit_, unit_);
     text += fmt::format("set output {}\n\n", quoted_path(output));
     text += data_;
-    text += "\nset style line 1 linecolor rgb \"#1f4e8c\" linewidth 1.2\n"
-            "set style line 2 linecolor rgb \"#808080\" linewidth 0.7 dashtype (4, 3)\n"
+    text += fmt::format("\nset style line 1 linecolor rgb \"{}\" linewidth 1.2\n", style_.grey ? "black" : "#1f4e8c");
+    text += "set style line 2 linecolor rgb \"#808080\" linewidth 0.7 dashtype (4, 3)\n"
             "set style line 3 linecolor rgb \"black\" pointtype 7 pointsize 0.35\n"
-            "set style line 4 linecolor rgb \"#b22222\" pointtype 6 pointsize 0.8 linewidth 1.1\n"
             "set border linewidth 0.8\nset tics in scale 0.6\nunset key\n"
             "set format y \"%g\"\nset encoding utf8\nset minussign\nset multiplot\n";
+    text += fmt::format("set style line 4 linecolor rgb \"{}\" pointtype 6 pointsize 0.8 linewidth 1.1\n",
+                        style_.grey ? "#606060" : "#b22222");
     text += legend();
     for (std::size_t i = 0; i < panels_.size(); ++i) {
         text += commands(panels_[i]);

@@ -11,9 +11,10 @@ namespace graze {
 /// A picture in the language of gnuplot, data included.
 class GnuplotScript {
 public:
-    explicit GnuplotScript(const PlotRecorder& recorder);
+    /// @param style its width and height are those of the whole picture; 0: as large as it takes
+    explicit GnuplotScript(const PlotRecorder& recorder, const FigureStyle& style = {});
 
-    /// @param ending svg, png or pdf
+    /// @param ending svg, png, pdf or eps
     /// @param output the file that the commands write
     std::string text(const std::string& ending, const std::string& output) const;
 
@@ -34,7 +35,14 @@ private:
     };
 
     void make_panels();
+    /// Of histories that nobody asked for, those in which something changes, if there are any.
+    std::vector<std::size_t> shown_histories() const;
+    bool changes(std::size_t column) const;
     void place_panels();
+    void place_rows();
+    void place_columns();
+    /// Makes the panels wider or less so, until the picture is as wide as was asked for.
+    void fit_width(double asked);
     double place_column(double start, bool over_time);
     Axis axis_of(const Coordinate& coordinate, int tics, double margin) const;
     double period(const Coordinate& coordinate) const {
@@ -55,6 +63,11 @@ private:
     std::string legend() const;
 
     const PlotRecorder* recorder_;
+    FigureStyle style_;
+    double unit_ = 1;                           ///< pixels at 96 per inch of a length of the layout
+    double asked_width_ = 0, asked_height_ = 0; ///< in lengths of the layout; 0: any
+    double stretch_ = 1;                        ///< of the panels' usual widths
+    bool stacked_ = false;                      ///< portraits stand below histories
     std::vector<Panel> panels_;
     double width_ = 0, height_ = 0;
     bool long_labels_ = false;

@@ -11,7 +11,7 @@
 namespace graze {
 
 void draw_graph(const Model& model, const std::string& path) {
-    const std::string ending = picture_ending(path, "--graph", {"svg", "png", "pdf", "dot"});
+    const std::string ending = picture_ending(path, "--graph", {"svg", "png", "pdf", "eps", "dot"});
     const std::string graph = connectivity_graph(model);
     if (ending == "dot")
         return write_file(path, graph);
@@ -22,7 +22,7 @@ void draw_graph(const Model& model, const std::string& path) {
     if (result.status != 0)
         throw InputError(fmt::format("Graphviz could not draw '{}': {}", path, one_line(result.output)),
                          "ask for a .dot file and look at it");
-    require_whole_picture(file.temporary_path(), ending, path);
+    require_well_formed_picture(file, ending, path);
     file.commit();
 }
 

@@ -26,19 +26,22 @@ void say(const std::string& text) {
 
 void make_safe(const Experiment& experiment) {
     std::string problem;
-    bool safe = false;
+    bool safe = false, off = false;
     try {
-        const auto line = open_serial_line(experiment.serial);
+        const auto line = open_generator_line(experiment.serial);
         GeneratorOptions options = experiment.generator;
         options.interrupted = nullptr;
-        safe = GeneratorClient(*line, options).make_safe(experiment.safe, problem);
+        GeneratorClient client(*line, options);
+        safe = client.make_safe(experiment.safe, problem);
+        off = !safe && client.is_switched_off();
     } catch (const std::exception& error) {
         problem = error.what();
     }
-    say(safe ? fmt::format("graze: acquire was killed; the generator is at its safe amplitude, {} V\n", experiment.safe)
+    say(safe ? fmt::format("graze: acquire was killed; the generator is off, or at its safe amplitude, {} V\n",
+                           experiment.safe)
              : fmt::format("graze: acquire was killed, and the generator could not be brought to its safe amplitude "
-                           "({}): switch it off by hand\n",
-                           problem));
+                           "({}): {}\n",
+                           problem, off ? "its output is switched off, as it tells itself" : "switch it off by hand"));
 }
 
 /// Reads what it is told until nobody can tell anything any more.

@@ -29,14 +29,12 @@ void declare_help_commands(CLI::App& app, Arguments& arguments) {
     help.add_option("COMMAND", arguments.help.command, "The command to tell about (all)")->type_name("");
     help.add_flag("--man", arguments.help.man, "As a page for man");
     help.add_option("--write", arguments.help.folder, "Write the pages of all commands into this folder")
-        ->type_name("FOLDER")
-        ->check(not_empty());
+        ->type_name("FOLDER");
     CLI::App& completion = *app.add_subcommand("completion", completion_text);
     completion.footer(completion_examples);
     completion.add_option("SHELL", arguments.completion.shell, "bash, zsh or fish")->type_name("")->required();
     completion.add_option("--output", arguments.completion.file, "Write it there instead of to standard output")
-        ->type_name("FILE")
-        ->check(not_empty());
+        ->type_name("FILE");
 }
 
 } // namespace graze

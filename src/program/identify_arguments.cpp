@@ -35,8 +35,7 @@ void declare_channels(CLI::App& command, IdentifyArguments& arguments) {
     declare_option(command, group, "--channel", arguments.channel, "NAME", "Decrement, restitution: the velocity (v)");
     declare_option(command, group, "--displacement", arguments.displacement, "NAME",
                    "Coupling: the displacement (q). Restitution: a channel whose corners tell the times of impacts");
-    declare_option(command, group, "--voltage", arguments.voltage, "NAME", "Impedance: the voltage (V)")
-        ->check(not_empty());
+    declare_option(command, group, "--voltage", arguments.voltage, "NAME", "Impedance: the voltage (V)");
     declare_option(command, group, "--current", arguments.current, "NAME", "Coupling, impedance: the current (I)");
     declare_reading(command, arguments.reading);
 }
@@ -53,28 +52,27 @@ void declare_known(CLI::App& command, IdentifyArguments& arguments) {
         ->check(whole_number(0, 100'000));
     declare_option(command, group, "--least-jump", arguments.least_jump, "VALUE",
                    "Restitution: smaller jumps are no impacts (0)")
-        ->check(CLI::NonNegativeNumber);
+        ->check(non_negative_number());
     declare_option(command, group, "--gap", arguments.gap, "D", "Coupling, impedance: gap at rest")
-        ->check(CLI::PositiveNumber);
+        ->check(positive_number());
     declare_option(command, group, "--stiffness", arguments.stiffness, "K",
                    "Coupling: mass times square of natural frequency")
-        ->check(CLI::PositiveNumber);
+        ->check(positive_number());
     declare_option(command, group, "--gap-error", arguments.gap_error, "D", "Coupling: its standard error (0)")
-        ->check(CLI::NonNegativeNumber);
+        ->check(non_negative_number());
     declare_option(command, group, "--stiffness-error", arguments.stiffness_error, "K",
                    "Coupling: its standard error (0)")
-        ->check(CLI::NonNegativeNumber);
+        ->check(non_negative_number());
     declare_option(command, group, "--noise", arguments.noise, "Q,I",
                    "Coupling: noise of displacement and current, or their ratio (that of the largest ones)")
         ->delimiter(',')
         ->expected(2);
     declare_option(command, group, "--frequency", arguments.frequency, "F",
                    "Impedance: about the frequency of the voltage (that of its largest wave)")
-        ->check(CLI::PositiveNumber);
+        ->check(positive_number());
     declare_option(command, group, "--beta1", arguments.beta1, "VALUE[+-ERROR]",
                    "Impedance: with these the leakage inductance too, L - beta1/(beta2 + gap - q)");
-    declare_option(command, group, "--beta2", arguments.beta2, "VALUE[+-ERROR]", "Impedance: likewise")
-        ->check(not_empty());
+    declare_option(command, group, "--beta2", arguments.beta2, "VALUE[+-ERROR]", "Impedance: likewise");
     declare_option(command, group, "--clamped", arguments.clamped, "Q",
                    "Impedance: displacement at which the mass is held (0)");
 }
@@ -89,10 +87,9 @@ void declare_fit(CLI::App& command, IdentifyArguments& arguments) {
     declare_option(command, group, "--start", arguments.start, "STATE=VALUE",
                    "Guesses of states at the first time (from readings, or the model)");
     declare_option(command, group, "--known", arguments.known, "STATE,...",
-                   "States that begin as --start or the model says, and are not to be found; `all`: none are")
-        ->check(not_empty());
-    declare_option(command, group, "--mode", arguments.mode, "MODE", "Mode at the first time (the model's initial one)")
-        ->check(not_empty());
+                   "States that begin as --start or the model says, and are not to be found; `all`: none are");
+    declare_option(command, group, "--mode", arguments.mode, "MODE",
+                   "Mode at the first time (the model's initial one)");
     declare_option(command, group, "--reading", arguments.meanings, "CHANNEL=EXPRESSION",
                    "What a channel measures (the state or quantity of its name; other channels are not used)");
     declare_option(command, group, "--gain", arguments.gains, "CHANNEL[=GUESS]",
@@ -105,14 +102,17 @@ void declare_fit(CLI::App& command, IdentifyArguments& arguments) {
                    "How far readings count: squares (default), huber, cauchy")
         ->check(one_of({"squares", "huber", "cauchy"}));
     declare_option(command, group, "--piece", arguments.piece, "T",
-                   "Length of the pieces into which records are cut (some thirty readings)")
-        ->check(not_empty());
+                   "Length of the pieces into which records are cut (some thirty readings)");
+    declare_option(command, group, "--time-limit", arguments.time_limit, "S",
+                   "End after so many seconds, and tell what does not match (none)")
+        ->check(positive_number());
+    command.add_flag("--progress", arguments.progress, "Show progress even if standard error is no terminal")
+        ->group(group);
     declare_option(command, group, "--table", arguments.table, "TABLE",
                    "numbers (default), outputs, correlations or readings")
         ->check(one_of(fit_table_names()));
     declare_option(command, group, "--save", arguments.save, "FILE",
-                   "Keep what was found, for --set @FILE and --from @FILE")
-        ->check(not_empty());
+                   "Keep what was found, for --set @FILE and --from @FILE");
 }
 
 } // namespace

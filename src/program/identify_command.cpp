@@ -23,10 +23,10 @@ int identify_command(const IdentifyArguments& arguments, const Console& console)
         throw InputError({"FILE", 0, 0}, "no records are named", "write graze identify WHAT FILE ...");
     const std::string& plot = arguments.reading.plot;
     if (!plot.empty())
-        picture_ending(plot, "--plot", {"svg", "png", "pdf"});
+        picture_ending(plot, "--plot", {"svg", "png", "pdf", "eps"});
     if (arguments.what == "fit")
         return identify_fit(arguments, console);
-    const Identification found = identify_from_files(arguments);
+    const Identification found = identify_from_files(arguments, console);
     Table table({{"name", ""}, {"unit", ""}, {"value", ""}, {"error", ""}, {"low", ""}, {"high", ""}, {"freedom", ""}});
     for (const Identification::Value& value : found.values) {
         const Estimate& estimate = value.estimate;

@@ -189,9 +189,11 @@ void warn(const Fit& fit, const FitRequest& request, const Console& console) {
     }
 }
 
-Fit run_fit(const FitRequest& request, const Console& console) {
-    const InterruptGuard guard;
-    StatusLine line(console, console.terminal);
+Fit run_fit(const FitRequest& request, const IdentifyArguments& arguments, const Console& console) {
+    StatusLine line(console, console.terminal || arguments.progress);
+    const auto is_over = [&] {
+        return InterruptGuard::requested() || (arguments.time_limit && line.elapsed() > *arguments.time_limit);
+    };
     FitSettings settings = request.settings;
     std::string done = "the first motions";
     settings.progress = [&](const FitProgress& progress) {
@@ -200,12 +202,12 @@ Fit run_fit(const FitRequest& request, const Console& console) {
                                progress.stages, progress.iteration, progress.misfit);
         if (line.wanted() && line.is_due())
             line.show(done);
-        return !InterruptGuard::requested();
+        return !is_over();
     };
     settings.interrupted = [&] { // a single motion may take long
         if (line.wanted() && line.is_due())
             line.show(done);
-        return InterruptGuard::requested();
+        return is_over();
     };
     return fit_model(request.model, request.task, settings);
 }
@@ -213,22 +215,17 @@ Fit run_fit(const FitRequest& request, const Console& console) {
 } // namespace
 
 int identify_fit(const IdentifyArguments& arguments, const Console& console) {
-    const FitRequest request = fit_request(arguments);
-    std::vector<NamedFile> files{{"--save", arguments.save},
-                                 {"--output", arguments.reading.output.file},
-                                 {"--plot", arguments.reading.plot},
-                                 {"--data", arguments.reading.data}};
-    if (const std::string& model = arguments.reading.files.front(); is_model_path(model))
-        files.push_back({"the model", model});
-    for (const std::string& file : request.files)
-        files.push_back({"a record", file});
-    require_distinct(files);
+    const FitRequest request = fit_request(arguments, console);
     if (!arguments.save.empty())
         require_writable(arguments.save);
-    const Fit fit = run_fit(request, console);
+    const InterruptGuard guard;
+    const Fit fit = run_fit(request, arguments, console);
     if (fit.ending == FitEnding::interrupted) {
-        console.err << "graze: interrupted: the fit had not converged, and nothing is written\n";
-        return InterruptGuard::exit_code();
+        const bool by_user = InterruptGuard::requested();
+        console.err << fmt::format(
+            "graze: {}: {}; nothing is written\n",
+            by_user ? "interrupted" : fmt::format("time limit of {} s", arguments.time_limit.value_or(0)), fit.detail);
+        return by_user ? InterruptGuard::exit_code() : exit_irregular;
     }
     if (fit.numbers.empty()) {
         console.err << fmt::format("graze: {}: {}\n", name_of(fit.ending), fit.detail);

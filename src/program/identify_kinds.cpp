@@ -60,11 +60,11 @@ IdentificationSettings settings_of(const IdentifyArguments& arguments) {
 
 } // namespace
 
-Identification identify_from_files(const IdentifyArguments& arguments) {
+Identification identify_from_files(const IdentifyArguments& arguments, const Console& console) {
     const EachRecord records = [&](const auto& work) {
         for (const std::string& file : arguments.reading.files)
             with_file(file, [&] {
-                RecordStages stages(file, arguments.reading);
+                RecordStages stages(file, arguments.reading, console);
                 work(file, stages.source());
             });
     };

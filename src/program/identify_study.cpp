@@ -6,6 +6,7 @@
 #include "graze/symbolic/input_error.hpp"
 #include "program/commands.hpp"
 #include "program/identify_arguments.hpp"
+#include "program/kept_inputs.hpp"
 
 #include <fmt/format.h>
 
@@ -26,6 +27,7 @@ int identify_study(const IdentifyArguments& arguments, const Console& console) {
     if (!arguments.reading.files.empty())
         throw InputError({"FILE", 0, 0}, "a study says itself which records it reads", "name the study alone");
     const Study study = load_study(arguments.what);
+    keep_inputs_of(study); // before anything is computed that could not be shown
     RunArguments run;
     run.study = arguments.what;
     run.quiet = true;

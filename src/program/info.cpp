@@ -262,7 +262,6 @@ Table table_of(const Facts& facts) {
 } // namespace
 
 int info_command(const InfoArguments& arguments, const Console& console) {
-    require_distinct({{"the file", arguments.file}, {"--output", arguments.output.file}});
     const Facts facts = facts_of(arguments.file);
     if (arguments.output.format != TableFormat::table) {
         JsonObject heading;

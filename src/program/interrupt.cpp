@@ -1,5 +1,7 @@
 #include "program/interrupt.hpp"
 
+#include "program/temporary_files.hpp"
+
 #include <csignal>
 
 namespace graze {
@@ -9,15 +11,19 @@ namespace {
 // A signal handler can reach nothing but what has static lifetime.
 volatile std::sig_atomic_t interrupted = 0; ///< the signal's number
 volatile std::sig_atomic_t guarded = 0;
+volatile std::sig_atomic_t seen_interrupt = 0, seen_terminate = 0;
 
 void note_interrupt(int signal) {
+    volatile std::sig_atomic_t& seen = signal == SIGINT ? seen_interrupt : seen_terminate;
+    if (seen != 0)
+        return TemporaryFiles::end_process(signal);
+    seen = 1;
     interrupted = signal;
 }
 
 void catch_signal(int signal, struct sigaction& before) {
     struct sigaction action {};
     action.sa_handler = note_interrupt;
-    action.sa_flags = static_cast<int>(SA_RESETHAND);
     sigemptyset(&action.sa_mask);
     sigaction(signal, &action, &before);
     if (before.sa_handler == SIG_IGN) // as shells start what is to go on in the background
@@ -36,6 +42,8 @@ InterruptGuard::InterruptGuard() {
     before_ = std::make_unique<Handlers>();
     guarded = 1;
     interrupted = 0;
+    seen_interrupt = 0;
+    seen_terminate = 0;
     catch_signal(SIGINT, before_->interrupt);
     catch_signal(SIGTERM, before_->terminate);
 }

@@ -2,6 +2,9 @@
 
 #include "program/curve.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,25 +24,20 @@ constexpr std::size_t directions = 32;
 
 constexpr double cost_of_distance = 3, cost_of_curve = 8, cost_of_crossing = 0.5, cost_of_side = 0.3;
 constexpr double cost_of_any_curve = 35; ///< a longer leader is better than a label that a curve runs through
-constexpr std::size_t most_labels = 30, most_in_one = 3;
+constexpr std::size_t most_labels = 30, most_in_one = 3, most_listed = 40;
 constexpr double room_of_label = 8; ///< area of a panel for each label, in areas of labels with four letters
+// In diameters of a symbol.
+constexpr double as_one = 0.5;       ///< symbols this near cannot be told apart: they have one label
+constexpr double nearer = 0.2;       ///< by which a label is nearer to its own symbol than to any other
+constexpr double clear_of_led = 0.3; ///< between a label at the end of a line and symbols that it does not belong to
 
 double length_of(const PlanePoint& vector) {
     return std::hypot(vector.x, vector.y);
 }
 
-/// Whether a line between two points runs through a box (Liang and Barsky 1984).
+/// Whether a line between two points runs through a box.
 bool crosses(const PlanePoint& from, const PlanePoint& to, const Box& box) {
-    double first = 0, last = 1;
-    const auto clip = [&](double start, double step, double low, double high) {
-        if (step == 0)
-            return start >= low && start <= high;
-        const double one = (low - start) / step, other = (high - start) / step;
-        first = std::max(first, std::min(one, other));
-        last = std::min(last, std::max(one, other));
-        return first <= last;
-    };
-    return clip(from.x, to.x - from.x, box.left, box.right) && clip(from.y, to.y - from.y, box.low, box.high);
+    return part_within(from, to, box).has_value();
 }
 
 bool lines_cross(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& d) {
@@ -104,17 +102,42 @@ private:
 
 /// Labels of one place.
 struct WantedLabel {
-    std::vector<std::string> texts;
+    std::vector<const FigureLabel*> labels; ///< those of lower rank first; none twice
     std::size_t colour = 0;
     int rank = 0;
     PlanePoint point{};
 };
 
-std::string text_of(const WantedLabel& wanted) {
-    std::string text = wanted.texts.front();
-    for (std::size_t i = 1; i < std::min(most_in_one, wanted.texts.size()); ++i)
-        text += ", " + wanted.texts[i];
-    return text + (wanted.texts.size() > most_in_one ? ", …" : "");
+/// As it stands in a list under the picture.
+std::string listed_name(const FigureLabel& label) {
+    return label.owner.empty() ? label.text : fmt::format("{} ({})", label.text, label.owner);
+}
+
+std::vector<std::string> listed_names(const WantedLabel& wanted) {
+    std::vector<std::string> names;
+    for (const FigureLabel* label : wanted.labels)
+        names.push_back(listed_name(*label));
+    return names;
+}
+
+/// Each text once, though points of several curves may have it.
+std::vector<std::string> texts_of(const WantedLabel& wanted) {
+    std::vector<std::string> texts;
+    for (const FigureLabel* label : wanted.labels)
+        if (std::find(texts.begin(), texts.end(), label->text) == texts.end())
+            texts.push_back(label->text);
+    return texts;
+}
+
+/// What stands for names that are listed under the panel.
+std::string key_text(std::size_t number) {
+    return fmt::format("[{}]", number + 1);
+}
+
+/// From a box to a point outside of it.
+double distance_to(const Box& box, const PlanePoint& point) {
+    return std::hypot(std::max({box.left - point.x, point.x - box.right, 0.0}),
+                      std::max({box.low - point.y, point.y - box.high, 0.0}));
 }
 
 class LabelSearch {
@@ -135,9 +158,15 @@ public:
                          [](const WantedLabel& a, const WantedLabel& b) { return a.rank < b.rank; });
         const double room = frame_.width() * frame_.height() / (room_of_label * 2.8 * font_ * height_);
         const std::size_t most = std::min(most_labels, static_cast<std::size_t>(room));
-        for (const WantedLabel& one : wanted)
-            if (found_.labels.size() >= most || !place(one))
-                ++found_.omitted;
+        std::vector<std::string> omitted;
+        for (const WantedLabel& one : wanted) {
+            if (found_.labels.size() < most && place(one))
+                continue;
+            ++found_.omitted;
+            const std::vector<std::string> names = listed_names(one);
+            omitted.insert(omitted.end(), names.begin(), names.end());
+        }
+        list("without room for a label: ", std::move(omitted));
         return std::move(found_);
     }
 
@@ -151,20 +180,33 @@ private:
         using Style = FigureSeries::Style;
         const bool symbols = series.style == Style::symbols || series.style == Style::circles;
         const bool joined = !symbols && series.style != Style::dots;
-        std::optional<PlanePoint> last;
+        bool begun = false;
+        PlanePoint last{};
         for (const PlanePoint& point : smoothed(series.points, series.along, series.corners)) {
             if (!is_drawn(point, panel)) {
-                last.reset();
+                begun = false;
                 continue;
             }
             const PlanePoint here = place_of(point);
             if (symbols && frame_.holds(here))
                 found_.marks.push_back(Box::around(here, mark_, mark_));
             curves_.add(here);
-            if (joined && last)
-                curves_.add_line(*last, here);
+            if (joined && begun)
+                curves_.add_line(last, here);
             last = here;
+            begun = true;
         }
+    }
+
+    void list(const std::string& what, std::vector<std::string> names) {
+        if (names.empty())
+            return;
+        std::string more;
+        if (names.size() > most_listed) {
+            more = fmt::format(", and {} more", names.size() - most_listed);
+            names.resize(most_listed);
+        }
+        found_.notes.push_back(fmt::format("{}{}{}", what, fmt::join(names, ", "), more));
     }
 
     std::vector<WantedLabel> wanted_of(const FigurePanel& panel) const {
@@ -176,14 +218,19 @@ private:
             if (!frame_.holds(here))
                 continue;
             const auto same = std::find_if(wanted.begin(), wanted.end(), [&](const WantedLabel& one) {
-                return length_of({one.point.x - here.x, one.point.y - here.y}) < mark_ / 4;
+                return length_of({one.point.x - here.x, one.point.y - here.y}) < as_one * mark_;
             });
             if (same == wanted.end()) {
-                wanted.push_back({{label.text}, label.colour, label.rank, here});
+                wanted.push_back({{&label}, label.colour, label.rank, here});
                 continue;
             }
-            if (std::find(same->texts.begin(), same->texts.end(), label.text) == same->texts.end())
-                same->texts.insert(label.rank < same->rank ? same->texts.begin() : same->texts.end(), label.text);
+            const bool known = std::any_of(same->labels.begin(), same->labels.end(), [&](const FigureLabel* other) {
+                return other->text == label.text && other->owner == label.owner;
+            });
+            if (!known)
+                same->labels.insert(label.rank < same->rank ? same->labels.begin() : same->labels.end(), &label);
+            if (label.colour != same->colour) // it belongs to none of the curves alone
+                same->colour = FigureSeries::black;
             same->rank = std::min(same->rank, label.rank);
         }
         return wanted;
@@ -192,7 +239,9 @@ private:
     /// @return whether there is room
     bool place(const WantedLabel& wanted) {
         PlacedLabel label;
-        label.text = text_of(wanted);
+        const std::vector<std::string> texts = texts_of(wanted);
+        const bool keyed = texts.size() > most_in_one;
+        label.text = keyed ? key_text(keys_) : fmt::format("{}", fmt::join(texts, ", "));
         label.colour = wanted.colour;
         label.point = wanted.point;
         const double width = width_of(rich(label.text)) * font_ + letters_beyond * font_;
@@ -219,9 +268,14 @@ private:
                     best = label;
                 }
             }
-        if (std::isfinite(least))
-            found_.labels.push_back(best);
-        return std::isfinite(least);
+        if (!std::isfinite(least))
+            return false;
+        found_.labels.push_back(best);
+        if (keyed) {
+            list(label.text + ": ", listed_names(wanted));
+            ++keys_;
+        }
+        return true;
     }
 
     /// From the edge of the symbol to the nearest point of the box.
@@ -240,7 +294,7 @@ private:
         if (!frame_.grown(-1).holds(label.box))
             return false;
         for (const Box& mark : found_.marks)
-            if (label.box.meets(mark))
+            if (label.box.meets(mark) || belongs_to(label, mark))
                 return false;
         return std::none_of(found_.labels.begin(), found_.labels.end(), [&](const PlacedLabel& other) {
             return label.box.meets(other.box) ||
@@ -251,14 +305,22 @@ private:
         });
     }
 
+    /// Whether one who reads the picture could take the label for that of a symbol which is not its own.
+    bool belongs_to(const PlacedLabel& label, const Box& mark) const {
+        const PlanePoint middle{(mark.left + mark.right) / 2, (mark.low + mark.high) / 2};
+        if (length_of({middle.x - label.point.x, middle.y - label.point.y}) < as_one * mark_)
+            return false;
+        const double away = distance_to(label.box, middle);
+        if (!label.led)
+            return away < distance_to(label.box, label.point) + nearer * mark_;
+        return away < (0.5 + clear_of_led) * mark_ || crosses(label.leader_start, label.leader_end, mark);
+    }
+
     double cost_of(const PlacedLabel& label) const {
         const double share = curves_.share(label.box);
         double cost = share > 0 ? cost_of_any_curve + cost_of_curve * std::min(1.0, 4 * share) : 0;
         if (!label.led)
             return cost;
-        for (const Box& mark : found_.marks) // a line may touch its own symbol
-            if (!mark.holds(label.point) && crosses(label.leader_start, label.leader_end, mark))
-                cost += cost_of_crossing * 4;
         constexpr int parts = 8;
         for (int i = 2; i < parts; ++i) {
             const double part = static_cast<double>(i) / parts;
@@ -274,6 +336,7 @@ private:
     const PanelAxis *x_, *y_;
     double font_, mark_, height_;
     CurveMap curves_;
+    std::size_t keys_ = 0; ///< that stand for names in the list
     LabelPlaces found_;
 };
 

@@ -20,8 +20,9 @@ struct PlacedLabel {
 
 struct LabelPlaces {
     std::vector<PlacedLabel> labels;
-    std::vector<Box> marks;  ///< of the points that have symbols
-    std::size_t omitted = 0; ///< labels of points in the panel that found no room
+    std::vector<Box> marks;         ///< of the points that have symbols
+    std::size_t omitted = 0;        ///< places of labels in the panel that found no room
+    std::vector<std::string> notes; ///< names that stand under the panel: those that a key stands for, and the omitted
 };
 
 /// Diameter of a point's symbol, for a size of the font.
@@ -30,8 +31,10 @@ double mark_size(double font);
 double label_font(double font);
 
 /// Finds room for a panel's labels: within the frame, clear of one another, of one another's leaders and of all
-/// symbols, and of curves as far as there is room. Labels of points that coincide become one. Lower ranks come first,
-/// then those that stand first in the list; where there are too many the last ones are left out.
+/// symbols, and of curves as far as there is room. Each stands nearer to its own symbol than to any other, and no
+/// leader meets another symbol: a label that can be read as that of another point is not drawn. Labels of points whose
+/// symbols lie on one another become one, in black if they have several colours; a number stands for more than three,
+/// which are listed. Lower ranks come first, then those that stand first in the list; what finds no room is listed too.
 /// @param frame of the panel on the page
 LabelPlaces place_labels(const FigurePanel& panel, const Box& frame, const PanelAxis& x, const PanelAxis& y,
                          double font);

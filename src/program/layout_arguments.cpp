@@ -19,7 +19,9 @@ constexpr const char* layout_examples = R"(Examples:
   graze layout mine.toml --wafer --mask 1 --output mask1.gds        one mask alone
   graze layout mine.toml --set bias=0.4 --parameters etched.toml
   graze simulate mems-switch-device --set @etched.toml --time 6     moves as it would
-  graze layout mems-switch-device --yield 25 --folder wafers)";
+  graze layout mems-switch-device --yield 25 --folder wafers
+  graze design mems-switch-device --output found
+  graze layout mems-switch-device --from-design found --output found/device.gds)";
 
 } // namespace
 
@@ -35,14 +37,23 @@ void declare_layout_command(CLI::App& app, Arguments& arguments) {
     command.add_flag("--wafer", layout.wafer, "The wafer with its devices, instead of one")->group("What is drawn");
     declare_option(command, "What is drawn", "--mask", layout.mask, "N", "Mask 1 (mirrored) or 2 alone")
         ->check(whole_number(1, 2));
+    declare_option(command, "What is drawn", "--from-design", layout.from_design, "FOUND",
+                   "The device that 'graze design DESIGN --output FOUND' has found: solves for the lengths and the "
+                   "pressure that give it after the etch, and tells where what is drawn trips");
     declare_option(command, "Where results go", "--output", layout.file, "FILE",
                    "Write the drawing as GDSII (.gds), or a picture as --picture does");
     declare_option(command, "Where results go", "--picture", layout.picture, "FILE",
                    "Draw a picture (.svg, .png or .pdf)");
     declare_option(command, "Where results go", "--parameters", layout.parameters, "FILE",
                    "Write the device's mass, frequency, damping, area and gaps, after the etch, for --set @FILE");
-    declare_option(command, "Where results go", "--recipe", layout.recipe, "FILE",
-                   "Write how it is made, step by step (Markdown)");
+    declare_option(command, "Where results go", "--verilog-a", layout.verilog, "FILE",
+                   "Write the device, after the etch, as a module of Verilog-A for circuit simulators (.va)");
+    declare_option(
+        command, "Where results go", "--recipe", layout.recipe, "FILE",
+        "Write how it is made, step by step (.md), or draw cross-sections after each step (.svg, .png or .pdf)");
+    declare_option(
+        command, "Where results go", "--markers", layout.markers, "FILE",
+        "Write the places that break a rule as markers of KLayout (.lyrdb), also where nothing else is written");
     command.add_flag("--despite-rules", layout.despite_rules, "Write files although a rule of [rules] is broken")
         ->group("Where results go");
     const char* group = "Wafers of devices";
@@ -51,7 +62,8 @@ void declare_layout_command(CLI::App& app, Arguments& arguments) {
         ->check(whole_number(1, 100'000));
     declare_option(command, group, "--folder", layout.folder, "FOLDER",
                    "Made if need be (the design's name and -wafers)");
-    declare_option(command, group, "--seed", layout.seed, "N", "Of what is drawn (1)");
+    declare_option(command, group, "--seed", layout.seed, "N", "Of what is drawn (1)")
+        ->check(whole_number(0, 1'000'000'000));
     declare_option(command, group, "--jobs", layout.jobs, "N",
                    "Threads (one for each core); results do not depend on them")
         ->check(whole_number(1, 1024));

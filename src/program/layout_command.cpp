@@ -2,8 +2,11 @@
 #include "graze/layout/gds_stream.hpp"
 #include "graze/layout/layout.hpp"
 #include "graze/layout/process_recipe.hpp"
+#include "graze/layout/process_steps.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "program/commands.hpp"
+#include "program/drawn_design.hpp"
+#include "program/fabrication_picture.hpp"
 #include "program/layout_model.hpp"
 #include "program/layout_picture.hpp"
 #include "program/layout_yield.hpp"
@@ -12,6 +15,9 @@
 #include "program/values.hpp"
 
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
 
 namespace graze {
 
@@ -76,6 +82,10 @@ AskedFiles asked_for(const LayoutArguments& arguments) {
     }
     std::vector<std::string> all = picture_kinds;
     all.insert(all.begin(), {"gds", "gds2", "gdsii"});
+    if (!arguments.markers.empty())
+        picture_ending(arguments.markers, "--markers", {"lyrdb"});
+    if (!arguments.verilog.empty())
+        picture_ending(arguments.verilog, "--verilog-a", {"va"});
     if (arguments.file.empty())
         return files;
     const std::string ending = picture_ending(arguments.file, "--output", all);
@@ -83,27 +93,38 @@ AskedFiles asked_for(const LayoutArguments& arguments) {
         files.gds = arguments.file;
     else
         files.pictures.push_back(arguments.file);
-    if (arguments.mask && files.gds.empty())
-        throw InputError({"--mask", 0, 0}, "pictures have both masks", "give --output a name that ends in .gds");
     return files;
+}
+
+bool is_picture(const std::string& path) {
+    return std::any_of(picture_kinds.begin(), picture_kinds.end(),
+                       [&](const std::string& kind) { return path.ends_with('.' + kind); });
 }
 
 /// Nothing is written unless all can be.
 void require_places(const LayoutArguments& arguments) {
-    const std::vector<NamedFile> files{{"the design", arguments.design},
-                                       {"--output", arguments.file},
-                                       {"--picture", arguments.picture},
-                                       {"--parameters", arguments.parameters},
-                                       {"--recipe", arguments.recipe}};
-    require_distinct(files);
-    for (std::size_t i = 1; i < files.size(); ++i)
-        if (!files[i].path.empty())
-            require_writable(files[i].path);
+    if (!arguments.recipe.empty() && !arguments.recipe.ends_with(".md") && !is_picture(arguments.recipe))
+        throw InputError({"--recipe", 0, 0}, fmt::format("'{}' is neither text nor a picture", arguments.recipe),
+                         "end its name in .md, .svg, .png or .pdf");
+    for (const auto& [option, path] :
+         {NamedFile{"--output", arguments.file}, NamedFile{"--picture", arguments.picture},
+          NamedFile{"--parameters", arguments.parameters}, NamedFile{"--recipe", arguments.recipe},
+          NamedFile{"--markers", arguments.markers}, NamedFile{"--verilog-a", arguments.verilog}}) {
+        if (path.empty())
+            continue;
+        if (const auto folder = std::filesystem::path(path).parent_path(); !folder.empty())
+            make_folder(folder.string(), option);
+        require_writable(path);
+    }
 }
 
 /// What the masks of the same device take.
 std::vector<std::string> options_again(const LayoutArguments& arguments, bool ruled) {
     std::vector<std::string> options;
+    if (!arguments.from_design.empty()) {
+        options.emplace_back("--from-design");
+        options.push_back(arguments.from_design);
+    }
     for (const std::string& one : arguments.set) {
         options.emplace_back("--set");
         options.push_back(one);
@@ -113,6 +134,14 @@ std::vector<std::string> options_again(const LayoutArguments& arguments, bool ru
     return options;
 }
 
+/// As text, or as cross-sections where the file is a picture.
+void write_recipe(const LayoutArguments& arguments, const DeviceFile& file, bool ruled) {
+    if (!is_picture(arguments.recipe))
+        return write_file(arguments.recipe, recipe_text(file, options_again(arguments, ruled)));
+    const Layout device = draw_device_layout(file);
+    draw_fabrication(process_steps(file, device, plane_through_stop(device)), arguments.recipe);
+}
+
 } // namespace
 
 int layout_command(const LayoutArguments& arguments, const Console& console) {
@@ -120,23 +149,32 @@ int layout_command(const LayoutArguments& arguments, const Console& console) {
     require_places(arguments);
     DeviceFile file;
     with_places_of(arguments.set, [&] { file = load_device_file(arguments.design, parameter_values(arguments.set)); });
+    std::optional<DesignedDevice> designed;
+    if (!arguments.from_design.empty()) {
+        designed = matched_device(file, arguments.design, arguments.from_design);
+        file = designed->matched.file;
+    }
     Layout layout = arguments.wafer ? draw_wafer_layout(file) : draw_device_layout(file);
-    if (!arguments.parameters.empty() && layout.devices.size() > 1)
-        throw InputError(
-            {"--parameters", 0, 0},
-            fmt::format("the wafer has {} devices that differ (wafer.vary), and one file is for one device",
-                        layout.devices.size()),
-            "leave --wafer out, and name the device that is meant by --set NAME=VALUE");
+    for (const auto& [option, one] :
+         {NamedFile{"--parameters", arguments.parameters}, NamedFile{"--verilog-a", arguments.verilog}})
+        if (!one.empty() && layout.devices.size() > 1)
+            throw InputError(
+                {option, 0, 0},
+                fmt::format("the wafer has {} devices that differ (wafer.vary), and one file is for one device",
+                            layout.devices.size()),
+                "leave --wafer out, and name the device that is meant by --set NAME=VALUE");
     const bool all_devices = arguments.yield && !arguments.wafer; // of which the wafer may have several
-    const bool ruled =
-        check_rules(file, all_devices ? draw_wafer_layout(file) : layout, arguments.despite_rules, console);
+    const bool ruled = check_rules(file, all_devices ? draw_wafer_layout(file) : layout, arguments.despite_rules,
+                                   arguments.markers, console);
     const Table table = table_of(layout, file);
+    if (!arguments.verilog.empty()) // first, since the model may lack what it takes
+        write_verilog_a(file, layout.devices.front(), arguments.verilog);
     if (!arguments.parameters.empty())
         write_device_parameters(file, layout.devices.front(), arguments.parameters);
     if (!arguments.recipe.empty())
-        write_file(arguments.recipe, recipe_text(file, options_again(arguments, ruled)));
+        write_recipe(arguments, file, ruled);
     for (const std::string& picture : pictures)
-        draw_layout(layout, picture);
+        draw_layout(layout, picture, arguments.mask);
     if (!path.empty()) {
         if (!arguments.mask)
             add_masks(layout);
@@ -144,6 +182,10 @@ int layout_command(const LayoutArguments& arguments, const Console& console) {
     }
     if (arguments.yield) {
         const int code = layout_yield(arguments, file, arguments.wafer ? layout : draw_wafer_layout(file), console);
+        return code == exit_success && !ruled ? exit_irregular : code;
+    }
+    if (designed) {
+        const int code = tell_drawn_design(*designed, arguments, console);
         return code == exit_success && !ruled ? exit_irregular : code;
     }
     JsonObject heading;

@@ -1,6 +1,8 @@
 #include "program/layout_model.hpp"
 
 #include "graze/layout/lumped_model.hpp"
+#include "graze/layout/rule_markers.hpp"
+#include "graze/layout/verilog_a.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "program/output_file.hpp"
 
@@ -41,8 +43,18 @@ void write_device_parameters(const DeviceFile& file, const DrawnDevice& device, 
     write_file(path, write_parameter_file(parameters));
 }
 
-bool check_rules(const DeviceFile& file, const Layout& layout, bool despite, const Console& console) {
+void write_verilog_a(const DeviceFile& file, const DrawnDevice& device, const std::string& path) {
+    Model model = model_of(file);
+    for (const auto& [name, value] : parameters_of(lumped_model_of(device.drawing, file), model).set)
+        model.set_parameter(name, value);
+    write_file(path, verilog_a_text(model, file.name, "graze " GRAZE_VERSION));
+}
+
+bool check_rules(const DeviceFile& file, const Layout& layout, bool despite, const std::string& markers,
+                 const Console& console) {
     const std::vector<RuleFinding> findings = rule_findings(file, layout);
+    if (!markers.empty()) // before they are refused: markers tell where
+        write_file(markers, rule_markers(findings, layout.top, "graze " GRAZE_VERSION));
     if (!despite)
         require_rules(file, findings);
     bool all = true;

@@ -17,7 +17,7 @@ namespace graze {
 
 namespace {
 
-constexpr double page_width = 1000, page_height = 1420; ///< pixels, as all places on the page
+constexpr double page_width = 1000, page_of_all = 1420; ///< pixels, as all places on the page
 constexpr double letter = 15;                           ///< height of letters
 
 /// A rectangle of the page, from the upper left corner.
@@ -57,31 +57,43 @@ public:
             draw_wafer(schematic, all);
         else
             draw_device(schematic);
-        const double side = 460, top = page_height - side - 10;
-        for (const int mask : {1, 2}) {
-            const PageBox place{mask == 1 ? 30 : page_width - side - 30, top, side, side};
-            begin_panel(place, all, 0.02);
-            outline(is_wafer ? mask_layers::wafer : mask_layers::die, "#888888");
-            for (const LayerStyle& style : mask_styles[mask - 1])
-                fill(style);
-            end_panel();
-            page_text(mask == 1 ? "mask 1: etched from the back (seen from the front)"
-                                : "mask 2: etched through from the front",
-                      place.left + side / 2, top - letter);
-        }
+        const double side = 460, top = page_height_ - side - 10;
+        for (const int mask : {1, 2})
+            draw_mask(mask, {mask == 1 ? 30 : page_width - side - 30, top, side, side}, all);
+        return head(output) + data_ + commands_ + "unset multiplot\nset output\n";
+    }
+
+    /// One mask alone.
+    std::string text_of_mask(const std::string& output, int mask) {
+        page_height_ = page_width + 30; // the mask is a square below its name
+        const bool is_wafer = !layout_->sites.empty();
+        draw_mask(mask, {30, 60, page_width - 60, page_height_ - 90},
+                  box_of(is_wafer ? mask_layers::wafer : mask_layers::die));
         return head(output) + data_ + commands_ + "unset multiplot\nset output\n";
     }
 
 private:
+    void draw_mask(int mask, const PageBox& place, const GridBox& all) {
+        begin_panel(place, all, 0.02);
+        outline(layout_->sites.empty() ? mask_layers::die : mask_layers::wafer, "#888888");
+        for (const LayerStyle& style : mask_styles[mask - 1])
+            fill(style);
+        end_panel();
+        page_text(mask == 1 ? "mask 1: etched from the back (seen from the front)"
+                            : "mask 2: etched through from the front",
+                  place.left + place.width / 2, place.top - letter);
+    }
+
     std::string head(const std::string& output) const {
         const std::string font = fmt::format("font 'sans,{:.3g}'", ending_ == "pdf" ? 0.75 * letter : letter);
         std::string terminal;
         if (ending_ == "png")
-            terminal = fmt::format("pngcairo noenhanced size {:.0f},{:.0f} fontscale 0.75", page_width, page_height);
+            terminal = fmt::format("pngcairo noenhanced size {:.0f},{:.0f} fontscale 0.75", page_width, page_height_);
         else if (ending_ == "pdf")
-            terminal = fmt::format("pdfcairo noenhanced size {:.3f}in,{:.3f}in", page_width / 96, page_height / 96);
+            terminal = fmt::format("pdfcairo noenhanced size {:.3f}in,{:.3f}in", page_width / 96, page_height_ / 96);
         else
-            terminal = fmt::format("svg noenhanced size {:.0f},{:.0f} background rgb 'white'", page_width, page_height);
+            terminal =
+                fmt::format("svg noenhanced size {:.0f},{:.0f} background rgb 'white'", page_width, page_height_);
         return fmt::format("set terminal {} {}\nset output {}\nset encoding utf8\nunset key\nunset tics\nunset border\n"
                            "set style fill solid\n"
                            "set style textbox opaque margins 0.4,0.4 fillcolor rgb '#ffffff' noborder\n"
@@ -115,8 +127,8 @@ private:
             "unset arrow\nunset label\nunset object\nset lmargin at screen {:.6g}\nset rmargin at screen {:.6g}\n"
             "set tmargin at screen {:.6g}\nset bmargin at screen {:.6g}\n"
             "set xrange [{:.10g}:{:.10g}]\nset yrange [{:.10g}:{:.10g}]\n",
-            place.left / page_width, (place.left + place.width) / page_width, 1 - place.top / page_height,
-            1 - (place.top + place.height) / page_height, left_, right_, bottom_, top_);
+            place.left / page_width, (place.left + place.width) / page_width, 1 - place.top / page_height_,
+            1 - (place.top + place.height) / page_height_, left_, right_, bottom_, top_);
     }
 
     void end_panel() {
@@ -163,7 +175,7 @@ private:
 
     void page_text(const std::string& text, double x, double y) {
         commands_ += fmt::format("set label \"{}\" at screen {:.6g},{:.6g} center\n", plain(text), x / page_width,
-                                 1 - y / page_height);
+                                 1 - y / page_height_);
         commands_ += "plot NaN\n";
         commands_ += "unset label\n";
     }
@@ -256,6 +268,7 @@ private:
     }
 
     const Layout* layout_;
+    double page_height_ = page_of_all;
     std::string ending_;
     std::vector<PlacedShape> shapes_;
     std::map<MaskLayer, std::vector<const GridPolygon*>> by_layer_;
@@ -266,14 +279,16 @@ private:
 
 } // namespace
 
-std::string layout_picture_script(const Layout& layout, const std::string& ending, const std::string& output) {
-    return LayoutPicture(layout, ending).text(output);
+std::string layout_picture_script(const Layout& layout, const std::string& ending, const std::string& output,
+                                  std::optional<int> mask) {
+    LayoutPicture picture(layout, ending);
+    return mask ? picture.text_of_mask(output, *mask) : picture.text(output);
 }
 
-void draw_layout(const Layout& layout, const std::string& path) {
+void draw_layout(const Layout& layout, const std::string& path, std::optional<int> mask) {
     const std::string ending = picture_ending(path, "--picture", {"svg", "png", "pdf"});
     FileReplacement file(path);
-    draw_by_gnuplot(layout_picture_script(layout, ending, file.temporary_path()), file, ending, path,
+    draw_by_gnuplot(layout_picture_script(layout, ending, file.temporary_path(), mask), file, ending, path,
                     "look whether this gnuplot is of version 5.2 or later");
     file.commit();
 }

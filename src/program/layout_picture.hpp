@@ -2,15 +2,18 @@
 
 #include "graze/layout/layout.hpp"
 
+#include <optional>
 #include <string>
 
 namespace graze {
 
 /// The device with its parts named, or the wafer, and both masks below, drawn with gnuplot.
 /// @param ending svg, png or pdf; @param output the file that the commands write
-std::string layout_picture_script(const Layout& layout, const std::string& ending, const std::string& output);
+std::string layout_picture_script(const Layout& layout, const std::string& ending, const std::string& output,
+                                  std::optional<int> mask = std::nullopt);
 
+/// @param mask 1 or 2: this one alone, seen from the front, fills the page; none: as above
 /// @throws InputError when gnuplot is missing or fails, or the file cannot be written
-void draw_layout(const Layout& layout, const std::string& path);
+void draw_layout(const Layout& layout, const std::string& path, std::optional<int> mask = std::nullopt);
 
 } // namespace graze

@@ -5,6 +5,7 @@
 #include "program/commands.hpp"
 #include "program/interrupt.hpp"
 #include "program/json_rows.hpp"
+#include "program/kept_inputs.hpp"
 #include "program/output_file.hpp"
 #include "program/process.hpp"
 #include "program/trip_location.hpp"
@@ -83,14 +84,16 @@ std::string json_of(const DeviceFile& file, const WaferYieldSettings& settings, 
 }
 
 void draw_maps(const WaferYield& yield, const DeviceFile& file, const Design& design, const std::string& folder,
-               const Console& console, std::vector<std::string>& written) {
+               std::size_t wafers, const Console& console, std::vector<std::string>& written) {
     WaferMapLabels labels;
     labels.control = design.control;
     labels.unit = unit_of(design.model, design.control);
-    labels.least = design.yield.least ? design.yield.least : design.wanted.least;
-    labels.greatest = design.yield.greatest ? design.yield.greatest : design.wanted.greatest;
+    labels.least = design.least_usable();
+    labels.greatest = design.greatest_usable();
     labels.title = fmt::format("{}: {} at which each device trips{}", file.name, design.control,
                                labels.least || labels.greatest ? "; ringed: as wanted" : "");
+    if (wafers > most_wafers_drawn)
+        labels.title += fmt::format(" (the first {} of {} wafers)", most_wafers_drawn, wafers);
     try {
         for (const char* name : {"map.svg", "map.png"}) {
             const std::string path = (std::filesystem::path(folder) / name).string();
@@ -115,7 +118,7 @@ void tell_problems(const WaferYield& yield, const Console& console) {
 
 } // namespace
 
-Table wafer_device_table(const WaferYield& yield, const Model& model, const std::string& control) {
+Table wafer_device_table(const WaferYield& yield, const Layout& wafer, const Model& model, const std::string& control) {
     std::vector<Table::Column> columns{{"wafer", ""}, {"site", ""}, {"x", "um"}, {"y", "um"}};
     for (const DepartureField& field : departure_fields())
         columns.push_back({fmt::format("more_{}", field.name), field.unit});
@@ -125,6 +128,9 @@ Table wafer_device_table(const WaferYield& yield, const Model& model, const std:
     columns.push_back({control, unit_of(model, control)});
     columns.push_back({"class", ""});
     columns.push_back({"trip_time", model.time_unit});
+    for (const auto& field : device_fields())
+        columns.push_back({fmt::format("drawn_{}", field.name), "um"});
+    columns.push_back({"drawn_folds", ""});
     Table table(columns);
     for (const WaferDevice& device : yield.devices) {
         table.add(static_cast<double>(device.wafer));
@@ -148,6 +154,10 @@ Table wafer_device_table(const WaferYield& yield, const Model& model, const std:
             table.add(*device.trip_time);
         else
             table.add(nothing);
+        const DeviceDimensions& drawn = wafer.devices[wafer.sites[device.site - 1]].drawing.dimensions;
+        for (const auto& field : device_fields())
+            table.add(drawn.*field.member);
+        table.add(static_cast<double>(drawn.folds));
     }
     return table;
 }
@@ -182,10 +192,14 @@ Table wafer_fact_table(const WaferYield& found, const Model& model, const std::s
 int layout_yield(const LayoutArguments& arguments, const DeviceFile& file, const Layout& wafer,
                  const Console& console) {
     const Design own = load_design(arguments.design);
+    keep_inputs_of(own);
     const Design design = said_of(own, [&] { return design_of_device(own, file); });
     const std::string folder = arguments.folder.empty() ? file.name + "-wafers" : arguments.folder;
     make_folder(folder, "--folder");
     const auto path = [&](const char* name) { return (std::filesystem::path(folder) / name).string(); };
+    std::vector<std::string> written{path("wafers.csv"), path("devices.csv"), path("report.json")};
+    for (const std::string& one : written)
+        KeptInputs::require_none_at(one); // before the work
     const InterruptGuard guard;
     StatusLine line(console, console.terminal);
     const DesignReportOptions options = interactive_options(arguments.jobs, line);
@@ -203,16 +217,18 @@ int layout_yield(const LayoutArguments& arguments, const DeviceFile& file, const
         return InterruptGuard::exit_code();
     }
     const Table facts = wafer_fact_table(found, design.model, design.control, settings.wafers);
-    const Table devices = wafer_device_table(found, design.model, design.control);
-    std::vector<std::string> written{path("wafers.csv"), path("devices.csv"), path("report.json")};
+    const Table devices = wafer_device_table(found, wafer, design.model, design.control);
     write_file(written[0], csv_text(facts));
     write_file(written[1], csv_text(devices));
     write_file(written[2], json_of(file, settings, facts, devices));
-    draw_maps(found, file, design, folder, console, written);
+    draw_maps(found, file, design, folder, settings.wafers, console, written);
     deliver(facts, arguments.output, {}, console);
     if (arguments.output.format == TableFormat::table)
         for (const std::string& one : written)
             console.out << one << '\n';
+    if (settings.wafers > most_wafers_drawn)
+        console.err << fmt::format("graze: the map shows the first {} of {} wafers; devices.csv has all\n",
+                                   most_wafers_drawn, settings.wafers);
     tell_problems(found, console);
     return found.yield.failed > 0 ? exit_irregular : exit_success;
 }

@@ -8,7 +8,7 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t most_entries = 10;
+constexpr std::size_t most_entries = 24;
 // In sizes of the legend's font.
 constexpr double line_sample = 2.4, symbol_sample = 0.9, space = 0.5, gap_of_columns = 1.6, row_height = 1.4;
 
@@ -26,6 +26,14 @@ bool is_of_style(const LegendEntry& entry) {
     return entry.colour == FigureSeries::black || entry.colour == FigureSeries::grey;
 }
 
+bool same_look(const LegendEntry& a, const LegendEntry& b) {
+    return a.style == b.style && a.colour == b.colour && a.symbol == b.symbol && a.hatch == b.hatch;
+}
+
+bool same_entry(const LegendEntry& a, const LegendEntry& b) {
+    return a.title == b.title && same_look(a, b);
+}
+
 } // namespace
 
 double legend_font(double font) {
@@ -40,29 +48,47 @@ std::vector<LegendEntry> legend_entries(const FigurePanel& panel) {
             return entry.title == series.title && entry.colour == series.colour;
         });
         if (!series.title.empty() && !empty && !known)
-            entries.push_back({series.title, {}, series.style, series.colour, series.symbol});
+            entries.push_back({series.title, {}, series.style, series.colour, series.symbol, series.hatch});
     }
+    if (!panel.marks_title.empty() && !panel.marks.empty())
+        entries.push_back({panel.marks_title, {}, FigureSeries::Style::dotted, FigureSeries::grey});
     const auto styles = static_cast<std::size_t>(std::count_if(entries.begin(), entries.end(), is_of_style));
-    const std::size_t others = entries.size() - styles;
-    const std::size_t most = std::max<std::size_t>(2, most_entries - std::min(most_entries, styles));
-    if (others <= most)
+    if (entries.size() - styles <= most_entries)
         return entries;
+    const std::size_t left_out = entries.size() - styles - (most_entries - 1);
     std::vector<LegendEntry> fewer;
     std::size_t seen = 0;
     for (const LegendEntry& entry : entries) {
-        if (is_of_style(entry) || seen < most - 1)
+        if (is_of_style(entry) || seen < most_entries - 1)
             fewer.push_back(entry);
-        if (!is_of_style(entry) && ++seen == most)
-            fewer.push_back({fmt::format("and {} more", others - most + 1), {}, {}, FigureSeries::black, 0, false});
+        if (!is_of_style(entry) && ++seen == most_entries)
+            fewer.push_back({fmt::format("and {} more", left_out), {}, {}, FigureSeries::black, 0, 0, false});
     }
     return fewer;
 }
 
-bool same_legend(const std::vector<LegendEntry>& one, const std::vector<LegendEntry>& other) {
-    return std::equal(
-        one.begin(), one.end(), other.begin(), other.end(), [](const LegendEntry& a, const LegendEntry& b) {
-            return a.title == b.title && a.style == b.style && a.colour == b.colour && a.symbol == b.symbol;
-        });
+std::optional<std::vector<LegendEntry>> joined_legend(const std::vector<std::vector<LegendEntry>>& legends) {
+    if (legends.empty())
+        return std::nullopt;
+    std::vector<LegendEntry> all = *std::max_element(
+        legends.begin(), legends.end(), [](const auto& one, const auto& other) { return one.size() < other.size(); });
+    const auto is_of_all = [&](const LegendEntry& entry) {
+        return std::any_of(all.begin(), all.end(), [&](const LegendEntry& other) { return same_entry(entry, other); });
+    };
+    for (const std::vector<LegendEntry>& legend : legends) {
+        if (!legend.empty() && std::none_of(legend.begin(), legend.end(), is_of_all))
+            return std::nullopt;
+        for (const LegendEntry& entry : legend) {
+            if (is_of_all(entry))
+                continue;
+            if (std::any_of(all.begin(), all.end(), [&](const LegendEntry& other) {
+                    return entry.title == other.title || same_look(entry, other);
+                }))
+                return std::nullopt;
+            all.push_back(entry);
+        }
+    }
+    return all;
 }
 
 double place_legend(std::vector<LegendEntry>& entries, double left, double top, double width, double font,
@@ -74,7 +100,7 @@ double place_legend(std::vector<LegendEntry>& entries, double left, double top, 
     for (LegendEntry& entry : entries) {
         entry.sample = sample_of(entry) * size;
         const double before = entry.sample + (entry.sampled ? space * size : 0);
-        const std::vector<std::string> lines = wrapped(entry.title, (width - before) / size, 1);
+        const std::vector<std::string> lines = wrapped_lines(entry.title, (width - before) / size, 1);
         entry.text = rich_words(lines.empty() ? "" : lines.front(), symbols);
         entry.box = {0, 0, before + width_of(entry.text) * size, row_height * size};
         widest = std::max(widest, entry.box.right);

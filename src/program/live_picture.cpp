@@ -17,7 +17,7 @@ constexpr std::size_t most_periods = 2000; ///< of a record that are drawn
 } // namespace
 
 LivePicture::LivePicture(const AcquireArguments& arguments) : arguments_(&arguments) {
-    picture_ending(arguments.live, "--live", {"svg", "png", "pdf"});
+    picture_ending(arguments.live, "--live", {"svg", "png", "pdf", "eps"});
     if (!find_program("gnuplot"))
         throw InputError(Place{"--live", 0, 0}, "gnuplot, which draws it, is not there",
                          "install gnuplot, or leave --live out");

@@ -2,6 +2,7 @@
 
 #include "graze/branch/curve_start.hpp"
 #include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/rounded.hpp"
 #include "program/quantity.hpp"
 #include "program/values.hpp"
 
@@ -40,9 +41,11 @@ void add_decades(std::vector<double>& values, double first, double last, const s
     if (!(decades < most_numbers))
         refuse(option, text, "the range is too long", "write 1e-3,1e-6 or 1e-2:1e-20");
     const auto count = static_cast<int>(std::floor(decades + 1e-9));
-    for (int i = 0; i <= count; ++i)
-        // By text, so that powers of ten are what people write.
-        values.push_back(first * std::stod(fmt::format("1e{}", std::abs(first) > std::abs(last) ? -i : i)));
+    constexpr int decimals = 15; // so that powers of ten are what people write
+    for (int i = 0; i <= count; ++i) {
+        const long double decade = std::pow(10.0L, std::abs(first) > std::abs(last) ? -i : i);
+        values.push_back(rounded(static_cast<double>(first * decade), decimals));
+    }
 }
 
 LossPoint of_fold(StoredOrbit stored, const std::string& asked) {

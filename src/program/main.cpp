@@ -1,5 +1,7 @@
 #include "program/interrupt.hpp"
 #include "program/program.hpp"
+#include "program/standard_streams.hpp"
+#include "program/temporary_files.hpp"
 
 #include <algorithm>
 #include <array>
@@ -23,7 +25,7 @@ std::size_t width_of_terminal() {
     return std::max<std::size_t>(size.ws_col, least);
 }
 
-/// Commands that end in order when they are interrupted; others are broken off, and have nothing to lose.
+/// Commands that end in order when they are interrupted; others are broken off, and leave nothing half written.
 bool ends_in_order(int count, char** values) {
     constexpr std::array<std::string_view, 5> commands{"run", "simulate", "ladder", "bench", "acquire"};
     return count > 1 && std::find(commands.begin(), commands.end(), values[1]) != commands.end();
@@ -32,9 +34,11 @@ bool ends_in_order(int count, char** values) {
 } // namespace
 
 int main(int count, char** values) {
+    graze::open_standard_streams();
     // Ceres Solver tells the log of steps that fail, which are others' business: the log is the program's, not the
     // library's.
     FLAGS_minloglevel = google::GLOG_FATAL;
+    graze::TemporaryFiles::watch_signals();
     std::optional<graze::InterruptGuard> guard; // from the first moment, not only from where computing begins
     if (ends_in_order(count, values))
         guard.emplace();

@@ -1,5 +1,6 @@
 #include "program/manual.hpp"
 
+#include "base/letter_case.hpp"
 #include "graze/results/name_advice.hpp"
 #include "graze/symbolic/input_error.hpp"
 
@@ -7,8 +8,6 @@
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <sstream>
 
 namespace graze {
@@ -125,11 +124,9 @@ std::string page_name(const CLI::App& app, const CLI::App& command) {
 std::string manual_page(const CLI::App& app, const CLI::App& command) {
     const std::string name = page_name(app, command);
     const bool whole = &command == &app;
-    std::string upper = name;
-    std::transform(upper.begin(), upper.end(), upper.begin(), [](unsigned char c) { return std::toupper(c); });
     std::string text = fmt::format(
-        ".TH {} 1 \"\" \"graze {}\" \"graze\"\n.SH NAME\n{} \\- {}\n.SH SYNOPSIS\n{}\n", upper, GRAZE_VERSION,
-        in_roff(name),
+        ".TH {} 1 \"\" \"graze {}\" \"graze\"\n.SH NAME\n{} \\- {}\n.SH SYNOPSIS\n{}\n", in_capitals(name),
+        GRAZE_VERSION, in_roff(name),
         in_roff(whole ? "hybrid dynamical systems: simulation and bifurcation analysis" : summary_of(command)),
         synopsis_of(app, command));
     const std::string details = whole ? command.get_description() : details_of(command);

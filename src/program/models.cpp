@@ -61,7 +61,6 @@ int models_command(const ModelsArguments& arguments, const Console& console) {
         list(arguments, console);
         return exit_success;
     }
-    require_distinct({{"the model", is_model_path(arguments.name) ? arguments.name : ""}, {"--write", arguments.file}});
     if (!arguments.file.empty())
         write_file(arguments.file, file_text(arguments));
     if (arguments.show) {

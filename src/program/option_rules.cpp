@@ -68,6 +68,11 @@ const std::vector<Excludes>& exclusions() {
          {"--output", "--jobs", "--no-pictures", "--quiet", "--format", "--digits"},
          "leave it out"},
         {"design", "--quiet", nullptr, {"--format", "--digits"}, "leave one of them out"},
+        {"layout",
+         "--from-design",
+         nullptr,
+         {"--yield"},
+         "leave --from-design out, and give --set @FOLDER/drawing.toml, which it has written"},
         {"models", "--show", nullptr, {"--format", "--digits"}, "leave it out"},
         {"models", "--write", nullptr, {"--format", "--digits"}, "leave it out"},
         {"orbit",
@@ -91,7 +96,10 @@ const std::vector<Excludes>& exclusions() {
 
 const std::vector<Needs>& needs() {
     static const std::vector<Needs> all{
-        {"layout", "--mask", {"--output"}},
+        {"layout", "--mask", {"--picture", "--output"}},
+        {"layout", "--folder", {"--yield"}},
+        {"layout", "--seed", {"--yield"}},
+        {"layout", "--jobs", {"--yield", "--from-design"}},
         {"orbit", "--data", {"--plot"}},
         {"trip", "--data", {"--plot"}},
         {"record", "--data", {"--plot"}},
@@ -121,7 +129,7 @@ const std::vector<NeedsValue>& needs_of_values() {
         {"plot", "--fit", "--kind", {"regression"}},
         {"plot", "--group", "--kind", {"regression"}},
         {"plot", "--successive", "--kind", {"regression"}},
-        {"plot", "--at", "--kind", {"history", "portrait", "spectrum"}},
+        {"plot", "--at", "--kind", {"history", "portrait", "poincare", "spectrum"}},
         {"plot", "--point", "--kind", {"history", "portrait"}},
         {"record", "--level", "--what", {"periods", "sections", "extremes"}},
         {"record", "--hysteresis", "--what", {"periods", "sections", "extremes"}},
@@ -217,7 +225,7 @@ void refuse_useless_options(const CLI::App& app) {
             if (name == rule.command && given(*command, rule.option) &&
                 std::none_of(rule.others.begin(), rule.others.end(),
                              [&](const std::string& other) { return given(*command, other); }))
-                refuse(rule.option, rule.others.back(), "without",
+                refuse(rule.option, fmt::format("{}", fmt::join(rule.others, " or ")), "without",
                        fmt::format("add {} or leave it out", rule.others.back()));
     }
 }

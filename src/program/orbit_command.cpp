@@ -137,7 +137,7 @@ void draw(const OrbitArguments& arguments, const ResultFile& file, const StoredO
 
 int orbit_command(const OrbitArguments& arguments, const Console& console) {
     if (!arguments.plot.empty())
-        picture_ending(arguments.plot, "--plot", {"svg", "png", "pdf"});
+        picture_ending(arguments.plot, "--plot", {"svg", "png", "pdf", "eps"});
     const ResultFile file(result_path(arguments.file), ResultFile::Access::read);
     const StoredOrbit stored = find_stored_orbit(file, arguments.point, {"POINT", 0, 0});
     if (!arguments.plot.empty()) {

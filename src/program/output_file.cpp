@@ -1,15 +1,19 @@
 #include "program/output_file.hpp"
 
 #include "graze/symbolic/input_error.hpp"
+#include "program/kept_inputs.hpp"
+#include "program/temporary_files.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
@@ -56,6 +60,7 @@ FileReplacement::FileReplacement(const std::string& path) : path_(path) {
     if (belongs_to_database(target_))
         throw InputError(fmt::format("'{}' is a result file or another database, which is not overwritten", path),
                          "choose another file");
+    KeptInputs::require_none_at(path);
     const std::filesystem::file_status status = std::filesystem::status(target, error);
     if (std::filesystem::is_directory(status))
         fail(path, "it is a folder");
@@ -66,35 +71,68 @@ FileReplacement::FileReplacement(const std::string& path) : path_(path) {
         temporary_ = target_;
         return;
     }
-    const std::string stem = target.stem().string(), ending = target.extension().string();
-    for (int attempt = 0;; ++attempt) {
-        temporary_ = (target.parent_path() / fmt::format(".{}.{}-{}{}", stem, getpid(), attempt, ending)).string();
-        const int file = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (file >= 0) {
-            // Who may read what is there now may read what replaces it, and nobody else.
-            if (std::filesystem::exists(status))
-                fchmod(file, static_cast<mode_t>(status.permissions()) & 0777);
-            close(file);
-            return;
-        }
-        if (errno != EEXIST || attempt == 100) {
-            const int reason = errno;
-            temporary_.clear();
-            fail(path, std::strerror(reason));
-        }
-    }
+    make_temporary(target);
+    // Who may read what is there now may read what replaces it, and nobody else.
+    if (std::filesystem::exists(status))
+        fchmod(file_, static_cast<mode_t>(status.permissions()) & 0777);
 }
 
 FileReplacement::~FileReplacement() {
-    if (!direct_ && !temporary_.empty())
-        unlink(temporary_.c_str());
+    if (file_ >= 0)
+        close(file_);
+    if (direct_ || temporary_.empty())
+        return;
+    unlink(temporary_.c_str());
+    TemporaryFiles::take_out(temporary_);
+}
+
+/// Beside the target, under a name that nobody else can foresee and put something under.
+void FileReplacement::make_temporary(const std::filesystem::path& target) {
+    constexpr std::size_t longest_stem = 100; // names have 255 bytes
+    const std::string stem = target.stem().string().substr(0, longest_stem), ending = target.extension().string();
+    std::random_device random;
+    for (int attempt = 0; attempt < 100; ++attempt) {
+        const std::string name = fmt::format(".{}.{:08x}{:08x}{}", stem, random(), random(), ending);
+        temporary_ = (target.parent_path() / name).string();
+        TemporaryFiles::add(temporary_); // before it is there: it has no name of another's
+        file_ = open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+        if (file_ >= 0)
+            return;
+        const int reason = errno;
+        TemporaryFiles::take_out(temporary_);
+        errno = reason;
+        if (reason != EEXIST)
+            break;
+    }
+    const int reason = errno;
+    temporary_.clear();
+    fail(path_, std::strerror(reason));
+}
+
+void FileReplacement::written_by(const std::function<void(const std::string& path)>& work) const {
+    try {
+        work(temporary_);
+    } catch (const InputError& error) {
+        if (error.place().file != temporary_)
+            throw;
+        throw InputError(Place{path_, 0, 0}, error.problem(), error.remedy());
+    }
 }
 
 void FileReplacement::commit() {
     if (direct_)
         return;
+    struct stat made {
+    }, there{};
+    if (fstat(file_, &made) != 0 || lstat(temporary_.c_str(), &there) != 0 || made.st_dev != there.st_dev ||
+        made.st_ino != there.st_ino)
+        fail(path_, "another program has moved what was written");
+    // What a disk does not take it may say only now; some file systems do not know the question.
+    if (fsync(file_) != 0 && errno != EINVAL && errno != ENOSYS)
+        fail(path_, std::strerror(errno));
     if (std::rename(temporary_.c_str(), target_.c_str()) != 0)
         fail(path_, std::strerror(errno));
+    TemporaryFiles::take_out(temporary_);
     temporary_.clear();
 }
 
@@ -105,7 +143,8 @@ void require_writable(const std::string& path) {
 void make_folder(const std::string& folder, const std::string& option) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
-    if (error || !std::filesystem::is_directory(folder))
+    std::error_code none;
+    if (error || !std::filesystem::is_directory(folder, none))
         throw InputError(
             {option, 0, 0},
             fmt::format("folder '{}' cannot be made{}", folder, error ? " (" + error.message() + ")" : std::string()),
@@ -141,18 +180,30 @@ void require_inside(const std::string& path, const std::string& folder) {
     const auto root = std::filesystem::canonical(folder, error);
     const auto target = error ? root : std::filesystem::weakly_canonical(path, error);
     // A link that leads nowhere yet, too, would be written through.
-    if (error || target.parent_path() != root || std::filesystem::is_symlink(path))
+    std::error_code none;
+    if (error || target.parent_path() != root || std::filesystem::is_symlink(path, none))
         throw InputError(fmt::format("'{}' leads out of the folder '{}'", path, folder),
                          "remove what is there under that name");
 }
 
 void FileReplacement::write(std::string_view contents) const {
-    errno = 0;
-    std::ofstream stream(temporary_, std::ios::binary);
-    stream.write(contents.data(), static_cast<std::streamsize>(contents.size()));
-    stream.close();
-    if (!stream)
-        fail(path_, errno != 0 ? std::strerror(errno) : "the device does not take it");
+    if (direct_) {
+        errno = 0;
+        std::ofstream stream(temporary_, std::ios::binary);
+        stream.write(contents.data(), static_cast<std::streamsize>(contents.size()));
+        stream.close();
+        if (!stream)
+            fail(path_, errno != 0 ? std::strerror(errno) : "the device does not take it");
+        return;
+    }
+    if (ftruncate(file_, 0) != 0 || lseek(file_, 0, SEEK_SET) != 0)
+        fail(path_, std::strerror(errno));
+    while (!contents.empty()) {
+        const ssize_t count = ::write(file_, contents.data(), contents.size());
+        if (count < 0 && errno != EINTR)
+            fail(path_, std::strerror(errno));
+        contents.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+    }
 }
 
 void write_file(const std::string& path, std::string_view contents) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,8 +32,9 @@ void require_distinct(const std::vector<NamedFile>& files);
 /// @throws InputError when it does
 void require_inside(const std::string& path, const std::string& folder);
 
-/// A file that appears whole under its name, or not at all: it is written under another name beside it. Everything that
-/// the program writes, besides result files, is written by way of this. It replaces no database.
+/// A file that appears whole under its name, or not at all: it is written under another name beside it, which nobody
+/// can foresee, and which is no link. Everything that the program writes, besides result files and records of
+/// experiments, is written by way of this. It replaces no database, and nothing that the running command reads.
 class FileReplacement {
 public:
     /// @throws InputError when nothing can be written there
@@ -44,11 +47,16 @@ public:
     const std::string& temporary_path() const { return temporary_; }
     /// Writes all of it. @throws InputError when it cannot be written
     void write(std::string_view contents) const;
-    /// @throws InputError when what was written cannot be given its name
+    /// Does some work that writes to the temporary path: what goes wrong with it names the file as it is to be called.
+    void written_by(const std::function<void(const std::string& path)>& work) const;
+    /// @throws InputError when what was written is not on the disk, or cannot be given its name
     void commit();
 
 private:
+    void make_temporary(const std::filesystem::path& target);
+
     std::string path_, target_, temporary_;
+    int file_ = -1;       ///< the file that was made, whatever is under its name later
     bool direct_ = false; ///< not a regular file, such as /dev/null: there is nothing to replace
 };
 

@@ -46,11 +46,30 @@ Extent extent_of(const FigurePanel& panel, bool horizontal) {
     return extent;
 }
 
+/// A range about a constant, whose digits beside the axis differ.
+void make_room(double& low, double& high, bool logarithmic) {
+    const double size = std::max(std::abs(low), std::abs(high));
+    if (high - low > resolved * size && high > low)
+        return;
+    const double room = logarithmic || size == 0 ? 1 : 0.1 * size;
+    low -= room;
+    high += room;
+}
+
 void choose_range(PanelAxis& axis, const FigurePanel& panel, bool horizontal) {
+    const auto there = [&](double value) { return axis.logarithmic ? std::log10(value) : value; };
+    const auto back = [&](double place) { return axis.logarithmic ? std::pow(10, place) : place; };
     if (const auto& range = horizontal ? panel.x_range : panel.y_range;
         range && (!axis.logarithmic || range->first > 0)) {
         axis.low = range->first;
         axis.high = range->second;
+        if (!(axis.high > axis.low) ||
+            axis.high - axis.low > resolved * std::max(std::abs(axis.low), std::abs(axis.high)))
+            return;
+        double low = there(axis.low), high = there(axis.high);
+        make_room(low, high, axis.logarithmic);
+        axis.low = back(low);
+        axis.high = back(high);
         return;
     }
     const Extent extent = extent_of(panel, horizontal);
@@ -62,15 +81,8 @@ void choose_range(PanelAxis& axis, const FigurePanel& panel, bool horizontal) {
     const bool has_cells = std::any_of(panel.series.begin(), panel.series.end(),
                                        [](const FigureSeries& series) { return !series.cells.empty(); });
     const double margin = has_cells ? 0 : (horizontal ? panel.roomy_x : panel.roomy_y) ? roomy_margin : usual_margin;
-    const auto there = [&](double value) { return axis.logarithmic ? std::log10(value) : value; };
-    const auto back = [&](double place) { return axis.logarithmic ? std::pow(10, place) : place; };
     double low = there(extent.least), high = there(extent.greatest);
-    const double size = std::max(std::abs(low), std::abs(high));
-    if (high - low <= resolved * size || high <= low) {
-        const double room = axis.logarithmic || size == 0 ? 1 : 0.1 * size;
-        low -= room;
-        high += room;
-    }
+    make_room(low, high, axis.logarithmic);
     const double free = margin * (high - low);
     axis.low = back(low - free);
     axis.high = back(high + free);

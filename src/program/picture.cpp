@@ -1,6 +1,8 @@
 #include "program/picture.hpp"
 
+#include "base/letter_case.hpp"
 #include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/xml_text.hpp"
 #include "program/process.hpp"
 
 #include <fmt/format.h>
@@ -9,17 +11,18 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <string_view>
+#include <utility>
 
 namespace graze {
 
 std::string picture_ending(const std::string& path, const std::string& option, const std::vector<std::string>& known) {
-    std::string ending = std::filesystem::path(path).extension().string();
+    std::string ending = in_small_letters(std::filesystem::path(path).extension().string());
     ending.erase(0, 1);
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
     if (std::find(known.begin(), known.end(), ending) == known.end())
         throw InputError({option, 0, 0},
-                         fmt::format("'{}' does not say what kind of {} to draw", path,
-                                     known.front() == "gds" ? "masks or picture" : "picture"),
+                         fmt::format("the ending of '{}' does not say what kind of file to write", path),
                          fmt::format("let the name end in .{}", fmt::join(known, ", .")));
     return ending;
 }
@@ -38,9 +41,22 @@ void require_whole_picture(const std::string& file, const std::string& ending, c
     std::string tail(static_cast<std::size_t>(std::clamp<std::streamoff>(size, 0, most)), ' ');
     stream.seekg(-static_cast<std::streamoff>(tail.size()), std::ios::end);
     stream.read(tail.data(), static_cast<std::streamsize>(tail.size()));
-    const char* end = ending == "png" ? "IEND" : ending == "pdf" ? "%%EOF" : ending == "tex" ? "\\endgroup" : "</svg>";
+    const char* end = ending == "png"                      ? "IEND"
+                      : ending == "pdf" || ending == "eps" ? "%%EOF"
+                      : ending == "tex"                    ? "\\endgroup"
+                                                           : "</svg>";
     if (!stream || tail.find(end) == std::string::npos)
         throw InputError(fmt::format("'{}' was not drawn to its end", path), "look whether the disk is full");
+}
+
+void require_well_formed_picture(const FileReplacement& file, const std::string& ending, const std::string& path) {
+    require_whole_picture(file.temporary_path(), ending, path);
+    if (ending != "svg")
+        return;
+    std::ifstream stream(file.temporary_path(), std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    if (const std::string mended = well_formed(text); mended != text) // programs leave all of it alone
+        file.write(mended);
 }
 
 void draw_by_gnuplot(const std::string& script, const FileReplacement& file, const std::string& ending,
@@ -53,7 +69,7 @@ void draw_by_gnuplot(const std::string& script, const FileReplacement& file, con
     const ProcessResult result = run_process({gnuplot, "-d", commands.temporary_path()}, "");
     if (result.status != 0)
         throw InputError(fmt::format("gnuplot could not draw '{}': {}", path, one_line(result.output)), remedy);
-    require_whole_picture(file.temporary_path(), ending, path);
+    require_well_formed_picture(file, ending, path);
 }
 
 std::string one_line(const std::string& text) {

@@ -17,6 +17,8 @@ std::string require_drawing_program(const std::string& name, const std::string& 
 /// @param file what it has drawn; @param ending as picture_ending gives it; @param path for the message
 /// @throws InputError unless the picture has its beginning and its end
 void require_whole_picture(const std::string& file, const std::string& ending, const std::string& path);
+/// The same; in SVG it replaces what XML does not allow and programs write all the same.
+void require_well_formed_picture(const FileReplacement& file, const std::string& ending, const std::string& path);
 
 /// Draws into a file that is still to get its name. @param script commands for gnuplot that draw there
 /// @param ending as picture_ending gives it; @param path for messages, @param remedy too

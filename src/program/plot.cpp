@@ -1,12 +1,14 @@
 #include "program/plot.hpp"
 
 #include "graze/study/plain_states.hpp"
+#include "graze/study/point_motion.hpp"
 #include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/transform.hpp"
 #include "program/gnuplot.hpp"
+#include "program/gnuplot_text.hpp"
 #include "program/output_file.hpp"
 #include "program/picture.hpp"
 #include "program/process.hpp"
+#include "program/style_arguments.hpp"
 #include "program/values.hpp"
 
 #include <fmt/format.h>
@@ -26,17 +28,9 @@ std::size_t column_of(PlotContents& contents, RequestedQuantity quantity) {
     return contents.columns.size() - 1;
 }
 
-/// Whether an event depends on nothing but phases: a switch that a clock operates, not something met by the motion.
-bool is_clock(const Model& model, const Event& event) {
-    const std::vector<Expression> symbols = symbols_of({{Model(model).expand(event.function)}});
-    return std::none_of(symbols.begin(), symbols.end(), [&](const Expression& symbol) {
-        const auto state = model.find_state(symbol.name());
-        return state && !model.states[*state].period;
-    });
-}
-
 void choose_panels(const Model& model, const SimulateArguments& arguments, PlotContents& contents) {
     std::vector<std::string> histories = arguments.quantities;
+    contents.chosen = !histories.empty();
     if (histories.empty())
         histories = plain_states(model);
     for (const std::string& text : histories)
@@ -63,7 +57,9 @@ PlotRequest plot_request(const Model& model, const SimulateArguments& arguments,
     PlotRequest request;
     request.path = arguments.plot;
     request.data_path = arguments.plot_data;
-    request.ending = picture_ending(request.path, "--plot", {"svg", "png", "pdf"});
+    request.style = figure_style(arguments.style);
+    require_quotable(request.style.font);
+    request.ending = picture_ending(request.path, "--plot", {"svg", "png", "pdf", "eps"});
     request.gnuplot = require_drawing_program("gnuplot", "install gnuplot (Debian: apt-get install gnuplot-nox)");
     require_writable(request.path);
     if (!request.data_path.empty())
@@ -73,13 +69,13 @@ PlotRequest plot_request(const Model& model, const SimulateArguments& arguments,
     if (arguments.events.empty())
         for (std::size_t i = 0; i < model.events.size(); ++i)
             request.contents.marked[i] =
-                model.events[i].kind == EventKind::barrier && !is_clock(model, model.events[i]);
+                model.events[i].kind == EventKind::barrier && is_met_by_motion(model, model.events[i]);
     request.contents.sections = arguments.sections.size();
     return request;
 }
 
 void draw_plot(const PlotRequest& request, const PlotRecorder& recorder) {
-    const GnuplotScript script(recorder);
+    const GnuplotScript script(recorder, request.style);
     if (!request.data_path.empty())
         write_file(request.data_path, script.text(request.ending, request.path));
     FileReplacement file(request.path);
@@ -88,7 +84,7 @@ void draw_plot(const PlotRequest& request, const PlotRecorder& recorder) {
     if (result.status != 0)
         throw InputError(fmt::format("gnuplot could not draw '{}': {}", request.path, one_line(result.output)),
                          "keep its commands by --data FILE and run gnuplot FILE");
-    require_whole_picture(file.temporary_path(), request.ending, request.path);
+    require_well_formed_picture(file, request.ending, request.path);
     file.commit();
 }
 

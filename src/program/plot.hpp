@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graze/model/model.hpp"
+#include "graze/study/figure.hpp"
 #include "program/arguments.hpp"
 #include "program/plot_recorder.hpp"
 
@@ -14,6 +15,7 @@ struct PlotRequest {
     std::string path, data_path, ending;
     std::string gnuplot; ///< path of the program
     PlotContents contents;
+    FigureStyle style;
 };
 
 /// Decides what is drawn and makes sure that it can be. @throws InputError

@@ -19,6 +19,7 @@ struct PlotContents {
     std::vector<std::pair<std::size_t, std::size_t>> portraits; ///< one over the other
     std::vector<bool> marked;                                   ///< events whose contacts are marked
     std::size_t sections = 0;                                   ///< the probes before this one are marked
+    bool chosen = false; ///< the histories were asked for, and are drawn even where nothing changes
 };
 
 /// Keeps what a picture needs: points close enough on every arc, contacts before and after, passages of sections.

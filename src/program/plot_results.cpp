@@ -3,25 +3,16 @@
 #include "graze/study/showable_names.hpp"
 #include "program/commands.hpp"
 #include "program/figure.hpp"
+#include "program/style_arguments.hpp"
 #include "program/values.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 
 namespace graze {
 
 namespace {
-
-double number_of(const std::string& text, const char* option) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-        throw InputError({option, 0, 0}, fmt::format("'{}' is not a number", text), "give a number");
-    return value;
-}
 
 std::optional<std::pair<double, double>> range_of(const std::string& text, const char* option) {
     if (text.empty())
@@ -29,33 +20,11 @@ std::optional<std::pair<double, double>> range_of(const std::string& text, const
     const std::size_t colon = text.find(':');
     if (colon == std::string::npos)
         throw InputError({option, 0, 0}, fmt::format("'{}' is not a range", text), "write it as A:B");
-    const std::pair<double, double> range{number_of(text.substr(0, colon), option),
-                                          number_of(text.substr(colon + 1), option)};
+    const std::pair<double, double> range{number_of_option(text.substr(0, colon), option),
+                                          number_of_option(text.substr(colon + 1), option)};
     if (!(range.first < range.second))
         throw InputError({option, 0, 0}, fmt::format("the range '{}' is empty", text), "give the smaller number first");
     return range;
-}
-
-FigureStyle style_of(const PlotArguments& arguments) {
-    FigureStyle style;
-    if (!arguments.size.empty()) {
-        const std::size_t cross = arguments.size.find('x');
-        if (arguments.size.find_first_not_of("0123456789.x") != std::string::npos)
-            throw InputError({"--size", 0, 0}, fmt::format("'{}' is no size", arguments.size),
-                             "write the width in mm, as 85, or WIDTHxHEIGHT, as 254x143");
-        style.width = number_of(arguments.size.substr(0, cross), "--size");
-        if (cross != std::string::npos)
-            style.height = number_of(arguments.size.substr(cross + 1), "--size");
-    }
-    const std::string& font = arguments.font;
-    const std::size_t comma = font.find(',');
-    const bool only_size = !font.empty() && font.find_first_not_of("0123456789.") == std::string::npos;
-    if (only_size || comma != std::string::npos)
-        style.font_size = number_of(only_size ? font : font.substr(comma + 1), "--font");
-    if (!only_size)
-        style.font = font.substr(0, comma);
-    check_style(style, {arguments.size.empty() ? "--font" : "--size", 0, 0});
-    return style;
 }
 
 /// What `--name` says.
@@ -83,6 +52,13 @@ StudyPicture picture_of(const PlotArguments& arguments, const RunRecord& run) {
     if (!picture.points.empty() && !run.is_branch())
         throw InputError({"--point", 0, 0}, fmt::format("run '{}' has no orbits of a branch", run.name),
                          "choose points of other runs by --at NAME=VALUE");
+    if (picture.kind != "regression")
+        for (const auto& [option, given] : {std::pair{"--group", !arguments.group.empty()},
+                                            {"--successive", arguments.successive},
+                                            {"--fit", !arguments.fit.empty()}})
+            if (given)
+                throw InputError({option, 0, 0}, fmt::format("a picture of kind '{}' has none", picture.kind),
+                                 "leave it out, or choose --kind regression");
     picture.x = arguments.x;
     picture.title = arguments.title;
     picture.group = arguments.group;
@@ -97,12 +73,12 @@ StudyPicture picture_of(const PlotArguments& arguments, const RunRecord& run) {
         const std::size_t equals = item.find('=');
         if (equals == std::string::npos)
             throw InputError({"--at", 0, 0}, fmt::format("'{}' names no point", item), "write NAME=VALUE");
-        picture.at.emplace_back(item.substr(0, equals), number_of(item.substr(equals + 1), "--at"));
+        picture.at.emplace_back(item.substr(0, equals), number_of_option(item.substr(equals + 1), "--at"));
     }
     picture.names = names_given(arguments);
     picture.x_label = arguments.x_label;
     picture.y_labels = arguments.y_labels;
-    picture.style = style_of(arguments);
+    picture.style = figure_style(arguments.style);
     for (const std::string& axis : arguments.logarithmic) {
         picture.logarithmic_x = picture.logarithmic_x || axis == "x";
         picture.logarithmic_y = picture.logarithmic_y || axis == "y";

@@ -1,7 +1,10 @@
 #include "graze/branch/special_point.hpp"
+
+#include "base/letter_case.hpp"
 #include "graze/results/stored_orbit.hpp"
 #include "graze/results/stored_run.hpp"
 #include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/rounded.hpp"
 #include "program/commands.hpp"
 #include "program/values.hpp"
 
@@ -60,9 +63,7 @@ std::vector<std::string> all_types() {
 std::vector<PointType> chosen_types(const std::vector<std::string>& names) {
     std::vector<PointType> types;
     for (const std::string& name : names) {
-        std::string upper = name;
-        std::transform(upper.begin(), upper.end(), upper.begin(), [](unsigned char c) { return std::toupper(c); });
-        const auto type = point_type(upper);
+        const auto type = point_type(in_capitals(name));
         if (!type)
             throw InputError({"--type", 0, 0}, fmt::format("there is no type of points '{}'", name),
                              fmt::format("known are: {}", fmt::join(all_types(), ", ")));
@@ -145,6 +146,8 @@ public:
         with_detail_ = !for_people_ || any([](const ListedPoint& p) {
             return !p.record.point.detail.empty() || is_unphysical(p.record);
         });
+        with_name_ =
+            any([](const ListedPoint& p) { return p.run->record.point_name(p.record.label) != p.record.label; });
         with_verdict_ = any([](const ListedPoint& p) { return p.record.touch.has_value(); });
         for (const ListedPoint& p : list.points) {
             segments_ = std::max(segments_, p.record.point.solution.orbit.segments());
@@ -169,6 +172,7 @@ private:
     void declare() {
         add_columns({"run"}, with_run_);
         add_columns({"label"}, true);
+        add_columns({"name"}, with_name_);
         add_columns({"type"}, with_type_);
         if (with_parameter_)
             for (const char* name : {"parameter", "value"})
@@ -237,6 +241,8 @@ private:
         if (with_run_)
             table_.add(run.name);
         table_.add(record.label);
+        if (with_name_)
+            table_.add(run.point_name(record.label));
         if (with_type_)
             table_.add(short_name(record.point.type));
         const std::string followed = followed_parameter(run);
@@ -338,7 +344,7 @@ private:
             table_.add(holds ? 1.0 : 0.0);
     }
     /// People compare multipliers with 1, for which few digits do.
-    double few_digits(double value) const { return for_people_ ? std::stod(fmt::format("{:.6g}", value)) : value; }
+    double few_digits(double value) const { return for_people_ ? rounded(value, 6) : value; }
     static std::string numbers_text(const std::vector<double>& values, int digits) {
         std::string text;
         for (const double value : values)
@@ -349,7 +355,7 @@ private:
     static constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
     const PointList& list_;
     bool for_people_, brief_, with_run_, with_symmetry_, with_reason_, with_bracket_, with_detail_, with_verdict_,
-        with_type_, with_parameter_;
+        with_name_, with_type_, with_parameter_;
     int digits_;
     std::size_t segments_ = 0, multipliers_ = 0; ///< most of any point
     std::vector<ResultColumn> monitors_;

@@ -1,8 +1,10 @@
 #include "program/program.hpp"
 
 #include "graze/symbolic/input_errors.hpp"
+#include "graze/symbolic/printable.hpp"
 #include "program/arguments.hpp"
 #include "program/commands.hpp"
+#include "program/kept_inputs.hpp"
 #include "program/option_rules.hpp"
 #include "program/printable_buffer.hpp"
 
@@ -11,6 +13,8 @@
 
 #include <algorithm>
 #include <exception>
+#include <filesystem>
+#include <new>
 
 namespace graze {
 
@@ -33,6 +37,9 @@ int dispatch(std::span<const std::string> words, const Console& console) {
         throw InputError(explain(error, app), "");
     }
     refuse_useless_options(app);
+    const KeptInputs kept;
+    for (const CLI::App* command : app.get_subcommands())
+        keep_inputs_of(*command);
     if (app.got_subcommand("check"))
         return check_command(arguments.check, console);
     if (app.got_subcommand("models"))
@@ -102,6 +109,13 @@ int run_program(std::span<const std::string> arguments, const Console& given) {
         return exit_bad_input;
     } catch (const InputError& error) {
         console.err << "graze: " << error.what() << '\n';
+        return exit_bad_input;
+    } catch (const std::filesystem::filesystem_error& error) {
+        console.err << "graze: " << shortened(error.path1().string(), 200) << ": " << error.code().message()
+                    << "; give another path\n";
+        return exit_bad_input;
+    } catch (const std::bad_alloc&) {
+        console.err << "graze: what is asked for takes more memory than there is; ask for less\n";
         return exit_bad_input;
     } catch (const std::exception& error) {
         console.err << "graze: internal error: " << error.what()

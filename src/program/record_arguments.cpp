@@ -27,10 +27,10 @@ constexpr const char* record_examples = R"(Examples:
 void declare_processing(CLI::App& command, RecordArguments& arguments) {
     const char* group = "Filter and derivative";
     declare_option(command, group, "--pass", arguments.pass, "F", "Take away what is faster than this frequency")
-        ->check(CLI::PositiveNumber);
+        ->check(positive_number());
     auto* stop =
         declare_option(command, group, "--stop", arguments.stop, "F", "And all that is faster than this one (1.5 F)")
-            ->check(CLI::PositiveNumber);
+            ->check(positive_number());
     stop->needs("--pass");
     declare_option(command, group, "--every", arguments.every, "N",
                    "Keep one of so many samples, without what is too fast for them")
@@ -54,7 +54,7 @@ void declare_tables(CLI::App& command, RecordArguments& arguments) {
     declare_option(command, group, "--level", arguments.level, "VALUE", "That it crosses (0)");
     declare_option(command, group, "--hysteresis", arguments.hysteresis, "VALUE",
                    "How far it has to be below and then above (a tenth of its range)")
-        ->check(CLI::PositiveNumber);
+        ->check(positive_number());
     declare_option(command, group, "--phase", arguments.phases, "PARTS", "Sections at these parts of a period (0)");
     declare_option(command, group, "--negate", arguments.negated, "NAME",
                    "Sections: half a period later too, as images with the signs of these channels changed");
@@ -67,7 +67,7 @@ void declare_tables(CLI::App& command, RecordArguments& arguments) {
                    "Impacts: samples on each side that the impact itself disturbs (0)")
         ->check(whole_number(0, 100'000));
     declare_option(command, group, "--least-jump", arguments.least_jump, "VALUE", "Impacts: smaller jumps are none (0)")
-        ->check(CLI::NonNegativeNumber);
+        ->check(non_negative_number());
     declare_option(command, group, "--part", arguments.part, "N",
                    "Spectrum: averaged over parts of so many samples (the whole record as one)")
         ->check(whole_number(8, 4'000'000));
@@ -97,6 +97,13 @@ void declare_reading(CLI::App& command, RecordArguments& arguments) {
     const char* group = "What is read";
     declare_option(command, group, "--columns", arguments.columns, "NAMES",
                    "Names and units of the columns of texts without a first line that says it: 't [s], V [V]'");
+    declare_option(command, group, "--skip", arguments.skip, "N", "Pass over the first N lines of a text (0)")
+        ->check(whole_number(0, 1'000'000'000));
+    declare_option(command, group, "--names-line", arguments.names_line, "N",
+                   "Line with the names of the columns of a text, from 1 on (found)")
+        ->check(whole_number(1, 1'000'000'000));
+    declare_option(command, group, "--units-line", arguments.units_line, "N", "Line with their units (found)")
+        ->check(whole_number(1, 1'000'000'000));
     declare_option(command, group, "--group", arguments.group, "NAME",
                    "Of HDF5: the group whose datasets are the channels");
     declare_option(command, group, "--scale", arguments.scales, "NAME=FACTOR[+OFFSET][:UNIT]",

@@ -21,25 +21,26 @@ namespace {
 int write_record(const RecordArguments& arguments, const Console& console) {
     if (arguments.files.size() > 1)
         throw InputError("several records cannot be written to one file", "give one record");
-    require_distinct({{"the record", arguments.files.front()}, {"--write", arguments.write}});
     const InterruptGuard guard; // a file that is half written is taken away
     FileReplacement replacement(arguments.write);
     with_file(arguments.files.front(), [&] {
-        RecordStages stages(arguments.files.front(), arguments);
+        RecordStages stages(arguments.files.front(), arguments, console);
         const std::vector<std::size_t> channels = stages.channels(arguments.channels);
         RecordHeader header{stages.header().time, {}};
         for (const std::size_t c : channels)
             header.channels.push_back(stages.header().channels[c]);
-        RecordWriter writer(replacement.temporary_path(), header);
-        Samples samples, chosen;
-        while (!InterruptGuard::requested() && stages.source().read(samples)) {
-            chosen.times = samples.times;
-            chosen.values.clear();
-            for (const std::size_t c : channels)
-                chosen.values.push_back(samples.values[c]);
-            writer.write(chosen);
-        }
-        writer.close();
+        replacement.written_by([&](const std::string& path) {
+            RecordWriter writer(path, header);
+            Samples samples, chosen;
+            while (!InterruptGuard::requested() && stages.source().read(samples)) {
+                chosen.times = samples.times;
+                chosen.values.clear();
+                for (const std::size_t c : channels)
+                    chosen.values.push_back(samples.values[c]);
+                writer.write(chosen);
+            }
+            writer.close();
+        });
     });
     if (InterruptGuard::requested()) {
         console.err << fmt::format("graze: interrupted; '{}' is not written\n", arguments.write);
@@ -54,13 +55,13 @@ int write_record(const RecordArguments& arguments, const Console& console) {
 
 int record_command(const RecordArguments& arguments, const Console& console) {
     if (!arguments.plot.empty())
-        picture_ending(arguments.plot, "--plot", {"svg", "png", "pdf"});
+        picture_ending(arguments.plot, "--plot", {"svg", "png", "pdf", "eps"});
     if (!arguments.write.empty())
         return write_record(arguments, console);
     const std::unique_ptr<RecordTable> table = record_table(arguments);
     for (const std::string& file : arguments.files)
         with_file(file, [&] {
-            RecordStages stages(file, arguments);
+            RecordStages stages(file, arguments, console);
             table->add(file, stages);
         });
     if (!arguments.plot.empty()) {

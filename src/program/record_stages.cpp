@@ -46,10 +46,16 @@ RecordProcessing::Scale scale_of(const std::string& text) {
     return result;
 }
 
-RecordProcessing processing_of(const RecordArguments& arguments) {
+RecordProcessing processing_of(const RecordArguments& arguments, const Console& console) {
     RecordProcessing processing;
     processing.asked_as = "--";
     processing.layout.columns = arguments.columns;
+    processing.layout.skip = arguments.skip;
+    processing.layout.names_line = arguments.names_line;
+    processing.layout.units_line = arguments.units_line;
+    processing.layout.remark = [&console](const std::string& text) {
+        console.err << fmt::format("graze: warning: {}\n", text);
+    };
     if (!arguments.group.empty())
         processing.layout.group = arguments.group;
     for (const std::string& text : arguments.scales)
@@ -74,8 +80,8 @@ bool RequiredRows::read(Samples& samples) {
     return more;
 }
 
-RecordStages::RecordStages(const std::string& path, const RecordArguments& arguments)
-    : RecordStages(path, processing_of(arguments)) {}
+RecordStages::RecordStages(const std::string& path, const RecordArguments& arguments, const Console& console)
+    : RecordStages(path, processing_of(arguments, console)) {}
 
 RecordStages::RecordStages(const std::string& path, const RecordProcessing& processing)
     : record_(open_record(path, processing.layout), processing), rows_(record_.source()) {}

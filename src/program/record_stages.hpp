@@ -2,6 +2,7 @@
 
 #include "graze/record/processed_record.hpp"
 #include "program/arguments.hpp"
+#include "program/commands.hpp"
 
 #include <string>
 #include <vector>
@@ -25,7 +26,7 @@ private:
 class RecordStages {
 public:
     /// @throws InputError for what is no record, and options without meaning
-    RecordStages(const std::string& path, const RecordArguments& arguments);
+    RecordStages(const std::string& path, const RecordArguments& arguments, const Console& console);
     SampleSource& source() { return rows_; }
     const RecordHeader& header() const { return record_.header(); }
     /// Indices of the channels that are asked for, or of all.

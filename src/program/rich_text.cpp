@@ -216,7 +216,7 @@ double width_of(const RichText& text) {
     return width;
 }
 
-std::vector<std::string> wrapped(const std::string& text, double width, std::size_t most) {
+std::vector<std::string> wrapped_lines(const std::string& text, double width, std::size_t most) {
     std::vector<std::string> lines, parts;
     std::istringstream words(text);
     for (std::string word; words >> word;)

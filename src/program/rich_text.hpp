@@ -33,7 +33,7 @@ std::string letters_of(const RichText& text);
 double width_of(const RichText& text);
 /// Lines of no more than so many sizes of the font, broken at blanks, but not beside "=" and behind "Fig.". Words that
 /// are too long are cut short; lines beyond the most are left out.
-std::vector<std::string> wrapped(const std::string& text, double width, std::size_t most);
+std::vector<std::string> wrapped_lines(const std::string& text, double width, std::size_t most);
 
 /// For double quotes in gnuplot, as its own enhanced text. @throws InputError for control characters
 std::string gnuplot_markup(const RichText& text);

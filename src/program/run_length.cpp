@@ -97,8 +97,11 @@ RunLength run_length(const Model& model, const SimulateArguments& arguments) {
     const bool by_default = length.shown.empty();
     if (by_default)
         length.shown.periods = default_periods;
-    if (length.shown.periods == 0 && length.transient.periods == 0)
+    if (length.shown.periods == 0 && length.transient.periods == 0) {
+        if (!arguments.phase.empty())
+            throw InputError({"--phase", 0, 0}, "no periods are counted", "leave it out, or give --periods N");
         return length;
+    }
 
     const Phase phase = find_phase(model, arguments.phase,
                                    by_default ? "nothing says how long to simulate" : "periods are to be counted");

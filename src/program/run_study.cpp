@@ -1,9 +1,11 @@
 #include "graze/results/stored_run.hpp"
+#include "graze/study/escape_rates.hpp"
 #include "graze/study/runner.hpp"
 #include "graze/study/stored_study.hpp"
 #include "graze/study/study_catalogue.hpp"
 #include "program/commands.hpp"
 #include "program/interrupt.hpp"
+#include "program/kept_inputs.hpp"
 #include "program/output_file.hpp"
 #include "program/progress_line.hpp"
 #include "program/step_lines.hpp"
@@ -79,16 +81,30 @@ struct ListedRun {
     Counts labels;
     std::string remedy; ///< or what went wrong
     std::vector<std::pair<std::string, std::string>> ends;
+    std::string escapes; ///< the rate at which motions leave a transient, if there is one
 };
+
+/// "0.00051 +- 0.00007 per return after 400", of parameters at which a run has a law of escape.
+std::string escapes_of(const StoredRun& run) {
+    std::string text;
+    const std::vector<EscapeRate> rates = escape_rates(run);
+    for (const EscapeRate& rate : rates)
+        text += fmt::format("{}{:.3g} +- {:.1g} per return after {}", text.empty() ? "" : ", ", rate.law.rate,
+                            rate.law.error, rate.law.from);
+    constexpr std::size_t most = 3; ///< that fit into a line
+    return rates.size() > most ? "" : text;
+}
 
 ListedRun listed(const RunReport& report, const ResultFile& file) {
     const StoredRun run(file, report.name, {});
-    ListedRun result{label_counts(run), report.problem, {}};
+    ListedRun result{label_counts(run), report.problem, {}, ""};
     if (!report.problem.empty())
         return result;
     result.ends = ends_of(run);
-    if (!run.record.is_branch())
+    if (!run.record.is_branch()) {
         result.remedy = first_remedy(run, result.labels);
+        result.escapes = escapes_of(run);
+    }
     return result;
 }
 
@@ -145,6 +161,8 @@ Table table_of(const std::vector<RunReport>& reports, const ResultFile& file) {
         for (const auto& [label, count] : results.empty() ? run.labels : Counts())
             results += fmt::format("{}{} {}", results.empty() ? "" : ", ", label, count);
         const auto add = [&](const std::string& text) { results += (results.empty() ? "" : "; ") + text; };
+        if (!run.escapes.empty())
+            add("rate of escape " + run.escapes);
         if (!run.remedy.empty())
             add(run.remedy);
         for (const auto& [part, detail] : run.ends)
@@ -171,7 +189,7 @@ Table cells_of(const std::vector<RunReport>& reports, const ResultFile& file) {
         std::replace(label.begin(), label.end(), ' ', '_');
         columns.push_back({"points_" + label, ""});
     }
-    columns.push_back({"problem", ""});
+    columns.insert(columns.end(), {{"problem", ""}, {"rate_of_escape", ""}});
     for (std::size_t p = 1; p <= parts; ++p)
         columns.insert(columns.end(), {{fmt::format("part_{}", p), ""}, {fmt::format("ended_{}", p), ""}});
     Table table(columns);
@@ -183,6 +201,7 @@ Table cells_of(const std::vector<RunReport>& reports, const ResultFile& file) {
             table.add(found == runs[r].labels.end() ? 0.0 : static_cast<double>(found->second));
         }
         table.add(runs[r].remedy);
+        table.add(runs[r].escapes);
         for (std::size_t p = 0; p < parts; ++p) {
             const bool there = p < runs[r].ends.size();
             table.add(there ? runs[r].ends[p].first : "");
@@ -260,8 +279,9 @@ void require_same_values(const Study& study, const ResultFile& file) {
 /// A shipped study, one in a file, or the one that a result file has of itself.
 AskedFor asked_for(const RunArguments& arguments) {
     const std::string stored = result_path(arguments.study);
+    std::error_code error;
     const bool from_results =
-        stored.ends_with(".sqlite") && (stored == arguments.study || std::filesystem::exists(stored));
+        stored.ends_with(".sqlite") && (stored == arguments.study || std::filesystem::exists(stored, error));
     const std::vector<std::string> shipped = shipped_studies();
     const bool is_shipped = std::find(shipped.begin(), shipped.end(), arguments.study) != shipped.end();
     AskedFor result;
@@ -304,6 +324,7 @@ int run_command(const RunArguments& arguments, const Console& console) {
     }
     const AskedFor request = asked_for(arguments);
     const Study& study = request.study;
+    keep_inputs_of(study);
     check_names(study, split_list(arguments.only));
     const std::string& folder = request.folder;
     make_folder(folder, "--output");

@@ -1,5 +1,6 @@
 #include "graze/model/catalogue.hpp"
 #include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/name_list.hpp"
 #include "graze/trajectory/recorder.hpp"
 #include "graze/trajectory/trajectory.hpp"
 #include "program/commands.hpp"
@@ -191,10 +192,6 @@ private:
     /// Before anything is computed that could be lost.
     void check_outputs() {
         wants_table_ = wants_table(arguments_, arguments_.output.format != TableFormat::table);
-        require_distinct({{"the model", is_model_path(arguments_.model) ? arguments_.model : ""},
-                          {"--output", arguments_.output.file},
-                          {"--plot", arguments_.plot},
-                          {"--data", arguments_.plot_data}});
         if (wants_table_ && !arguments_.output.file.empty())
             require_writable(arguments_.output.file);
         if (arguments_.plot.empty() && (!arguments_.plot_data.empty() || !arguments_.portraits.empty()))
@@ -305,7 +302,7 @@ private:
             undefined = true;
         } else if (const auto names = table_->table().incomplete_columns(); !names.empty()) {
             console_.err << fmt::format("graze: warning: {} has no finite value in some rows, where cells are empty\n",
-                                        fmt::join(names, ", "));
+                                        name_list(names));
         }
         return interrupted_ > 0 ? interrupted_ : regular && !undefined && !is_full() ? exit_success : exit_irregular;
     }

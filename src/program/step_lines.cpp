@@ -9,7 +9,7 @@ namespace graze {
 
 namespace {
 
-constexpr int wide = 18, digits = 10;
+constexpr int wide = 18, shown_digits = 10;
 
 /// Of a curve the second parameter, which has a column too.
 std::optional<ParameterId> second_parameter(const StudyRun& run) {
@@ -51,14 +51,14 @@ void StepLines::show(const std::string& name, const OrbitRecord& record) {
     const SpecialPoint& point = record.point;
     const char* stable = !point.solution.certificate.admissible ? "unphys" : record.stable ? "yes" : "no";
     std::string line = fmt::format("{:>5} {:<4} {:<6} {:>{}.{}g}", point.step, short_name(point.type), record.label,
-                                   point.parameter, wide, digits);
+                                   point.parameter, wide, shown_digits);
     if (const auto second = second_parameter(*run))
-        line += fmt::format(" {:>{}.{}g}", point.solution.orbit.parameters[second->place()], wide, digits);
-    line += fmt::format(" {:>{}.{}g} {:<6}", point.solution.orbit.period(), wide, digits, stable);
+        line += fmt::format(" {:>{}.{}g}", point.solution.orbit.parameters[second->place()], wide, shown_digits);
+    line += fmt::format(" {:>{}.{}g} {:<6}", point.solution.orbit.period(), wide, shown_digits, stable);
     const std::vector<Monitor>& monitors = run->branch.settings.monitors;
     for (std::size_t m = 0; m < std::min(monitors.size(), point.monitors.size()); ++m)
         if (!is_period(monitors[m]))
-            line += fmt::format(" {:>{}.{}g}", point.monitors[m], wide, digits);
+            line += fmt::format(" {:>{}.{}g}", point.monitors[m], wide, shown_digits);
     line.erase(line.find_last_not_of(' ') + 1);
     *out_ << line << std::endl; // as it comes, also into a file
 }

@@ -59,7 +59,7 @@ constexpr const char* plot_examples = R"(Examples:
 
 template <class Value>
 CLI::Option* add(CLI::App& command, const char* name, Value& value, const char* type, const char* text) {
-    return command.add_option(name, value, text)->type_name(type);
+    return declare_option(command, "Options", name, value, type, text);
 }
 
 void declare_run(CLI::App& app, RunArguments& arguments) {
@@ -118,8 +118,8 @@ void declare_plot_results(CLI::App& app, PlotArguments& arguments) {
         "Runs to be drawn (all; each by itself, but branches with --output together)");
     add(command, "--kind", arguments.kind, "KIND",
         "bifurcation, branch, basin, map, spectrum, history, portrait, regression or scatter")
-        ->check(one_of({"bifurcation", "branch", "basin", "map", "spectrum", "history", "portrait", "regression",
-                        "scatter", "residuals"}));
+        ->check(one_of({"bifurcation", "branch", "basin", "map", "spectrum", "history", "portrait", "poincare",
+                        "regression", "scatter", "residuals"}));
     add(command, "--x", arguments.x, "NAME", "Horizontal axis: what varies, or a value");
     add(command, "--y", arguments.y, "NAME", "Vertical axes, one panel each (all values)");
     add(command, "--sample", arguments.samples, "NAME", "Only these samplings");
@@ -138,9 +138,10 @@ void declare_plot_results(CLI::App& app, PlotArguments& arguments) {
         "What legends, titles and axes show in the place of names of runs, values, samplings");
     add(command, "--x-label", arguments.x_label, "TEXT", "All that stands beside the horizontal axis, unit included");
     add(command, "--y-label", arguments.y_labels, "TEXT", "The same of the vertical axes");
-    add(command, "--size", arguments.size, "W[xH]", "Width in mm, such as 85 or 170 (170), and height");
-    add(command, "--font", arguments.font, "FONT", "Size of letters in points, or NAME or NAME,SIZE");
-    add(command, "--output", arguments.output, "FILE", "Picture: .png (default), .svg, .pdf or, for LaTeX, .tex");
+    add(command, "--size", arguments.style.size, "W[xH]", "Width in mm, such as 85 or 170 (170), and height");
+    add(command, "--font", arguments.style.font, "FONT", "Size of letters in points, or NAME or NAME,SIZE");
+    command.add_flag("--grey", arguments.style.grey, "Without colours, for printers that have none");
+    add(command, "--output", arguments.output, "FILE", "Picture: .png (default), .svg, .pdf, .eps or, for LaTeX, .tex");
     add(command, "--data", arguments.data, "FILE", "Keep data and commands, to be changed and drawn by `gnuplot FILE`");
 }
 

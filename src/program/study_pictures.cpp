@@ -4,6 +4,7 @@
 #include "graze/symbolic/input_error.hpp"
 #include "program/figure.hpp"
 #include "program/interrupt.hpp"
+#include "program/kept_inputs.hpp"
 #include "program/output_file.hpp"
 #include "program/table.hpp"
 
@@ -20,7 +21,7 @@ namespace graze {
 namespace {
 
 /// Changes when the same results are drawn in another way than by an earlier version.
-constexpr int drawing = 3;
+constexpr int drawing = 5;
 
 std::string contents_of(const std::string& path) {
     std::ifstream stream(path, std::ios::binary);
@@ -67,9 +68,12 @@ private:
         std::vector<std::string> names = picture_->runs;
         names.insert(names.end(), picture_->over.begin(), picture_->over.end());
         for (const std::string& name : names)
-            if (const auto run = file_->find_run(name))
+            if (const auto run = file_->find_run(name)) {
                 text += fmt::format("\n{} {} {} {}", name, run->fingerprint, file_->point_count(name),
                                     run->status == RunStatus::complete);
+                for (const PointName& point : run->point_names)
+                    text += fmt::format(" {} {}", point.label, point.name);
+            }
         for (const std::string& path : files) {
             std::error_code error;
             if (!std::filesystem::is_regular_file(path, error))
@@ -119,7 +123,6 @@ void leave_out_empty_runs(StudyPicture& picture, const ResultFile& file, const C
 
 DrawnPictures draw_study_pictures(const Study& study, ResultFile& file, const std::string& folder,
                                   const Console& console) {
-    const std::vector<std::string> inputs = input_files(study);
     std::vector<StudyPicture> pictures = study.pictures;
     if (pictures.empty() && study.tables.empty())
         for (const StudyRun& run : study.runs)
@@ -136,8 +139,7 @@ DrawnPictures draw_study_pictures(const Study& study, ResultFile& file, const st
             targets.push_back(files.table());
             for (const std::string& path : targets) {
                 require_inside(path, folder);
-                for (const std::string& input : inputs)
-                    require_distinct({{"the study, or what it reads,", input}, {"picture " + picture.name, path}});
+                KeptInputs::require_none_at(path);
             }
             std::vector<std::string> paths = files.present();
             if (!paths.empty())

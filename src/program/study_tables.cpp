@@ -24,14 +24,11 @@ bool holds(const std::string& path, const std::string& text) {
 
 WrittenTables write_study_tables(const Study& study, const ResultFile& file, const std::string& folder,
                                  const Console& console) {
-    const std::vector<std::string> inputs = input_files(study);
     WrittenTables written;
     for (const StudyTable& table : study.tables) {
         try {
             const std::string path = (std::filesystem::path(folder) / (table.name + ".csv")).string();
             require_inside(path, folder);
-            for (const std::string& input : inputs)
-                require_distinct({{"the study, or what it reads,", input}, {"table " + table.name, path}});
             if (const std::string text = csv_text(make_table(table, file)); !holds(path, text))
                 write_file(path, text);
             written.paths.push_back(path);

@@ -1,10 +1,16 @@
 #include "program/table_fit.hpp"
 
+#include "graze/symbolic/printable.hpp"
 #include "program/table.hpp"
+#include "program/wrapped_text.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <sstream>
 #include <string_view>
+#include <utility>
 
 namespace graze {
 
@@ -40,9 +46,59 @@ std::size_t next_to_go(const Table& table, const std::vector<std::size_t>& shown
     return table.columns().size();
 }
 
+constexpr std::size_t longest_signature = 40; ///< letters
+
+/// @return whether any was longer
+bool shorten_signatures(Table& table) {
+    const std::size_t columns = table.columns().size();
+    Table result(table.columns());
+    bool any = false;
+    for (std::size_t row = 0; row < table.rows(); ++row)
+        for (std::size_t column = 0; column < columns; ++column) {
+            if (!table.is_text(row, column)) {
+                result.add(table.number(row, column));
+                continue;
+            }
+            const std::string& text = table.text(row, column);
+            const bool longer = table.columns()[column].name == "signature" && width_of(text) > longest_signature;
+            result.add(longer ? shortened_words(text, longest_signature) : text);
+            any = any || longer;
+        }
+    table = std::move(result);
+    return any;
+}
+
 } // namespace
 
-FittedTable fitted(const Table& table, int digits, std::size_t width, const std::vector<std::string>& kept) {
+std::string shortened_words(const std::string& text, std::size_t most) {
+    std::istringstream stream(text);
+    std::vector<std::pair<std::string, std::size_t>> runs;
+    std::size_t count = 0;
+    for (std::string word; stream >> word; ++count)
+        if (!runs.empty() && runs.back().first == word)
+            ++runs.back().second;
+        else
+            runs.emplace_back(word, 1);
+    constexpr std::size_t few = 3;
+    std::string result;
+    const std::string rest = fmt::format(" ... ({} words)", count);
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+        std::string part =
+            runs[r].second > few ? fmt::format("{} ({} times)", runs[r].first, runs[r].second) : runs[r].first;
+        for (std::size_t i = 1; runs[r].second <= few && i < runs[r].second; ++i)
+            part += " " + runs[r].first;
+        const std::size_t room = most - (r + 1 < runs.size() ? rest.size() : 0);
+        if (!result.empty() && width_of(result) + 1 + width_of(part) > room)
+            return result + rest;
+        result += (result.empty() ? "" : " ") + part;
+    }
+    return width_of(result) <= most ? result : shortened(result, most);
+}
+
+FittedTable fitted(const Table& given, int digits, std::size_t width, const std::vector<std::string>& kept) {
+    Table table = given;
+    FittedTable result;
+    result.shortened = shorten_signatures(table);
     std::vector<std::size_t> widths = column_widths(table, digits);
     const std::size_t columns = table.columns().size();
     if (columns > 0 && table.rows() > 0 && table.is_text(0, columns - 1)) // it can be broken
@@ -50,7 +106,6 @@ FittedTable fitted(const Table& table, int digits, std::size_t width, const std:
     std::vector<bool> stays(columns);
     std::vector<std::size_t> shown;
     std::size_t needed = 0;
-    FittedTable result;
     for (std::size_t column = 0; column < columns; ++column) {
         stays[column] = std::find(kept.begin(), kept.end(), table.columns()[column].name) != kept.end();
         if (column > 0 && !stays[column] && is_empty(table, column))

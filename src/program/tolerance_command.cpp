@@ -311,7 +311,7 @@ void require_devices(const ToleranceArguments& arguments) {
     if (arguments.plot.empty() && !arguments.data.empty())
         throw InputError("--data keeps the data of a picture, and nothing is drawn", "name one by --plot FILE");
     if (!arguments.plot.empty())
-        picture_ending(arguments.plot, "--plot", {"svg", "png", "pdf"});
+        picture_ending(arguments.plot, "--plot", {"svg", "png", "pdf", "eps"});
 }
 
 } // namespace

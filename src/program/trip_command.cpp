@@ -5,6 +5,7 @@
 #include "program/interrupt.hpp"
 #include "program/loss_point.hpp"
 #include "program/picture.hpp"
+#include "program/trip_series.hpp"
 #include "program/values.hpp"
 
 #include <fmt/format.h>
@@ -14,6 +15,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace graze {
@@ -195,21 +197,23 @@ void add_touch(FigurePanel& panel, const Trips& trips, const std::string& which)
     const std::string level =
         fmt::format("speed {:.4g}", speed > 0 ? std::min(trips.point.level, speed) : trips.point.level);
     const std::string& end = trips.end.words;
-    FigureSeries map = series_of(which + "map, until " + level, FigureSeries::Style::dashed, 0);
-    FigureSeries continued = series_of(which + "map, then simulation, until " + end, FigureSeries::Style::line, 1);
+    std::vector<std::pair<double, TripTime>> map, continued;
     FigureSeries simulated = series_of(which + "simulation alone, until " + end, FigureSeries::Style::circles, 2);
     for (const TripRow& row : trips.rows) {
         const double x = std::abs(row.overshoot);
         if (x == 0) // has no place on the axis
             continue;
         if (row.predicted.ended)
-            map.points.push_back({x, row.predicted.time});
+            map.emplace_back(x, row.predicted);
         if (row.continued.ended)
-            continued.points.push_back({x, row.continued.time});
+            continued.emplace_back(x, row.continued);
         if (row.simulated && row.simulated->ended)
             simulated.points.push_back({x, row.simulated->time});
     }
-    panel.series.insert(panel.series.end(), {map, continued, simulated});
+    constexpr int disc = 7, triangle = 9; // gnuplot's symbols
+    add_trips(panel, map, which + "map, until " + level, 0, triangle);
+    add_trips(panel, continued, which + "map, then simulation, until " + end, 1, disc);
+    panel.series.push_back(std::move(simulated));
 }
 
 void add_fold(FigurePanel& panel, const Trips& trips, const std::string& which) {
@@ -260,7 +264,7 @@ void require_drawable(const std::vector<double>& overshoots) {
 
 int trip_command(const TripArguments& arguments, const Console& console) {
     if (!arguments.plot.empty())
-        picture_ending(arguments.plot, "--plot", {"svg", "png", "pdf"});
+        picture_ending(arguments.plot, "--plot", {"svg", "png", "pdf", "eps"});
     const ResultFile file(result_path(arguments.file), ResultFile::Access::read);
     if (is_disturbed(arguments))
         return disturbed_trips(file, arguments, console);

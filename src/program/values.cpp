@@ -3,6 +3,7 @@
 #include "graze/model/named_value.hpp"
 #include "graze/model/parameter_file.hpp"
 #include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/name_list.hpp"
 #include "graze/symbolic/parser.hpp"
 #include "graze/symbolic/trimmed.hpp"
 
@@ -204,7 +205,7 @@ std::vector<double> disturbance_of(const Model& model, const std::vector<std::st
             for (const State& one : model.states)
                 states.push_back(one.name);
             throw InputError({"--disturbance", 0, 0}, fmt::format("'{}' is not a state", assignment.name),
-                             fmt::format("choose one of {}", fmt::join(states, ", ")));
+                             fmt::format("choose one of {}", name_list(states, assignment.name)));
         }
         if (!names.insert(assignment.name).second)
             throw InputError({"--disturbance", 0, 0}, fmt::format("'{}' is given twice", assignment.name),

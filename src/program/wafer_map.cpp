@@ -14,7 +14,6 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t most_wafers = 16;
 constexpr double pitch = 2.25;     // between the middles of wafers, in radii
 constexpr double wafer_size = 240; // pixels
 
@@ -23,7 +22,7 @@ public:
     WaferMap(const WaferYield& yield, const WaferPlan& plan, const WaferMapLabels& labels)
         : yield_(&yield), plan_(&plan), labels_(&labels) {
         for (const WaferDevice& device : yield.devices)
-            wafers_ = std::max(wafers_, std::min(device.wafer, most_wafers));
+            wafers_ = std::max(wafers_, std::min(device.wafer, most_wafers_drawn));
         columns_ = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(wafers_))));
         rows_ = (wafers_ + columns_ - 1) / columns_;
     }
@@ -89,6 +88,15 @@ private:
                (!labels_->greatest || value <= *labels_->greatest);
     }
 
+    /// Of all values, so that the greatest has four digits.
+    int decimals() const {
+        double greatest = 0;
+        for (const WaferDevice& device : yield_->devices)
+            if (device.outcome == DeviceOutcome::found)
+                greatest = std::max(greatest, std::abs(device.value));
+        return greatest > 0 ? std::clamp(3 - static_cast<int>(std::floor(std::log10(greatest))), 0, 9) : 0;
+    }
+
     std::string devices() {
         std::string found = "$found << EOD\n", rings = "$rings << EOD\n", crosses = "$crosses << EOD\n", labels;
         for (const WaferDevice& device : yield_->devices) {
@@ -108,16 +116,16 @@ private:
                 rings += at + "\n";
                 has_rings_ = true;
             }
-            // Beside what lies to the sides, beyond what lies above or below: there the values of eight devices have
-            // room.
+            // On the inner side of what lies to the sides, beyond what lies above or below: there the values of eight
+            // devices have room.
             constexpr std::size_t few = 12; // devices on a wafer
             const bool aside = std::abs(dx) > std::abs(dy);
-            const double farther = aside ? 1 : 1.36, beside = aside ? std::copysign(0.09, dx) : 0;
+            const double farther = aside ? 1 : 1.36, beside = aside ? std::copysign(0.09, -dx) : 0;
             if (plan_->devices <= few)
-                labels += fmt::format("set label \"{:.4g}\" at {:.6g},{:.6g} {} front font ',9'\n", device.value,
-                                      x + farther * dx + beside, y + farther * dy,
+                labels += fmt::format("set label \"{:.{}f}\" at {:.6g},{:.6g} {} front font ',9'\n", device.value,
+                                      decimals(), x + farther * dx + beside, y + farther * dy,
                                       !aside   ? "center"
-                                      : dx > 0 ? "left"
+                                      : dx < 0 ? "left"
                                                : "right");
         }
         return found + "EOD\n" + rings + "EOD\n" + crosses + "EOD\n" + labels;

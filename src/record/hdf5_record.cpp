@@ -3,6 +3,7 @@
 #include "graze/symbolic/printable.hpp"
 #include "graze/symbolic/text_file.hpp"
 #include "record/hdf5_handle.hpp"
+#include "record/separate_source.hpp"
 
 #include <fmt/format.h>
 #include <hdf5.h>
@@ -20,10 +21,17 @@ namespace graze {
 namespace {
 
 constexpr hsize_t rows_of_a_part = 16'384;
-constexpr hsize_t most_datasets = 10'000;
+constexpr hsize_t most_datasets = 1000; ///< the library takes some 200 KB for each that is open
 constexpr std::size_t longest_channel_name = 100;
 /// A chunk is unpacked as a whole: a small file may claim a huge one.
 constexpr hsize_t largest_chunk = hsize_t{64} << 20;
+/// As many bytes of unpacked chunks are kept as make sure that none is unpacked for every part anew.
+constexpr hsize_t largest_cache = hsize_t{96} << 20;
+constexpr hsize_t usual_cache = hsize_t{1} << 20; ///< bytes, of the library
+/// Numbers of a part; of many channels it has fewer rows.
+constexpr hsize_t most_numbers_of_a_part = hsize_t{1} << 22;
+constexpr hsize_t fewest_rows_of_a_part = 512;
+constexpr std::size_t longest_number = 16; ///< bytes
 constexpr const char* advice = "give one dataset of numbers for each channel, all of one length, and one that is "
                                "called t or time";
 
@@ -31,7 +39,7 @@ constexpr const char* advice = "give one dataset of numbers for each channel, al
 struct Column {
     Channel channel;
     Hdf5Handle set;
-    hsize_t rows = 0;
+    hsize_t rows = 0, chunk = 0; ///< bytes of an unpacked chunk, 0: it is in one piece
 };
 
 class Hdf5Record : public SampleSource {
@@ -39,17 +47,17 @@ public:
     Hdf5Record(const std::string& path, const RecordLayout& layout) : path_(path) {
         H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // failures are told by exceptions
         H5PLset_loading_state(0);                    // a file from a stranger runs no code
-        file_ = {H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, path, "this HDF5 file cannot be read",
-                 "it is damaged, or has been cut off; make it again"};
-        const Hdf5Handle group(H5Gopen2(file_.id(), layout.group.c_str(), H5P_DEFAULT), H5Gclose, path,
-                               fmt::format("there is no group '{}' in this file", printable_line(layout.group)),
-                               "name the group whose datasets are the channels by --group");
+        open_file();
+        const Hdf5Handle group = open_group(layout.group);
         find_columns(group.id());
+        widen_caches(group.id());
     }
     const RecordHeader& header() const override { return header_; }
 
     bool read(Samples& samples) override {
-        const hsize_t count = std::min(rows_of_a_part, rows_ - next_);
+        const hsize_t part =
+            std::clamp(most_numbers_of_a_part / (columns_.size() + 1), fewest_rows_of_a_part, rows_of_a_part);
+        const hsize_t count = std::min(part, rows_ - next_);
         samples.clear(columns_.size());
         if (count == 0)
             return false;
@@ -86,12 +94,41 @@ private:
                 refuse(column, next_ + row, "there is no finite number", "leave out rows of which a value is missing");
     }
 
+    void open_file() {
+        file_ = {};
+        const char* const problem = "this HDF5 file cannot be read";
+        const char* const damaged = "it is damaged, or has been cut off; make it again";
+        const Hdf5Handle how(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path_, problem, damaged);
+        H5Pset_cache(how.id(), 0, H5D_CHUNK_CACHE_NSLOTS_DEFAULT, cache_, H5D_CHUNK_CACHE_W0_DEFAULT);
+        file_ = {H5Fopen(path_.c_str(), H5F_ACC_RDONLY, how.id()), H5Fclose, path_, problem, damaged};
+    }
+
+    /// A group, once the caches of all that is in it together have room.
+    Hdf5Handle open_group(const std::string& name) {
+        for (;;) {
+            Hdf5Handle group(H5Gopen2(file_.id(), name.c_str(), H5P_DEFAULT), H5Gclose, path_,
+                             fmt::format("there is no group '{}' in this file", printable_line(name)),
+                             "name the group whose datasets are the channels by --group");
+            H5G_info_t info{};
+            if (H5Gget_info(group.id(), &info) < 0)
+                throw InputError(Place{path_, 0, 0}, "its datasets cannot be listed", advice);
+            if (info.nlinks > most_datasets)
+                throw InputError(Place{path_, 0, 0},
+                                 fmt::format("group '{}' has {} members, which are more than {}", printable_line(name),
+                                             info.nlinks, most_datasets),
+                                 "give groups of fewer channels, or text");
+            links_ = info.nlinks;
+            if (links_ * cache_ <= largest_cache)
+                return group;
+            cache_ = largest_cache / links_;
+            group = {};
+            open_file();
+        }
+    }
+
     void find_columns(hid_t group) {
-        H5G_info_t info{};
-        if (H5Gget_info(group, &info) < 0 || info.nlinks > most_datasets)
-            throw InputError(Place{path_, 0, 0}, "its datasets cannot be listed", advice);
         bool has_time = false;
-        for (hsize_t i = 0; i < info.nlinks; ++i)
+        for (hsize_t i = 0; i < links_; ++i)
             if (std::optional<Column> column = column_at(group, i)) {
                 const std::string& name = column->channel.name;
                 if (!has_time && (name == "t" || name == "time")) {
@@ -137,26 +174,51 @@ private:
         const H5T_class_t kind = H5Tget_class(type.id());
         if (kind != H5T_FLOAT && kind != H5T_INTEGER)
             return std::nullopt;
-        require_plain_storage(column.set.id(), problem);
+        if (H5Tget_size(type.id()) > longest_number)
+            throw InputError(Place{path_, 0, 0}, problem + ": its numbers are too long", "write 64-bit floats");
         const Hdf5Handle space(H5Dget_space(column.set.id()), H5Sclose, path_, problem, advice);
         if (H5Sget_simple_extent_ndims(space.id()) != 1)
             throw InputError(Place{path_, 0, 0}, fmt::format("dataset '{}' is no list of numbers", name), advice);
         H5Sget_simple_extent_dims(space.id(), &column.rows, nullptr);
+        column.chunk = plain_chunk(column.set.id(), H5Tget_size(type.id()), problem);
         column.channel.unit = unit_of(column.set.id());
         return column;
     }
 
-    /// What lies in other files, and chunks that do not fit, are refused.
-    void require_plain_storage(hid_t set, const std::string& problem) const {
+    /// What lies in other files, and chunks that do not fit, are refused. @return bytes of a chunk, 0: there are none
+    hsize_t plain_chunk(hid_t set, std::size_t number, const std::string& problem) const {
         const Hdf5Handle how(H5Dget_create_plist(set), H5Pclose, path_, problem, advice);
         const H5D_layout_t layout = H5Pget_layout(how.id());
         hsize_t chunk = 0;
         if (layout == H5D_VIRTUAL || layout == H5D_LAYOUT_ERROR || H5Pget_external_count(how.id()) != 0)
             throw InputError(Place{path_, 0, 0}, problem + ": it is kept in another file",
                              "copy what it holds into this one");
-        if (layout == H5D_CHUNKED && H5Pget_chunk(how.id(), 1, &chunk) == 1 && chunk > largest_chunk / sizeof(double))
+        if (layout != H5D_CHUNKED)
+            return 0;
+        if (H5Pget_chunk(how.id(), 1, &chunk) != 1 || chunk > largest_chunk / number)
             throw InputError(Place{path_, 0, 0}, problem + ": its chunks are too large",
                              "write it in chunks of less than 64 MiB");
+        return chunk * number;
+    }
+
+    /// Room for a whole chunk of each channel: otherwise each part would unpack it anew.
+    void widen_caches(hid_t group) {
+        hsize_t total = time_.chunk;
+        for (const Column& column : columns_)
+            total += column.chunk;
+        if (total > largest_cache)
+            return; // slower, and within the limits of the process
+        const auto widen = [&](Column& column) {
+            if (column.chunk <= cache_)
+                return;
+            const std::string problem = fmt::format("dataset '{}' cannot be read", column.channel.name);
+            const Hdf5Handle how(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose, path_, problem, advice);
+            H5Pset_chunk_cache(how.id(), H5D_CHUNK_CACHE_NSLOTS_DEFAULT, column.chunk, H5D_CHUNK_CACHE_W0_DEFAULT);
+            column.set = {}; // as long as it is open its cache stays
+            column.set = {H5Dopen2(group, column.channel.name.c_str(), how.id()), H5Dclose, path_, problem, advice};
+        };
+        widen(time_);
+        std::for_each(columns_.begin(), columns_.end(), widen);
     }
 
     /// Empty where there is none that can be shown.
@@ -189,7 +251,8 @@ private:
     RecordHeader header_;
     Column time_;
     std::vector<Column> columns_;
-    hsize_t rows_ = 0, next_ = 0;
+    hsize_t rows_ = 0, next_ = 0, links_ = 0;
+    hsize_t cache_ = usual_cache; ///< bytes of unpacked chunks of a channel
     double last_time_ = -std::numeric_limits<double>::infinity();
 };
 
@@ -210,7 +273,8 @@ bool is_hdf5(const std::string& path) {
 }
 
 std::unique_ptr<SampleSource> open_hdf5_record(const std::string& path, const RecordLayout& layout) {
-    return std::make_unique<Hdf5Record>(path, layout);
+    // The library itself does not survive every damaged file (1.10 reads texts and compact data beyond their ends).
+    return std::make_unique<SeparateSource>(path, [&] { return std::make_unique<Hdf5Record>(path, layout); });
 }
 
 } // namespace graze

@@ -182,6 +182,7 @@ RecordedImpact ImpactFinder::State::impact_at(std::size_t i, std::size_t from, s
     const double late = impact.time_error / spacing;
     impact.before_error = std::hypot(a.error, a.slope * late);
     impact.after_error = std::hypot(b.error, b.slope * late);
+    impact.covariance = -(a.slope * late) * (b.slope * late); // slopes go away from the impact, to either side
     return impact;
 }
 
@@ -192,7 +193,8 @@ ImpactFinder::ImpactFinder(SampleSource& source, const ImpactSettings& settings)
     if (settings.window < least_window || settings.window > most_window || settings.transition > most_window)
         throw InputError(fmt::format("{} samples tell no velocities beside an impact", settings.window),
                          "take 5 or more, and up to 100000");
-    if (!(settings.significance > 0) || !(settings.least_jump >= 0) || !std::isfinite(settings.least_jump))
+    if (!(settings.significance > 0) || !std::isfinite(settings.significance) || !(settings.least_jump >= 0) ||
+        !std::isfinite(settings.least_jump))
         throw InputError("the least jump and its significance are no positive numbers", "give positive ones");
     state_ = std::make_unique<State>(source, settings);
 }

@@ -10,6 +10,9 @@
 
 #include <cstdio>
 #include <iterator>
+#include <set>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace graze {
@@ -45,12 +48,22 @@ void require_column(const Channel& channel) {
                          "give it a name without commas, semicolons and brackets, or write HDF5 (.h5)");
 }
 
+/// A header that would not be read back.
+void require_names_once(const RecordHeader& header) {
+    std::set<std::string_view> names{header.time.name};
+    for (const Channel& channel : header.channels)
+        if (!names.insert(channel.name).second)
+            throw InputError(fmt::format("the name '{}' is that of two columns", channel.name),
+                             "give each column a name of its own");
+}
+
 class TextTarget : public RecordWriter::Target {
 public:
     TextTarget(const std::string& path, const RecordHeader& header) : path_(path), file_(nullptr, std::fclose) {
         require_column(header.time);
         for (const Channel& channel : header.channels)
             require_column(channel);
+        require_names_once(header);
         file_.reset(std::fopen(path.c_str(), "wb"));
         if (!file_)
             refuse(path);
@@ -89,6 +102,7 @@ private:
 class Hdf5Target : public RecordWriter::Target {
 public:
     Hdf5Target(const std::string& path, const RecordHeader& header) : path_(path) {
+        H5dont_atexit(); // what a full disk has not taken it would try to write once more at exit, and crash
         H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // failures are told by exceptions
         file_ = handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
         sets_.push_back(make(header.time));
@@ -162,7 +176,7 @@ private:
 
 } // namespace
 
-RecordWriter::RecordWriter(const std::string& path, const RecordHeader& header) {
+RecordWriter::RecordWriter(const std::string& path, const RecordHeader& header) : channels_(header.channels.size()) {
     if (path.ends_with(".h5") || path.ends_with(".hdf5"))
         target_ = std::make_unique<Hdf5Target>(path, header);
     else
@@ -172,13 +186,22 @@ RecordWriter::RecordWriter(const std::string& path, const RecordHeader& header) 
 RecordWriter::~RecordWriter() = default;
 
 void RecordWriter::write(const Samples& samples) {
-    for (const std::vector<double>& column : samples.values)
+    if (!target_)
+        throw InputError("a record that is closed takes no more samples", "write all of them before it is closed");
+    require_size(samples.values.size(), channels_, "channels");
+    require_finite(samples.times, "time");
+    for (const std::vector<double>& column : samples.values) {
         require_size(column.size(), samples.rows(), "samples of a channel");
+        require_finite(column, "sample");
+    }
     target_->write(samples);
 }
 
 void RecordWriter::close() {
-    target_->close();
+    if (!target_)
+        throw InputError("the record is closed already", "close it once");
+    const std::unique_ptr<Target> last = std::move(target_); // it cannot be closed a second time
+    last->close();
 }
 
 } // namespace graze

@@ -1,11 +1,11 @@
 #include "graze/record/samples.hpp"
 
 #include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/name_list.hpp"
 #include "graze/symbolic/parser.hpp"
 #include "graze/symbolic/require.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>
@@ -19,9 +19,14 @@ std::size_t RecordHeader::channel(std::string_view name, std::string_view asked)
     const auto found = std::find(names.begin(), names.end(), name);
     if (found != names.end())
         return static_cast<std::size_t>(found - names.begin());
+    if (name == time.name)
+        throw InputError(
+            Place{std::string(asked), 0, 0},
+            fmt::format("'{}' is the first column of the record, which is taken for the time and is no channel", name),
+            "put a column in front that numbers the rows, or has their times");
     const std::string nearest = nearest_name(std::string(name), names);
     throw InputError(Place{std::string(asked), 0, 0}, fmt::format("the record has no channel '{}'", name),
-                     nearest.empty() ? fmt::format("its channels are: {}", fmt::join(names, ", "))
+                     nearest.empty() ? fmt::format("its channels are: {}", name_list(names, name))
                                      : fmt::format("did you mean '{}'?", nearest));
 }
 
@@ -33,6 +38,12 @@ void Samples::clear(std::size_t channels) {
 }
 
 void Samples::append(const Samples& others, std::size_t first, std::size_t last) {
+    require_room(others.rows(), last, "rows");
+    require_room(last, first, "rows before the last");
+    if (!times.empty())
+        require_size(others.values.size(), values.size(), "channels");
+    for (const std::vector<double>& column : others.values)
+        require_size(column.size(), others.rows(), "samples of a channel");
     const auto from = static_cast<std::ptrdiff_t>(first), to = static_cast<std::ptrdiff_t>(last);
     times.insert(times.end(), others.times.begin() + from, others.times.begin() + to);
     values.resize(others.values.size());
@@ -41,6 +52,9 @@ void Samples::append(const Samples& others, std::size_t first, std::size_t last)
 }
 
 void Samples::drop_front(std::size_t rows) {
+    require_room(times.size(), rows, "rows");
+    for (const std::vector<double>& column : values)
+        require_room(column.size(), rows, "samples of a channel");
     const auto count = static_cast<std::ptrdiff_t>(rows);
     times.erase(times.begin(), times.begin() + count);
     for (std::vector<double>& column : values)

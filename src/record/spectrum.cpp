@@ -30,6 +30,13 @@ double mean_of(std::span<const double> samples) {
     return std::accumulate(samples.begin(), samples.end(), 0.0) / static_cast<double>(samples.size());
 }
 
+std::vector<double> hann_window(std::size_t size) {
+    std::vector<double> window(size);
+    for (std::size_t i = 0; i < size; ++i)
+        window[i] = 0.5 - 0.5 * std::cos(2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(size));
+    return window;
+}
+
 } // namespace
 
 Spectrum spectrum(std::span<const double> samples, double frequency) {
@@ -79,18 +86,20 @@ Spectrum averaged_spectrum(SampleSource& source, std::size_t channel, std::size_
     constexpr std::size_t least = 8;
     if (part < least)
         throw InputError(fmt::format("{} samples are too few for a spectrum", part), "take 8 or more");
-    std::vector<double> window(part);
-    for (std::size_t i = 0; i < part; ++i)
-        window[i] = 0.5 - 0.5 * std::cos(2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(part));
-    const double weight = mean_of(window);
+    std::vector<double> window, piece; // once there are that many samples: a part may be any number
+    double weight = 0;
     Spectrum result;
     Samples buffer, more;
     buffer.clear(source.header().channels.size());
     std::size_t parts = 0;
     double duration = 0;
-    std::vector<double> piece(part);
     while (source.read(more)) {
         buffer.append(more);
+        if (window.empty() && part <= buffer.rows()) {
+            window = hann_window(part);
+            weight = mean_of(window);
+            piece.resize(part);
+        }
         std::size_t first = 0;
         for (; first + part <= buffer.rows(); first += part / 2, ++parts) {
             const std::span<const double> values(buffer.values[channel].data() + first, part);

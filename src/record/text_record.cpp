@@ -3,26 +3,19 @@
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/printable.hpp"
 #include "graze/symbolic/trimmed.hpp"
+#include "record/column_names.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <cstring>
 #include <limits>
-#include <system_error>
-#include <utility>
 
 namespace graze {
 
 namespace {
 
-constexpr std::size_t longest_line = std::size_t{1} << 20;
-constexpr std::size_t most_columns = 10'000;
-constexpr std::size_t longest_channel_name = 100;
 constexpr std::size_t rows_of_a_part = 16'384;
-constexpr std::size_t buffer_size = std::size_t{4} << 20;
 
 bool is_blank(char letter) {
     return letter == ' ' || letter == '\t';
@@ -34,210 +27,65 @@ const char* past_blanks(const char* at, const char* end) {
     return at;
 }
 
-/// A number, whose decimal point is a point whatever the language of the system. @return behind it; null: none is there
-const char* parse_number(const char* at, const char* end, double& value) {
-    if (at != end && *at == '+')
+/// Where a field ends: at the separator, or at the end of the line.
+const char* end_of_field(const char* at, const char* end, char separator) {
+    if (separator != ' ') {
+        const void* const found = std::memchr(at, separator, static_cast<std::size_t>(end - at));
+        return found ? static_cast<const char*>(found) : end;
+    }
+    while (at != end && !is_blank(*at))
         ++at;
-    const auto [next, error] = std::from_chars(at, end, value);
-    if (error == std::errc::result_out_of_range) { // too large is no number; too small is nought
-        const std::string_view text(at, static_cast<std::size_t>(next - at));
-        const std::size_t exponent = text.find_first_of("eE");
-        if (exponent == std::string_view::npos || exponent + 1 >= text.size() || text[exponent + 1] != '-')
-            return nullptr;
-        value = 0;
-        return next;
-    }
-    return error == std::errc() && std::isfinite(value) ? next : nullptr;
-}
-
-/// The first that a line has outside of brackets; blanks count only if there is no other.
-char separator_of(std::string_view line) {
-    line = trimmed(line);
-    for (const char separator : {';', ',', '\t', ' '}) {
-        int depth = 0;
-        for (const char letter : line) {
-            depth += letter == '[' || letter == '(' ? 1 : letter == ']' || letter == ')' ? -1 : 0;
-            if (letter == separator && depth <= 0)
-                return separator == '\t' ? ' ' : separator;
-        }
-    }
-    return ',';
-}
-
-struct Field {
-    std::string_view text;
-    std::size_t begin = 0; ///< in the line
-};
-
-/// Fields of a header line. Units may stand behind a blank even where blanks separate.
-std::vector<Field> header_fields(std::string_view line, char separator) {
-    std::vector<Field> fields;
-    std::size_t begin = 0;
-    int depth = 0;
-    for (std::size_t i = 0; i <= line.size(); ++i) {
-        if (i < line.size()) {
-            const char letter = line[i];
-            depth += letter == '[' || letter == '(' ? 1 : letter == ']' || letter == ')' ? -1 : 0;
-            const bool ends = separator == ' ' ? is_blank(letter) : letter == separator;
-            if (!ends || depth > 0)
-                continue;
-        }
-        const Field field{line.substr(begin, i - begin), begin};
-        begin = i + 1;
-        const std::string_view text = trimmed(field.text);
-        if (separator == ' ' && text.empty())
-            continue;
-        if (separator == ' ' && !fields.empty() && (text.front() == '[' || text.front() == '('))
-            fields.back().text = line.substr(fields.back().begin, i - fields.back().begin);
-        else
-            fields.push_back(field);
-    }
-    return fields;
-}
-
-Channel channel_of(const Field& field, const Place& line) {
-    std::string_view text = trimmed(field.text);
-    const Place place{line.file, line.line, line.line > 0 ? static_cast<int>(field.begin) + 1 : 0};
-    Channel channel;
-    const std::size_t bracket = text.find_first_of("[(");
-    if (bracket != std::string_view::npos && (text.back() == ']' || text.back() == ')')) {
-        channel.unit = trimmed(text.substr(bracket + 1, text.size() - bracket - 2));
-        text = trimmed(text.substr(0, bracket));
-    }
-    if (text.size() > 1 && text.front() == '"' && text.back() == '"')
-        text = text.substr(1, text.size() - 2);
-    channel.name = text;
-    double number = 0;
-    const char* const end = text.data() + text.size();
-    const bool is_number = std::from_chars(text.data(), end, number).ptr == end; // "nan" too
-    if (text.empty() || is_number || text.size() > longest_channel_name || channel.unit.size() > longest_channel_name ||
-        !is_plain_line(channel.name) || !is_plain_line(channel.unit))
-        throw InputError(place, fmt::format("'{}' is no name of a column", printable_line(shortened(field.text, 100))),
-                         "write names with their units, as in 't [s], V [V], q [mm]'");
-    return channel;
+    return at;
 }
 
 } // namespace
 
-/// Of a bracket that is never closed all that follows would be the unit.
-void require_closed_brackets(std::string_view line, const Place& place) {
-    constexpr std::size_t none = std::string_view::npos;
-    std::size_t square = none, round = none; // where one was opened
-    for (std::size_t i = 0; i < line.size(); ++i) {
-        if (line[i] == '[' && square != none) // within one there is no other
-            break;
-        if (line[i] == '[')
-            square = i;
-        else if (line[i] == ']')
-            square = none;
-        else if (line[i] == '(' && round == none)
-            round = i;
-        else if (line[i] == ')')
-            round = none;
-    }
-    if ((square == none && round == none) || !is_plain_line(std::string(line)))
-        return;
-    throw InputError({place.file, place.line, place.line > 0 ? static_cast<int>(std::min(square, round)) + 1 : 0},
-                     "the bracket of a unit is not closed", "write names with their units, as in 't [s], V [V]'");
-}
-
-/// Whether a row has a comma within a number, beside what separates columns.
-bool has_decimal_commas(std::string_view line, char separator) {
-    const auto is_digit = [](char letter) { return letter >= '0' && letter <= '9'; };
-    bool commas = false, others = separator != ',';
-    for (std::size_t i = 1; i + 1 < line.size(); ++i) {
-        commas = commas || (line[i] == ',' && is_digit(line[i - 1]) && is_digit(line[i + 1]));
-        others = others || (is_blank(line[i]) && is_digit(line[i - 1]) && line[i - 1] != ',');
-    }
-    return commas && others;
-}
-
-RecordHeader parse_record_header(const std::string& line, const Place& place) {
-    require_closed_brackets(line, place);
-    const std::vector<Field> fields = header_fields(line, separator_of(line));
-    if (fields.size() < 2)
-        throw InputError(place, "there is only one column",
-                         "give the time first and then a column for each channel, separated by commas");
-    RecordHeader header;
-    for (const Field& field : fields) {
-        const Channel channel = channel_of(field, place);
-        const auto same = [&](const Channel& one) { return one.name == channel.name; };
-        const Place at{place.file, place.line, place.line > 0 ? static_cast<int>(field.begin) + 1 : 0};
-        if (std::any_of(header.channels.begin(), header.channels.end(), same))
-            throw InputError(at, fmt::format("column '{}' is there twice", channel.name),
-                             "give each column a name of its own");
-        if (header.channels.size() > most_columns)
-            throw InputError(at, fmt::format("there are more than {} columns", most_columns),
-                             "give the time and the channels that are wanted");
-        header.channels.push_back(channel);
-    }
-    header.time = header.channels.front();
-    header.channels.erase(header.channels.begin());
-    return header;
-}
-
 TextRecord::TextRecord(const std::string& path, const RecordLayout& layout)
-    : path_(path), file_(path, "record"), buffer_(buffer_size), last_time_(-std::numeric_limits<double>::infinity()) {
-    find_header(layout);
-    row_.resize(header_.channels.size() + 1);
+    : lines_(path), table_(find_table(lines_, layout)), numbers_(table_.decimal), remark_(layout.remark),
+      last_time_(-std::numeric_limits<double>::infinity()) {
+    row_.resize(table_.columns());
 }
 
 void TextRecord::refuse(std::string_view line, const char* at, const std::string& problem,
                         const std::string& remedy) const {
-    throw InputError(Place{path_, line_, static_cast<int>(at - line.data()) + 1}, problem, remedy);
+    throw InputError(Place{lines_.path(), line_, static_cast<int>(at - line.data()) + 1}, problem, remedy);
 }
 
-void TextRecord::refuse_field(std::string_view line, const char* at) const {
-    const char* const end = line.data() + line.size();
-    const char* last = at;
-    while (last != end && (separator_ == ' ' ? !is_blank(*last) : *last != separator_))
-        ++last;
-    const std::string text = printable_line(shortened(trimmed({at, static_cast<std::size_t>(last - at)}), 100));
-    if (text.empty())
-        refuse(line, at, "a number is missing", "leave out rows of which a value is missing");
-    refuse(line, at, fmt::format("'{}' is no finite number", text),
-           line_ == 1 ? "give names of columns, as in 't [s], V [V]', or numbers with a decimal point"
-                      : "write numbers with a decimal point, and leave out rows of which a value is missing");
-}
-
-bool TextRecord::next_raw_line(std::string_view& line) {
-    for (std::size_t searched = begin_;;) {
-        const void* found = std::memchr(buffer_.data() + searched, '\n', end_ - searched);
-        if (found || (at_end_ && begin_ < end_)) {
-            const char* const first = buffer_.data() + begin_;
-            const auto length =
-                found ? static_cast<std::size_t>(static_cast<const char*>(found) - first) : end_ - begin_;
-            line = {first, length};
-            begin_ += length + (found ? 1 : 0);
-            ++line_;
-            if (length > longest_line)
-                break;
-            if (!line.empty() && line.back() == '\r')
-                line.remove_suffix(1);
-            return true;
-        }
-        if (at_end_)
-            return false;
-        if (end_ - begin_ > longest_line) {
-            ++line_;
-            break;
-        }
-        std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
-        end_ -= begin_;
-        begin_ = 0;
-        searched = end_;
-        const std::size_t count = file_.read(buffer_.data() + end_, buffer_.size() - end_);
-        end_ += count;
-        at_end_ = count == 0;
-    }
-    throw InputError(Place{path_, line_, 1}, fmt::format("this line has more than {} bytes", longest_line),
-                     "a record has a line for each row of its table; is this file one?");
+void TextRecord::refuse_field(std::string_view line, std::string_view field) const {
+    const std::string text = printable_line(shortened(field, 100));
+    if (table_.starts_again)
+        refuse(line, field.data(), fmt::format("'{}' is no number: here another heading begins", text),
+               "give a file for each measurement");
+    // A number with something behind it: another separator, or another decimal sign.
+    double value = 0;
+    const char *const begin = field.data(), *const end = begin + field.size();
+    const char* const read = NumberReader::read_beginning(begin, end, value);
+    const char* const behind = read != begin && read != end ? read : nullptr;
+    if (behind && *behind == ',' && numbers_.decimal() == '.')
+        refuse(line, behind, fmt::format("'{}' has a comma, and numbers before it have decimal points", text),
+               "write all numbers with the same decimal sign, and none between thousands");
+    if (behind && numbers_.decimal() != ',')
+        refuse(line, behind, fmt::format("'{}' stands behind a number", printable_line(std::string_view(behind, 1))),
+               table_.separator == ' '
+                   ? std::string("separate columns by blanks, as in the first line, and write decimal points")
+                   : fmt::format("separate columns by '{}', as in the first line", table_.separator));
+    refuse(line, field.data(), fmt::format("'{}' is no finite number", text),
+           line_ == 1 ? "give names of columns, as in 't [s], V [V]', or numbers"
+                      : "write numbers, and nothing where a value is missing; lines before the names of columns are "
+                        "passed over by --skip N");
 }
 
 bool TextRecord::next_line(std::string_view& line) {
-    while (next_raw_line(line)) {
-        if (line_ == 1 && line.starts_with("\xef\xbb\xbf")) // mark of UTF-8
-            line.remove_prefix(3);
+    while (kept_ < table_.first.size()) {
+        const KeptLine& one = table_.first[kept_++];
+        line = one.text;
+        line_ = one.number;
+        is_ended_ = one.is_ended;
+        return true;
+    }
+    while (lines_.next(line)) {
+        line_ = lines_.number();
+        is_ended_ = lines_.is_ended();
         const std::string_view text = trimmed(line);
         if (!text.empty() && text.front() != '#' && text.front() != '%')
             return true;
@@ -245,96 +93,88 @@ bool TextRecord::next_line(std::string_view& line) {
     return false;
 }
 
-void TextRecord::find_header(const RecordLayout& layout) {
-    std::string_view line;
-    const bool has_line = next_line(line);
-    if (has_line && (line.starts_with("\xff\xfe") || line.starts_with("\xfe\xff"))) // marks of UTF-16
-        throw InputError(Place{path_, line_, 1}, "this is text of two bytes a letter (UTF-16)", "save it as UTF-8");
-    if (!has_line)
-        throw InputError(Place{path_, 0, 0}, "the record is empty", "give a table of channels against time");
-    const std::string_view text = trimmed(line);
-    double number = 0;
-    const bool is_row = parse_number(text.data(), text.data() + text.size(), number) != nullptr;
-    separator_ = separator_of(line);
-    if (!is_row) {
-        if (!layout.columns.empty())
-            refuse(line, text.data(), "the file has a header of its own", "leave out what the columns are");
-        header_ = parse_record_header(std::string(line), Place{path_, line_, 1});
-        return;
+void TextRecord::refuse_rest(std::string_view line, const char* at) const {
+    const std::size_t columns = row_.size();
+    if (table_.separator == ',' && row_fields(line, ',').size() == 2 * columns)
+        refuse(line, line.data(), fmt::format("there are {} numbers instead of {}", 2 * columns, columns),
+               "give one for each column; decimal commas need columns that semicolons or tabs separate");
+    refuse(line, at, fmt::format("there is more on this line than {} columns", columns),
+           "give a number for each column that the first line names");
+}
+
+bool TextRecord::read_row(std::string_view line) {
+    const char* at = line.data();
+    const char* const end = at + line.size();
+    const char separator = table_.separator;
+    const std::size_t fields = table_.passed_over + row_.size();
+    bool whole = true, is_last = false;
+    for (std::size_t k = 0; k < fields; ++k) {
+        if (separator == ' ')
+            at = past_blanks(at, end);
+        if (is_last || (separator == ' ' && at == end && k > 0))
+            refuse(line, end, fmt::format("the line has {} columns instead of {}", k, fields),
+                   "give a number for each column; a file that ends here has been cut off");
+        const char* const stop = end_of_field(at, end, separator);
+        const std::string_view field = trimmed({at, static_cast<std::size_t>(stop - at)});
+        if (k >= table_.passed_over) {
+            const FieldKind kind = numbers_.read(field, separator != ',', row_[k - table_.passed_over]);
+            if (kind == FieldKind::text)
+                refuse_field(line, field);
+            whole = whole && kind == FieldKind::number;
+        }
+        is_last = stop == end;
+        at = is_last || k + 1 == fields ? stop : stop + 1;
     }
-    if (has_decimal_commas(line, separator_))
-        refuse(line, text.data(), "numbers have decimal commas", "write decimal points");
-    const std::size_t columns = header_fields(line, separator_).size();
-    constexpr std::size_t columns_of_dissertation = 5;
-    if (!layout.columns.empty())
-        header_ = parse_record_header(layout.columns, Place{"columns", 0, 0});
-    else if (columns == columns_of_dissertation)
-        header_ = {{"t", "s"}, {{"V", ""}, {"I", ""}, {"q", ""}, {"v", ""}}};
-    else
-        refuse(line, line.data(), fmt::format("nothing says what the {} columns of the record are", columns),
-               "begin the file with a line such as 't [s], V [V], q [mm]', or say it by --columns");
-    first_line_ = line;
-    has_first_line_ = true;
+    const bool has_rest = std::any_of(at, end, [&](char letter) { return !is_blank(letter) && letter != separator; });
+    if (has_rest && !table_.has_comment)
+        refuse_rest(line, past_blanks(at, end));
+    return whole;
 }
 
 void TextRecord::parse(std::string_view line, Samples& samples) {
-    const char* at = line.data();
-    const char* const end = at + line.size();
-    const std::size_t columns = row_.size();
-    for (std::size_t column = 0; column < columns; ++column) {
-        at = past_blanks(at, end);
-        if (at == end && column > 0 && (separator_ == ' ' || line.back() != separator_))
-            refuse(line, end, fmt::format("the line has {} columns instead of {}", column, columns),
-                   "give a number for each column; a file that ends here has been cut off");
-        const char* const next = parse_number(at, end, row_[column]);
-        if (!next)
-            refuse_field(line, at);
-        at = next;
-        if (column + 1 == columns)
-            break;
-        const char* const behind = past_blanks(at, end);
-        if (separator_ != ' ') {
-            if (behind == end)
-                refuse(line, end, fmt::format("the line has {} columns instead of {}", column + 1, columns),
-                       "give a number for each column; a file that ends here has been cut off");
-            if (*behind != separator_)
-                refuse(line, behind,
-                       fmt::format("'{}' stands behind a number", printable_line(std::string_view(behind, 1))),
-                       fmt::format("separate columns by '{}', as in the first line, and write decimal points",
-                                   separator_));
-            at = behind + 1;
-        } else if (behind == at && behind != end) {
-            refuse(line, behind,
-                   fmt::format("'{}' stands behind a number", printable_line(std::string_view(behind, 1))),
-                   "separate columns by blanks, as in the first line, and write decimal points");
-        }
+    if (!is_ended_) { // its last number may go on
+        cut_ = line_;
+        return;
     }
-    const char* const rest = past_blanks(at, end);
-    if (rest != end && separator_ == ',' && header_fields(line, separator_).size() == 2 * columns)
-        refuse(line, line.data(), fmt::format("there are {} numbers instead of {}", 2 * columns, columns),
-               "give one for each column; if commas are decimal ones, write decimal points");
-    if (rest != end)
-        refuse(line, rest, fmt::format("there is more on this line than {} columns", columns),
-               "give a number for each column that the first line names");
-    if (!(row_.front() > last_time_))
-        refuse(line, past_blanks(line.data(), end),
-               fmt::format("the time {} is not after the one before, {}", row_.front(), last_time_),
-               "give each row once, in the order of time");
-    last_time_ = row_.front();
-    samples.times.push_back(row_.front());
-    for (std::size_t column = 1; column < columns; ++column)
-        samples.values[column - 1].push_back(row_[column]);
+    const bool whole = read_row(line);
+    const auto number = static_cast<double>(rows_++);
+    if (!whole) {
+        first_missing_ = missing_++ == 0 ? line_ : first_missing_;
+        return;
+    }
+    const bool has_time = !table_.time || table_.time->by_column;
+    const double told = has_time ? row_.front() : number;
+    const double time = table_.time ? table_.time->start + table_.time->step * told : told;
+    if (!(time > last_time_))
+        refuse(line, past_blanks(line.data(), line.data() + line.size()),
+               fmt::format("the time {} is not after the one before, {}", time, last_time_),
+               "give each row once, in the order of time, and times with enough digits");
+    last_time_ = time;
+    samples.times.push_back(time);
+    for (std::size_t c = 0; c < table_.header.channels.size(); ++c)
+        samples.values[c].push_back(row_[c + (has_time ? 1 : 0)]);
+}
+
+void TextRecord::tell() {
+    if (told_ || !remark_)
+        return;
+    told_ = true;
+    if (missing_ > 0)
+        remark_(fmt::format("{}: {} of {} rows are left out, of which a value is missing (the first in line {})",
+                            lines_.path(), missing_, rows_, first_missing_));
+    if (cut_ > 0)
+        remark_(fmt::format("{}: line {}, the last one, has no end and may have been cut off: it is left out",
+                            lines_.path(), cut_));
 }
 
 bool TextRecord::read(Samples& samples) {
-    samples.clear(header_.channels.size());
-    if (has_first_line_) {
-        has_first_line_ = false;
-        parse(first_line_, samples);
-    }
+    samples.clear(table_.header.channels.size());
     std::string_view line;
-    while (samples.rows() < rows_of_a_part && next_line(line))
+    bool more = true;
+    while (samples.rows() < rows_of_a_part && (more = next_line(line)))
         parse(line, samples);
+    if (!more)
+        tell();
     return samples.rows() > 0;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "graze/record/record_file.hpp"
-#include "graze/symbolic/text_file.hpp"
+#include "record/text_lines.hpp"
+#include "record/text_number.hpp"
+#include "record/text_table.hpp"
 
 #include <cstddef>
 #include <string>
@@ -14,32 +16,34 @@ namespace graze {
 class TextRecord : public SampleSource {
 public:
     TextRecord(const std::string& path, const RecordLayout& layout);
-    const RecordHeader& header() const override { return header_; }
+    const RecordHeader& header() const override { return table_.header; }
     bool read(Samples& samples) override;
 
 private:
     /// The next line that is neither empty nor a comment. @return false at the end of the file
     bool next_line(std::string_view& line);
-    /// The next line of any kind.
-    bool next_raw_line(std::string_view& line);
-    void find_header(const RecordLayout& layout);
     void parse(std::string_view line, Samples& samples);
+    /// Its numbers in `row_`. @return false if one is missing
+    bool read_row(std::string_view line);
+    /// Of what is left out, once, at the end.
+    void tell();
     [[noreturn]] void refuse(std::string_view line, const char* at, const std::string& problem,
                              const std::string& remedy) const;
-    [[noreturn]] void refuse_field(std::string_view line, const char* at) const;
+    [[noreturn]] void refuse_field(std::string_view line, std::string_view field) const;
+    [[noreturn]] void refuse_rest(std::string_view line, const char* at) const;
 
-    std::string path_;
-    PlainFile file_;
-    std::vector<char> buffer_;
-    std::size_t begin_ = 0, end_ = 0; ///< of what is in the buffer and has not been read
-    bool at_end_ = false;             ///< of the file
+    TextLines lines_;
+    TextTable table_;
+    NumberReader numbers_;
+    RecordRemark remark_;
+    std::size_t kept_ = 0; ///< of the table's first lines, how many were taken
     int line_ = 0;
-    RecordHeader header_;
-    char separator_ = ','; ///< a blank stands for any number of blanks and tabs
-    std::string first_line_;
-    bool has_first_line_ = false;
+    bool is_ended_ = true;
     double last_time_;
     std::vector<double> row_;
+    std::size_t rows_ = 0, missing_ = 0; ///< lines of numbers, and those of which one is missing
+    int first_missing_ = 0, cut_ = 0;    ///< numbers of lines; 0: none
+    bool told_ = false;
 };
 
 } // namespace graze

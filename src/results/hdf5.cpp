@@ -103,6 +103,7 @@ struct ColumnPlan {
 Handle make_dataset(hid_t group, const ColumnPlan& plan, hid_t type, const std::string& path) {
     const Handle space(H5Screate_simple(1, &plan.rows, nullptr), H5Sclose, path);
     const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, path);
+    H5Pset_obj_track_times(properties.id(), false); // equal results are equal files, whenever they are written
     if (plan.rows * plan.cell() > largest_plain_column) {
         const hsize_t chunk = plan.chunk();
         H5Pset_chunk(properties.id(), 1, &chunk);
@@ -294,6 +295,7 @@ void export_hdf5(const ResultFile& file, const std::vector<std::string>& runs, c
     for (const std::string& name : runs)
         if (!file.find_run(name))
             throw InputError(fmt::format("the result file has no run '{}'", name), "see graze points");
+    H5dont_atexit(); // what a full disk has not taken it would try to write once more at exit, and crash
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // failures are told by exceptions
     const Handle output = make_file(path);
     // What is measured must still be so when it is written, though a study writes meanwhile: the file is seen as it is

@@ -1,9 +1,9 @@
 #include "graze/results/name_advice.hpp"
 
+#include "graze/symbolic/name_list.hpp"
 #include "graze/symbolic/parser.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -19,7 +19,7 @@ std::string name_advice(std::string_view name, const std::vector<std::string>& k
     for (const std::string& one : known)
         if (std::find(distinct.begin(), distinct.end(), one) == distinct.end())
             distinct.push_back(one);
-    return fmt::format("known are: {}", fmt::join(distinct, ", "));
+    return fmt::format("known are: {}", name_list(distinct, name));
 }
 
 } // namespace graze

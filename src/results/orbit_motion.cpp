@@ -5,14 +5,34 @@
 #include "graze/trajectory/recorder.hpp"
 #include "graze/trajectory/trajectory.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace graze {
 
 namespace {
 
 constexpr double tolerance = 1e-13; ///< with which orbits are computed
+/// Of all segments: orbits that have been found take some hundreds. A file can say that one lasts for ever.
+constexpr std::size_t most_steps = 100'000;
+
+/// Takes samples until there have been too many steps.
+class BoundedSampler : public Sampler {
+public:
+    BoundedSampler(std::size_t& left, double spacing, std::size_t count, std::vector<double> periods, Receiver receiver)
+        : Sampler(0, spacing, count, std::move(periods), std::move(receiver)), left_(&left) {}
+    void step(const Step& step) override {
+        Sampler::step(step);
+        *left_ -= *left_ > 0 ? 1 : 0;
+    }
+    bool stop() override { return *left_ == 0; }
+
+private:
+    std::size_t* left_;
+};
 
 /// The smooth motion of the modes alone.
 Model without_events(Model model, bool backwards) {
@@ -28,8 +48,9 @@ Model without_events(Model model, bool backwards) {
 /// Follows segments in one direction of time.
 class SmoothMotion {
 public:
-    SmoothMotion(const Model& model, bool backwards)
-        : parameters_(model.parameter_values()), periods_(model.periods()),
+    /// @param left steps that may be taken
+    SmoothMotion(const Model& model, bool backwards, std::size_t& left)
+        : left_(&left), parameters_(model.parameter_values()), periods_(model.periods()),
           simulation_(System(without_events(model, backwards)), {}, {}, options()),
           jets_(simulation_, LaneKind::single) {}
 
@@ -38,12 +59,16 @@ public:
     template <class Receive>
     std::string follow(const std::vector<double>& start, std::size_t mode, double duration, std::size_t intervals,
                        Receive receive) {
-        Sampler sampler(0, duration / static_cast<double>(intervals), intervals, periods_,
-                        [&](double time, std::size_t, std::span<const double> state) { receive(time, state); });
+        if (!std::isfinite(duration))
+            return "its duration is no number";
+        BoundedSampler sampler(*left_, duration / static_cast<double>(intervals), intervals, periods_,
+                               [&](double time, std::size_t, std::span<const double> state) { receive(time, state); });
         Trajectory trajectory(simulation_, parameters_, sampler);
         trajectory.start(start, mode, 0, duration);
         graze::run(trajectory, jets_);
         const Outcome& outcome = trajectory.outcome();
+        if (*left_ == 0)
+            return fmt::format("the orbit takes more than {} steps", most_steps);
         if (outcome.ending != Ending::end_time)
             return outcome.detail.empty() ? std::string(name_of(outcome.ending)) : outcome.detail;
         receive(duration, trajectory.state());
@@ -56,6 +81,7 @@ private:
         options.tolerance = tolerance;
         return options;
     }
+    std::size_t* left_;
     std::vector<double> parameters_, periods_;
     Simulation simulation_;
     JetSet jets_;
@@ -73,7 +99,8 @@ Model model_at(const Model& model, const Orbit& orbit) {
 
 std::vector<SegmentMotion> orbit_motion(const Model& model, const Orbit& orbit, std::size_t samples) {
     const Model there = model_at(model, orbit);
-    SmoothMotion forwards(there, false);
+    std::size_t left = most_steps;
+    SmoothMotion forwards(there, false, left);
     double whole = 0, time = 0;
     for (const double duration : orbit.durations)
         whole += std::abs(duration);
@@ -83,7 +110,7 @@ std::vector<SegmentMotion> orbit_motion(const Model& model, const Orbit& orbit, 
         SegmentMotion& segment = motion.emplace_back();
         segment.mode = orbit.signature[s].mode;
         segment.end = end_name(model, orbit.signature[s]);
-        const double share = whole > 0 ? std::abs(duration) / whole : 0;
+        const double share = whole > 0 && std::isfinite(whole) ? std::abs(duration) / whole : 0;
         const auto intervals =
             static_cast<std::size_t>(std::max(1.0, std::round(share * static_cast<double>(samples))));
         const auto receive = [&](double since, std::span<const double> state) {
@@ -97,7 +124,7 @@ std::vector<SegmentMotion> orbit_motion(const Model& model, const Orbit& orbit, 
             segment.problem = forwards.follow(orbit.starts[s], segment.mode, duration, intervals, receive);
         } else {
             segment.problem =
-                SmoothMotion(there, true).follow(orbit.starts[s], segment.mode, -duration, intervals, receive);
+                SmoothMotion(there, true, left).follow(orbit.starts[s], segment.mode, -duration, intervals, receive);
         }
         time += duration;
     }

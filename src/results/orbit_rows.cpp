@@ -44,6 +44,10 @@ Segment segment_named(const Model& model, const std::string& mode, const std::st
             segment.index = t;
             return segment;
         }
+    if (end == cut_name()) {
+        segment.end = SegmentEnd::cut;
+        return segment;
+    }
     segment.end = SegmentEnd::section;
     const auto section = model.find_section(end);
     if (!section)

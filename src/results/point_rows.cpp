@@ -76,6 +76,20 @@ void ResultFile::add_point(const std::string& name, const PointRecord& point) {
     }
 }
 
+void ResultFile::set_label(const std::string& name, const std::vector<std::size_t>& points, Label label,
+                           const std::string& detail) {
+    const auto run = find_run(name);
+    if (!run || run->is_branch())
+        throw InputError(fmt::format("there is no run '{}' whose points have labels", name), "name a sweep or a basin");
+    flush();
+    state_->at_once([&] {
+        Statement update = state_->database.prepare(
+            fmt::format("UPDATE {} SET label = ?, detail = ? WHERE number = ?", RunTables(*run).points));
+        for (const std::size_t point : points)
+            update.bind(1, name_of(label)).bind(2, std::string_view(detail)).bind(3, point).run();
+    });
+}
+
 std::size_t ResultFile::point_count(const std::string& name) const {
     const auto run = find_run(name);
     if (!run)

@@ -45,6 +45,8 @@ void require_names(const RunRecord& run, const std::string& path) {
     for (const auto* names : {&run.samplings, &run.modes, &run.directions})
         for (const std::string& name : *names)
             require_plain_line(name, "name", place);
+    for (const PointName& point : run.point_names)
+        require_plain_line(point.label + point.name, "name of a point", place);
 }
 
 } // namespace
@@ -60,7 +62,8 @@ ResultFile::ResultFile(const std::string& path, Access access) {
     if (path.empty() || path == ":memory:") // which would be lost
         throw InputError(fmt::format("'{}' names no file to keep results in", path), "give the path of a file");
     const bool writing = access == Access::write;
-    if (!writing && !std::filesystem::exists(path))
+    std::error_code error;
+    if (!writing && !std::filesystem::exists(path, error))
         throw InputError(Place{path, 0, 0}, "there is no such result file",
                          "graze run STUDY makes one, in the folder that --output names");
     auto lock = writing ? std::make_unique<WriteLock>(path) : nullptr;
@@ -218,6 +221,10 @@ void ResultFile::order_runs(const std::vector<std::string>& names) {
         database.execute("UPDATE runs SET number = -number");
         database.execute(views(runs()));
     });
+}
+
+void ResultFile::name_points(const std::string& run, const std::vector<PointName>& names) {
+    state_->at_once([&] { write_point_names(state_->database, run, names); });
 }
 
 void ResultFile::set_note(const std::string& key, const std::string& text) {

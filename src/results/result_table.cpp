@@ -111,13 +111,23 @@ ResultTable table_of_details(const ResultFile& file, const ResultTableRequest& r
             {}};
 }
 
+/// The name that the study gives to a point, or its label.
+ShownColumn name_of_point(const StoredRun& run) {
+    return {fmt::format("coalesce((SELECT name FROM names WHERE run = {} AND what = {} || p.label), p.label)",
+                        text_literal(run.record.name), text_literal(begin_of_point_name)),
+            "", "name"};
+}
+
 /// Columns of one run's rows, with those of their points by which they are told apart.
-std::vector<ShownColumn> columns_of(const StoredRun& run, const std::string& what) {
+/// @param named whether some of the points have names
+std::vector<ShownColumn> columns_of(const StoredRun& run, const std::string& what, bool named) {
     const RunQuery query(run.record);
     const RunTables& tables = query.run_tables();
     std::vector<ShownColumn> columns;
     const auto add = [&](const char* table, const RunColumn& column) {
         columns.push_back({table + quoted_name(column.column), unit_of(column, run), column.column});
+        if (named && table[0] == 'p' && column.column == "label")
+            columns.push_back(name_of_point(run));
     };
     if (what == "points") {
         for (const RunColumn& column : tables.point_columns)
@@ -127,7 +137,9 @@ std::vector<ShownColumn> columns_of(const StoredRun& run, const std::string& wha
     columns.push_back({"s.point", "", "point"});
     if (what == "segments")
         columns.insert(columns.end(), {{"p.part", "", "part"}, {"p.type", "", "type"}, {"p.label", "", "label"}});
-    else
+    if (what == "segments" && named)
+        columns.push_back(name_of_point(run));
+    if (what != "segments")
         columns.push_back({"p.direction", "", "direction"});
     std::size_t shown = what == "samples" ? run.record.coordinates.size() : 1; // of a branch what is followed
     for (const RunColumn& column : tables.point_columns)
@@ -170,7 +182,8 @@ std::vector<StoredRun> runs_with(const ResultFile& file, const ResultTableReques
         throw InputError(request.place_of_what,
                          fmt::format("run '{}' is of kind {}, which has no {}{}", rest.front().record.name,
                                      rest.front().record.kind, what, what == "points" ? " like the others" : ""),
-                         what == "points" ? "export one of them at a time, by --run NAME"
+                         what == "points" ? "export one of them at a time, by --run NAME, or all into a folder, by "
+                                            "--output FOLDER/"
                                           : fmt::format("export its {}", wants_branches ? "samples" : "segments"));
     if (what == "points")
         for (const StoredRun& run : rest)
@@ -191,10 +204,12 @@ void require_same_shape(const std::vector<StoredRun>& runs) {
     for (const StoredRun& run : runs) {
         const std::vector<std::string> here = shape_of(run);
         const bool branch = run.record.is_branch();
-        if (branch ? first != here : first.size() != here.size())
+        if (first != here) // under the names of the first, values of others would be told wrongly
             throw InputError("the runs do not have the same columns",
-                             branch ? "export one of them at a time, by --run NAME, or see graze points FILE --all"
-                                    : "export one of them at a time, by --run NAME");
+                             branch ? "export one of them at a time, by --run NAME, or all into a folder, by --output "
+                                      "FOLDER/, or see graze points FILE --all"
+                                    : "export one of them at a time, by --run NAME, or all into a folder, by --output "
+                                      "FOLDER/");
     }
 }
 
@@ -204,12 +219,14 @@ ResultTable table_of_rows(const ResultFile& file, const ResultTableRequest& requ
     require_same_shape(runs);
     const bool of_points = request.what == "points";
     const bool several = runs.size() > 1;
+    const bool named =
+        std::any_of(runs.begin(), runs.end(), [](const StoredRun& run) { return !run.record.point_names.empty(); });
     std::string all;
     std::vector<std::string> units;
     for (const StoredRun& run : runs) {
         const RunQuery query(run.record);
         const bool branch = run.record.is_branch();
-        std::vector<ShownColumn> columns = columns_of(run, request.what);
+        std::vector<ShownColumn> columns = columns_of(run, request.what, named);
         if (several)
             columns.insert(columns.begin(), {text_literal(run.record.name), "", "run"});
         merge(units, columns, units.empty());

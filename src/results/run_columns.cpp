@@ -51,6 +51,20 @@ constexpr std::array<NameList, 3> name_lists{
 
 } // namespace
 
+const std::string& RunRecord::point_name(const std::string& label) const {
+    for (const PointName& point : point_names)
+        if (point.label == label)
+            return point.name;
+    return label;
+}
+
+std::string RunRecord::label_named(const std::string& shown) const {
+    for (const PointName& point : point_names)
+        if (point.name == shown)
+            return point.label;
+    return "";
+}
+
 const ColumnsOf<NoContext, RunRecord>& run_columns() {
     static const ColumnsOf<NoContext, RunRecord> columns{
         text_column<&Run::name>("name"),
@@ -106,6 +120,23 @@ void write_lists(const Database& database, const RunRecord& run) {
             cells.text((run.*list.names)[i]);
             name.run();
         }
+    write_point_names(database, run.name, run.point_names);
+}
+
+void write_point_names(const Database& database, const std::string& run, const std::vector<PointName>& names) {
+    Statement old = database.prepare("DELETE FROM names WHERE run = ? AND substr(what, 1, length(?)) = ?");
+    for (const int place : {2, 3})
+        old.bind(place, std::string_view(begin_of_point_name));
+    old.bind(1, std::string_view(run)).run();
+    Statement row = database.prepare(insert_into("names", 4));
+    for (const PointName& one : names) {
+        CellWriter cells(row);
+        cells.text(run);
+        cells.text(begin_of_point_name + one.label);
+        cells.whole(0);
+        cells.text(one.name);
+        row.run();
+    }
 }
 
 void read_lists(const Database& database, RunRecord& run) {
@@ -121,6 +152,13 @@ void read_lists(const Database& database, RunRecord& run) {
         for (const NameList& list : name_lists)
             if (names.text(0) == list.what)
                 (run.*list.names).push_back(names.text(1));
+    Statement of_points = database.prepare("SELECT substr(what, length(?) + 1), name FROM names WHERE run = ? AND "
+                                           "substr(what, 1, length(?)) = ? ORDER BY what");
+    of_points.bind(2, std::string_view(run.name));
+    for (const int place : {1, 3, 4})
+        of_points.bind(place, std::string_view(begin_of_point_name));
+    while (of_points.step())
+        run.point_names.push_back({of_points.text(0), of_points.text(1)});
 }
 
 } // namespace graze

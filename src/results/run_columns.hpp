@@ -16,5 +16,9 @@ std::string key_of_failure(const std::string& run);
 /// A run's lists of names and columns lie in tables of their own.
 void write_lists(const Database& database, const RunRecord& run);
 void read_lists(const Database& database, RunRecord& run);
+/// Names of points, in the place of those that there are.
+void write_point_names(const Database& database, const std::string& run, const std::vector<PointName>& names);
+/// What says in the table of names that one is that of the point with a label: this, and the label.
+inline constexpr const char* begin_of_point_name = "point ";
 
 } // namespace graze

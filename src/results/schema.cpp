@@ -1,5 +1,6 @@
 #include "results/schema.hpp"
 
+#include "base/letter_case.hpp"
 #include "results/database.hpp"
 #include "results/orbit_columns.hpp"
 #include "results/point_columns.hpp"
@@ -8,24 +9,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <cctype>
 #include <set>
 
 namespace graze {
 
-namespace {
-
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-}
-
-} // namespace
-
 std::string distinct_name(const std::string& name, std::set<std::string>& taken) {
     std::string result = name;
-    for (int i = 2; !taken.insert(lower(result)).second; ++i)
+    for (int i = 2; !taken.insert(in_small_letters(result)).second; ++i)
         result = fmt::format("{}_{}", name, i);
     return result;
 }

@@ -21,8 +21,10 @@ bool is_number(const std::string& text) {
     return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-/// The one with that label or number, if there is one.
+/// The one with that label, name or number, if there is one.
 std::optional<OrbitRecord> look_up(const ResultFile& file, const RunRecord& run, const std::string& point) {
+    if (const std::string named = run.label_named(point); !named.empty())
+        return file.orbit(run.name, named);
     if (!is_number(point))
         return file.orbit(run.name, point);
     std::size_t number = 0;

@@ -1,5 +1,10 @@
 #include "graze/results/table.hpp"
 
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
+
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace graze {
@@ -12,7 +17,7 @@ void Table::add(std::string_view text) {
     auto found = text_indices_.find(text);
     if (found == text_indices_.end()) {
         found = text_indices_.emplace(std::string(text), static_cast<std::uint32_t>(texts_.size())).first;
-        texts_.push_back(&found->first);
+        texts_.push_back(found->first);
     }
     cells_.push_back({0, found->second});
 }
@@ -22,6 +27,20 @@ void Table::add_extended(double value) {
         add(value > 0 ? "inf" : "-inf");
     else
         add(value);
+}
+
+const Table::Cell& Table::cell(std::size_t row, std::size_t column) const {
+    require_index(column, columns_.size(), "column");
+    require_index(row, rows(), "row");
+    return cells_[row * columns_.size() + column];
+}
+
+const std::string& Table::text(std::size_t row, std::size_t column) const {
+    const std::uint32_t index = cell(row, column).text;
+    if (index == none)
+        throw InputError(fmt::format("the cell in row {} of column '{}' is a number", row, columns_[column].name),
+                         "ask for its number");
+    return texts_[index];
 }
 
 bool Table::is_missing(std::size_t row, std::size_t column) const {

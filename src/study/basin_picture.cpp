@@ -1,9 +1,11 @@
+#include "study/drawn_labels.hpp"
 #include "study/picture_kinds.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace graze {
@@ -45,16 +47,6 @@ std::string kind_text(const ResultFile::Rows& row) {
         text = fmt::format("period {}{}{}{}", row.text(1), row.is_null(3) || row.integer(3) == 0 ? "" : ", symmetric",
                            row.text(2).empty() ? "" : ", ", row.text(2));
     return text;
-}
-
-/// Motions that do not last are grey or black, so that attractors stand out.
-std::size_t colour_of(const std::string& kind, std::size_t attractors) {
-    if (kind == name_of(Label::singular) || kind == name_of(Label::failed))
-        return FigureSeries::black;
-    if (kind == name_of(Label::escaped) || kind == name_of(Label::ended) || kind == name_of(Label::chattering) ||
-        kind == name_of(Label::unsettled) || kind == name_of(Label::unbounded))
-        return FigureSeries::grey;
-    return attractors;
 }
 
 /// What an attractor is like, of pictures that do not tell it from others like it.
@@ -133,7 +125,7 @@ public:
 
     FigurePanel drawn(const std::string& direction, Table& table) {
         panel_ = panel_of(*picture_, *run_, x_, y_, 0);
-        const std::vector<double> spreads = run_->value_spreads();
+        const std::vector<double> spreads = map_ ? std::vector<double>{} : spreads_of_attractors(direction);
         auto rows = run_->rows({.columns = {"label", "period", "signature", "symmetric", "number"},
                                 .quantities = {x_, y_},
                                 .statistics = map_ ? std::vector<std::string>{} : run_->value_names(),
@@ -144,7 +136,7 @@ public:
                 rows.text(0) == name_of(Label::periodic) || rows.text(0) == name_of(Label::equilibrium);
             for (std::size_t v = 0; told_apart && v < marks.size(); ++v)
                 marks[v] = rows.number(7 + v);
-            add(names_.index(map_ ? short_kind(rows) : kind_text(rows), marks, spreads),
+            add(names_.index(map_ ? short_kind(rows) : kind_text(rows), marks, spreads), rows.text(0),
                 {rows.number(5), rows.number(6)}, static_cast<std::size_t>(rows.integer(4)), told_apart);
         }
         name_all(table);
@@ -155,12 +147,38 @@ public:
     }
 
 private:
-    void add(std::size_t index, const PlanePoint& at, std::size_t number, bool attractor) {
+    /// How far values go over all attractors: motions that run away are no measure of how different these are.
+    std::vector<double> spreads_of_attractors(const std::string& direction) const {
+        const std::size_t values = run_->record.values.size();
+        constexpr double none = std::numeric_limits<double>::infinity();
+        constexpr double rounding = 1e-6; // of which the same millionth tells attractors apart
+        std::vector<double> least(values, none), greatest(values, -none), spreads;
+        auto rows = run_->rows({.columns = {"label"}, .statistics = run_->value_names(), .directions = {direction}});
+        while (rows.next())
+            for (std::size_t v = 0; v < values && drawn_as(rows.text(0)) == DrawnAs::attractor; ++v) {
+                least[v] = std::min(least[v], rows.number(2 + 3 * v));
+                greatest[v] = std::max(greatest[v], rows.number(3 + 3 * v));
+            }
+        for (std::size_t v = 0; v < values; ++v)
+            spreads.push_back(std::max(0.0, greatest[v] - least[v]) +
+                              rounding * std::max(std::abs(least[v]), std::abs(greatest[v])));
+        return spreads;
+    }
+
+    void add(std::size_t index, const std::string& label, const PlanePoint& at, std::size_t number, bool told_apart) {
         if (index >= panel_.series.size()) {
-            const std::size_t colour = colour_of(names_.kind(index), attractors_);
-            attractors_ += colour == attractors_ ? 1 : 0;
-            panel_.series.push_back({"", FigureSeries::Style::dots, colour, {}});
-            first_points_.push_back(attractor ? std::optional(number) : std::nullopt);
+            const bool settled = drawn_as(label) == DrawnAs::attractor;
+            FigureSeries series{"", FigureSeries::Style::dots, attractors_, {}};
+            if (!settled) { // seen to be no attractor, and of what kind
+                const MarkOfLabel mark = mark_of_label(label);
+                series.style = FigureSeries::Style::symbols;
+                series.colour = mark.colour;
+                series.symbol = mark.symbol;
+                series.hatch = mark.hatch;
+            }
+            attractors_ += settled ? 1 : 0;
+            panel_.series.push_back(std::move(series));
+            first_points_.push_back(told_apart ? std::optional(number) : std::nullopt);
         }
         panel_.series[index].points.push_back(at);
     }
@@ -223,7 +241,7 @@ ResultPicture basin_picture(const StudyPicture& picture, const ResultFile& file,
         result.figure.panels.push_back(BasinPanel(picture, run, map).drawn(direction, result.table));
         if (directions.size() > 1)
             result.figure.panels.back().title =
-                fmt::format("({}) {} {}", static_cast<char>('a' + result.figure.panels.size() - 1),
+                fmt::format("{} {} {}", panel_letter(result.figure.panels.size() - 1),
                             shown_name(picture, run.record.coordinates.front().name), direction);
     }
     result.figure.columns = directions.size();

@@ -1,9 +1,10 @@
+#include "study/drawn_labels.hpp"
 #include "study/picture_kinds.hpp"
 
 #include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/name_list.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -15,6 +16,8 @@ namespace {
 constexpr std::size_t most_marks = 8;
 constexpr std::size_t most_circles = 200; ///< of what is drawn over; beyond, crosses are seen better
 constexpr double least_stretch = 0.01;    ///< share of a sweep on both sides of a change that is marked
+/// What the dotted lines mean: where consecutive stretches of a sweep differ in this.
+constexpr const char* meaning_of_marks = "label, period, signature or symmetry changes";
 
 /// Where something changes that lasted before and lasts after.
 std::vector<double> changes(const StoredRun& run, const std::string& direction) {
@@ -76,7 +79,7 @@ void share_axes(Figure& figure) {
         if (const auto at = extents.find(panel.y_label);
             at != extents.end() && !panel.y_range && !panel.logarithmic_y) {
             const auto [low, high] = at->second;
-            if (low < high)
+            if (!is_constant(low, high))
                 panel.y_range = std::pair(low - margin * (high - low), high + margin * (high - low));
         }
 }
@@ -94,12 +97,22 @@ void mark_by_crosses(FigureSeries& series, std::size_t index) {
         series.colour = FigureSeries::black;
 }
 
-/// Adds a series for each sampling of a run.
+/// A text, behind a name if there is one.
+std::string named_with(std::string_view text, const std::string& name) {
+    return name.empty() ? std::string(text) : fmt::format("{}: {}", name, text);
+}
+
+/// Adds a series for each sampling of a run: what settled, then crosses for what did not.
 /// @param over named by the run, too, and seen over what is there
 void add_samples(FigurePanel& panel, const StudyPicture& picture, const StoredRun& run, const std::string& x,
                  const ShownPanel& shown, bool over) {
     const std::vector<std::string> samplings = shown_points(picture, run);
     const std::size_t before = panel.series.size();
+    // What did not settle has no colour of its own, or panels with some and panels without would differ.
+    const auto first_colour =
+        static_cast<std::size_t>(std::count_if(panel.series.begin(), panel.series.end(), [](const FigureSeries& one) {
+            return one.title.empty() || one.colour != FigureSeries::grey;
+        }));
     std::map<std::string, std::size_t> series;
     for (std::size_t s = 0; s < samplings.size(); ++s) {
         series[samplings[s]] = before + s;
@@ -111,24 +124,50 @@ void add_samples(FigurePanel& panel, const StudyPicture& picture, const StoredRu
                                 : title.empty() ? run_name
                                                 : fmt::format("{}: {}", run_name, title),
                                 over ? FigureSeries::Style::circles : FigureSeries::Style::dots,
-                                before + s,
+                                first_colour + s,
                                 {}});
     }
     const auto& known = run.record.directions;
     const bool has_direction = std::find(known.begin(), known.end(), shown.direction) != known.end();
-    auto rows =
-        run.rows({.samples = true,
-                  .columns = {"sampling"},
-                  .quantities = {x},
-                  .values = {shown.value},
-                  .directions = has_direction ? std::vector<std::string>{shown.direction} : std::vector<std::string>(),
-                  .samplings = samplings});
-    while (rows.next())
-        if (const auto at = series.find(rows.text(0)); at != series.end() && !rows.is_null(2))
-            panel.series[at->second].points.push_back({rows.number(1), rows.number(2)});
-    for (std::size_t s = before; over && s < panel.series.size(); ++s)
+    const std::vector<std::string> directions =
+        has_direction ? std::vector<std::string>{shown.direction} : std::vector<std::string>();
+    const bool judged = seeks_attractors(run.record);
+    FigureSeries uncertain{"", FigureSeries::Style::symbols, mark_of_label(name_of(Label::unsettled)).colour, {}};
+    uncertain.symbol = mark_of_label(name_of(Label::unsettled)).symbol;
+    uncertain.title = named_with(name_of(Label::unsettled), over ? shown_name(picture, run.record.name) : "");
+    auto rows = run.rows({.samples = true,
+                          .columns = {"sampling", "label"},
+                          .quantities = {x},
+                          .values = {shown.value},
+                          .directions = directions,
+                          .samplings = samplings});
+    while (rows.next()) {
+        const auto at = series.find(rows.text(0));
+        const DrawnAs drawn = judged ? drawn_as(rows.text(1)) : DrawnAs::attractor;
+        if (at == series.end() || rows.is_null(3) || drawn == DrawnAs::nothing)
+            continue;
+        FigureSeries& target = drawn == DrawnAs::attractor ? panel.series[at->second] : uncertain;
+        target.points.push_back({rows.number(2), rows.number(3)});
+    }
+    if (!uncertain.points.empty())
+        panel.series.push_back(std::move(uncertain));
+    const std::string note = note_of_left_out(run, directions);
+    if (!note.empty())
+        panel.notes.push_back(named_with(note, over ? shown_name(picture, run.record.name) : ""));
+    for (std::size_t s = before; over && s < before + samplings.size(); ++s)
         if (panel.series[s].points.size() > most_circles)
             mark_by_crosses(panel.series[s], s - before);
+}
+
+/// From the first to the last point of a run; where it is known by measurement alone, no point is to lie on the frame.
+std::optional<std::pair<double, double>> shown_extent(const StoredRun& run) {
+    auto extent = run.extent(run.record.coordinates.front().name);
+    constexpr double margin = 0.01;
+    if (extent && run.record.kind == "record") {
+        const double room = margin * (extent->second - extent->first);
+        extent = std::pair(extent->first - room, extent->second + room);
+    }
+    return extent;
 }
 
 /// Runs that are drawn over panels of the same values.
@@ -153,7 +192,7 @@ void add_over(Figure& figure, const StudyPicture& picture, const std::vector<Sho
             }
         if (!drawn)
             throw InputError(picture.place, fmt::format("run '{}' has none of the values that are drawn", name),
-                             fmt::format("it has {}", fmt::join(run.value_names(), ", ")));
+                             fmt::format("it has {}", name_list(run.value_names())));
     }
 }
 
@@ -173,15 +212,16 @@ Figure bifurcation_picture(const StudyPicture& picture, const ResultFile& file) 
         for (const std::string& direction : directions)
             for (std::size_t v = 0; v < values.size(); ++v) {
                 FigurePanel panel = panel_of(picture, run, x, values[v], v);
-                const char letter = static_cast<char>('a' + figure.panels.size());
-                panel.title = fmt::format("({}) {}", letter,
+                const std::string letter = panel_letter(figure.panels.size());
+                panel.title = fmt::format("{} {}", letter,
                                           direction.empty() ? shown_name(picture, name)
                                                             : fmt::format("{} {}", shown_name(picture, x), direction));
                 add_samples(panel, picture, run, x, {values[v], direction}, false);
                 if (!panel.x_range && picture.x.empty())
-                    panel.x_range = run.extent(run.record.coordinates.front().name);
+                    panel.x_range = shown_extent(run);
                 if (run.record.kind == "sweep" && picture.x.empty())
                     panel.marks = changes(run, direction);
+                panel.marks_title = meaning_of_marks;
                 figure.panels.push_back(std::move(panel));
                 shown.push_back({values[v], direction});
             }

@@ -96,8 +96,7 @@ SpecialPoint failed_start(const BranchPart& part, const StudyRun& run, const std
 
 /// Whether a curve has not left its point, from which it leads the other way or nowhere.
 bool stays_at_start(const BranchPart& part, const OrbitBranch& branch) {
-    return part.kept && branch.point().step == 0 &&
-           (branch.outcome() == BranchOutcome::stopped || branch.outcome() == BranchOutcome::unphysical);
+    return part.kept && branch.point().step == 0 && branch.outcome() != BranchOutcome::bound;
 }
 
 } // namespace
@@ -115,7 +114,7 @@ PartEnd follow_part(const StudyRun& run, const BranchSettings& of_run, const Sys
             writer.add(part.name, failed_start(part, run, branch.detail()), false);
             writer.end("");
         }
-        return {false, branch.outcome(), false, branch.detail(), std::nullopt};
+        return {false, branch.outcome(), false, false, branch.detail(), std::nullopt};
     }
     bool last_is_special = false;
     std::optional<SpecialPoint> last;
@@ -128,19 +127,19 @@ PartEnd follow_part(const StudyRun& run, const BranchSettings& of_run, const Sys
         if (!last_is_special)
             writer.add(part.name, regular_point(branch.point(), part.again), branch.point().stable);
         if (options.interrupted && options.interrupted())
-            return {true, BranchOutcome::no_start, true, "", std::nullopt};
+            return {true, BranchOutcome::no_start, true, true, "", std::nullopt};
         going = branch.step();
     }
     if (stays_at_start(part, branch)) {
         writer.drop();
-        return {false, branch.outcome(), false, branch.detail(), std::nullopt};
+        return {false, branch.outcome(), false, false, branch.detail(), std::nullopt};
     }
     const bool told = branch.outcome() != BranchOutcome::unphysical;
     std::string why = told && last_is_special ? "" : std::string(name_of(branch.outcome()));
     if (!why.empty() && !branch.detail().empty())
         why += ": " + branch.detail();
     writer.end(why);
-    return {false, branch.outcome(), true, why, last};
+    return {false, branch.outcome(), true, branch.point().step > 0, why, last};
 }
 
 } // namespace graze

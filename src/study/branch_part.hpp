@@ -75,6 +75,7 @@ struct PartEnd {
     bool interrupted = false;
     BranchOutcome outcome = BranchOutcome::no_start;
     bool begun = true;
+    bool left = true; ///< its first point
     std::string why;
     std::optional<SpecialPoint> last; ///< if it has ended at a special point
 };

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <set>
 
 namespace graze {
@@ -30,6 +31,7 @@ constexpr std::array<std::pair<Look, const char*>, 3> looks{
 
 struct DrawnPoint {
     std::string part, label;
+    std::string name; ///< what is shown in the place of the label
     PointType type = PointType::regular;
     Look look = Look::stable;
     std::int64_t step = 0;
@@ -112,6 +114,7 @@ std::vector<DrawnPoint> points_of(const StoredRun& run, const StudyPicture& pict
         DrawnPoint& point = points.emplace_back();
         point.part = rows.text(0);
         point.label = rows.text(1);
+        point.name = run.record.point_name(point.label);
         point.type = point_type(rows.text(2)).value_or(PointType::regular);
         point.look = rows.integer(4) == 0 ? Look::unphysical : rows.integer(3) == 0 ? Look::unstable : Look::stable;
         point.step = rows.integer(5);
@@ -175,13 +178,14 @@ bool is_marked(const StudyPicture& picture, const DrawnPoint& point) {
         return std::find(picture.points.begin(), picture.points.end(), name) != picture.points.end();
     };
     return kind_of(point.type).mark != 0 &&
-           (picture.points.empty() || names(short_name(point.type)) || names(point.label));
+           (picture.points.empty() || names(short_name(point.type)) || names(point.label) || names(point.name));
 }
 
 /// @param kept what it is a curve of; none: it is a branch, drawn by how stable orbits are
-/// @param labels colour of the labels
+/// @param owner what the branch is called, where there are several; empty: it is alone, and its labels are black
 void add_branch(FigurePanel& panel, const StudyPicture& picture, const std::vector<DrawnPoint>& points,
-                const std::optional<PointType>& kept, std::size_t value, std::size_t colour, std::size_t labels) {
+                const std::optional<PointType>& kept, std::size_t value, std::size_t colour, const std::string& owner) {
+    const std::size_t labels = owner.empty() ? FigureSeries::black : colour;
     // What is unphysical lies beneath.
     const std::vector<Stretch> stretches = stretches_of(points);
     for (const bool unphysical : {true, false})
@@ -209,7 +213,7 @@ void add_branch(FigurePanel& panel, const StudyPicture& picture, const std::vect
             if (kind_of(point.type).mark == symbol && is_marked(picture, point)) {
                 const PlanePoint here{point.x, point.y[value]};
                 series.points.push_back(here);
-                panel.labels.push_back({here, point.label, labels, rank_of(point)});
+                panel.labels.push_back({here, point.name, labels, rank_of(point), owner});
             }
         panel.series.push_back(std::move(series));
     }
@@ -217,9 +221,53 @@ void add_branch(FigurePanel& panel, const StudyPicture& picture, const std::vect
         panel.series.push_back({"", FigureSeries::Style::circles, colour, {{points[0].x, points[0].y[value]}}});
 }
 
-/// Says which colour is which run, and what the styles mean that are there.
+/// Runs that are called the same are one curve to the reader.
+std::vector<std::size_t> colours_of(const StudyPicture& picture, const std::vector<StoredRun>& runs) {
+    std::map<std::string, std::size_t> known;
+    std::vector<std::size_t> colours;
+    for (const StoredRun& run : runs)
+        colours.push_back(known.try_emplace(shown_name(picture, run.record.name), known.size()).first->second);
+    return colours;
+}
+
+/// Says what each symbol that is there means, and the letters of its labels.
+void add_symbols(FigurePanel& panel, const StudyPicture& picture, const std::vector<std::vector<DrawnPoint>>& points,
+                 std::size_t colour) {
+    std::set<PointType> types;
+    for (const std::vector<DrawnPoint>& of_run : points)
+        for (const DrawnPoint& point : of_run)
+            if (is_marked(picture, point))
+                types.insert(point.type);
+    for (const PointType type : types) {
+        const PointKind& kind = kind_of(type);
+        FigureSeries series{
+            fmt::format("{}: {}", kind.short_name, kind.name), FigureSeries::Style::symbols, colour, {}};
+        series.symbol = kind.mark;
+        series.only_in_legend = true;
+        panel.series.push_back(std::move(series));
+    }
+}
+
+/// What each style means of curves: several runs have it, and their names may not say.
+std::map<FigureSeries::Style, std::string> curve_styles(const std::vector<std::optional<PointType>>& kept) {
+    std::set<PointType> types;
+    for (const std::optional<PointType>& type : kept)
+        if (type)
+            types.insert(*type);
+    std::map<FigureSeries::Style, std::string> meanings;
+    if (types.size() < 2 || types.size() == kept.size()) // each style is that of one run
+        return meanings;
+    for (const PointType type : types) {
+        std::string& meaning = meanings[style_of(type)];
+        meaning += (meaning.empty() ? "" : ", ") + std::string(kind_of(type).name);
+    }
+    return meanings;
+}
+
+/// Says which colour is which run, and what the styles and symbols mean that are there.
 void add_legend(FigurePanel& panel, const StudyPicture& picture, const std::vector<StoredRun>& runs,
                 const std::vector<std::vector<DrawnPoint>>& points, const std::vector<std::optional<PointType>>& kept) {
+    const std::vector<std::size_t> colours = colours_of(picture, runs);
     const auto add = [&](const std::string& title, FigureSeries::Style style, std::size_t colour) {
         FigureSeries series{title, style, colour, {}};
         series.only_in_legend = true;
@@ -229,7 +277,9 @@ void add_legend(FigurePanel& panel, const StudyPicture& picture, const std::vect
         for (std::size_t r = 0; r < runs.size(); ++r)
             if (!points[r].empty())
                 add(shown_name(picture, runs[r].record.name), kept[r] ? style_of(*kept[r]) : FigureSeries::Style::line,
-                    r);
+                    colours[r]);
+    for (const auto& [style, meaning] : curve_styles(kept))
+        add(meaning, style, FigureSeries::black);
     std::set<Look> shown;
     for (std::size_t r = 0; r < runs.size(); ++r)
         for (const Stretch& stretch : stretches_of(points[r]))
@@ -239,6 +289,7 @@ void add_legend(FigurePanel& panel, const StudyPicture& picture, const std::vect
     for (const auto& [look, name] : looks)
         if (shown.contains(look))
             add(name, style_of(look), look == Look::unphysical ? FigureSeries::grey : colour);
+    add_symbols(panel, picture, points, colour);
 }
 
 } // namespace
@@ -269,10 +320,12 @@ Figure branch_picture(const StudyPicture& picture, const ResultFile& file) {
         FigurePanel panel = panel_of(picture, runs.front(), x, values[v], v);
         panel.roomy_y = true;
         if (values.size() > 1 || runs.size() == 1)
-            panel.title = (values.size() > 1 ? fmt::format("({}) ", static_cast<char>('a' + v)) : std::string()) +
+            panel.title = (values.size() > 1 ? panel_letter(v) + " " : std::string()) +
                           (runs.size() == 1 ? shown_name(picture, runs.front().record.name) : std::string());
+        const std::vector<std::size_t> colours = colours_of(picture, runs);
         for (std::size_t r = 0; r < runs.size(); ++r)
-            add_branch(panel, picture, points[r], kept[r], v, r, runs.size() > 1 ? r : FigureSeries::black);
+            add_branch(panel, picture, points[r], kept[r], v, colours[r],
+                       runs.size() > 1 ? shown_name(picture, runs[r].record.name) : "");
         add_legend(panel, picture, runs, points, kept);
         figure.panels.push_back(std::move(panel));
     }

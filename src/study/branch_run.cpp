@@ -236,6 +236,37 @@ std::optional<OrbitRecord> first_orbit(const Study& study, const StudyRun& run, 
                      "choose another point, or another of the curves through it by `onto`");
 }
 
+/// Parts that have got no further than their first orbit. That is a failure where steps cannot be made; and, whatever
+/// the reason, where no part has got further.
+class Standstill {
+public:
+    void note(const BranchPart& part, const PartEnd& end) {
+        if (end.left || end.outcome == BranchOutcome::no_start) // of which the file says so
+            return;
+        ++parts_;
+        const bool fails = end.outcome == BranchOutcome::no_convergence || end.outcome == BranchOutcome::undefined ||
+                           end.outcome == BranchOutcome::too_long;
+        if (why_.empty() || (fails && !fails_))
+            why_ = fmt::format("{}: {}", part.name, end.why);
+        fails_ = fails_ || fails;
+    }
+    /// @param parts of the run
+    void report(std::size_t parts, RunReport& report) const {
+        if (!fails_ && parts_ < parts)
+            return;
+        if (parts_ == 0)
+            return;
+        report.problem = fmt::format("the branch does not leave its first orbit, {}", why_);
+        report.remedy = fails_ ? "begin elsewhere, or with shorter steps: step = { first = 1e-4, smallest = 1e-10 }"
+                               : "choose the other direction, wider bounds, or another orbit to begin with";
+    }
+
+private:
+    std::size_t parts_ = 0;
+    bool fails_ = false;
+    std::string why_;
+};
+
 bool compute_orbit(const Study& study, const StudyRun& run, const System& system, SharedFile& file,
                    const std::optional<OrbitRecord>& first, const RunnerOptions& options, PointWriter& writer) {
     const std::vector<BranchPart> parts = parts_of(study, run, system, file, first, options);
@@ -290,6 +321,7 @@ bool run_branch(const Study& study, const StudyRun& run, SharedFile& file, const
         return false;
     bool any = false;
     std::string why;
+    Standstill standstill;
     for (BranchPart part : parts) {
         writer.set_twin(part.twin);
         if (part.kept && !any)
@@ -302,11 +334,13 @@ bool run_branch(const Study& study, const StudyRun& run, SharedFile& file, const
         any = any || end.begun;
         if (!end.begun)
             why = end.why;
+        standstill.note(part, end);
         if (end.outcome == BranchOutcome::closed)
             break; // the other way round is the same
     }
     if (parts.front().kept && !any)
         refuse_curve(run, *parts.front().kept, why);
+    standstill.report(parts.size(), report);
     return true;
 }
 

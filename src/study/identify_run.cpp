@@ -3,11 +3,11 @@
 #include "graze/identify/identification.hpp"
 #include "graze/model/named_value.hpp"
 #include "graze/study/stored_study.hpp"
+#include "graze/symbolic/name_list.hpp"
 #include "study/identify_fit.hpp"
 #include "study/identify_units.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -118,7 +118,7 @@ EstimateRecords estimates_of(const Identification& found, const IdentifyRequest&
         const auto at = std::find(names.begin(), names.end(), name);
         if (at == names.end())
             throw InputError(place, fmt::format("nothing of the name '{}' is found", name),
-                             fmt::format("it finds {}", fmt::join(names, ", ")));
+                             fmt::format("it finds {}", name_list(names, name)));
         records.numbers[static_cast<std::size_t>(at - names.begin())].name = parameter;
     }
     return records;

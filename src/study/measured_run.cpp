@@ -1,11 +1,11 @@
 #include "study/measured_run.hpp"
 
+#include "graze/symbolic/name_list.hpp"
 #include "study/identify_run.hpp"
 #include "study/identify_units.hpp"
 #include "study/record_run.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -92,7 +92,7 @@ StudyRun with_parameters_found(const StudyRun& run, const ResultFile& file) {
             throw InputError(run.parameters_place,
                              fmt::format("run '{}' has found no parameter of model '{}'", name, run.model.name),
                              fmt::format("it has found {}: give it gives = {{ NAME = \"PARAMETER\" }}",
-                                         names.empty() ? "nothing" : fmt::format("{}", fmt::join(names, ", "))));
+                                         names.empty() ? "nothing" : name_list(names)));
     }
     return result;
 }

@@ -26,6 +26,13 @@ template <class Fields, class Processing>
 void describe_processing(Fields& fields, Processing& processing) {
     fields.field("columns", processing.layout.columns);
     fields.field("group", processing.layout.group);
+    const auto line = [&](const char* name, auto& number) {
+        if (fields.has(name, number > 0))
+            fields.field(name, number);
+    };
+    line("skipped_lines", processing.layout.skip);
+    line("names_line", processing.layout.names_line);
+    line("units_line", processing.layout.units_line);
     fields.list("scales", processing.scales, [](auto& one, auto& scale) {
         one.field("channel", scale.channel);
         one.field("factor", scale.factor);

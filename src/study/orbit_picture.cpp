@@ -128,17 +128,22 @@ public:
         }
         return points;
     }
-    /// From the end of each segment to the start of the next, where that is elsewhere.
+    /// From the end of each segment to the start of the next, where that is elsewhere: by more than the error of the
+    /// orbit.
     std::vector<PlanePoint> jumps() const {
+        constexpr double unseen = 1e-5;
         std::vector<PlanePoint> points;
         const std::size_t count = orbit_.motion.size();
+        const PlanePoint size = extent();
         for (std::size_t s = 0; s < count; ++s) {
             const std::size_t next = (s + 1) % count;
             if ((orbit_.axes.over_time && next == 0) || orbit_.motion[s].times.empty() ||
                 orbit_.motion[next].times.empty())
                 continue;
             const PlanePoint before = at(s, orbit_.motion[s].times.size() - 1), after = at(next, 0);
-            if (!comes_round(before, after))
+            const bool seen =
+                std::abs(after.x - before.x) > unseen * size.x || std::abs(after.y - before.y) > unseen * size.y;
+            if (seen && !comes_round(before, after))
                 points.insert(points.end(), {before, after, interruption});
         }
         return points;
@@ -162,6 +167,18 @@ public:
     }
 
 private:
+    /// How far the curves go, either way.
+    PlanePoint extent() const {
+        constexpr double none = std::numeric_limits<double>::infinity();
+        PlanePoint least{none, none}, greatest{-none, -none};
+        for (std::size_t s = 0; s < orbit_.motion.size(); ++s)
+            for (std::size_t row = 0; row < orbit_.motion[s].times.size(); ++row) {
+                const PlanePoint here = at(s, row);
+                least = {std::min(least.x, here.x), std::min(least.y, here.y)};
+                greatest = {std::max(greatest.x, here.x), std::max(greatest.y, here.y)};
+            }
+        return {greatest.x - least.x, greatest.y - least.y};
+    }
     bool comes_round(const PlanePoint& a, const PlanePoint& b) const {
         const auto wraps = [](double from, double to, double period) {
             return period > 0 && std::abs(to - from) > period / 2;
@@ -174,7 +191,9 @@ private:
 };
 
 std::string title_with_parameter(const StudyPicture& picture, const StoredRun& run, const OrbitRecord& record) {
-    std::string title = run.record.kind == "orbit" ? shown_name(picture, run.record.name) : title_of(record);
+    std::string title = run.record.kind == "orbit" ? shown_name(picture, run.record.name)
+                        : record.label.empty()     ? title_of(record)
+                                                   : run.record.point_name(record.label);
     if (const std::string followed = followed_parameter(run.record); !followed.empty())
         title += fmt::format(": {} = {:.6g}{}{}", shown_name(picture, followed), record.point.parameter,
                              run.unit(followed).empty() ? "" : " ", run.unit(followed));
@@ -204,14 +223,14 @@ void add_curves(FigurePanel& panel, const StudyPicture& picture, const DrawnOrbi
                                shown_end(picture, orbit, s));
         panel.series.push_back({name, FigureSeries::Style::line, colour.value_or(s % kinds), curves.line(s)});
     }
-    panel.series.push_back({"", FigureSeries::Style::dotted, FigureSeries::black, curves.jumps()});
+    panel.series.push_back({"jump", FigureSeries::Style::dotted, FigureSeries::black, curves.jumps()});
     const SpecialPoint& point = orbit.record.point;
     const Signature signature = whole_orbit(System(orbit.model), point.solution.orbit).signature;
-    panel.series.push_back({"", FigureSeries::Style::circles, FigureSeries::black, curves.events(signature)});
+    panel.series.push_back({"event", FigureSeries::Style::circles, FigureSeries::black, curves.events(signature)});
     if (point.type == PointType::grazing && !point.at_end && point.segment < orbit.motion.size() &&
         !orbit.motion[point.segment].times.empty()) {
         const PlanePoint touch = curves.at_time(point.segment, point.time);
-        FigureSeries mark{"", FigureSeries::Style::symbols, FigureSeries::black, {touch}};
+        FigureSeries mark{"touch", FigureSeries::Style::symbols, FigureSeries::black, {touch}};
         mark.symbol = 12;
         panel.series.push_back(std::move(mark));
         panel.labels.push_back({touch, shown_name(picture, orbit.model.events[point.event].name)});
@@ -256,8 +275,7 @@ Figure orbit_picture(const StudyPicture& picture, const ResultFile& file, bool p
                 figure.panels.push_back(panel_of(picture, orbit, v));
                 const bool several = orbits.size() > 1;
                 if (!several || (!over_time && !together))
-                    figure.panels.back().title =
-                        (several ? fmt::format("({}) ", static_cast<char>('a' + index)) : std::string()) + titles[o];
+                    figure.panels.back().title = (several ? panel_letter(index) + " " : std::string()) + titles[o];
                 figure.panels.back().roomy_y = true;
                 figure.panels.back().roomy_x = !over_time;
             }

@@ -49,7 +49,7 @@ bool shows_branches(const StudyPicture& picture, const ResultFile& file) {
         return false;
     if (branches < picture.runs.size())
         throw InputError(picture.place, "branches and other runs cannot be drawn together", "make a picture of each");
-    for (const char* kind : {"branch", "history", "portrait", "scatter"})
+    for (const char* kind : {"branch", "history", "portrait", "scatter"}) // samples for other kinds they do not have
         if (picture.kind == kind)
             return true;
     throw InputError(picture.place,
@@ -70,6 +70,12 @@ std::vector<std::string> symbols_of(const StudyPicture& picture, const ResultFil
     return {names.begin(), names.end()};
 }
 
+/// What is named twice is drawn once.
+void remove_repeated(std::vector<std::string>& names) {
+    std::set<std::string> known;
+    std::erase_if(names, [&](const std::string& name) { return !known.insert(name).second; });
+}
+
 } // namespace
 
 ResultPicture make_picture(const StudyPicture& given, const ResultFile& file) {
@@ -77,6 +83,8 @@ ResultPicture make_picture(const StudyPicture& given, const ResultFile& file) {
     if (picture.kind.empty())
         if (const auto run = file.find_run(picture.runs.front()))
             picture.kind = default_picture(*run).kind;
+    remove_repeated(picture.runs);
+    remove_repeated(picture.over);
     ResultPicture result;
     const bool branches = shows_branches(picture, file);
     if (picture.kind == "branch")
@@ -91,14 +99,20 @@ ResultPicture make_picture(const StudyPicture& given, const ResultFile& file) {
         result = spectrum_picture(picture, file);
     else if (picture.kind == "regression")
         result = regression_picture(picture, file);
-    else if (picture.kind == "history" || picture.kind == "portrait")
-        result.figure = motion_picture(picture, file, picture.kind == "portrait");
+    else if (picture.kind == "history")
+        result.figure = motion_picture(picture, file, MotionView::history);
+    else if (picture.kind == "portrait")
+        result.figure = motion_picture(picture, file, MotionView::portrait);
+    else if (picture.kind == "poincare")
+        result.figure = motion_picture(picture, file, MotionView::section);
     else if (picture.kind == "residuals")
         result.figure = residual_picture(picture, file);
     else if (picture.kind == "scatter")
         result.figure = scatter_picture(picture, file);
     else
         result.figure = bifurcation_picture(picture, file);
+    if (picture.y.empty() && picture.y_labels.empty() && picture.kind != "residuals")
+        drop_constant_panels(result.figure);
     result.figure.title = picture.title;
     result.figure.symbols = symbols_of(picture, file);
     result.figure.style = picture.style;

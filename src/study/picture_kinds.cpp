@@ -6,6 +6,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
 namespace graze {
 
 std::vector<std::string> chosen_values(const StudyPicture& picture, const StoredRun& run) {
@@ -67,6 +72,54 @@ FigurePanel empty_panel(const StudyPicture& picture) {
     panel.x_range = picture.x_range;
     panel.y_range = picture.y_range;
     return panel;
+}
+
+std::string panel_letter(std::size_t index) {
+    std::string letters;
+    for (std::size_t rest = index + 1; rest > 0; rest = (rest - 1) / 26)
+        letters.insert(letters.begin(), static_cast<char>('a' + (rest - 1) % 26));
+    return fmt::format("({})", letters);
+}
+
+void drop_constant_panels(Figure& figure) {
+    std::map<std::string, std::pair<double, double>> extents; // of what each axis shows in all its panels
+    for (const FigurePanel& panel : figure.panels)
+        for (const FigureSeries& series : panel.series)
+            for (const PlanePoint& point : series.points)
+                if (std::isfinite(point.y)) {
+                    const auto at = extents.try_emplace(panel.y_label, point.y, point.y).first;
+                    at->second.first = std::min(at->second.first, point.y);
+                    at->second.second = std::max(at->second.second, point.y);
+                }
+    const auto changes = [&](const FigurePanel& panel) {
+        const auto at = extents.find(panel.y_label);
+        return at != extents.end() && !is_constant(at->second.first, at->second.second);
+    };
+    std::set<std::string> all, kept;
+    for (const FigurePanel& panel : figure.panels) {
+        all.insert(panel.y_label);
+        if (changes(panel))
+            kept.insert(panel.y_label);
+    }
+    if (kept.empty() || kept.size() == all.size())
+        return;
+    if (figure.columns == all.size())
+        figure.columns = kept.size();
+    std::vector<FigurePanel> panels;
+    for (std::size_t p = 0; p < figure.panels.size(); ++p) {
+        FigurePanel& panel = figure.panels[p];
+        if (!kept.contains(panel.y_label))
+            continue;
+        if (const std::string letter = panel_letter(p); panel.title.starts_with(letter))
+            panel.title.replace(0, letter.size(), panel_letter(panels.size()));
+        panels.push_back(std::move(panel));
+    }
+    figure.panels = std::move(panels);
+}
+
+bool is_constant(double least, double greatest) {
+    constexpr double resolved = 1e-9;
+    return !(greatest - least > resolved * std::max(std::abs(least), std::abs(greatest)));
 }
 
 std::vector<double> samples_of(const PointRecord& point, const StoredRun& run, const std::string& value,

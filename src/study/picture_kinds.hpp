@@ -24,6 +24,10 @@ std::vector<std::string> row_samplings(const StoredRun& run);
 /// Those asked for, or all but these.
 std::vector<std::string> shown_points(const StudyPicture& picture, const StoredRun& run);
 std::vector<std::string> shown_samplings(const StudyPicture& picture, const StoredRun& run);
+/// Whether values within these limits differ by no more than rounding does.
+bool is_constant(double least, double greatest);
+/// By which a panel is known where there are several: (a) to (z), then (aa) and so on.
+std::string panel_letter(std::size_t index);
 /// A panel without anything in it, and with axes as far as the picture itself says.
 FigurePanel empty_panel(const StudyPicture& picture);
 /// The same with what is beside its axes. @param index of the value that is its y
@@ -33,12 +37,17 @@ FigurePanel panel_of(const StudyPicture& picture, const StoredRun& run, const st
 std::vector<double> samples_of(const PointRecord& point, const StoredRun& run, const std::string& value,
                                const std::string& sampling, std::vector<double>* times);
 
+/// Leaves out values that are the same in all their panels, where others change; the letters of those that stay go on.
+void drop_constant_panels(Figure& figure);
+
 Figure bifurcation_picture(const StudyPicture& picture, const ResultFile& file);
 /// Two of the things that vary, and which attractor (or, of maps, which kind of one) is reached.
 ResultPicture basin_picture(const StudyPicture& picture, const ResultFile& file, bool map);
 ResultPicture spectrum_picture(const StudyPicture& picture, const ResultFile& file);
-/// Histories and portraits: one panel for each point (portrait) or value (history).
-Figure motion_picture(const StudyPicture& picture, const ResultFile& file, bool portrait);
+/// How a motion is looked at: values over time, values over another, or only its samples over one another.
+enum class MotionView { history, portrait, section };
+/// One panel for each value (histories), or for each point and value.
+Figure motion_picture(const StudyPicture& picture, const ResultFile& file, MotionView view);
 /// The same of orbits of branches, along the segments that were computed.
 Figure orbit_picture(const StudyPicture& picture, const ResultFile& file, bool portrait);
 /// Branches of orbits: one panel for each monitor.

@@ -79,6 +79,8 @@ bool read_style(const StudyReader& reader, const TomlEntry& entry, StudyPicture&
         picture.y_labels = reader.strings(entry);
     } else if (entry.name == "size") {
         read_size(reader, entry, picture.style);
+    } else if (entry.name == "grey") {
+        picture.style.grey = reader.toml().boolean(entry);
     } else if (entry.name == "font") {
         read_font(reader, entry, picture.style);
     } else {

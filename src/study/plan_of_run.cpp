@@ -1,4 +1,5 @@
 #include "graze/study/runner.hpp"
+#include "graze/symbolic/function.hpp"
 #include "graze/symbolic/require.hpp"
 
 #include <algorithm>
@@ -41,6 +42,22 @@ std::size_t combinations(const StudyRun& run) {
     for (std::size_t a = run.kind == RunKind::sweep ? 1 : 0; a < run.axes.size(); ++a)
         count *= std::max<std::size_t>(run.axes[a].values.size(), 1);
     return count;
+}
+
+/// Values of the initial states that follow from states and parameters.
+Function following_states(const StudyRun& run) {
+    if (run.following.empty())
+        return {};
+    // Of a run that was copied the model has a graph of its own, and the values are of the first one's.
+    const auto graph = run.following.front().value.graph();
+    std::vector<Expression> inputs, outputs;
+    for (const State& state : run.model.states)
+        inputs.push_back(graph->symbol(state.name));
+    for (const Expression& parameter : run.model.parameter_symbols())
+        inputs.push_back(graph->symbol(parameter.name()));
+    for (const FollowingState& one : run.following)
+        outputs.push_back(one.value);
+    return {inputs, outputs};
 }
 
 } // namespace
@@ -89,7 +106,7 @@ Plan plan_of(const StudyRun& run, const System& system, const PointRecord* start
     plan.carry = run.kind == RunKind::sweep && run.carry;
     std::vector<double> state = start ? start->result.state : std::vector<double>();
     const std::size_t mode = start ? start->result.mode : run.model.initial_mode;
-    plan.start = [&run, state, mode, system](std::size_t point) {
+    plan.start = [&run, state, mode, system, following = following_states(run)](std::size_t point) {
         PointStart result{run.model.parameter_values(), state, mode};
         const std::vector<double> coordinates = coordinates_of(run, point);
         for (std::size_t a = 0; a < run.axes.size(); ++a)
@@ -100,6 +117,13 @@ Plan plan_of(const StudyRun& run, const System& system, const PointRecord* start
         for (std::size_t a = 0; a < run.axes.size(); ++a)
             if (const auto& varied = run.axes[a].state)
                 result.state[*varied] = coordinates[a];
+        if (!run.following.empty()) {
+            std::vector<double> inputs = result.state;
+            inputs.insert(inputs.end(), result.parameters.begin(), result.parameters.end());
+            const std::vector<double> values = following(inputs);
+            for (std::size_t i = 0; i < values.size(); ++i)
+                result.state[run.following[i].state] = values[i];
+        }
         return result;
     };
     return plan;

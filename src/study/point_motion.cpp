@@ -4,12 +4,13 @@
 #include "graze/results/name_advice.hpp"
 #include "graze/study/stored_study.hpp"
 #include "graze/symbolic/transform.hpp"
-#include "graze/trajectory/recorder.hpp"
+#include "graze/trajectory/observer.hpp"
 #include "graze/trajectory/trajectory.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace graze {
 
@@ -33,42 +34,106 @@ PointRecord chosen_point(const StoredRun& run, const std::vector<std::pair<std::
 
 namespace {
 
-constexpr std::size_t dense_samples = 3000;
+constexpr std::size_t most_rows = 1'000'000;
+/// A step of high order covers a good part of an oscillation; the curve is thinned out again before it is drawn.
+constexpr int points_of_step = 32, fewest_points = 2;
 
-/// States in the order in which they are drawn, the two sides of each jump included.
+/// Values in the order in which they are drawn, the two sides of each jump included.
 class DenseRecorder : public Observer {
 public:
-    DenseRecorder(Function values, std::span<const double> parameters, std::vector<double> periods, double end)
-        : values_(std::move(values)),
-          sampler_(0, end / static_cast<double>(dense_samples - 1), dense_samples, std::move(periods),
-                   [this](double time, std::size_t, std::span<const double> state) { add(time, state); }),
-          results_(values_.outputs() + 1), parameters_(parameters.begin(), parameters.end()),
+    DenseRecorder(Function values, std::span<const double> parameters, std::vector<double> periods,
+                  std::vector<bool> marked, WhenLong when_long)
+        : values_(std::move(values)), periods_(std::move(periods)), marked_(std::move(marked)), when_long_(when_long),
+          columns_(values_.outputs() + 1), parameters_(parameters.begin(), parameters.end()),
           work_(values_.workspace()), row_(values_.outputs()) {}
 
-    void step(const Step& step) override { sampler_.step(step); }
+    void step(const Step& step) override {
+        state_.resize(periods_.size());
+        for (int k = new_arc_ ? 0 : 1; k <= points_; ++k) {
+            const double s = k == points_ ? step.length : step.length * k / points_;
+            for (std::size_t i = 0; i < state_.size(); ++i)
+                state_[i] = step.state(i, s);
+            add(step.start + s);
+        }
+        new_arc_ = false;
+        if (rows() > most_rows)
+            make_room();
+    }
     void contact(const Contact& contact) override {
         if (contact.kind == ContactKind::touch)
             return;
-        add(contact.time, contact.before);
-        add(contact.time, contact.after);
+        for (const bool after : {false, true}) {
+            const std::span<const double> side = after ? contact.after : contact.before;
+            if (after)
+                motion_.begins.push_back(rows());
+            if (marked_[contact.event])
+                motion_.impacts.push_back(rows());
+            state_.assign(side.begin(), side.end());
+            add(contact.time);
+        }
+        new_arc_ = false;
     }
     /// Time first, then the values.
-    std::vector<std::vector<double>> take() { return std::move(results_); }
+    DenseMotion take() {
+        motion_.start = columns_[0].empty() ? 0 : columns_[0].front();
+        motion_.values = std::move(columns_);
+        return std::move(motion_);
+    }
 
 private:
-    void add(double time, std::span<const double> state) {
-        inputs_.assign(state.begin(), state.end());
+    std::size_t rows() const { return columns_[0].size(); }
+
+    void add(double time) {
+        for (std::size_t i = 0; i < state_.size(); ++i)
+            if (periods_[i] > 0)
+                state_[i] -= std::floor(state_[i] / periods_[i]) * periods_[i];
+        inputs_.assign(state_.begin(), state_.end());
         inputs_.insert(inputs_.end(), parameters_.begin(), parameters_.end());
         values_.evaluate(inputs_, row_, work_);
-        results_[0].push_back(time);
+        columns_[0].push_back(time);
         for (std::size_t i = 0; i < row_.size(); ++i)
-            results_[1 + i].push_back(row_[i]);
+            columns_[1 + i].push_back(row_[i]);
+    }
+
+    /// Fewer rows of all, or only the later half. Beginnings of arcs and impacts stay what they are.
+    void make_room() {
+        std::vector<bool> needed(rows(), false);
+        const bool thin = when_long_ == WhenLong::coarser && points_ > fewest_points;
+        if (thin)
+            points_ /= 2;
+        for (std::size_t i = 0; i < rows(); ++i)
+            needed[i] = thin ? i % 2 == 0 || i + 1 == rows() : 2 * i >= rows();
+        const auto keep = [&](std::vector<std::size_t>& places) {
+            for (const std::size_t place : places)
+                needed[place] = needed[place] || thin;
+            std::erase_if(places, [&](std::size_t place) { return !needed[place]; });
+        };
+        keep(motion_.begins);
+        keep(motion_.impacts);
+        std::vector<std::size_t> places(rows() + 1, 0);
+        for (std::size_t i = 0; i < rows(); ++i)
+            places[i + 1] = places[i] + (needed[i] ? 1 : 0);
+        for (auto* list : {&motion_.begins, &motion_.impacts})
+            for (std::size_t& place : *list)
+                place = places[place];
+        for (std::vector<double>& column : columns_) {
+            std::size_t next = 0;
+            for (std::size_t i = 0; i < column.size(); ++i)
+                if (needed[i])
+                    column[next++] = column[i];
+            column.resize(next);
+        }
     }
 
     Function values_;
-    Sampler sampler_;
-    std::vector<std::vector<double>> results_;
+    std::vector<double> periods_, state_;
+    std::vector<bool> marked_;
+    WhenLong when_long_;
+    std::vector<std::vector<double>> columns_;
     std::vector<double> parameters_, inputs_, work_, row_;
+    DenseMotion motion_;
+    int points_ = points_of_step;
+    bool new_arc_ = true;
 };
 
 /// What a study called a value of its own is found among those, all else in the model.
@@ -85,8 +150,16 @@ Expression value_of(const StoredRun& run, const Model& model, const std::string&
 
 } // namespace
 
-std::vector<std::vector<double>> dense_motion(const StoredRun& run, const PointRecord& point,
-                                              const std::vector<std::string>& names, const Place& place) {
+bool is_met_by_motion(const Model& model, const Event& event) {
+    const std::vector<Expression> symbols = symbols_of({{Model(model).expand(event.function)}});
+    return std::any_of(symbols.begin(), symbols.end(), [&](const Expression& symbol) {
+        const auto state = model.find_state(symbol.name());
+        return state && !model.states[*state].period;
+    });
+}
+
+DenseMotion dense_motion(const StoredRun& run, const PointRecord& point, const std::vector<std::string>& names,
+                         const Place& place, WhenLong when_long) {
     Model model = run.model;
     std::vector<double> state = point.result.state;
     std::size_t mode = point.result.mode;
@@ -120,16 +193,24 @@ std::vector<std::vector<double>> dense_motion(const StoredRun& run, const PointR
         values.push_back(name == "t" ? none : value_of(run, model, name, place));
     const Simulation simulation{System(model)};
     const std::vector<double> parameters = model.parameter_values();
-    DenseRecorder recorder(simulation.system().function_of(values), parameters, model.periods(), duration);
+    std::vector<bool> marked;
+    for (const Event& event : model.events)
+        marked.push_back(event.kind == EventKind::barrier && is_met_by_motion(model, event));
+    DenseRecorder recorder(simulation.system().function_of(values), parameters, model.periods(), std::move(marked),
+                           when_long);
     Trajectory trajectory(simulation, parameters, recorder);
     trajectory.start(state, mode, 0, duration);
     JetSet jets(simulation, LaneKind::single);
     graze::run(trajectory, jets);
-    auto columns = recorder.take();
-    std::vector<std::vector<double>> result;
-    for (std::size_t i = 0; i < names.size(); ++i)
-        result.push_back(names[i] == "t" ? columns[0] : columns[i + 1]);
-    return result;
+    DenseMotion motion = recorder.take();
+    std::vector<std::vector<double>> columns;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        columns.push_back(motion.values[names[i] == "t" ? 0 : i + 1]);
+        const auto state_of_name = model.find_state(names[i]);
+        motion.periods.push_back(state_of_name ? model.periods()[*state_of_name] : 0);
+    }
+    motion.values = std::move(columns);
+    return motion;
 }
 
 } // namespace graze

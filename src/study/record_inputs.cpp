@@ -46,7 +46,7 @@ bool is_within(const fs::path& path, const fs::path& folder) {
     std::error_code none;
     const fs::path real = fs::weakly_canonical(path, none), home = fs::weakly_canonical(folder, none);
     const auto [in_home, in_real] = std::mismatch(home.begin(), home.end(), real.begin(), real.end());
-    return in_home == home.end();
+    return !home.empty() && in_home == home.end();
 }
 
 } // namespace
@@ -122,28 +122,33 @@ void fingerprint_record(RecordInput& input) {
             other = (other + word) * 0x100000001b3ULL ^ (other >> 29);
         }
     }
-    if (file.bad() || (!file.eof() && file.fail()) || !std::filesystem::exists(input.path))
+    std::error_code error;
+    if (file.bad() || (!file.eof() && file.fail()) || !std::filesystem::exists(input.path, error))
         throw InputError(Place{input.path, 0, 0}, "the record cannot be read", "look at the file and its permissions");
     input.bytes = length;
     input.hash = fmt::format("{:016x}{:016x}", mixed(one ^ length), mixed(other ^ length));
 }
 
-Model model_of_record(const std::vector<Channel>& states, const std::vector<Channel>& parameters,
+Model model_of_record(const std::vector<RecordedName>& states, const std::vector<RecordedName>& parameters,
                       const std::string& time_unit) {
     // Text in, so that what is kept with the results is read the same way.
     const auto quoted = [](const std::string& text) {
         std::string result = "\"";
         for (const char c : text)
-            result += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+            result += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c == '\n' || c == '\t' ? ' ' : c);
         return result + '"';
     };
     std::string text = "name = \"record\"\ntext = \"names and units of what was recorded\"\n";
     text += fmt::format("time_unit = {}\n[parameters]\n", quoted(time_unit));
-    for (const Channel& one : parameters)
-        text += fmt::format("{} = {{ value = 0, unit = {} }}\n", one.name, quoted(one.unit));
+    const auto described = [&](const RecordedName& one) {
+        const std::string words = one.text.empty() ? "" : ", text = " + quoted(one.text);
+        return fmt::format("unit = {}{} }}\n", quoted(one.unit), words);
+    };
+    for (const RecordedName& one : parameters)
+        text += fmt::format("{} = {{ value = 0, {}", one.name, described(one));
     text += "[states]\n";
-    for (const Channel& one : states)
-        text += fmt::format("{} = {{ initial = 0, unit = {} }}\n", one.name, quoted(one.unit));
+    for (const RecordedName& one : states)
+        text += fmt::format("{} = {{ initial = 0, {}", one.name, described(one));
     text += "[modes.rest]\nrates = {";
     for (std::size_t i = 0; i < states.size(); ++i)
         text += fmt::format("{} {} = 0", i > 0 ? "," : "", states[i].name);

@@ -18,10 +18,15 @@ std::vector<RecordInput> record_inputs(const std::string& study, const std::stri
 /// Length and hash of what is in a file. @throws InputError when it cannot be read
 void fingerprint_record(RecordInput& input);
 
+/// A channel, or what was found of a record, with what it is in words (empty where nobody said it).
+struct RecordedName {
+    std::string name, unit, text;
+};
+
 /// A record as a model: channels are states that rest, what was found of each record are parameters. Values of samples
 /// are expressions in them.
-/// @param parameters with their units @throws InputError for names that expressions cannot have
-Model model_of_record(const std::vector<Channel>& states, const std::vector<Channel>& parameters,
+/// @throws InputError for names that expressions cannot have
+Model model_of_record(const std::vector<RecordedName>& states, const std::vector<RecordedName>& parameters,
                       const std::string& time_unit);
 
 } // namespace graze

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 namespace graze {
 
@@ -306,6 +307,7 @@ std::optional<PointRecord> RecordRun::point(std::size_t number, const std::funct
     point.result.label = Label::ended;
     point.result.outcome.ending = Ending::end_time;
     std::string name;
+    std::set<std::string> remarks; // a record is read more than once
     bool was_interrupted = false;
     std::function<std::unique_ptr<SampleSource>()> raw;
     std::optional<Samples> made;
@@ -331,7 +333,11 @@ std::optional<PointRecord> RecordRun::point(std::size_t number, const std::funct
         if (now.hash != input.hash)
             throw InputError(Place{input.path, 0, 0}, "the record has changed since the study was read",
                              "run the study again");
-        raw = [&input, &request] { return open_record(input.path, request.processing.layout); };
+        raw = [&input, &request, &remarks] {
+            RecordLayout layout = request.processing.layout;
+            layout.remark = [&remarks](const std::string& text) { remarks.insert(text); };
+            return open_record(input.path, layout);
+        };
     }
     const auto open = [&]() -> std::unique_ptr<SampleSource> {
         return std::make_unique<InterruptedSource>(std::make_unique<ValueSource>(raw(), run), interrupted,
@@ -351,6 +357,8 @@ std::optional<PointRecord> RecordRun::point(std::size_t number, const std::funct
     if (was_interrupted)
         return std::nullopt;
     point.result.outcome.detail = name + ": " + point.result.outcome.detail;
+    for (const std::string& remark : remarks)
+        point.result.outcome.detail += "; " + remark;
     return point;
 }
 

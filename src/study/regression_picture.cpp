@@ -1,3 +1,4 @@
+#include "study/drawn_labels.hpp"
 #include "study/picture_kinds.hpp"
 
 #include "graze/results/regression.hpp"
@@ -18,7 +19,7 @@ namespace {
 std::map<double, std::vector<PlanePoint>> groups_of(const StudyPicture& picture, const StoredRun& run,
                                                     const std::string& x, const std::string& y) {
     auto rows = run.rows({.samples = true,
-                          .columns = {"number"},
+                          .columns = {"number", "label"},
                           .quantities = {picture.group.empty() ? "0" : picture.group, picture.successive ? "0" : x},
                           .values = {y},
                           .samplings = shown_samplings(picture, run),
@@ -26,12 +27,15 @@ std::map<double, std::vector<PlanePoint>> groups_of(const StudyPicture& picture,
     std::map<double, std::vector<PlanePoint>> groups;
     std::int64_t last = -1;
     double before = 0;
+    const bool judged = seeks_attractors(run.record);
     while (rows.next()) {
-        const double value = rows.number(3);
+        if (judged && drawn_as(rows.text(1)) == DrawnAs::nothing)
+            continue; // no line through what ran away or failed
+        const double value = rows.number(4);
         if (!picture.successive)
-            groups[rows.number(1)].push_back({rows.number(2), value});
+            groups[rows.number(2)].push_back({rows.number(3), value});
         else if (rows.integer(0) == last)
-            groups[rows.number(1)].push_back({before, value});
+            groups[rows.number(2)].push_back({before, value});
         last = rows.integer(0);
         before = value;
     }
@@ -110,6 +114,8 @@ ResultPicture regression_picture(const StudyPicture& picture, const ResultFile& 
             result.table.add(number);
         ++colour;
     }
+    if (const std::string note = note_of_left_out(run, {}); !note.empty())
+        panel.notes.push_back(note);
     result.figure.panels.push_back(std::move(panel));
     return result;
 }
@@ -129,11 +135,25 @@ Figure scatter_picture(const StudyPicture& picture, const ResultFile& file) {
                                 r,
                                 {}};
             const bool sampled = run.has_value(ys[v]) && !run.record.is_branch();
-            auto rows = run.rows({.samples = sampled, .quantities = {x, ys[v]}});
-            while (rows.next())
-                if (!rows.is_null(0) && !rows.is_null(1))
-                    series.points.push_back({rows.number(0), rows.number(1)});
+            const bool judged = seeks_attractors(run.record);
+            const MarkOfLabel mark = mark_of_label(name_of(Label::unsettled));
+            FigureSeries uncertain{
+                std::string(name_of(Label::unsettled)), FigureSeries::Style::symbols, mark.colour, {}};
+            uncertain.symbol = mark.symbol;
+            auto rows = run.rows({.samples = sampled, .columns = {"label"}, .quantities = {x, ys[v]}});
+            while (rows.next()) {
+                if (rows.is_null(1) || rows.is_null(2))
+                    continue;
+                const DrawnAs drawn = judged ? drawn_as(rows.text(0)) : DrawnAs::attractor;
+                if (sampled && drawn == DrawnAs::nothing)
+                    continue;
+                (drawn == DrawnAs::uncertain ? uncertain : series).points.push_back({rows.number(1), rows.number(2)});
+            }
             figure.panels[v].series.push_back(std::move(series));
+            if (!uncertain.points.empty())
+                figure.panels[v].series.push_back(std::move(uncertain));
+            if (const std::string note = sampled ? note_of_left_out(run, {}) : ""; !note.empty())
+                figure.panels[v].notes.push_back(note);
         }
     }
     constexpr std::size_t most_circles = 300; // of more none would be told from its neighbours
@@ -142,7 +162,7 @@ Figure scatter_picture(const StudyPicture& picture, const ResultFile& file) {
         for (const FigureSeries& series : panel.series)
             points += series.points.size();
         for (FigureSeries& series : panel.series)
-            if (points > most_circles)
+            if (points > most_circles && series.style == FigureSeries::Style::circles)
                 series.style = FigureSeries::Style::dots;
     }
     return figure;

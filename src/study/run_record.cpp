@@ -15,7 +15,7 @@ namespace graze {
 namespace {
 
 /// Changes when the same settings lead to other numbers than in an earlier version.
-constexpr int numbers = 2;
+constexpr int numbers = 3;
 
 /// All parameters, the one that is followed first; of a curve both.
 void add_parameters(const StudyRun& run, RunRecord& record) {
@@ -87,6 +87,7 @@ RunRecord record_of(const StudyRun& run, const std::string& parent_fingerprint, 
     record.modes = names_of(run.model.modes);
     record.directions = direction_names(run);
     record.points = points;
+    record.point_names = run.point_names;
     return record;
 }
 

@@ -1,6 +1,7 @@
 #include "graze/study/runner.hpp"
 
 #include "graze/results/name_advice.hpp"
+#include "graze/study/escape_rates.hpp"
 #include "graze/study/run_times.hpp"
 #include "graze/study/stored_study.hpp"
 #include "study/branch_run.hpp"
@@ -23,9 +24,11 @@ namespace graze {
 namespace {
 
 std::unique_ptr<SearchFactory> searches_of(const StudyRun& run, const System& system) {
+    AttractorOptions attractor = run.attractor;
+    attractor.stay_in_transients = run.kind == RunKind::sweep && run.carry;
     return run.kind == RunKind::simulate
                ? transient_searches(system, run.transient, run.samplings, run.values, run.simulation)
-               : attractor_searches(system, run.attractor, run.samplings, run.values, run.simulation);
+               : attractor_searches(system, attractor, run.samplings, run.values, run.simulation);
 }
 
 /// What the file has of each chain.
@@ -282,7 +285,9 @@ private:
                 work.report.points = file.point_count(run.name);
             else
                 complete ? file.complete_run(run.name) : file.flush();
-            work.report.outcome = complete ? RunOutcome::complete : RunOutcome::interrupted;
+            work.report.outcome = !complete                     ? RunOutcome::interrupted
+                                  : work.report.problem.empty() ? RunOutcome::complete
+                                                                : RunOutcome::failed;
             if (complete)
                 note_missing_orbits(run, work.report, file);
         });
@@ -340,7 +345,13 @@ private:
             });
         };
         const bool complete = execute(plan, *searches, known, execution, keep);
-        file_.with([&](ResultFile& file) { complete ? file.complete_run(run.name) : file.flush(); });
+        file_.with([&](ResultFile& file) {
+            file.flush();
+            if (!complete)
+                return;
+            label_transients(file, run.name);
+            file.complete_run(run.name);
+        });
         work.report.outcome = complete ? RunOutcome::complete : RunOutcome::interrupted;
     }
 
@@ -369,12 +380,20 @@ private:
     std::atomic<bool> broken_off_ = false;          ///< by an error, for all
 };
 
+/// Of runs that are there already: a point that is called otherwise is no reason to compute it again.
+void name_points(const Study& study, ResultFile& file) {
+    for (const RunRecord& record : file.runs())
+        if (const StudyRun* run = study.find_run(record.name))
+            file.name_points(run->name, run->point_names);
+}
+
 } // namespace
 
 std::vector<RunReport> run_study(const Study& study, ResultFile& file, const RunnerOptions& options) {
     Runner runner(study, file, options);
     if (study.file != file.path()) // otherwise it has been read from there
         store_study(study, file);
+    name_points(study, file);
     const std::vector<RunReport> reports = runner.run();
     // However they took turns.
     file.order_runs(names_of(study.runs));

@@ -7,6 +7,7 @@
 #include "study/measured_settings.hpp"
 #include "study/point_limits.hpp"
 #include "study/settings_fields.hpp"
+#include "study/start_state.hpp"
 #include "study/study_reader.hpp"
 
 #include <fmt/format.h>
@@ -171,6 +172,7 @@ void describe_attractor(Fields& fields, Attractor& attractor) {
     fields.field("recurrence", attractor.recurrence);
     fields.field("disturbance", attractor.disturbance);
     fields.field("lyapunov_cycles", attractor.lyapunov_cycles);
+    fields.field("chaos_cycles", attractor.chaos_cycles);
     fields.field("longest_return", attractor.longest_return);
 }
 
@@ -204,6 +206,11 @@ void describe(Fields& fields, Run& run) {
     if (run.is_measured())
         return describe_measured(fields, run);
     fields.list("vary", run.axes, [](auto& one, auto& axis) { describe_axis(one, axis); });
+    if (fields.has("following", !run.following.empty()))
+        fields.list("following", run.following, [&](auto& one, auto& following) {
+            one.named("state", following.state, names_of(run.model.states));
+            one.expression("value", following.value);
+        });
     fields.named("set", run.branch.set, run.model.independent_parameters());
     if (fields.has("draws", run.draws > 0)) {
         fields.field("draws", run.draws);
@@ -320,6 +327,7 @@ void check(const StudyRun& run, const SettingsReader& fields) {
             if (event >= run.model.events.size())
                 fields.fail("events", "some of the model's");
     }
+    check_following_states(run, run.place);
     run.simulation.validate();
     if (run.kind == RunKind::simulate)
         run.transient.validate(run.model);
@@ -373,7 +381,9 @@ StudyRun stored_run(const RunRecord& record) {
     AskedRun asked{record.name, record.kind, record.settings, record.version, record.file, {}};
     for (const ResultColumn& value : record.values)
         asked.units.push_back(value.unit);
-    return run_of(asked, stored_model(record));
+    StudyRun run = run_of(asked, stored_model(record));
+    run.point_names = record.point_names;
+    return run;
 }
 
 } // namespace graze

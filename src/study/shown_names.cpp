@@ -27,6 +27,14 @@ constexpr std::array<std::pair<const char*, const char*>, 9> words_of_columns{{
     {"error", "error"},
 }};
 
+/// Of runs that find parameters from measurements: what lies over what.
+constexpr std::array<std::pair<const char*, const char*>, 4> words_of_findings{{
+    {"t", "time"},
+    {"peak", "peak of the decay"},
+    {"before", "velocity before an impact"},
+    {"after", "velocity after it"},
+}};
+
 const std::string* given_name(const StudyPicture& picture, const std::string& name) {
     for (const auto& one : picture.names)
         if (one.first == name)
@@ -106,6 +114,10 @@ std::string words_of(const StoredRun& run, const std::string& name) {
         return words;
     if (run.record.is_branch() && run.has_value(name))
         return words_of_extremum(run, name);
+    if (run.record.kind == name_of(RunKind::identify))
+        for (const auto& [column, words] : words_of_findings)
+            if (name == column)
+                return words;
     for (const auto& [column, words] : words_of_columns)
         if (name == column && !run.has_value(name))
             return words;

@@ -79,11 +79,13 @@ OrbitRecord orbit_to_start_from(const StartFrom& start, const StudyRun& parent, 
                              "name one: point = \"GR1\", or at = { PARAMETER = VALUE }");
         record = file.orbit(start.run, std::size_t{0});
     } else {
+        const auto named = std::find_if(parent.point_names.begin(), parent.point_names.end(),
+                                        [&](const PointName& one) { return one.name == start.point; });
+        const std::string& label = named != parent.point_names.end() ? named->label : start.point;
         std::size_t number = 0;
-        const char* last = start.point.data() + start.point.size();
-        const auto [end, error] = std::from_chars(start.point.data(), last, number);
-        record =
-            error == std::errc() && end == last ? file.orbit(start.run, number) : file.orbit(start.run, start.point);
+        const char* last = label.data() + label.size();
+        const auto [end, error] = std::from_chars(label.data(), last, number);
+        record = error == std::errc() && end == last ? file.orbit(start.run, number) : file.orbit(start.run, label);
     }
     if (!record) {
         std::string known;

@@ -59,6 +59,8 @@ void describe_picture(Fields& fields, Picture& picture) {
         fields.field("font_size", picture.style.font_size);
     if (fields.has("font", !picture.style.font.empty()))
         fields.field("font", picture.style.font);
+    if (fields.has("grey", picture.style.grey))
+        fields.field("grey", picture.style.grey);
 }
 
 template <class Fields, class Columns>
@@ -100,6 +102,7 @@ void describe_study(Fields& fields, One& study) {
 struct PlannedRun {
     AskedRun asked;
     std::string model; ///< text of its file
+    std::vector<PointName> point_names;
 };
 
 template <class Fields, class Runs>
@@ -111,12 +114,18 @@ void describe_runs(Fields& fields, Runs& runs) {
         one.field("settings", run.asked.settings);
         one.field("version", run.asked.version);
         one.field("units", run.asked.units);
+        if (one.has("point_names", !run.point_names.empty()))
+            one.list("point_names", run.point_names, [](auto& point, auto& name) {
+                point.field("label", name.label);
+                point.field("name", name.name);
+            });
     });
 }
 
 PlannedRun planned(const StudyRun& run) {
     PlannedRun result{{run.name, std::string(name_of(run.kind)), settings_of(run), GRAZE_VERSION, {}, run.value_units},
-                      write_model(run.model)};
+                      write_model(run.model),
+                      run.point_names};
     if (run.is_branch()) {
         result.asked.units.clear();
         for (const Monitor& monitor : run.branch.settings.monitors)
@@ -133,7 +142,11 @@ StudyRun run_of(const PlannedRun& run, const Place& place) {
     AskedRun asked = run.asked;
     asked.file = place.file;
     const Place of_model = stored_place(place.file, fmt::format("model of run '{}'", asked.name));
-    return graze::run_of(asked, parse_model(run.model, of_model.file));
+    StudyRun result = graze::run_of(asked, parse_model(run.model, of_model.file));
+    for (const PointName& point : run.point_names)
+        require_plain_line(point.label + point.name, "name of a point", place);
+    result.point_names = run.point_names;
+    return result;
 }
 
 /// Names end up in names of files, and texts in pictures. @throws InputError as for those of study files

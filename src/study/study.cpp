@@ -43,7 +43,7 @@ void BranchRequest::validate(RunKind kind, const Model& model) const {
 }
 
 std::vector<std::string> picture_formats() {
-    return {"png", "svg", "pdf", "tex"};
+    return {"png", "svg", "pdf", "eps", "tex"};
 }
 
 void require_run(const std::string& name, const std::vector<std::string>& names, const Place& place) {
@@ -235,7 +235,7 @@ private:
     }
 
     void add_table(const TomlEntry& entry) {
-        study_.tables.push_back(read_table(reader_, entry));
+        study_.tables.push_back(read_table(reader_, entry, study_));
         check_table(study_, study_.tables.back(), names_, picture_names_);
     }
 

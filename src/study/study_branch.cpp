@@ -180,6 +180,29 @@ std::vector<Monitor> usual_monitors(const Model& model) {
     return monitors;
 }
 
+/// Whether a text means something else than the name of a point, where points are asked for.
+bool is_taken(const std::string& name) {
+    return is_point_label(name) || point_type(name) || name.find(':') != std::string::npos ||
+           name.find_first_not_of("0123456789") == std::string::npos;
+}
+
+void read_point_names(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
+    reader.each_of(entry, {}, [&](const TomlEntry& item) {
+        if (!is_point_label(item.name))
+            reader.fail(item, fmt::format("no point has the label '{}'", item.name),
+                        "name points by their labels: point_names = { GR1 = \"G-1\" }; graze points lists them");
+        const std::string name = reader.toml().line(item);
+        if (is_taken(name))
+            reader.fail(item, fmt::format("'{}' cannot be told from a label, a type, a number or a run's point", name),
+                        "call the point something else, such as \"G-1\"");
+        for (const PointName& other : run.point_names)
+            if (other.name == name)
+                reader.fail(item, fmt::format("{} is called '{}' too", other.label, name),
+                            "give each point a name of its own");
+        run.point_names.push_back({item.name, name});
+    });
+}
+
 } // namespace
 
 void note_set(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
@@ -205,6 +228,7 @@ void read_branch(const StudyReader& reader, StudyRun& run, const RunKeys& keys) 
     with("along", [&](const TomlEntry& e) { read_along(reader, run, e); });
     with("steps", [&](const TomlEntry& e) { settings.steps = reader.count(e, 1, most_branch_steps); });
     with("grazing", [&](const TomlEntry& e) { branch.touches = reader.toml().boolean(e); });
+    with("point_names", [&](const TomlEntry& e) { read_point_names(reader, run, e); });
     with("rungs", [&](const TomlEntry& e) { branch.rungs = reader.count(e, 2, most_rungs); });
     with("stop", [&](const TomlEntry& e) { read_stop(reader, run, e); });
     with("step", [&](const TomlEntry& e) { read_step(reader, run, e); });

@@ -71,6 +71,7 @@ constexpr std::array keys_of_runs{
     Key{"disturbance", settling},
     Key{"longest_return", settling},
     Key{"lyapunov_cycles", sweep | basin},
+    Key{"chaos_cycles", sweep | basin},
     Key{"signature", branches},
     Key{"table", branches},
     Key{"monitors", orbit | followed | ladder},
@@ -81,6 +82,7 @@ constexpr std::array keys_of_runs{
     Key{"step", followed | ladder},
     Key{"rungs", ladder},
     Key{"grazing", followed | ladder},
+    Key{"point_names", followed | ladder},
     Key{"free", followed},
     Key{"unphysical", orbit | followed},
     Key{"files", record},
@@ -88,6 +90,7 @@ constexpr std::array keys_of_runs{
     Key{"channels", record},
     Key{"columns", record},
     Key{"group", record},
+    Key{"lines", record},
     Key{"scale", record},
     Key{"part", record},
     Key{"every", record},
@@ -219,9 +222,9 @@ void check_keys_of_picture(const StudyReader& reader, const std::string& kind, c
         {"fit", {"regression"}},
         {"group", {"regression"}},
         {"successive", {"regression"}},
-        {"at", {"history", "portrait", "spectrum"}},
+        {"at", {"history", "portrait", "poincare", "spectrum"}},
         {"points", {"history", "portrait", "branch"}},
-        {"over", {"bifurcation", "history", "portrait"}},
+        {"over", {"bifurcation", "history", "portrait", "poincare"}},
     };
     reader.each(keys, [&](const TomlEntry& key) {
         for (const auto& [name, kinds] : of_kinds)

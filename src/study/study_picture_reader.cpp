@@ -13,8 +13,8 @@ namespace graze {
 namespace {
 
 std::vector<std::string> picture_kinds() {
-    return {"bifurcation", "branch",   "basin",      "map",     "history",
-            "portrait",    "spectrum", "regression", "scatter", "residuals"};
+    return {"bifurcation", "branch",   "basin",      "map",     "history",  "portrait",
+            "poincare",    "spectrum", "regression", "scatter", "residuals"};
 }
 
 /// One point, or a list of points, each given by one coordinate.
@@ -93,7 +93,7 @@ StudyPicture read_picture(const StudyReader& reader, const TomlEntry& entry) {
         reader.each_of(entry,
                        {"kind",    "title",   "run",  "runs",    "x",       "y",           "samples", "directions",
                         "x_range", "y_range", "fit",  "at",      "points",  "logarithmic", "format",  "successive",
-                        "group",   "names",   "over", "x_label", "y_label", "size",        "font"},
+                        "group",   "names",   "over", "x_label", "y_label", "size",        "font",    "grey"},
                        [&](const TomlEntry& item) { read_key(reader, item, picture); });
     });
     mistakes.attempt([&] {

@@ -3,6 +3,7 @@
 
 #include "graze/results/name_advice.hpp"
 #include "graze/symbolic/printable.hpp"
+#include "graze/symbolic/rounded.hpp"
 
 #include <fmt/format.h>
 
@@ -115,7 +116,7 @@ namespace {
 /// from + i step without the error that grows with i: where both are decimals, so is the result.
 double stepped(double from, double step, std::size_t i) {
     const double exact = from + static_cast<double>(i) * step;
-    return std::stod(fmt::format("{:.13g}", exact));
+    return rounded(exact, 13);
 }
 
 void spread(const StudyReader& reader, const TomlEntry& entry, Variation& variation, double from, double to,
@@ -141,6 +142,14 @@ void spread(const StudyReader& reader, const TomlEntry& entry, Variation& variat
     }
 }
 
+double step_of(const StudyReader& reader, const Model& model, const TomlEntry& entry) {
+    const double step = reader.number(model, entry);
+    if (!(step > 0))
+        reader.fail(entry, fmt::format("{} is {}, not positive", entry.path, step),
+                    "give its size, and `from` below `to`; `direction` says which way a sweep goes");
+    return step;
+}
+
 void read_variation_table(const StudyReader& reader, const Model& model, const TomlEntry& entry, Variation& variation,
                           bool& random) {
     std::optional<double> from, to, step;
@@ -153,7 +162,7 @@ void read_variation_table(const StudyReader& reader, const Model& model, const T
         else if (item.name == "to")
             to = reader.number(model, item);
         else if (item.name == "step")
-            step = reader.positive(model, item);
+            step = step_of(reader, model, item);
         else if (item.name == "points")
             points = reader.count(item, 2, most_values);
         else if (item.name == "scale")

@@ -84,7 +84,8 @@ bool with_key(Mistakes& mistakes, const RunKeys& keys, const char* key, const Wo
 std::optional<StudyRun> read_run(const StudyReader& reader, const TomlEntry& entry, const StudyDefaults& defaults,
                                  RunKeys& keys);
 StudyPicture read_picture(const StudyReader& reader, const TomlEntry& entry);
-StudyTable read_table(const StudyReader& reader, const TomlEntry& entry);
+/// @param study with the runs that it shows
+StudyTable read_table(const StudyReader& reader, const TomlEntry& entry, const Study& study);
 /// @throws InputError for `names` that name nothing of what the picture, the table `entry`, shows
 void check_shown_names(const StudyReader& reader, const Study& study, const StudyPicture& picture,
                        const TomlEntry& entry);

@@ -70,11 +70,23 @@ void read_scales(const StudyReader& reader, const TomlEntry& entry, RecordProces
     });
 }
 
+/// Where an instrument's text has names and units, and how much comes before.
+void read_lines(const StudyReader& reader, const TomlEntry& entry, RecordLayout& layout) {
+    constexpr std::size_t most = 1'000'000;
+    reader.each_of(entry, {"skip", "names", "units"}, [&](const TomlEntry& item) {
+        if (item.name == "skip")
+            layout.skip = reader.count(item, 0, most);
+        else
+            (item.name == "names" ? layout.names_line : layout.units_line) = reader.count(item, 1, most);
+    });
+}
+
 void read_processing(const StudyReader& reader, RecordProcessing& processing, const RunKeys& keys) {
     Mistakes mistakes;
     const auto with = [&](const char* key, auto use) { with_key(mistakes, keys, key, use); };
     with("columns", [&](const TomlEntry& e) { processing.layout.columns = reader.toml().line(e); });
     with("group", [&](const TomlEntry& e) { processing.layout.group = reader.toml().line(e); });
+    with("lines", [&](const TomlEntry& e) { read_lines(reader, e, processing.layout); });
     with("scale", [&](const TomlEntry& e) { read_scales(reader, e, processing); });
     with("part", [&](const TomlEntry& e) { std::tie(processing.begin, processing.end) = reader.range(no_model(), e); });
     with("every", [&](const TomlEntry& e) { processing.every = reader.count(e, 1, 1'000'000); });
@@ -262,6 +274,19 @@ std::vector<std::string> RecordRequest::sampling_names() const {
     return names;
 }
 
+namespace {
+
+/// What the model on a virtual bench says of what a channel measures; of files nobody knows.
+std::string words_of_channel(const RecordRequest& request, const std::string& channel) {
+    if (request.bench)
+        for (const BenchChannel& one : request.bench->channels)
+            if (one.value.name == channel)
+                return one.value.text;
+    return "";
+}
+
+} // namespace
+
 void read_record(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const RunKeys& keys) {
     RecordRequest& request = run.record;
     if (keys.contains("files") == keys.contains("bench"))
@@ -281,9 +306,10 @@ void read_record(const StudyReader& reader, StudyRun& run, const TomlEntry& entr
     mistakes.throw_noted();
     const RecordHeader header = header_of(reader, run, keys);
     read_channels(reader, header, request, keys);
-    std::vector<Channel> states, coordinates;
+    std::vector<RecordedName> states, coordinates;
     for (const RecordRequest::Kept& one : request.channels)
-        states.push_back({one.name, header.channels[header.channel(one.channel, "channels")].unit});
+        states.push_back({one.name, header.channels[header.channel(one.channel, "channels")].unit,
+                          words_of_channel(request, one.channel)});
     with_key(mistakes, keys, "reference", [&](const TomlEntry& at) { read_reference(reader, request, at); });
     with_key(mistakes, keys, "coordinate", [&](const TomlEntry& name) {
         request.coordinate = reader.toml().line(name);
@@ -298,14 +324,14 @@ void read_record(const StudyReader& reader, StudyRun& run, const TomlEntry& entr
         if (request.coordinate.empty())
             request.coordinate = "amplitude";
         const auto of = std::find_if(states.begin(), states.end(),
-                                     [&](const Channel& one) { return one.name == request.reference; });
+                                     [&](const RecordedName& one) { return one.name == request.reference; });
         if (std::any_of(states.begin(), states.end(),
-                        [&](const Channel& one) { return one.name == request.coordinate; }))
+                        [&](const RecordedName& one) { return one.name == request.coordinate; }))
             reader.fail(
                 keys.at("reference"),
                 fmt::format("'{}' is a channel, and so cannot be the amplitude of the reference", request.coordinate),
                 "give it another name: coordinate = \"NAME\"");
-        coordinates.push_back({request.coordinate, of->unit});
+        coordinates.push_back({request.coordinate, of->unit, "amplitude of " + request.reference});
     }
     run.model = model_of_record(states, coordinates, header.time.unit);
     if (keys.contains("sample"))

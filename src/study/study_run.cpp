@@ -1,6 +1,7 @@
 #include "graze/model/catalogue.hpp"
 #include "graze/symbolic/file_name.hpp"
 #include "study/point_limits.hpp"
+#include "study/start_state.hpp"
 #include "study/study_reader.hpp"
 #include "study/study_sampling.hpp"
 
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 
 namespace graze {
 
@@ -35,9 +37,12 @@ Model model_of(const StudyReader& reader, const std::string& name, const Place& 
 }
 
 /// @param given parameters that keep the values that they have
+/// @param later whether an initial state is read later, when it is known what varies; null: none is
 void set_values(const StudyReader& reader, Model& model, const TomlEntry& entry, bool initial,
-                const ParameterValues& given = {}) {
+                const ParameterValues& given = {}, const std::function<bool(const TomlEntry&)>& later = nullptr) {
     reader.each_of(entry, {}, [&](const TomlEntry& item) {
+        if (initial && later && later(item))
+            return;
         const bool is_given =
             std::any_of(given.begin(), given.end(), [&](const auto& one) { return one.first == item.name; });
         if (is_given && model.find_independent_parameter(item.name))
@@ -143,6 +148,7 @@ void read_settings(const StudyReader& reader, StudyRun& run, const RunKeys& keys
     with("recurrence", [&](const TomlEntry& e) { attractor.recurrence = reader.positive(model, e); });
     with("disturbance", [&](const TomlEntry& e) { attractor.disturbance = reader.number(model, e); });
     with("lyapunov_cycles", [&](const TomlEntry& e) { attractor.lyapunov_cycles = reader.count(e, 0, most_cycles); });
+    with("chaos_cycles", [&](const TomlEntry& e) { attractor.chaos_cycles = reader.count(e, 0, most_cycles); });
     with("longest_return", [&](const TomlEntry& e) { attractor.longest_return = reader.positive(model, e); });
     with("bounds", [&](const TomlEntry& e) { read_bounds(reader, run, e); });
     with("time", [&](const TomlEntry& e) { transient.time = reader.positive(model, e); });
@@ -224,7 +230,10 @@ void read_beginning(const StudyReader& reader, StudyRun& run, const StudyDefault
         set_values(reader, run.model, set, false, defaults.given);
         note_set(reader, run, set);
     });
-    with_key(mistakes, keys, "from", [&](const TomlEntry& from) { set_values(reader, run.model, from, true); });
+    with_key(mistakes, keys, "from", [&](const TomlEntry& from) {
+        set_values(reader, run.model, from, true, {},
+                   [&](const TomlEntry& item) { return follows_what_varies(reader, run, item); });
+    });
     with_key(mistakes, keys, "mode", [&](const TomlEntry& mode) {
         try {
             run.model.set_initial_mode(reader.toml().string(mode));
@@ -331,10 +340,15 @@ void read_contents(const StudyReader& reader, StudyRun& run, const TomlEntry& en
     with_key(mistakes, keys, "section", [&](const TomlEntry& section) {
         run.attractor.section = run.model.sections[section_index(reader, run.model, section)].name;
     });
+    // Where a branch or a curve lies is what one asks; a sweep is a motion, which can go one way only.
+    if (run.kind == RunKind::follow || run.kind == RunKind::curve)
+        run.direction = SweepDirection::both;
     const bool settings = mistakes.attempt([&] { read_settings(reader, run, keys); });
     bool random = false;
     if (mistakes.attempt([&] { random = read_axes(reader, run, keys); }) && settings)
         mistakes.attempt([&] { check_draws(reader, run, random, entry, keys); });
+    if (run.kind == RunKind::simulate || run.kind == RunKind::sweep || run.kind == RunKind::basin)
+        with_key(mistakes, keys, "from", [&](const TomlEntry& from) { read_following_states(reader, run, from); });
     with_key(mistakes, keys, "start", [&](const TomlEntry& start) { read_start(reader, run, start); });
     with_key(mistakes, keys, "parameters", [&](const TomlEntry& from) { read_parameters(reader, run, from); });
     with_key(mistakes, keys, "sample", [&](const TomlEntry& sample) { read_samplings(reader, run, sample); });

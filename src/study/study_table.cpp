@@ -41,7 +41,9 @@ public:
             runs_.emplace_back(file, name, asked.place);
         for (const StoredRun& run : runs_)
             branches_ = branches_ || run.record.is_branch();
-        heading_ = (runs_.size() > 1 ? 1u : 0u) + (branches_ ? 1u : 0u);
+        for (const StoredRun& run : runs_)
+            named_ = named_ || !run.record.point_names.empty();
+        heading_ = (runs_.size() > 1 ? 1u : 0u) + (branches_ ? 1u : 0u) + (named_ ? 1u : 0u);
     }
 
     Table make() {
@@ -67,18 +69,21 @@ private:
             columns.push_back({"run", ""});
         if (branches_)
             columns.push_back({"label", ""});
+        if (named_)
+            columns.push_back({"name", ""});
         for (const StudyTable::Column& column : asked_->columns)
             columns.push_back({column.name, runs_.front().unit(column.value)});
         for (const StudyTable::Column& ratio : asked_->ratios)
             columns.push_back({ratio.name, ""});
         return columns;
     }
-    bool is_asked_for(const std::string& type, const std::string& label) const {
+    bool is_asked_for(const StoredRun& run, const std::string& type, const std::string& label) const {
         const std::vector<std::string>& points = asked_->points;
         if (points.empty())
             return !label.empty();
-        return std::any_of(points.begin(), points.end(),
-                           [&](const std::string& point) { return point == type || point == label; });
+        return std::any_of(points.begin(), points.end(), [&](const std::string& point) {
+            return point == type || point == label || (!label.empty() && point == run.record.point_name(label));
+        });
     }
     /// Whether a column is of what was sampled, rather than of points.
     bool takes_samples(const StoredRun& run) const {
@@ -102,13 +107,15 @@ private:
         selection.samplings = asked_->samplings;
         auto rows = read(run, selection);
         while (rows.next()) {
-            if (branches_ && !is_asked_for(rows.text(0), rows.text(1)))
+            if (branches_ && !is_asked_for(run, rows.text(0), rows.text(1)))
                 continue;
             std::vector<Cell>& row = rows_.emplace_back();
             if (runs_.size() > 1)
                 row.emplace_back(run.record.name);
             if (branches_)
                 row.emplace_back(rows.text(1));
+            if (named_)
+                row.emplace_back(run.record.point_name(rows.text(1)));
             for (std::size_t c = selection.columns.size(); c < rows.columns(); ++c)
                 row.push_back(cell_of(rows, c));
         }
@@ -135,7 +142,8 @@ private:
 
     const StudyTable* asked_;
     std::vector<StoredRun> runs_;
-    bool branches_ = false;
+    bool branches_ = false,
+         named_ = false;      ///< whether rows are of branches, and whether the study names points of them
     std::size_t heading_ = 0; ///< columns before those that are asked for
     std::vector<std::vector<Cell>> rows_;
 };

@@ -54,25 +54,36 @@ void read_ratios(const StudyReader& reader, const TomlEntry& entry, StudyTable& 
     });
 }
 
-/// Types, or types with a number.
-void read_points(const StudyReader& reader, const TomlEntry& entry, StudyTable& table) {
+/// Types, types with a number, or names that the table's runs have.
+void read_points(const StudyReader& reader, const TomlEntry& entry, const Study& study, StudyTable& table) {
+    const auto is_name = [&](const std::string& text) {
+        return std::any_of(table.runs.begin(), table.runs.end(), [&](const std::string& name) {
+            const StudyRun* run = study.find_run(name);
+            return run && std::any_of(run->point_names.begin(), run->point_names.end(),
+                                      [&](const PointName& point) { return point.name == text; });
+        });
+    };
     table.points = reader.strings(entry);
     for (const std::string& point : table.points) {
-        if (point_type(point) || is_point_label(point))
+        if (point_type(point) || is_point_label(point) || is_name(point))
             continue;
         std::vector<std::string> types;
         for (const PointKind& kind : point_kinds())
             types.emplace_back(kind.short_name);
-        reader.fail(entry, fmt::format("'{}' is no label and no type of points", point),
+        reader.fail(entry, fmt::format("'{}' is no label, no name and no type of points", point),
                     fmt::format("labels are like GR1; types are {}", fmt::join(types, ", ")));
     }
 }
 
 /// What a table begins with, unless it has one run, or has points without labels.
-void check_names(const StudyTable& table, bool branches) {
+void check_names(const StudyTable& table, const std::vector<const StudyRun*>& runs) {
+    const bool branches = runs.front()->is_branch();
+    const bool named =
+        std::any_of(runs.begin(), runs.end(), [](const StudyRun* run) { return !run->point_names.empty(); });
     for (const auto* columns : {&table.columns, &table.ratios})
         for (const StudyTable::Column& column : *columns)
-            if ((column.name == "run" && table.runs.size() > 1) || (column.name == "label" && branches))
+            if ((column.name == "run" && table.runs.size() > 1) || (column.name == "label" && branches) ||
+                (column.name == "name" && named))
                 throw InputError(table.place, fmt::format("the table has a column '{}' by itself", column.name),
                                  "leave it out, or give it another name");
 }
@@ -110,7 +121,7 @@ void check_runs(const StudyTable& table, const std::vector<const StudyRun*>& run
     for (const StudyRun* run : runs)
         if (run->is_branch() != branches)
             throw InputError(table.place, "branches and other runs have different columns", "make a table of each");
-    check_names(table, branches);
+    check_names(table, runs);
     if (!branches && !table.points.empty())
         throw InputError(table.place, fmt::format("points of run '{}' have no labels", table.runs.front()),
                          "leave `points` out");
@@ -122,11 +133,11 @@ void check_runs(const StudyTable& table, const std::vector<const StudyRun*>& run
 
 } // namespace
 
-StudyTable read_table(const StudyReader& reader, const TomlEntry& entry) {
+StudyTable read_table(const StudyReader& reader, const TomlEntry& entry, const Study& study) {
     StudyTable table;
     table.name = entry.name;
     table.place = entry.place;
-    std::optional<TomlEntry> ratios;
+    std::optional<TomlEntry> ratios, points;
     Mistakes mistakes;
     mistakes.attempt([&] { require_file_name(table.name, "name of a table", entry.place); });
     const auto read = [&](const TomlEntry& item) {
@@ -140,7 +151,7 @@ StudyTable read_table(const StudyReader& reader, const TomlEntry& entry) {
         else if (key == "ratios")
             ratios = item;
         else if (key == "points")
-            read_points(reader, item, table);
+            points = item;
         else
             (key == "samples" ? table.samplings : table.directions) = reader.strings(item);
     };
@@ -153,8 +164,15 @@ StudyTable read_table(const StudyReader& reader, const TomlEntry& entry) {
     if (table.columns.empty())
         throw InputError(entry.place, fmt::format("{} has no columns", entry.path),
                          "name parameters, values or monitors: columns = [\"NAME\"]");
-    if (ratios)
-        read_ratios(reader, *ratios, table);
+    mistakes.attempt([&] {
+        if (points)
+            read_points(reader, *points, study, table);
+    });
+    mistakes.attempt([&] {
+        if (ratios)
+            read_ratios(reader, *ratios, table);
+    });
+    mistakes.throw_noted();
     return table;
 }
 

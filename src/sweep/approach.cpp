@@ -1,5 +1,7 @@
 #include "sweep/approach.hpp"
 
+#include "flow/cyclic.hpp"
+
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -18,12 +20,12 @@ constexpr std::size_t fewest_turning = 16; ///< and in a plane
 constexpr double half_as_fast = 0.5;
 constexpr double neutral = 1e-10; ///< by which a multiplier must be less than 1 to be known to be
 
-/// Deviations from the orbit, relative to the extent of the states, newest first, one period apart.
+/// Deviations from the orbit, relative to the scales of the states, newest first, one period apart.
 class Deviations {
 public:
-    Deviations(const OrbitFinder& orbit, const ReturnWatcher& motion, std::span<const double> periods)
+    Deviations(const OrbitFinder& orbit, const ReturnWatcher& motion, std::span<const double> periods,
+               std::span<const double> scale)
         : count_((motion.remembered() - 1) / orbit.period() + 1) {
-        const std::span<const double> scale = motion.scale();
         const auto size = static_cast<Eigen::Index>(scale.size());
         std::vector<double> difference(scale.size());
         vectors_ = Eigen::MatrixXd::Zero(size, static_cast<Eigen::Index>(count_));
@@ -54,8 +56,8 @@ private:
     Eigen::VectorXd foreseen_;
 };
 
-/// Whether the returns of an orbit of several lie so far apart that it is not one of a single return: about that, all
-/// motions within the errors of their computation may look like orbits of the same period.
+/// Whether the returns of an orbit of several lie so far apart that it is not one of fewer: about that, all motions
+/// within the errors of their computation may look like orbits of the longer period.
 bool is_resolved(const OrbitFinder& orbit, std::span<const double> periods, double tolerance) {
     if (orbit.period() == 1)
         return true;
@@ -63,23 +65,15 @@ bool is_resolved(const OrbitFinder& orbit, std::span<const double> periods, doub
     const double shift = 2 * tolerance / (1 - std::abs(orbit.multipliers().front()));
     const std::vector<double>& first = orbit.returns().front();
     std::vector<double> difference(first.size());
-    for (std::size_t k = 1; k < orbit.period(); ++k) {
-        subtract_states(orbit.returns()[k], first, periods, difference);
+    const auto differs = [&](std::size_t shorter) {
+        subtract_states(orbit.returns()[shorter], first, periods, difference);
         for (std::size_t i = 0; i < first.size(); ++i)
             if (orbit.is_active(i) && std::abs(difference[i]) > shift * std::abs(first[i]))
                 return true;
-    }
-    return false;
-}
-
-/// Whether the same things have happened in each of the last periods as along the orbit.
-bool same_contacts(const OrbitFinder& orbit, const ReturnWatcher& motion, std::size_t periods) {
-    const std::vector<std::uint32_t> all = motion.contacts(periods * orbit.period());
-    const std::vector<std::uint32_t>& one = orbit.contacts();
-    if (all.size() != periods * one.size())
         return false;
-    for (std::size_t k = 0; k < all.size(); ++k)
-        if (all[k] != one[k % one.size()])
+    };
+    for (std::size_t shorter = 1; shorter < orbit.period(); ++shorter)
+        if (orbit.period() % shorter == 0 && !differs(shorter))
             return false;
     return true;
 }
@@ -140,6 +134,22 @@ bool shrinks_slowly(const OrbitFinder& orbit, const ReturnWatcher& motion, const
 
 } // namespace
 
+double distance_from(const OrbitFinder& orbit, const ReturnWatcher& motion, std::span<const double> periods,
+                     std::span<const double> scale) {
+    return Deviations(orbit, motion, periods, scale).size(0);
+}
+
+bool same_contacts(const OrbitFinder& orbit, const ReturnWatcher& motion, std::size_t periods) {
+    const std::vector<std::uint32_t> all = motion.contacts(periods * orbit.period());
+    const std::vector<std::uint32_t>& one = orbit.contacts();
+    if (all.size() != periods * one.size())
+        return false;
+    for (std::size_t k = 0; k < all.size(); ++k)
+        if (all[k] != one[k % one.size()])
+            return false;
+    return true;
+}
+
 bool approaches(const OrbitFinder& orbit, const ReturnWatcher& motion, std::span<const double> periods,
                 double tolerance) {
     double radius = 0;
@@ -147,7 +157,7 @@ bool approaches(const OrbitFinder& orbit, const ReturnWatcher& motion, std::span
         radius = std::max(radius, std::abs(multiplier));
     if (!(radius < 1 - neutral) || motion.remembered() <= orbit.period())
         return false;
-    const Deviations deviations(orbit, motion, periods);
+    const Deviations deviations(orbit, motion, periods, motion.scale());
     if (!is_resolved(orbit, periods, tolerance))
         return false;
     if (deviations.size(0) < on_orbit)
@@ -161,7 +171,7 @@ bool is_near(const OrbitFinder& orbit, const ReturnWatcher& motion, std::span<co
     if (orbit.multipliers().empty() || !(std::abs(orbit.multipliers().front()) < 1 - neutral) ||
         motion.remembered() <= orbit.period())
         return false;
-    const Deviations deviations(orbit, motion, periods);
+    const Deviations deviations(orbit, motion, periods, motion.scale());
     return deviations.difference() <= linear * deviations.size(1) && same_contacts(orbit, motion, 1);
 }
 
@@ -181,7 +191,8 @@ Guess middle_of(const ReturnWatcher& motion, const SectionMap& map, std::size_t 
             sum[i] += weight * difference[i];
     }
     for (std::size_t i = 0; i < states; ++i)
-        guess.state[i] += map.takes_part(i) && weights > 0 ? sum[i] / weights : 0;
+        if (map.takes_part(i) && weights > 0)
+            guess.state[i] = within_period(guess.state[i] + sum[i] / weights, periods[i]);
     return guess;
 }
 

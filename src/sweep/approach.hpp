@@ -20,6 +20,13 @@ bool approaches(const OrbitFinder& orbit, const ReturnWatcher& motion, std::span
 /// leaves no room for anything else.
 bool is_near(const OrbitFinder& orbit, const ReturnWatcher& motion, std::span<const double> periods);
 
+/// Distance of the motion's last return from the orbit that was found, relative to the scales of the states.
+double distance_from(const OrbitFinder& orbit, const ReturnWatcher& motion, std::span<const double> periods,
+                     std::span<const double> scale);
+
+/// Whether the same things have happened in each of the last periods as along the orbit.
+bool same_contacts(const OrbitFinder& orbit, const ReturnWatcher& motion, std::size_t periods);
+
 /// Where to look for the orbit that a motion comes to only slowly.
 struct Guess {
     std::size_t period = 0; ///< in returns

@@ -13,6 +13,8 @@ std::string_view name_of(Label label) {
         return "quasi-periodic";
     case Label::chaotic:
         return "chaotic";
+    case Label::transient:
+        return "transient";
     case Label::equilibrium:
         return "equilibrium";
     case Label::unbounded:

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t most_disturbances = 3;
 constexpr double share_left = 0.1; ///< of a displacement, within which a motion has not been displaced yet
+constexpr double neutral = 1e-10;  ///< by which a multiplier must exceed 1 to be known to
 constexpr double at_rest = 1e-8;   ///< distance between an orbit and an equilibrium that are the same
 
 } // namespace
@@ -55,7 +56,7 @@ bool AttractorSearch::comes_closer(const Equilibrium& equilibrium) {
 /// A motion that sits on an unstable equilibrium is displaced.
 std::optional<bool> AttractorSearch::leave_equilibrium(const Equilibrium& equilibrium, double distance) {
     const double size = setting_->options.disturbance, usual = AttractorOptions{}.disturbance;
-    const std::vector<double> state = equilibria_.displaced(equilibrium, size > 0 ? size : usual);
+    const std::vector<double> state = equilibria_.displaced(equilibrium, size > 0 ? size : usual, main_->state());
     if (!(distance <= share_left * equilibria_.distance(equilibrium, state)))
         return std::nullopt;
     if (size == 0)
@@ -69,9 +70,13 @@ std::optional<bool> AttractorSearch::leave_equilibrium(const Equilibrium& equili
 
 void AttractorSearch::displace(std::span<const double> state, std::size_t mode, double duration) {
     std::fill(thresholds_.begin(), thresholds_.end(), setting_->options.recurrence);
+    watcher_.begin_anew();
     restart(state, mode, duration);
-    if (exponent_.begun() && !confirming_)
+    if (exponent_.begun())
         start_exponent(watcher_.has_stuck(watcher_.remembered()));
+    if (confirming_)
+        limit_ = std::max(limit_, watcher_.returns() + setting_->options.cycles);
+    confirming_ = false;
 }
 
 /// The motion sits on something unstable, and is not to be displaced.
@@ -97,22 +102,80 @@ std::optional<Equilibrium> AttractorSearch::equilibrium_of_orbit() {
     return attracts ? equilibrium : std::nullopt;
 }
 
-/// Whether nothing but clocks moves along the orbit that was found.
-bool AttractorSearch::does_not_move() const {
+/// Whether nothing but clocks moves along the orbit that was found. What a clock carries along moves, too, though no
+/// derivative tells.
+bool AttractorSearch::does_not_move() {
     constexpr double nothing = 1e-10; ///< relative to the states and what the motion has gone through
     if (!finder_.contacts().empty())
         return false;
     for (std::size_t i = 0; i < periods_.size(); ++i)
-        if (finder_.is_active(i) &&
+        if (setting_->map.takes_part(i) && !equilibria_.is_clock(i, finder_.point(), finder_.mode()) &&
             !(finder_.extents()[i] <= nothing * std::max(watcher_.range(i), std::abs(finder_.point()[i]))))
             return false;
     return true;
 }
 
+/// Whether the orbit that was found is a point: Newton's method has gone to where modes meet and nothing moves in any
+/// of them. Motions about such a corner look alike on all scales, so that no return map has derivatives there.
+bool AttractorSearch::has_no_size() {
+    constexpr double nothing = 1e-10; ///< relative to what the motion has gone through
+    const std::vector<std::uint32_t>& contacts = finder_.contacts();
+    const System& system = setting_->simulation.system();
+    const auto jumps = [&](std::uint32_t code) { return system.transition(code / 2).jump != 0; };
+    if (contacts.empty() || std::any_of(contacts.begin(), contacts.end(), jumps))
+        return false;
+    const std::span<const double> all = equilibria_.rates(finder_.point(), finder_.mode());
+    const std::vector<double> rates(all.begin(), all.end());
+    bool any = false;
+    for (std::size_t i = 0; i < periods_.size(); ++i) {
+        if (!setting_->map.takes_part(i) || equilibria_.is_clock(i, finder_.point(), finder_.mode()))
+            continue;
+        any = true;
+        const double least = nothing * watcher_.range(i);
+        if (!(finder_.extents()[i] <= least && std::abs(rates[i]) * finder_.duration() <= least))
+            return false;
+    }
+    return any;
+}
+
+/// A motion about such a corner is at rest there when nothing is left of it, and less from return to return.
+bool AttractorSearch::shrinks_to_a_corner() {
+    constexpr double nothing = 1e-10;
+    if (watcher_.remembered() < 3)
+        return false;
+    const MotionPart newest = watcher_.part(0), oldest = watcher_.part(watcher_.remembered() - 2);
+    for (std::size_t i = 0; i < periods_.size(); ++i)
+        if (setting_->map.takes_part(i) && !equilibria_.is_clock(i, finder_.point(), finder_.mode()) &&
+            !(newest.extent(i) <= nothing * watcher_.range(i) && newest.extent(i) < oldest.extent(i)))
+            return false;
+    Equilibrium corner;
+    corner.state.assign(finder_.point().begin(), finder_.point().end());
+    corner.mode = finder_.mode();
+    corner.driven = true;
+    finish_equilibrium(corner);
+    result_.multipliers.clear();
+    result_.lyapunov.reset();
+    result_.outcome.detail = "the motion shrinks towards a corner between modes, where there are no multipliers";
+    return true;
+}
+
+/// A state that keeps its sign is not taken to zero, from where nothing leads away, but to next to it: further points
+/// go on from there. Next to nothing is a share of the length over which the field there is linear or, if that has no
+/// end, of what the motion has gone through; from point to point it does not become less.
+void AttractorSearch::keep_signs(std::vector<double>& state) {
+    constexpr double next_to_nothing = 1e-20;
+    for (std::size_t i = 0; i < state.size(); ++i)
+        if (const double here = main_->state()[i]; setting_->field.keeps_sign(i) && state[i] == 0 && here != 0) {
+            const double length = equilibria_.linear_length(state, main_->mode(), i, std::abs(here));
+            const double least = std::min(std::abs(here), next_to_nothing * watcher_.range(i));
+            state[i] = std::copysign(length > 0 ? next_to_nothing * length : least, here);
+        }
+}
+
 /// A motion on an unstable orbit would stay there until round-off has grown: it is displaced.
 std::optional<bool> AttractorSearch::leave_unstable_orbit(const Equilibrium* equilibrium) {
     const double size = setting_->options.disturbance, usual = AttractorOptions{}.disturbance;
-    if (finder_.multipliers().empty() || std::abs(finder_.multipliers().front()) <= 1 ||
+    if (finder_.multipliers().empty() || !(std::abs(finder_.multipliers().front()) > 1 + neutral) ||
         disturbances_ >= most_disturbances ||
         watcher_.distance(watcher_.recent(0).state, finder_.point()) > (size > 0 ? size : usual))
         return std::nullopt;
@@ -121,7 +184,7 @@ std::optional<bool> AttractorSearch::leave_unstable_orbit(const Equilibrium* equ
     ++disturbances_;
     const double duration = finder_.duration() / static_cast<double>(finder_.period());
     if (equilibrium) {
-        displace(equilibria_.displaced(*equilibrium, size), finder_.mode(), duration);
+        displace(equilibria_.displaced(*equilibrium, size, main_->state()), finder_.mode(), duration);
         return true;
     }
     const std::span<const double> scale = watcher_.scale();
@@ -136,8 +199,17 @@ std::optional<bool> AttractorSearch::leave_unstable_orbit(const Equilibrium* equ
     }
     if (!(length > 0))
         return std::nullopt;
+    const auto along_direction = [&](std::size_t i) { return direction[static_cast<Eigen::Index>(i)] / length; };
+    const auto is_on_edge = [&](std::size_t i) { return setting_->field.keeps_sign(i) && state[i] == 0; };
+    double share = along < 0 ? -size : size, strongest = 0;
     for (std::size_t i = 0; i < state.size(); ++i)
-        state[i] += (along < 0 ? -size : size) * direction[static_cast<Eigen::Index>(i)] / length;
+        if (is_on_edge(i) && std::abs(along_direction(i)) / scale[i] > strongest) {
+            strongest = std::abs(along_direction(i)) / scale[i];
+            share = (main_->state()[i] < 0) == (along_direction(i) < 0) ? size : -size;
+        }
+    for (std::size_t i = 0; i < state.size(); ++i)
+        if (const double change = share * along_direction(i); !is_on_edge(i) || (main_->state()[i] < 0) == (change < 0))
+            state[i] += change;
     displace(state, finder_.mode(), duration);
     return true;
 }

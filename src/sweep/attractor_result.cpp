@@ -47,10 +47,15 @@ bool AttractorSearch::finish_periodic() {
     result_.multipliers = finder_.multipliers();
     result_.residual = finder_.residual();
     result_.state.assign(finder_.point().begin(), finder_.point().end());
+    keep_signs(result_.state);
     result_.mode = finder_.mode();
     result_.samples = std::move(finder_.samples());
     result_.lyapunov.reset();
     result_.lyapunov_error.reset();
+    if (chaotic_ > 0)
+        result_.outcome.detail = fmt::format("after a chaotic transient of up to {} returns", result_.cycles);
+    if (repeating_)
+        result_.outcome.detail = "repeats itself, as neighbours may in their own ways: a multiplier is 1";
     if (!result_.multipliers.empty() && std::abs(result_.multipliers.front()) > 0)
         result_.lyapunov = std::log(std::abs(result_.multipliers.front())) / result_.duration;
     return false;
@@ -78,6 +83,7 @@ bool AttractorSearch::finish_equilibrium(const Equilibrium& equilibrium) {
                 result_.multipliers.push_back(std::exp(value * result_.duration));
     }
     recorder_.rest(main_->time(), result_.state);
+    keep_signs(result_.state);
     result_.samples = std::move(recorder_.samples());
     return false;
 }

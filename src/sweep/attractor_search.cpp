@@ -16,16 +16,14 @@ namespace {
 
 constexpr double forever = std::numeric_limits<double>::infinity();
 constexpr double soonest = 1e-3;      ///< share of the time of a return before which none can come
-constexpr double clear_of_zero = 3;   ///< standard errors
 constexpr double least_growth = 5;    ///< logarithm, of a small distance over all returns, that shows chaos
 constexpr double outward_share = 0.5; ///< of the growth of a small distance, that is due to the motion's own
 constexpr double much_growth = 20;    ///< logarithm, of the extent of the states, after which growth is looked at
-constexpr double any_growth = 138;    ///< and by which it has outgrown whatever a model may hold: 60 decades
 constexpr std::size_t least_extension = 400;
+constexpr std::size_t most_chaotic = 3; ///< times that a motion is taken for chaotic, and followed for longer
 constexpr std::size_t returns_between_looks = 25;
-constexpr std::size_t extension = 4;   ///< of the largest period, in the last part of a search
-constexpr std::size_t most_tries = 50; ///< of Newton's method
-constexpr double longest_step = 8;     ///< in periods of the section's clock: a passage ends a step anyway
+constexpr std::size_t extension = 4; ///< of the largest period, in the last part of a search
+constexpr double longest_step = 8;   ///< in periods of the section's clock: a passage ends a step anyway
 
 std::optional<StepMaps> maps_of(const VariationalModes& modes) {
     return modes.suit() ? std::optional<StepMaps>(std::in_place, modes) : std::nullopt;
@@ -41,8 +39,8 @@ AttractorSearch::AttractorSearch(std::shared_ptr<const AttractorSetting> setting
     : setting_(std::move(setting)), maps_(maps_of(setting_->variational)),
       of_orbit_(derivatives_of(setting_->variational, maps_)), of_motion_(derivatives_of(setting_->variational, maps_)),
       watcher_(setting_->map, 2 * extension * setting_->options.largest_period + 1, setting_->options.bounds),
-      recorder_(setting_->layout, 0), finder_(setting_->map, setting_->layout, setting_->image, setting_->image_modes,
-                                              of_orbit_ ? &*of_orbit_ : nullptr),
+      recorder_(setting_->layout, 0), finder_(setting_->map, setting_->field, setting_->layout, setting_->image,
+                                              setting_->image_modes, of_orbit_ ? &*of_orbit_ : nullptr),
       exponent_(setting_->map, of_motion_ ? &*of_motion_ : nullptr), equilibria_(setting_->field),
       growth_(setting_->field, setting_->map) {}
 
@@ -73,14 +71,16 @@ void AttractorSearch::begin(std::span<const double> parameters, std::span<const 
         if (setting_->map.takes_part(i))
             visited_.periods.push_back(periods_[i]);
     limit_ = setting_->options.cycles;
-    disturbances_ = tries_ = 0;
+    disturbances_ = tries_ = chaotic_ = passed_period_ = 0;
+    staying_ = repeating_ = plane_left_ = lengthened_ = false;
     finding_ = confirming_ = centre_tried_ = limits_tried_ = guessed_ = near_stable_ = false;
     guesses_.clear();
+    chaos_.reset();
     growth_seen_ = much_growth;
     result_ = {};
     limit_steps(state, mode);
     main_->start(state, mode, 0, setting_->options.longest_return > 0 ? setting_->options.longest_return : forever);
-    const std::size_t before = std::min(limit_, setting_->options.lyapunov_cycles);
+    const std::size_t before = exponent_cycles();
     watcher_.stop_after(limit_ > before ? limit_ - before : 1);
 }
 
@@ -89,6 +89,14 @@ Trajectory& AttractorSearch::trajectory() {
 }
 
 bool AttractorSearch::proceed() {
+    const bool goes_on = advance();
+    if (!goes_on && chaos_)
+        return_to_chaos();
+    return goes_on;
+}
+
+/// What `proceed` does, but for what is said in the end of chaos that did not last.
+bool AttractorSearch::advance() {
     if (!finding_)
         return settle();
     if (finder_.proceed())
@@ -115,7 +123,7 @@ void AttractorSearch::limit_steps(std::span<const double> state, std::size_t mod
 /// The motion has stopped.
 bool AttractorSearch::settle() {
     const Ending ending = main_->outcome().ending;
-    if (ending != Ending::stopped && growth_.since_start(watcher_) > any_growth)
+    if (ending != Ending::stopped && ending != Ending::terminal && growth_.outgrows_everything(watcher_))
         return finish(Label::unbounded);
     if (ending == Ending::end_time)
         return finish(Label::unsettled);
@@ -148,8 +156,7 @@ bool AttractorSearch::hardly_moves() {
 bool AttractorSearch::look() {
     if (const auto next = consider_rest(main_->state(), main_->mode()))
         return *next;
-    if (growth_.since_start(watcher_) > much_growth &&
-        growth_.goes_on(main_->state(), main_->mode(), watcher_.widest()))
+    if (growth_.since_start(watcher_) > much_growth && growth_.goes_on(watcher_, main_->state(), main_->mode()))
         return finish(Label::unbounded);
     if (watcher_.stuck())
         return finish(Label::unsettled);
@@ -163,7 +170,7 @@ void AttractorSearch::extend() {
 }
 
 bool AttractorSearch::examine_return() {
-    if (exponent_.begun() && !confirming_) {
+    if (exponent_.begun()) {
         // What accumulations make of derivatives counts: those of this one are lost, but not of others to come.
         if (exponent_.follower() && of_motion_->broken())
             start_exponent(true);
@@ -171,15 +178,20 @@ bool AttractorSearch::examine_return() {
             exponent_.add_return(*main_);
     }
     const Return& last = watcher_.recent(0);
-    if (watcher_.returns() > setting_->options.cycles)
+    if (watcher_.returns() > setting_->options.cycles && !confirming_)
         for (std::size_t i = 0; i < last.state.size(); ++i)
             if (setting_->map.takes_part(i))
                 visited_.values.push_back(last.state[i]);
-    if (const double grown = growth_.since_start(watcher_); grown > growth_seen_) {
+    const double grown = growth_.since_start(watcher_);
+    if (grown > much_growth && growth_.outgrows_everything(watcher_))
+        return finish(Label::unbounded);
+    if (grown > growth_seen_) {
         growth_seen_ = 2 * grown;
         if (growth_.goes_on(watcher_))
             return finish(Label::unbounded);
     }
+    if (staying_)
+        return go_on_staying();
     const std::size_t n = watcher_.recurrent();
     if (n == 0)
         return go_on();
@@ -214,20 +226,15 @@ void AttractorSearch::start_exponent(bool sticks) {
 
 bool AttractorSearch::go_on() {
     const std::size_t returns = watcher_.returns();
-    const bool look_again = limit_ > setting_->options.cycles && returns % returns_between_looks == 0 && !confirming_;
+    const bool look_again = lengthened_ && returns % returns_between_looks == 0 && !confirming_;
     if (returns >= limit_ || look_again)
         if (const auto next = conclude())
             return *next;
-    const std::size_t before = std::min(setting_->options.cycles, setting_->options.lyapunov_cycles);
-    if (confirming_) {
-        watcher_.stop_after(limit_);
-        extend();
-        return true;
-    }
+    const std::size_t before = exponent_cycles();
     if (before > 0 && !exponent_.begun() && returns + before >= setting_->options.cycles)
         start_exponent(watcher_.has_stuck(watcher_.remembered()));
-    const std::size_t next =
-        exponent_.follower() && returns < setting_->options.cycles ? setting_->options.cycles : returns + 1;
+    const std::size_t seen = confirming_ ? limit_ : setting_->options.cycles;
+    const std::size_t next = exponent_.follower() && returns < seen ? seen : returns + 1;
     watcher_.stop_after(exponent_.begun() ? next : setting_->options.cycles - before);
     extend();
     return true;
@@ -236,15 +243,23 @@ bool AttractorSearch::go_on() {
 /// An orbit may have been found near the last return.
 bool AttractorSearch::consider_orbit() {
     const std::size_t n = watcher_.recurrent();
-    if (finder_.found()) {
+    const bool is_corner = finder_.found() && has_no_size();
+    if (is_corner) {
+        if (shrinks_to_a_corner())
+            return false;
+    } else if (finder_.found()) {
         const std::optional<Equilibrium> equilibrium = equilibrium_of_orbit();
         if (approaches(finder_, watcher_, periods_, setting_->simulation.options().tolerance))
-            return equilibrium ? finish_equilibrium(*equilibrium) : finish_periodic();
+            return equilibrium ? finish_equilibrium(*equilibrium) : begin_stay();
         if (const auto next = leave_unstable_orbit(equilibrium ? &*equilibrium : nullptr))
             return *next;
+        if (!equilibrium && repeats_exactly())
+            return begin_repeating();
+        note_passed_orbit();
         near_stable_ = near_stable_ || (guessed_ && is_near(finder_, watcher_, periods_));
     }
-    unstable_.add(finder_, watcher_);
+    if (!is_corner)
+        unstable_.add(finder_, watcher_);
     if (const auto next = try_next_guess())
         return *next;
     guessed_ = false;
@@ -253,15 +268,6 @@ bool AttractorSearch::consider_orbit() {
     if (n > 0 && ++tries_ > most_tries)
         thresholds_[n] = -1;
     return go_on();
-}
-
-/// Many transients look chaotic until they suddenly settle: what does is followed as long again.
-void AttractorSearch::confirm_chaos() {
-    confirming_ = true;
-    watcher_.follow(nullptr);
-    limit_ = watcher_.returns() + setting_->options.cycles;
-    std::fill(thresholds_.begin(), thresholds_.end(), setting_->options.recurrence);
-    restart(watcher_.recent(0).state, watcher_.recent(0).mode, watcher_.recent(0).time - watcher_.recent(1).time);
 }
 
 /// Starts the motion anew where it is, or close to that, without derivatives.
@@ -275,26 +281,16 @@ void AttractorSearch::restart(std::span<const double> state, std::size_t mode, d
 /// @return what `proceed` returns, if the point is done or something else is to be run
 std::optional<bool> AttractorSearch::conclude() {
     if (confirming_)
-        return finish(Label::chaotic);
+        return conclude_chaos();
     if (const auto next = consider_rest(watcher_.recent(0).state, watcher_.recent(0).mode))
         return next;
     if (!exponent_.begun())
         return finish(Label::unsettled);
     exponent_.catch_up();
     if (exponent_.known()) {
-        const double growth = exponent_.value() * exponent_.time_per_return();
-        const double all = growth * static_cast<double>(exponent_.returns());
-        const bool positive =
-            exponent_.value() > exponent_.error() && exponent_.value() > clear_of_zero * exponent_.standard_error();
-        const bool outward = positive && growth_.outward(watcher_) > outward_share * all;
-        if (outward && growth_.goes_on(watcher_))
-            return finish(Label::unbounded);
-        if (outward && watcher_.returns() < limit_) // to be averaged where the motion is going
-            start_exponent(watcher_.has_stuck(watcher_.remembered()));
-        if (positive && !outward && all > least_growth) {
-            confirm_chaos();
-            return std::nullopt;
-        }
+        if (exponent_.is_positive())
+            if (const auto next = consider_growth())
+                return next;
         if (fills_a_torus()) {
             if (centre_tried_)
                 return finish(Label::quasi_periodic);
@@ -312,10 +308,32 @@ std::optional<bool> AttractorSearch::conclude() {
         if (const auto next = try_next_guess())
             return next;
     }
-    if (limit_ > setting_->options.cycles && !may_fill_a_torus())
+    if (lengthened_ && !may_fill_a_torus())
         return finish(Label::unsettled);
     lengthen();
     return std::nullopt;
+}
+
+/// Neighbours part: along with the motion, in which case that grows, or from it.
+/// @return what `proceed` returns, if the point is done or something else is to be run
+std::optional<bool> AttractorSearch::consider_growth() {
+    const double growth = exponent_.value() * exponent_.time_per_return();
+    const double all = growth * static_cast<double>(exponent_.returns());
+    const bool outward = growth_.outward(watcher_) > outward_share * all;
+    const bool linear = growth_.is_linear(watcher_, exponent_.returns());
+    if ((outward || linear) && growth_.goes_on(watcher_))
+        return finish(Label::unbounded);
+    if (linear && growth_.goes_on_slowly(watcher_))
+        return finish(Label::unbounded);
+    if (linear && !outward)
+        return leave_plane();
+    if (outward && !linear && watcher_.returns() < limit_) // to be averaged where the motion is going
+        start_exponent(watcher_.has_stuck(watcher_.remembered()));
+    if (linear || outward || !(all > least_growth) || chaotic_ >= most_chaotic)
+        return std::nullopt;
+    if (const auto next = leave_plane())
+        return next;
+    return confirm_chaos();
 }
 
 /// Looks for an orbit near the next of the states where it may be.
@@ -337,7 +355,8 @@ bool AttractorSearch::fills_a_torus() {
     constexpr double even = 1e-2;      ///< averages, as no chaotic motion has them
     constexpr double very_even = 1e-4; ///< and these whatever becomes of neighbours
     constexpr double most = 10;        ///< variation of the logarithm of a small distance
-    if (near_stable_ || std::abs(exponent_.value()) > exponent_.error() || exponent_.error() * exponent_.time() > most)
+    if (near_stable_ || !(std::abs(exponent_.value()) <= exponent_.error()) ||
+        !(exponent_.error() * exponent_.time() <= most))
         return false;
     const double difference = unevenness(visited_, extents_of_visited());
     return difference < very_even || (difference < even && exponent_.is_bounded());
@@ -356,6 +375,7 @@ bool AttractorSearch::may_fill_a_torus() {
 /// Slow transients and quasi-periodic motions are worth a longer look.
 void AttractorSearch::lengthen() {
     limits_tried_ = false;
+    lengthened_ = true;
     limit_ += std::max(least_extension, 2 * setting_->options.cycles);
     std::fill(thresholds_.begin(), thresholds_.end(), setting_->options.recurrence);
     const std::size_t largest = setting_->options.largest_period;

@@ -7,6 +7,7 @@
 #include "sweep/exponent.hpp"
 #include "sweep/growth_watch.hpp"
 #include "sweep/orbit_finder.hpp"
+#include "sweep/orbit_stay.hpp"
 #include "sweep/quasi_periodic.hpp"
 #include "sweep/return_watcher.hpp"
 #include "sweep/sample_recorder.hpp"
@@ -30,11 +31,13 @@ public:
     PointResult& result() override { return result_; }
 
 private:
+    static constexpr std::size_t most_tries = 50; ///< of Newton's method
     void limit_steps(std::span<const double> state, std::size_t mode);
     bool settle();
     bool look();
     bool hardly_moves();
-    bool does_not_move() const;
+    bool does_not_move();
+    void keep_signs(std::vector<double>& state);
     bool examine_return();
     bool go_on();
     void extend();
@@ -50,9 +53,32 @@ private:
     std::optional<bool> leave_equilibrium(const Equilibrium& equilibrium, double distance);
     std::optional<bool> leave_unstable_orbit(const Equilibrium* equilibrium);
     void displace(std::span<const double> state, std::size_t mode, double duration);
+    std::vector<std::size_t> states_of_plane() const;
+    double scale_beside_plane(std::size_t state);
+    double share_beside(const Eigen::MatrixXd& normals, const std::vector<std::size_t>& states,
+                        const Eigen::VectorXd& scale) const;
+    bool same_sides(std::span<const double> before, std::span<const double> after, std::size_t mode);
+    std::optional<bool> leave_plane();
+    std::optional<std::vector<double>> displaced_by(const std::vector<std::size_t>& states,
+                                                    const Eigen::VectorXd& change);
+    std::optional<bool> consider_growth();
+    bool has_no_size();
+    bool shrinks_to_a_corner();
+    bool repeats_exactly();
+    bool begin_repeating();
+    OrbitStay::Verdict go_on_repeating();
     std::optional<bool> conclude();
     void lengthen();
-    void confirm_chaos();
+    std::optional<bool> confirm_chaos();
+    bool advance();
+    void keep_chaos();
+    void return_to_chaos();
+    std::size_t chaos_needed() const;
+    void note_passed_orbit();
+    std::optional<bool> conclude_chaos();
+    bool begin_stay();
+    bool go_on_staying();
+    std::size_t exponent_cycles() const;
     void restart(std::span<const double> state, std::size_t mode, double duration);
     std::vector<double> extents_of_visited() const;
     bool finish_periodic();
@@ -72,16 +98,33 @@ private:
     GrowthWatch growth_;
     UnstableOrbits unstable_;
     std::optional<Trajectory> main_;
-    bool confirming_ = false;   ///< that the motion remains chaotic
-    bool finding_ = false;      ///< an orbit: the finder's trajectory is to be run
-    bool centre_tried_ = false; ///< a stable orbit was looked for in the middle of what may be a torus
-    bool limits_tried_ = false; ///< orbits were looked for where a slow motion may lead
-    bool guessed_ = false;      ///< the orbit that is looked for is one of those
-    bool near_stable_ = false;  ///< a stable orbit is too near for a torus
+    /// Of a motion when it was first taken for chaotic.
+    struct Chaos {
+        std::vector<double> state;
+        std::size_t mode = 0;
+        SampleSet samples;
+        double lyapunov = 0, error = 0;
+    };
+    std::optional<Chaos> chaos_;
+    OrbitStay stay_;
+    bool repeating_ = false;        ///< whether that is one of many side by side
+    bool plane_left_ = false;       ///< the motion was displaced from an invariant plane
+    bool staying_ = false;          ///< whether the motion stays with the orbit that was found is being seen
+    bool lengthened_ = false;       ///< after `cycles`
+    bool confirming_ = false;       ///< that the motion remains chaotic
+    std::size_t chaotic_ = 0;       ///< times that the motion was taken for chaotic
+    std::size_t chaotic_since_ = 0; ///< returns, for the last time
+    std::size_t passed_period_ = 0; ///< of a stable orbit that the motion has passed by; 0: none was met
+    bool finding_ = false;          ///< an orbit: the finder's trajectory is to be run
+    bool centre_tried_ = false;     ///< a stable orbit was looked for in the middle of what may be a torus
+    bool limits_tried_ = false;     ///< orbits were looked for where a slow motion may lead
+    bool guessed_ = false;          ///< the orbit that is looked for is one of those
+    bool near_stable_ = false;      ///< a stable orbit is too near for a torus
     std::vector<Guess> guesses_;
     std::vector<double> parameters_, periods_, thresholds_;
-    VisitedStates visited_;  ///< in the time after `cycles`
-    double growth_seen_ = 0; ///< logarithm of the extent, above which growth is looked at again
+    VisitedStates visited_;           ///< in the time after `cycles`
+    double growth_seen_ = 0;          ///< logarithm of the extent, above which growth is looked at again
+    std::size_t repeating_since_ = 0; ///< returns
     std::size_t limit_ = 0, disturbances_ = 0, tries_ = 0;
     PointResult result_;
 };

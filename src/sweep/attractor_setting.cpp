@@ -32,6 +32,8 @@ void AttractorOptions::validate(const Model& model) const {
         refuse(fmt::format("{} cycles are out of range", cycles), "give 1 to 100 million");
     if (lyapunov_cycles > 100'000'000)
         refuse(fmt::format("{} cycles of an exponent are out of range", lyapunov_cycles), "give up to 100 million");
+    if (chaos_cycles > 100'000'000)
+        refuse(fmt::format("{} cycles of chaos are out of range", chaos_cycles), "give up to 100 million");
     if (keep < 1 || keep > 1'000'000)
         refuse(fmt::format("{} kept returns are out of range", keep), "give 1 to a million");
     if (largest_period < 1 || largest_period > 1000)

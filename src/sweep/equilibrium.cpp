@@ -1,4 +1,6 @@
 #include "sweep/equilibrium.hpp"
+
+#include "base/decompositions.hpp"
 #include "flow/cyclic.hpp"
 
 #include <Eigen/Dense>
@@ -21,6 +23,8 @@ constexpr std::size_t phases = 16;            ///< of clocks, at which the field
 constexpr double neutral = 1e-10;             ///< real part, relative to the largest eigenvalue, that may be zero
 constexpr double nearly = 0.1;                ///< share of what the linear part does that the rest may change
 constexpr double ill = 1e-7;                  ///< reciprocal condition of eigenvectors that are nearly parallel
+constexpr double largest_number = 1e150;      ///< beyond which squares leave the range of numbers
+constexpr double unbalanced = 1e3;            ///< ratio of scales, of rows to columns of the field, that are none
 constexpr double golden = 0.6180339887498949; ///< whose multiples fill the unit interval evenly
 
 /// Number k of a sequence between -1 and 1 that is the same for all.
@@ -47,6 +51,28 @@ void EquilibriumFinder::begin(std::span<const double> parameters, std::span<cons
 std::span<const double> EquilibriumFinder::rates(std::span<const double> state, std::size_t mode) {
     field_->evaluate_rates(workspace_, mode, state);
     return workspace_.rates;
+}
+
+bool EquilibriumFinder::is_clock(std::size_t index, std::span<const double> state, std::size_t mode) {
+    field_->evaluate(workspace_, mode, state);
+    const std::span<const double> row(&workspace_.jacobian[index * state.size()], state.size());
+    return periods_[index] > 0 && std::all_of(row.begin(), row.end(), [](double x) { return x == 0; });
+}
+
+double EquilibriumFinder::linear_length(std::span<const double> state, std::size_t mode, std::size_t index,
+                                        double from) {
+    std::vector<double> at(state.begin(), state.end());
+    double first = 0;
+    for (double value = from; value < largest_number; value *= 10) {
+        at[index] = value;
+        field_->evaluate_rates(workspace_, mode, at);
+        const double rate = workspace_.rates[index] / value;
+        if (value == from)
+            first = rate;
+        else if (!(std::abs(rate - first) <= nearly * std::abs(first)))
+            return 0.1 * value;
+    }
+    return 0;
 }
 
 std::optional<Equilibrium> EquilibriumFinder::find(std::span<const double> state, std::size_t mode,
@@ -87,10 +113,12 @@ bool EquilibriumFinder::solve(Equilibrium& equilibrium, std::span<const double> 
     const std::size_t count = field_->states();
     equilibrium.scale.resize(size);
     equilibrium.field.resize(size, size);
+    std::vector<bool> has_size(static_cast<std::size_t>(size));
     for (Eigen::Index i = 0; i < size; ++i) {
         const std::size_t state = equilibrium.active[static_cast<std::size_t>(i)];
         const double largest = std::max(extents[state], std::abs(equilibrium.state[state]));
         equilibrium.scale[i] = periods_[state] > 0 ? periods_[state] : largest > 0 ? largest : 1;
+        has_size[static_cast<std::size_t>(i)] = periods_[state] > 0 || largest > 0;
     }
     double before = std::numeric_limits<double>::infinity();
     for (std::size_t iteration = 0; iteration < most_iterations && size > 0; ++iteration) {
@@ -106,6 +134,11 @@ bool EquilibriumFinder::solve(Equilibrium& equilibrium, std::span<const double> 
         }
         if (!equilibrium.field.allFinite() || !rates.allFinite())
             return false;
+        if (iteration == 0) {
+            const Eigen::VectorXd given = equilibrium.scale;
+            balance(equilibrium, has_size);
+            rates = rates.cwiseProduct(given).cwiseQuotient(equilibrium.scale);
+        }
         const Eigen::FullPivLU<Eigen::MatrixXd> factors(equilibrium.field);
         if (!factors.isInvertible())
             return false;
@@ -113,13 +146,43 @@ bool EquilibriumFinder::solve(Equilibrium& equilibrium, std::span<const double> 
         const double length = correction.cwiseAbs().maxCoeff();
         if (!(length <= furthest))
             return false;
-        for (Eigen::Index i = 0; i < size; ++i)
-            equilibrium.state[equilibrium.active[static_cast<std::size_t>(i)]] -= correction[i] * equilibrium.scale[i];
+        for (Eigen::Index i = 0; i < size; ++i) {
+            const std::size_t state = equilibrium.active[static_cast<std::size_t>(i)];
+            const double was = equilibrium.state[state];
+            equilibrium.state[state] -= correction[i] * equilibrium.scale[i];
+            // Converging to zero, steps leave the squares of what there was.
+            const double left = equilibrium.state[state] * std::copysign(1, was);
+            if (field_->keeps_sign(state) && !(left > converged * std::abs(was)))
+                equilibrium.state[state] = 0;
+        }
         if (length < converged || (length < round_off && length >= 0.5 * before))
             return true;
         before = length;
     }
     return size == 0;
+}
+
+/// A state that nothing moves but rounding, such as the velocity of a body at rest, has no scale of its own: what its
+/// rate and its influence on others say is one. Others keep theirs, or get a larger one.
+void EquilibriumFinder::balance(Equilibrium& equilibrium, const std::vector<bool>& has_size) const {
+    const auto size = equilibrium.scale.size();
+    Eigen::MatrixXd& field = equilibrium.field;
+    for (Eigen::Index sweep = 0; sweep < size; ++sweep)
+        for (Eigen::Index i = 0; i < size; ++i) {
+            double row = 0, column = 0;
+            for (Eigen::Index j = 0; j < size; ++j)
+                if (j != i) {
+                    row = std::max(row, std::abs(field(i, j)));
+                    column = std::max(column, std::abs(field(j, i)));
+                }
+            const double ratio = std::sqrt(row / column);
+            const bool raised = ratio > unbalanced, lowered = ratio < 1 / unbalanced;
+            if (!(row > 0 && column > 0) || !(raised || (lowered && !has_size[static_cast<std::size_t>(i)])))
+                continue;
+            equilibrium.scale[i] *= ratio;
+            field.row(i) /= ratio;
+            field.col(i) *= ratio;
+        }
 }
 
 /// Clocks may disturb what rests at one of their phases only.
@@ -156,33 +219,32 @@ bool EquilibriumFinder::find_basis(Equilibrium& equilibrium) const {
     const auto size = static_cast<Eigen::Index>(equilibrium.active.size());
     if (size == 0)
         return true;
-    const Eigen::EigenSolver<Eigen::MatrixXd> solver(equilibrium.field);
-    if (solver.info() != Eigen::Success)
+    const auto system = eigensystem(equilibrium.field);
+    if (!system)
         return false;
     std::vector<Eigen::Index> order(static_cast<std::size_t>(size));
     std::iota(order.begin(), order.end(), Eigen::Index{0});
     std::stable_sort(order.begin(), order.end(),
-                     [&](auto a, auto b) { return solver.eigenvalues()[a].real() > solver.eigenvalues()[b].real(); });
-    const Eigen::MatrixXcd vectors = solver.eigenvectors();
+                     [&](auto a, auto b) { return system->values[a].real() > system->values[b].real(); });
+    const Eigen::MatrixXcd& vectors = system->vectors;
     equilibrium.values.resize(size);
     equilibrium.basis.resize(size, size);
     for (Eigen::Index i = 0; i < size; ++i) {
-        equilibrium.values[i] = solver.eigenvalues()[order[static_cast<std::size_t>(i)]];
+        equilibrium.values[i] = system->values[order[static_cast<std::size_t>(i)]];
         equilibrium.basis.col(i) = vectors.col(order[static_cast<std::size_t>(i)]);
     }
     equilibrium.leading_direction = equilibrium.basis.col(0).real();
-    const Eigen::JacobiSVD<Eigen::MatrixXcd> condition(equilibrium.basis);
-    const auto& singular = condition.singularValues();
+    const Eigen::VectorXd singular = singular_values(equilibrium.basis);
     if (!(singular[size - 1] > ill * singular[0])) {
         // Nearly parallel: a triangular basis, whose columns are shortened until what couples them is small.
-        const Eigen::ComplexSchur<Eigen::MatrixXcd> schur(equilibrium.field.cast<std::complex<double>>());
-        if (schur.info() != Eigen::Success)
+        const auto schur = schur_form(equilibrium.field);
+        if (!schur)
             return false;
         const double slowest = equilibrium.values.real().cwiseAbs().minCoeff();
-        equilibrium.basis = schur.matrixU();
+        equilibrium.basis = schur->unitary;
         double weight = 1;
         for (Eigen::Index i = 1; i < size; ++i) {
-            const double coupling = schur.matrixT().col(i).head(i).cwiseAbs().maxCoeff();
+            const double coupling = schur->triangle.col(i).head(i).cwiseAbs().maxCoeff();
             if (coupling > nearly * slowest)
                 weight *= nearly * slowest / coupling;
             equilibrium.basis.col(i) *= weight;
@@ -293,8 +355,9 @@ bool EquilibriumFinder::is_linear_within(const Equilibrium& equilibrium, double 
     return true;
 }
 
-std::vector<double> EquilibriumFinder::displaced(const Equilibrium& equilibrium, double share) {
-    constexpr double shortest = 1e-30, longest = 1e30;
+std::vector<double> EquilibriumFinder::displaced(const Equilibrium& equilibrium, double share,
+                                                 std::span<const double> motion) {
+    constexpr double shortest = 1e-30;
     constexpr double visible = 1e-12; ///< relative to the state itself
     const auto size = equilibrium.scale.size();
     const Eigen::VectorXd direction =
@@ -305,20 +368,43 @@ std::vector<double> EquilibriumFinder::displaced(const Equilibrium& equilibrium,
                                       equilibrium.scale[i]);
     // How far the field is linear is its own measure of length, whatever the units.
     const double first = std::max(shortest, 1e-8 * offset);
-    double length = first;
-    while (length < longest) {
-        const double linear = (equilibrium.inverse * (equilibrium.field * direction)).norm() * length;
-        if (!(remainder(equilibrium, direction * length) <= nearly * linear) ||
-            !events_are_away(equilibrium, (equilibrium.inverse * direction).norm() * length))
-            break;
-        length *= 10;
+    // Motions about a focus turn: to all directions of their plane.
+    std::vector<Eigen::VectorXd> directions{direction};
+    if (const double turn = std::abs(equilibrium.values[0].imag()); turn > 0) {
+        const Eigen::VectorXd across = (equilibrium.field * direction - equilibrium.growth() * direction) / turn;
+        directions.insert(directions.end(), {across, direction + across, direction - across});
     }
+    double length = first, reach = 0;
+    for (const Eigen::VectorXd& one : directions)
+        reach = std::max(reach, one.cwiseProduct(equilibrium.scale).cwiseAbs().maxCoeff());
+    const double longest = largest_number / reach; // however small what the motion has gone through
+    const auto is_linear = [&](const Eigen::VectorXd& one) {
+        const double linear = (equilibrium.inverse * (equilibrium.field * one)).norm() * length;
+        return remainder(equilibrium, one * length) <= nearly * linear &&
+               events_are_away(equilibrium, (equilibrium.inverse * one).norm() * length);
+    };
+    while (length < longest && std::all_of(directions.begin(), directions.end(), is_linear))
+        length *= 10;
     if (length >= longest)
         length = std::max(1.0, offset);
     std::vector<double> state = equilibrium.state;
+    const auto is_on_edge = [&](Eigen::Index i) {
+        const std::size_t index = equilibrium.active[static_cast<std::size_t>(i)];
+        return field_->keeps_sign(index) && state[index] == 0;
+    };
+    // Numbers of animals begin to grow from above zero, or from wherever the motion is.
+    double side = 1, strongest = 0;
     for (Eigen::Index i = 0; i < size; ++i)
-        state[equilibrium.active[static_cast<std::size_t>(i)]] +=
-            std::max(share * length, visible * offset) * direction[i] * equilibrium.scale[i];
+        if (is_on_edge(i) && std::abs(direction[i]) > strongest) {
+            strongest = std::abs(direction[i]);
+            side = (motion[equilibrium.active[static_cast<std::size_t>(i)]] < 0) == (direction[i] < 0) ? 1 : -1;
+        }
+    for (Eigen::Index i = 0; i < size; ++i) {
+        const std::size_t index = equilibrium.active[static_cast<std::size_t>(i)];
+        const double change = side * std::max(share * length, visible * offset) * direction[i] * equilibrium.scale[i];
+        if (!is_on_edge(i) || (motion[index] < 0) == (change < 0))
+            state[index] += change;
+    }
     return state;
 }
 

@@ -49,9 +49,18 @@ public:
     bool is_linear_within(const Equilibrium& equilibrium, double distance, bool strict);
     /// The equilibrium displaced in the direction that grows most.
     /// @param share of the length over which the field there remains linear
-    std::vector<double> displaced(const Equilibrium& equilibrium, double share);
+    /// @param motion state, on whose side states that keep their signs are displaced; from zero to above it
+    std::vector<double> displaced(const Equilibrium& equilibrium, double share, std::span<const double> motion);
+    /// Whether a state is a clock here: cyclic, with a rate that depends on nothing.
+    bool is_clock(std::size_t index, std::span<const double> state, std::size_t mode);
+
+    /// Up to what value of a state whose rate vanishes with it that rate is proportional to it, to within a tenth; 0:
+    /// up to the end of the range of numbers.
+    /// @param from a value that is small
+    double linear_length(std::span<const double> state, std::size_t mode, std::size_t index, double from);
 
 private:
+    void balance(Equilibrium& equilibrium, const std::vector<bool>& has_size) const;
     bool solve(Equilibrium& equilibrium, std::span<const double> extents);
     bool classify(Equilibrium& equilibrium);
     bool rests_at_all_phases(Equilibrium& equilibrium);

@@ -11,7 +11,9 @@ namespace {
 
 constexpr std::size_t batches = 10;
 constexpr std::size_t returns_to_settle = 10;
+constexpr double most_lost = 0.05;        ///< share of returns at which there may be no derivatives
 constexpr double student = 2.26;          ///< 95 % of Student's distribution of nine degrees of freedom
+constexpr double clear_of_zero = 3;       ///< standard errors
 constexpr double integration_errors = 10; ///< of growth over a return, in tolerances
 /// Of a tangent vector that a sticking contact has made vanish.
 constexpr double least_growth = -100;
@@ -27,6 +29,7 @@ void Exponent::begin(std::span<const double> parameters, std::span<const double>
     scale_.assign(scale.begin(), scale.end());
     growth_.clear();
     times_.clear();
+    lost_ = 0;
     last_time_ = time;
     to_settle_ = returns_to_settle;
     begun_ = true;
@@ -83,11 +86,15 @@ bool Exponent::add(const MotionDerivatives::Mark& here, Eigen::MatrixXd tangent,
         seed_here();
         return false;
     };
-    if (!valid || !map_->project(workspace_, here.mode, here.state, tangent))
+    const auto lose = [&] {
+        ++lost_;
         return anew(); // no derivatives here: this return does not count
+    };
+    if (!valid || !map_->project(workspace_, here.mode, here.state, tangent))
+        return lose();
     const double length = length_of(tangent);
     if (!std::isfinite(length))
-        return anew();
+        return lose();
     if (to_settle_ > 0) {
         --to_settle_; // the vector still turns towards the direction that grows most
     } else {
@@ -118,7 +125,16 @@ void Exponent::aim(const Eigen::MatrixXd& direction) {
 }
 
 bool Exponent::known() const {
-    return begun_ && growth_.size() >= 2 * batches;
+    // Returns are lost where neighbours part most: the others alone would say nothing.
+    return begun_ && growth_.size() >= 2 * batches &&
+           static_cast<double>(lost_) <= most_lost * static_cast<double>(growth_.size());
+}
+
+Eigen::VectorXd Exponent::vector(const Trajectory& trajectory) const {
+    if (!carried_)
+        return derivatives_->derivatives().col(0);
+    const auto size = static_cast<Eigen::Index>(map_->states());
+    return Eigen::Map<const Eigen::VectorXd>(trajectory.tangents().data(), size);
 }
 
 double Exponent::time() const {
@@ -131,6 +147,15 @@ double Exponent::time_per_return() const {
 
 double Exponent::value() const {
     return std::accumulate(growth_.begin(), growth_.end(), 0.0) / std::accumulate(times_.begin(), times_.end(), 0.0);
+}
+
+double Exponent::value_over_last(double share) const {
+    const auto count = static_cast<double>(growth_.size());
+    return growth(growth_.size() - static_cast<std::size_t>(share * count), growth_.size());
+}
+
+bool Exponent::is_positive() const {
+    return value() > error() && value() > clear_of_zero * standard_error();
 }
 
 double Exponent::growth(std::size_t first, std::size_t last) const {

@@ -34,6 +34,10 @@ public:
     std::size_t returns() const { return growth_.size(); }
     bool known() const;
     double value() const; ///< per unit of time
+    /// Over this share of the returns, the last.
+    double value_over_last(double share) const;
+    /// Whether it is positive beyond its error and beyond what is random.
+    bool is_positive() const;
     /// Within which it lies in 19 of 20 cases: by means over batches, and by what is systematic.
     double error() const;
     double standard_error() const; ///< by means over batches alone
@@ -42,6 +46,8 @@ public:
     bool is_bounded() const;
     /// By how much the logarithm of the vector's length departs from a steady growth.
     double variation() const { return variation(0, growth_.size()); }
+    /// The tangent vector where it has been carried to. @param trajectory which may carry it
+    Eigen::VectorXd vector(const Trajectory& trajectory) const;
     double time() const; ///< over which it is averaged
     double time_per_return() const;
     void clear() { begun_ = false; }
@@ -60,7 +66,7 @@ private:
     SectionMap::Workspace workspace_;
     std::vector<double> parameters_, scale_, growth_, times_, seeds_;
     double length_ = 0, last_time_ = 0;
-    std::size_t to_settle_ = 0;
+    std::size_t to_settle_ = 0, lost_ = 0;
     bool begun_ = false;
     bool carried_ = false; ///< by the trajectory
 };

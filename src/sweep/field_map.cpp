@@ -7,6 +7,79 @@
 
 namespace graze {
 
+namespace {
+
+/// Whether a transition leaves the motion as it is: no jump, and the same mode goes on.
+bool changes_nothing(const Transition& transition) {
+    return transition.jump == 0 &&
+           std::all_of(transition.next.begin(), transition.next.end(),
+                       [&](const Alternative& next) { return next.mode && *next.mode == transition.mode; });
+}
+
+/// Whether a state stays zero in all modes and jumps, as far as expressions simplify.
+bool vanishes_with(Model& model, std::size_t state, const Expression& symbol) {
+    if (model.states[state].period || model.states[state].drifting)
+        return false;
+    const std::vector<Replacement> nought{{symbol, model.number(0)}};
+    const auto vanishes = [&](const Expression& expression) {
+        return substitute(model.expand(expression), nought).is_number(0);
+    };
+    const std::vector<Jump>& jumps = model.jumps;
+    return std::all_of(model.modes.begin(), model.modes.end(),
+                       [&](const Mode& mode) { return vanishes(mode.rates[state]); }) &&
+           std::all_of(jumps.begin(), jumps.end(), [&](const Jump& jump) { return vanishes(jump.map[state]); });
+}
+
+/// Whether a state is the same in all modes and jumps.
+bool never_changes(Model& model, std::size_t state, const Expression& symbol) {
+    const std::vector<Jump>& jumps = model.jumps;
+    return std::all_of(model.modes.begin(), model.modes.end(),
+                       [&](const Mode& mode) { return model.expand(mode.rates[state]).is_number(0); }) &&
+           std::all_of(jumps.begin(), jumps.end(), [&](const Jump& jump) { return jump.map[state] == symbol; });
+}
+
+/// States on whose rates no state acts. @param jacobian of the rates, row by row
+std::vector<bool> clocks_among(const std::vector<Expression>& jacobian, std::size_t states) {
+    std::vector<bool> clocks;
+    for (std::size_t i = 0; i < states; ++i)
+        clocks.push_back(std::all_of(jacobian.begin() + static_cast<std::ptrdiff_t>(i * states),
+                                     jacobian.begin() + static_cast<std::ptrdiff_t>((i + 1) * states),
+                                     [](const Expression& entry) { return entry.is_number(0); }));
+    return clocks;
+}
+
+/// Whether rates are affine in all states but clocks and those that drift; of angles they may not depend at all, which
+/// would not be linear from one turn to the next.
+bool is_affine(const Model& model, const std::vector<Expression>& jacobian, const std::vector<Expression>& states,
+               const std::vector<bool>& clocks) {
+    std::vector<Expression> entries, others;
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        if (!clocks[i])
+            others.push_back(states[i]);
+        for (std::size_t j = 0; j < states.size(); ++j) {
+            const Expression& entry = jacobian[i * states.size() + j];
+            if (model.states[i].drifting || clocks[j])
+                continue;
+            if (model.states[j].period && !entry.is_number(0))
+                return false;
+            entries.push_back(entry);
+        }
+    }
+    const std::vector<Expression> symbols = symbols_of(entries);
+    return std::none_of(others.begin(), others.end(), [&](const Expression& state) {
+        return std::find(symbols.begin(), symbols.end(), state) != symbols.end();
+    });
+}
+
+/// The kth of places that fill the unit interval evenly.
+double even_place(std::size_t k) {
+    constexpr double golden = 0.6180339887498949;
+    const double x = golden * static_cast<double>(k + 1);
+    return x - std::floor(x);
+}
+
+} // namespace
+
 FieldMap::FieldMap(const System& system) : system_(system) {
     Model model = system.model();
     const std::vector<Expression> states = model.state_symbols(), inputs = model.inputs();
@@ -16,6 +89,17 @@ FieldMap::FieldMap(const System& system) : system_(system) {
             for (const Expression& state : states)
                 outputs.push_back(differentiate(rate, state));
         jacobians_.emplace_back(inputs, outputs);
+        clocks_.push_back(clocks_among(outputs, states.size()));
+        linear_.push_back(is_affine(model, outputs, states, clocks_.back()));
+    }
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        keeps_sign_.push_back(vanishes_with(model, i, states[i]));
+        conserved_.push_back(never_changes(model, i, states[i]));
+    }
+    for (std::size_t m = 0; m < jacobians_.size(); ++m) {
+        std::vector<bool>& changes = changes_.emplace_back();
+        for (const std::size_t transition : system.mode(m).transitions)
+            changes.push_back(!changes_nothing(system.model().transitions[transition]));
     }
 }
 
@@ -71,7 +155,10 @@ bool FieldMap::is_affine_beyond(Workspace& workspace, std::size_t mode, std::spa
             step[i] = moves && chosen ? (backwards ? -1 : 1) * std::max(extents[i], std::abs(state[i])) : 0;
             any = any || step[i] != 0;
         }
-        for (double reach = 1; reach < 2e6; reach *= 10) {
+        double size = 0;
+        for (const double one : step)
+            size = std::max(size, std::abs(one));
+        for (double reach = 1; reach * size < end_of_growth && size > 0; reach *= 10) {
             for (std::size_t k = 0; k < 3; ++k) {
                 for (std::size_t i = 0; i < count; ++i)
                     at[i] = state[i] + static_cast<double>(k) * reach * step[i];
@@ -79,13 +166,50 @@ bool FieldMap::is_affine_beyond(Workspace& workspace, std::size_t mode, std::spa
                 rates[k] = workspace.rates;
             }
             for (std::size_t i = 0; i < count; ++i) {
-                const double size = std::abs(rates[0][i]) + std::abs(rates[1][i]) + std::abs(rates[2][i]);
-                if (!(std::abs(rates[2][i] - 2 * rates[1][i] + rates[0][i]) <= vanishing * size))
+                const double all = std::abs(rates[0][i]) + std::abs(rates[1][i]) + std::abs(rates[2][i]);
+                if (!(std::abs(rates[2][i] - 2 * rates[1][i] + rates[0][i]) <= vanishing * all))
                     return false;
             }
         }
     }
     return any;
+}
+
+bool FieldMap::keeps_sides(Workspace& workspace, std::size_t mode, std::span<const double> least,
+                           std::span<const double> greatest, std::span<const double> periods) const {
+    constexpr std::size_t places = 32;
+    const std::size_t count = states(), watched = changes_[mode].size();
+    std::vector<double> middle(count), half(count), at(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        middle[i] = periods[i] > 0 ? 0.5 * periods[i] : 0.5 * least[i] + 0.5 * greatest[i];
+        half[i] = periods[i] > 0 ? 0.5 * periods[i] : 0.5 * greatest[i] - 0.5 * least[i];
+    }
+    evaluate_events(workspace, mode, middle);
+    const std::vector<double> values = workspace.events, slopes = workspace.event_gradients;
+    const auto same_side = [&](std::size_t w) { return workspace.events[w] * (values[w] > 0 ? 1 : -1) > 0; };
+    for (std::size_t w = 0; w < watched; ++w) {
+        if (!changes_[mode][w])
+            continue;
+        if (!same_side(w))
+            return false;
+        // The corner towards which the function falls, then the one opposite.
+        for (const double sign : {-1.0, 1.0}) {
+            for (std::size_t i = 0; i < count; ++i)
+                at[i] = middle[i] + (slopes[w * count + i] > 0 ? sign : -sign) * half[i];
+            evaluate_events(workspace, mode, at);
+            if (!same_side(w))
+                return false;
+        }
+    }
+    for (std::size_t k = 0; k < places; ++k) {
+        for (std::size_t i = 0; i < count; ++i)
+            at[i] = middle[i] + (2 * even_place(k * (2 * i + 1) + 7 * i) - 1) * half[i];
+        evaluate_events(workspace, mode, at);
+        for (std::size_t w = 0; w < watched; ++w)
+            if (changes_[mode][w] && !same_side(w))
+                return false;
+    }
+    return true;
 }
 
 } // namespace graze

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace graze {
 
@@ -19,13 +20,13 @@ void GrowthWatch::begin(std::span<const double> parameters, std::span<const doub
 }
 
 void GrowthWatch::mark(const ReturnWatcher& motion) {
-    mark_ = extents(motion.recent(0));
+    mark_ = extents(motion.part(0));
 }
 
-std::vector<double> GrowthWatch::extents(const Return& one) const {
-    std::vector<double> result(one.state.size());
+std::vector<double> GrowthWatch::extents(const MotionPart& one) const {
+    std::vector<double> result(periods_.size());
     for (std::size_t i = 0; i < result.size(); ++i)
-        result[i] = one.greatest[i] - one.least[i];
+        result[i] = one.extent(i);
     return result;
 }
 
@@ -38,7 +39,13 @@ double GrowthWatch::ratio(std::span<const double> now, std::span<const double> b
 }
 
 double GrowthWatch::outward(const ReturnWatcher& motion) const {
-    return motion.remembered() > 0 ? ratio(extents(motion.recent(0)), mark_) : 0;
+    return motion.remembered() > 0 ? ratio(extents(motion.part(0)), mark_) : 0;
+}
+
+bool GrowthWatch::outgrows_everything(const ReturnWatcher& motion) const {
+    constexpr double decades = 60;
+    const double size = motion.widest().empty() ? 0 : *std::max_element(motion.widest().begin(), motion.widest().end());
+    return since_start(motion) > decades * std::log(10.0) && size > std::pow(10.0, decades);
 }
 
 bool GrowthWatch::goes_on(const ReturnWatcher& motion) {
@@ -47,24 +54,100 @@ bool GrowthWatch::goes_on(const ReturnWatcher& motion) {
     // Where clocks are faster than what grows, single returns see a part of it only: they are taken together.
     const std::size_t together = (motion.remembered() - 1) / parts;
     std::vector<double> newer;
+    MotionPart newest, oldest;
     for (std::size_t part = 0; part < parts; ++part) {
         std::vector<double> largest(periods_.size(), 0.0);
+        oldest = motion.part(part * together);
         for (std::size_t k = part * together; k < (part + 1) * together; ++k) {
-            const std::vector<double> one = extents(motion.recent(k));
-            for (std::size_t i = 0; i < one.size(); ++i)
-                largest[i] = std::max(largest[i], one[i]);
-            if (!motion.recent(k).contacts.empty())
-                return false;
+            const MotionPart one = motion.part(k);
+            for (std::size_t i = 0; i < largest.size(); ++i)
+                largest[i] = std::max(largest[i], one.extent(i));
+            oldest.include(one);
         }
-        if (part > 0 && !(ratio(newer, largest) > 0))
+        if (part == 0)
+            newest = oldest;
+        if (oldest.contacts || (part > 0 && !(ratio(newer, largest) > 0)))
             return false;
         newer = largest;
     }
-    return goes_on(motion.recent(0).state, motion.recent(0).mode, extents(motion.recent(0)));
+    return leads_outward(motion, newest, oldest);
 }
 
-bool GrowthWatch::goes_on(std::span<const double> state, std::size_t mode, std::span<const double> extents) {
-    return field_->is_affine_beyond(workspace_, mode, state, extents, periods_);
+bool GrowthWatch::goes_on_slowly(const ReturnWatcher& motion) {
+    const MotionParts& all = motion.parts();
+    if (all.count() < parts)
+        return false;
+    for (std::size_t part = 0; part < parts; ++part)
+        if (all.recent(part).contacts ||
+            (part > 0 && !(ratio(extents(all.recent(part - 1)), extents(all.recent(part))) > 0)))
+            return false;
+    return leads_outward(motion, all.recent(0), all.recent(parts - 1));
+}
+
+bool GrowthWatch::is_linear(const ReturnWatcher& motion, std::size_t returns) const {
+    return field_->is_linear(motion.recent(0).mode) && motion.parts().quiet() >= returns;
+}
+
+/// Whether the field goes on as it is and no event is ahead, where the motion has grown from one part to another.
+bool GrowthWatch::leads_outward(const ReturnWatcher& motion, const MotionPart& newest, const MotionPart& oldest) {
+    const Return& last = motion.recent(0);
+    // Where growth is about a state, the values between which the motion is go on as they have done.
+    std::vector<double> down(periods_.size()), up(periods_.size());
+    for (std::size_t i = 0; i < up.size(); ++i) {
+        down[i] = std::max(0.0, oldest.least[i] - newest.least[i]);
+        up[i] = std::max(0.0, newest.greatest[i] - oldest.greatest[i]);
+    }
+    return field_->is_affine_beyond(workspace_, last.mode, last.state, extents(newest), periods_) &&
+           meets_no_event(last.mode, newest, down, up);
+}
+
+bool GrowthWatch::goes_on(const ReturnWatcher& motion, std::span<const double> state, std::size_t mode) {
+    if (!field_->is_affine_beyond(workspace_, mode, state, motion.widest(), periods_))
+        return false;
+    field_->evaluate_rates(workspace_, mode, state);
+    // Along a direction that grows all states go away from where they were at the same rate; others may turn.
+    constexpr double alike = 3, end = 0.1;
+    double slowest = std::numeric_limits<double>::infinity(), fastest = 0;
+    MotionPart box{{state.begin(), state.end()}, {state.begin(), state.end()}};
+    std::vector<double> down(state.size(), 0.0), up(state.size(), 0.0);
+    bool straight = true;
+    for (std::size_t i = 0; i < state.size(); ++i) {
+        const double range = motion.range(i);
+        if (periods_[i] > 0 || !(range > 0) || !map_->takes_part(i))
+            continue;
+        box.least[i] = std::min(state[i], motion.lowest(i));
+        box.greatest[i] = std::max(state[i], motion.lowest(i) + range);
+        const bool high = box.greatest[i] - state[i] <= end * range, low = state[i] - box.least[i] <= end * range;
+        down[i] = high ? 0 : range;
+        up[i] = low ? 0 : range;
+        const double rate = workspace_.rates[i] / (high ? range : -range);
+        straight = straight && high != low && rate > 0;
+        slowest = std::min(slowest, rate);
+        fastest = std::max(fastest, rate);
+    }
+    if (!straight || !(fastest <= alike * slowest))
+        for (std::size_t i = 0; i < state.size(); ++i)
+            down[i] = up[i] = std::max(down[i], up[i]);
+    return meets_no_event(mode, box, down, up);
+}
+
+/// Whether no event is met where the motion goes, as far as numbers do.
+/// @param down and up, by how much the motion has grown on either side
+bool GrowthWatch::meets_no_event(std::size_t mode, const MotionPart& now, std::span<const double> down,
+                                 std::span<const double> up) {
+    double size = 0;
+    for (std::size_t i = 0; i < up.size(); ++i)
+        size = std::max({size, down[i], up[i]});
+    for (double reach = 1; reach * size < end_of_growth && size > 0; reach *= 10) {
+        MotionPart ahead = now;
+        for (std::size_t i = 0; i < up.size(); ++i) {
+            ahead.least[i] -= reach * down[i];
+            ahead.greatest[i] += reach * up[i];
+        }
+        if (!field_->keeps_sides(workspace_, mode, ahead.least, ahead.greatest, periods_))
+            return false;
+    }
+    return true;
 }
 
 } // namespace graze

@@ -21,14 +21,27 @@ public:
     /// Logarithm of the growth from the extent at the beginning to the largest so far, of the state that has grown
     /// most.
     double since_start(const ReturnWatcher& motion) const { return ratio(motion.widest(), motion.early()); }
+    /// Whether the motion has outgrown whatever a model may hold: by 60 decades, up to numbers as large. From next to
+    /// nothing, as many lead to an ordinary size.
+    bool outgrows_everything(const ReturnWatcher& motion) const;
     /// Whether the motion has become larger from return to return, without contacts, in a field that is the same on all
-    /// larger scales.
+    /// larger scales, where it will meet no event.
     bool goes_on(const ReturnWatcher& motion);
-    /// The same, of a motion that does not come back to the section.
-    bool goes_on(std::span<const double> state, std::size_t mode, std::span<const double> extents);
+    /// The same from one part of all returns to the next: of motions that are slow beside the section's clock, and
+    /// whose neighbours are known to part.
+    bool goes_on_slowly(const ReturnWatcher& motion);
+    /// Whether neighbours have obeyed a linear equation for so many returns, up to the last: in a field that is linear
+    /// but for clocks, and without contacts. They may part, but no such motion is chaotic: either it grows as they
+    /// part, or it lies on the plane along which nothing does.
+    bool is_linear(const ReturnWatcher& motion, std::size_t returns) const;
+    /// The same as `goes_on`, of a motion that is at this state and does not come back to the section.
+    bool goes_on(const ReturnWatcher& motion, std::span<const double> state, std::size_t mode);
 
 private:
-    std::vector<double> extents(const Return& one) const;
+    bool leads_outward(const ReturnWatcher& motion, const MotionPart& newest, const MotionPart& oldest);
+    bool meets_no_event(std::size_t mode, const MotionPart& now, std::span<const double> down,
+                        std::span<const double> up);
+    std::vector<double> extents(const MotionPart& one) const;
     double ratio(std::span<const double> now, std::span<const double> before) const;
 
     const FieldMap* field_;

@@ -1,5 +1,7 @@
 #include "sweep/orbit_finder.hpp"
 
+#include "flow/cyclic.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -22,15 +24,19 @@ constexpr double sits = 1e-6;
 constexpr double closed = 1e-8;
 constexpr double same = 1e-7;
 constexpr double resolution = 1e-7; ///< relative to the states themselves
+/// How well states must close that Newton's method does not move, such as a second clock: an orbit of this period is
+/// one of them all. More than rounding makes of them within a return.
+constexpr double closed_exactly = 1e-10;
 /// Share of the time of a return before which none can come.
 constexpr double soonest = 1e-3;
 
 } // namespace
 
-OrbitFinder::OrbitFinder(const SectionMap& map, const SampleRecorder::Layout& layout, const Function& image,
-                         const std::vector<std::size_t>& image_modes, MotionDerivatives* derivatives)
-    : map_(&map), image_(&image), image_modes_(&image_modes), derivatives_(derivatives), watcher_(map, 2, {}),
-      recorder_(layout, 0) {}
+OrbitFinder::OrbitFinder(const SectionMap& map, const FieldMap& field, const SampleRecorder::Layout& layout,
+                         const Function& image, const std::vector<std::size_t>& image_modes,
+                         MotionDerivatives* derivatives)
+    : map_(&map), field_(&field), image_(&image), image_modes_(&image_modes), derivatives_(derivatives),
+      watcher_(map, 2, {}), recorder_(layout, 0) {}
 
 void OrbitFinder::begin(std::span<const double> parameters, std::span<const double> periods,
                         std::span<const double> point, std::size_t mode, std::size_t period,
@@ -58,12 +64,26 @@ void OrbitFinder::begin(std::span<const double> parameters, std::span<const doub
     watcher_ = ReturnWatcher(*map_, std::max<std::size_t>(period, 2), {});
     watcher_.allow_any_steps(true);
     guard_ = 3 * duration;
+    returns_to_section_ = is_on_section();
     start_iteration();
+}
+
+/// Whether returns end on the section: where it is the surface of an event whose jump leads elsewhere, as one that sets
+/// a voltage back, they end there.
+bool OrbitFinder::is_on_section() {
+    constexpr double next_to = 1e-6; // relative to the extent of the states
+    std::vector<double> settled = point_;
+    map_->settle_on_section(workspace_, settled);
+    for (std::size_t i = 0; i < settled.size(); ++i)
+        if (!(std::abs(settled[i] - point_[i]) <= next_to * scale_[static_cast<Eigen::Index>(i)]))
+            return false;
+    return true;
 }
 
 void OrbitFinder::start_iteration() {
     stage_ = Stage::iterating;
-    map_->settle_on_section(workspace_, point_);
+    if (returns_to_section_)
+        map_->settle_on_section(workspace_, point_);
     watcher_.begin(parameters_, periods_, nullptr);
     watcher_.stop_after(period_);
     watcher_.start_leg(0, soonest * duration_ / static_cast<double>(period_));
@@ -144,8 +164,14 @@ bool OrbitFinder::iterate() {
     if (!spectrum)
         return fail();
     spectrum_ = std::move(*spectrum);
-    for (std::size_t i = 0; i < point_.size(); ++i)
-        point_[i] += correction[static_cast<Eigen::Index>(i)];
+    for (std::size_t i = 0; i < point_.size(); ++i) {
+        const double before = point_[i], change = correction[static_cast<Eigen::Index>(i)];
+        if (change != 0)
+            point_[i] = within_period(point_[i] + change, periods_[i]);
+        // No motion leads to the other side.
+        if (field_->keeps_sign(i) && !(point_[i] * before > 0))
+            point_[i] = 0;
+    }
     clearly_unstable_ = !multipliers().empty() && std::abs(multipliers().front()) > most_unstable && size > sits;
     if (clearly_unstable_)
         return fail();
@@ -154,7 +180,8 @@ bool OrbitFinder::iterate() {
         return true;
     }
     stage_ = Stage::recording;
-    map_->settle_on_section(workspace_, point_);
+    if (returns_to_section_)
+        map_->settle_on_section(workspace_, point_);
     recorder_.begin(parameters_);
     recorder_.set_origin(0);
     watcher_.begin(parameters_, periods_, &recorder_);
@@ -176,7 +203,7 @@ bool OrbitFinder::record() {
         return largest;
     };
     residual_ = distance(watcher_.recent(0).state, point_);
-    if (!(residual_ < closed))
+    if (!(residual_ < closed) || !others_return(watcher_.recent(0).state))
         return fail();
     keep_orbit();
     // States of which nothing is known but that they are the same.
@@ -189,7 +216,7 @@ bool OrbitFinder::record() {
     };
     // The orbit may close after fewer returns.
     for (std::size_t d = 1; d < period_; ++d)
-        if (period_ % d == 0 && watcher_.recent(period_ - d).mode == mode_ &&
+        if (period_ % d == 0 && watcher_.recent(period_ - d).mode == mode_ && others_return(recorded_[d - 1]) &&
             (distance(recorded_[d - 1], point_) < same || indistinct(recorded_[d - 1], point_))) {
             duration_ *= static_cast<double>(d) / static_cast<double>(period_);
             period_ = d;
@@ -202,6 +229,18 @@ bool OrbitFinder::record() {
         return false;
     }
     start_comparison();
+    return true;
+}
+
+/// Whether the states that take part, but are not for Newton's method to move, are where they began. A phase that is
+/// not has another period: nothing repeats itself, however little the other states show of it.
+bool OrbitFinder::others_return(std::span<const double> image) const {
+    std::vector<double> difference(map_->states());
+    subtract_states(image, point_, periods_, difference);
+    for (std::size_t i = 0; i < difference.size(); ++i)
+        if (map_->takes_part(i) && !is_active(i) &&
+            !(std::abs(difference[i]) <= closed_exactly * scale_[static_cast<Eigen::Index>(i)]))
+            return false;
     return true;
 }
 
@@ -218,6 +257,11 @@ void OrbitFinder::keep_orbit() {
             greatest = std::max(greatest, watcher_.recent(k).greatest[i]);
         }
         extents_[i] = greatest - least;
+        // What comes back to exactly where it was, from wherever it starts, is at rest; or, if it moves, on one of many
+        // orbits side by side, as the height of a ball that loses nothing.
+        if (map_->takes_part(i) && !(periods_[i] > 0) && !is_active(i) && extents_[i] > same * std::abs(point_[i]) &&
+            (multipliers().empty() || std::abs(multipliers().front()) < 1))
+            spectrum_.multipliers.insert(spectrum_.multipliers.begin(), 1.0);
     }
     for (std::size_t k = period_; k-- > 0;)
         recorded_.push_back(watcher_.recent(k).state);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graze/sweep/attractor.hpp"
+#include "sweep/field_map.hpp"
 #include "sweep/motion_derivatives.hpp"
 #include "sweep/return_watcher.hpp"
 #include "sweep/sample_recorder.hpp"
@@ -22,9 +23,10 @@ namespace graze {
 /// its own image under the symmetry.
 class OrbitFinder {
 public:
-    /// @param derivatives to follow motions with; null: trajectories are to carry theirs
-    OrbitFinder(const SectionMap& map, const SampleRecorder::Layout& layout, const Function& image,
-                const std::vector<std::size_t>& image_modes, MotionDerivatives* derivatives);
+    /// @param field tells which states keep their signs; @param derivatives to follow motions with; null: trajectories
+    ///        are to carry theirs
+    OrbitFinder(const SectionMap& map, const FieldMap& field, const SampleRecorder::Layout& layout,
+                const Function& image, const std::vector<std::size_t>& image_modes, MotionDerivatives* derivatives);
 
     /// @param point where all begins; @param period in returns; @param scale of each state; @param duration about that
     ///        of the period; @param sticks whether contacts are likely to accumulate
@@ -58,11 +60,13 @@ public:
 
 private:
     enum class Stage { iterating, recording, comparing, found, failed };
+    bool is_on_section();
     void start_iteration();
     bool find_tangents(Eigen::MatrixXd& tangents);
     bool carries() const { return !derivatives_ || sticks_; }
     bool iterate();
     bool record();
+    bool others_return(std::span<const double> image) const;
     void keep_orbit();
     void start_comparison();
     bool compare();
@@ -70,6 +74,7 @@ private:
     bool arrived() const;
 
     const SectionMap* map_;
+    const FieldMap* field_;
     const Function* image_;
     const std::vector<std::size_t>* image_modes_;
     MotionDerivatives* derivatives_;
@@ -87,7 +92,7 @@ private:
     std::size_t mode_ = 0, period_ = 0, iterations_ = 0, returns_ = 0;
     double duration_ = 0, residual_ = 0, guard_ = 0, correction_ = 0, longest_step_ = 0;
     Stage stage_ = Stage::failed;
-    bool clearly_unstable_ = false;
+    bool clearly_unstable_ = false, returns_to_section_ = true;
     bool sticks_ = false; ///< contacts accumulate: trajectories have to carry their derivatives
 };
 

@@ -3,6 +3,7 @@
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/require.hpp"
 #include "graze/trajectory/ensemble.hpp"
+#include "sweep/admissible_start.hpp"
 
 #include <fmt/format.h>
 
@@ -10,14 +11,15 @@
 #include <cmath>
 #include <exception>
 #include <mutex>
+#include <string>
 #include <thread>
 
 namespace graze {
 
 bool can_be_carried_on(const PointResult& result) {
     const bool settled = result.label == Label::periodic || result.label == Label::quasi_periodic ||
-                         result.label == Label::chaotic || result.label == Label::unsettled ||
-                         result.label == Label::equilibrium;
+                         result.label == Label::chaotic || result.label == Label::transient ||
+                         result.label == Label::unsettled || result.label == Label::equilibrium;
     return settled && std::all_of(result.state.begin(), result.state.end(), [](double x) { return std::isfinite(x); });
 }
 
@@ -59,6 +61,10 @@ public:
         if (search_->proceed())
             return &search_->trajectory();
         PointResult& result = search_->result();
+        if (was_refused(result) && begin_elsewhere())
+            return &search_->trajectory();
+        if (!elsewhere_.empty())
+            result.outcome.detail += (result.outcome.detail.empty() ? "" : "; ") + elsewhere_;
         carried_ = can_be_carried_on(result);
         if (execution_->plan.carry) {
             state_ = result.state;
@@ -75,6 +81,38 @@ public:
     }
 
 private:
+    /// Whether a state that was carried along, or should have been, violates a barrier where the point begins.
+    bool was_refused(const PointResult& result) const {
+        return execution_->plan.carry && index_ > 0 && result.outcome.ending == Ending::inadmissible &&
+               result.time == 0;
+    }
+
+    /// Tries the initial state in place of the one that was carried along, then the nearest that violates no barrier.
+    bool begin_elsewhere() {
+        if (attempt_ == Attempt::carried) {
+            attempt_ = Attempt::initial;
+            start_ = initial_;
+            elsewhere_ = "began anew at the initial state: the one carried from the point before violates a barrier";
+        } else if (attempt_ == Attempt::initial) {
+            attempt_ = Attempt::nearest;
+            const bool from_carried = carried_;
+            const auto nearest = nearest_admissible(execution_->searches.simulation().system(), start_.parameters,
+                                                    from_carried ? std::span<const double>(state_) : initial_.state,
+                                                    from_carried ? mode_ : initial_.mode);
+            if (!nearest)
+                return false;
+            start_.state = *nearest;
+            start_.mode = from_carried ? mode_ : initial_.mode;
+            elsewhere_ = fmt::format("began anew at the admissible state nearest to the {} one, since that and the "
+                                     "initial one violate a barrier",
+                                     from_carried ? "carried" : "initial");
+        } else {
+            return false;
+        }
+        search_->begin(start_.parameters, start_.state, start_.mode);
+        return true;
+    }
+
     Trajectory* next_point() {
         const Plan& plan = execution_->plan;
         while (index_ >= plan.chain_length || !has_chain_) {
@@ -95,9 +133,14 @@ private:
         if (execution_->must_stop())
             return nullptr;
         start_ = plan.start(chain_ * plan.chain_length + index_);
+        elsewhere_.clear();
+        attempt_ = Attempt::initial;
+        if (plan.carry)
+            initial_ = start_;
         if (plan.carry && carried_ && index_ > 0) {
             start_.state = state_;
             start_.mode = mode_;
+            attempt_ = Attempt::carried;
         }
         search_->begin(start_.parameters, start_.state, start_.mode);
         return &search_->trajectory();
@@ -108,7 +151,9 @@ private:
     bool has_chain_ = false, carried_ = false;
     std::size_t chain_ = 0, index_ = 0, mode_ = 0;
     std::vector<double> state_;
-    PointStart start_;
+    PointStart start_, initial_;
+    enum class Attempt { carried, initial, nearest } attempt_ = Attempt::initial; ///< where the point begins
+    std::string elsewhere_; ///< what is said of a point that does not begin where it should
 };
 
 void work(Execution& execution, std::size_t slots) {

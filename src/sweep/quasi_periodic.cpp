@@ -17,6 +17,7 @@ constexpr double back = 1e-4;
 constexpr double shrinking = 0.9;
 /// Distance, likewise, at which it has arrived there.
 constexpr double arrived = 1e-9;
+constexpr std::size_t fewest_back = 8; ///< returns that show a period longer than half of those that were seen
 
 /// Functions of the states whose averages are compared: of each, one number for each return.
 std::vector<std::vector<double>> observables(const VisitedStates& visited, std::span<const double> extents,
@@ -65,6 +66,29 @@ std::vector<std::vector<double>> observables(const VisitedStates& visited, std::
     return all;
 }
 
+/// Whether some state goes farther in one half of the returns than in the other, by so much that the motion grows or
+/// shrinks: the averages of one that grows at a constant rate are even, since all but its end is small.
+bool changes_size(const VisitedStates& visited) {
+    constexpr double most = 3;
+    const std::size_t states = visited.periods.size(), half = visited.returns() / 2;
+    for (std::size_t i = 0; i < states; ++i) {
+        if (visited.periods[i] > 0)
+            continue;
+        const auto range = [&](std::size_t first, std::size_t count) {
+            double low = visited.values[first * states + i], high = low;
+            for (std::size_t k = first; k < first + count; ++k) {
+                low = std::min(low, visited.values[k * states + i]);
+                high = std::max(high, visited.values[k * states + i]);
+            }
+            return high - low;
+        };
+        const double older = range(0, half), newer = range(visited.returns() - half, half);
+        if (!(newer <= most * older && older <= most * newer))
+            return true;
+    }
+    return false;
+}
+
 /// Averages along a quasi-periodic motion converge faster than any power of their length when its ends have no weight.
 double weighted_average(std::span<const double> values) {
     double sum = 0, weights = 0;
@@ -107,6 +131,14 @@ bool comes_back(const VisitedStates& visited, std::span<const double> extents) {
         if (newer < arrived || newer < shrinking * older)
             return true;
     }
+    // Of periods beyond half of the returns fewer are seen: all of these must be where they were.
+    for (std::size_t lag = last / 2 + 1; lag + fewest_back <= last; ++lag) {
+        double largest = 0;
+        for (std::size_t k = lag; k <= last && largest < arrived; ++k)
+            largest = std::max(largest, distance(visited, extents, k, k - lag));
+        if (largest < arrived)
+            return true;
+    }
     return false;
 }
 
@@ -128,7 +160,7 @@ double closest_lag(const VisitedStates& visited, std::span<const double> extents
 
 double unevenness(const VisitedStates& visited, std::span<const double> extents) {
     constexpr double unknown = std::numeric_limits<double>::infinity();
-    if (visited.returns() < fewest_returns)
+    if (visited.returns() < fewest_returns || changes_size(visited))
         return unknown;
     bool moving = false;
     double largest = 0;

@@ -16,6 +16,9 @@ constexpr double simultaneous = 1e-10;
 constexpr double least_extent = 1e-6;
 /// Extents smaller than this share of a state's size are its round-off.
 constexpr double round_off = 1e-12;
+/// What rounding makes of a state within a return is no more than this share of its scale: less than by which orbits
+/// close.
+constexpr double noise_share = 1e-10;
 /// Shares of the threshold of a recurrence: for one that needs no other evidence, and for the one before it.
 constexpr double striking = 1e-3;
 constexpr double approaching = 30;
@@ -25,8 +28,8 @@ constexpr std::size_t first_look = 64;      ///< steps without a return after wh
 } // namespace
 
 ReturnWatcher::ReturnWatcher(const SectionMap& map, std::size_t kept, std::vector<StateBounds> bounds)
-    : map_(&map), bounds_(std::move(bounds)), scale_(map.states(), 1), difference_(map.states()), least_(map.states()),
-      greatest_(map.states()), widest_(map.states()), ring_(kept) {}
+    : map_(&map), bounds_(std::move(bounds)), scale_(map.states(), 1), noise_(map.states()), difference_(map.states()),
+      least_(map.states()), greatest_(map.states()), widest_(map.states()), ring_(kept) {}
 
 void ReturnWatcher::begin(std::span<const double> parameters, std::span<const double> periods,
                           SampleRecorder* recorder) {
@@ -35,11 +38,13 @@ void ReturnWatcher::begin(std::span<const double> parameters, std::span<const do
     recorder_ = recorder;
     derivatives_ = nullptr;
     next_ = returns_ = 0;
+    alike_.assign(ring_.size(), {});
     escaped_ = stuck_ = looking_ = false;
     std::fill(widest_.begin(), widest_.end(), 0.0);
     std::fill(scale_.begin(), scale_.end(), 1.0);
     thresholds_ = nullptr;
     early_.clear();
+    parts_.clear();
     lowest_.assign(least_.size(), infinity);
     highest_.assign(least_.size(), -infinity);
 }
@@ -136,6 +141,8 @@ void ReturnWatcher::arrive(double time, std::size_t mode, std::span<const double
     std::fill(greatest_.begin(), greatest_.end(), -infinity);
     next_ = (next_ + 1) % ring_.size();
     ++returns_;
+    parts_.add(part(0));
+    compare_contacts();
     steps_ = 0;
     next_look_ = first_look;
     looking_ = false;
@@ -147,6 +154,24 @@ void ReturnWatcher::arrive(double time, std::size_t mode, std::span<const double
         stop_ = recurrent_ != 0;
     }
     stop_ = stop_ || (stop_after_ > 0 && returns_ >= stop_after_) || (derivatives_ && derivatives_->broken());
+}
+
+MotionPart ReturnWatcher::part(std::size_t before) const {
+    const Return& one = recent(before);
+    MotionPart part{one.least, one.greatest, !one.contacts.empty()};
+    if (before + 1 < remembered())
+        part.include(recent(before + 1).state);
+    return part;
+}
+
+void ReturnWatcher::compare_contacts() {
+    for (std::size_t period = 1; thresholds_ && period < remembered(); ++period)
+        if (Alike& alike = alike_[period]; recent(0).contacts == recent(period).contacts) {
+            ++alike.now;
+        } else {
+            alike.longest = std::max(alike.longest, alike.now);
+            alike.now = 0;
+        }
 }
 
 void ReturnWatcher::widen() {
@@ -161,6 +186,7 @@ void ReturnWatcher::widen() {
 
 void ReturnWatcher::update_scale() {
     const std::size_t known = std::min(remembered(), std::max<std::size_t>(largest_, 1));
+    find_noise();
     for (std::size_t i = 0; i < scale_.size(); ++i) {
         if (periods_[i] > 0) {
             scale_[i] = periods_[i];
@@ -175,7 +201,18 @@ void ReturnWatcher::update_scale() {
         // What does not move at all is measured by its size.
         const double size = std::max(std::abs(high), std::abs(low));
         scale_[i] = extent > round_off * size ? extent : size > 0 ? size : 1;
+        // What nothing moves but the rounding of its rate has no extent of its own.
+        scale_[i] = std::max(scale_[i], noise_[i] / noise_share);
     }
+}
+
+/// How far rounding may have moved each state since the last return.
+void ReturnWatcher::find_noise() {
+    std::fill(noise_.begin(), noise_.end(), 0.0);
+    const Return& last = recent(0);
+    const double since = remembered() > 1 ? last.time - std::max(recent(1).time, leg_start_) : last.time - leg_start_;
+    for (const std::vector<double>* const place : {&last.state, &last.least, &last.greatest})
+        map_->add_round_off(workspace_, last.mode, *place, since, noise_);
 }
 
 double ReturnWatcher::distance(std::span<const double> a, std::span<const double> b) {

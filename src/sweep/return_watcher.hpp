@@ -3,6 +3,7 @@
 #include "graze/sweep/attractor.hpp"
 #include "graze/trajectory/observer.hpp"
 #include "sweep/motion_derivatives.hpp"
+#include "sweep/motion_parts.hpp"
 #include "sweep/sample_recorder.hpp"
 #include "sweep/section_map.hpp"
 
@@ -55,8 +56,16 @@ public:
     std::span<const double> widest() const { return widest_; }
     /// Extent of each state over all returns so far.
     double range(std::size_t state) const { return highest_[state] - lowest_[state]; }
+    double lowest(std::size_t state) const { return lowest_[state]; }
     /// Extent of each state at the beginning: up to the second return, or until it was first looked at.
     std::span<const double> early() const { return early_; }
+    /// What comes is a beginning: the motion has been displaced.
+    void begin_anew() { early_.clear(); }
+    /// All returns so far, in a few parts.
+    const MotionParts& parts() const { return parts_; }
+    /// Between which values the states were since the return before that one, that return included: in long steps it is
+    /// all that is known of what came between.
+    MotionPart part(std::size_t before) const;
     /// Period at whose return it stopped; 0: none.
     std::size_t recurrent() const { return recurrent_; }
     /// The return `before` returns before the last.
@@ -68,6 +77,10 @@ public:
     double distance(std::span<const double> a, std::span<const double> b);
     /// Whether contacts have accumulated within the last `count` returns.
     bool has_stuck(std::size_t count) const;
+    /// How many returns in a row, up to the last, have had the contacts of the return one period before; and the most
+    /// before others came. @param period in returns, of those that are watched for recurrence
+    std::size_t alike(std::size_t period) const { return alike_[period].now; }
+    std::size_t longest_alike(std::size_t period) const { return alike_[period].longest; }
     /// All contacts of the last `count` returns.
     std::vector<std::uint32_t> contacts(std::size_t count) const;
 
@@ -80,7 +93,9 @@ public:
 
 private:
     void arrive(double time, std::size_t mode, std::span<const double> state);
+    void compare_contacts();
     void update_scale();
+    void find_noise();
     void widen();
     std::size_t find_recurrence();
     void check_bounds(std::span<const double> state);
@@ -90,8 +105,9 @@ private:
     SectionMap::Workspace workspace_;
     SampleRecorder* recorder_ = nullptr;
     MotionDerivatives* derivatives_ = nullptr;
-    std::vector<double> periods_, scale_, difference_, least_, greatest_, widest_, early_, lowest_, highest_;
+    std::vector<double> periods_, scale_, noise_, difference_, least_, greatest_, widest_, early_, lowest_, highest_;
     std::vector<Return> ring_;
+    MotionParts parts_;
     Return current_;
     std::size_t next_ = 0, returns_ = 0, stop_after_ = 0, largest_ = 0, recurrent_ = 0;
     std::vector<double>* thresholds_ = nullptr;
@@ -99,6 +115,10 @@ private:
     bool any_steps_ = false;
     bool pending_ = false, stop_ = false, escaped_ = false, stuck_ = false, looking_ = false, rest_ = false;
     std::size_t steps_ = 0, next_look_ = 0; ///< since the last return
+    struct Alike {
+        std::size_t now = 0, longest = 0;
+    };
+    std::vector<Alike> alike_; ///< for each period
 };
 
 } // namespace graze

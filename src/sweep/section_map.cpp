@@ -1,5 +1,6 @@
 #include "sweep/section_map.hpp"
 
+#include "base/decompositions.hpp"
 #include "flow/cyclic.hpp"
 #include "graze/symbolic/transform.hpp"
 
@@ -7,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace graze {
 
@@ -32,7 +34,8 @@ SectionMap::Workspace SectionMap::workspace(std::span<const double> parameters) 
     Workspace workspace;
     workspace.inputs.resize(states_ + parameters.size());
     std::copy(parameters.begin(), parameters.end(), workspace.inputs.begin() + static_cast<std::ptrdiff_t>(states_));
-    workspace.work.resize(std::max(compiled.workspace(), section_.workspace()));
+    workspace.work.resize(std::max(2 * compiled.workspace(), section_.workspace()));
+    workspace.errors.resize(workspace.inputs.size());
     workspace.field.resize(states_);
     workspace.gradient.resize(std::max(1 + states_, section_.outputs()));
     std::size_t watched = 0;
@@ -64,6 +67,17 @@ bool SectionMap::project(Workspace& workspace, std::size_t mode, std::span<const
     return tangents.allFinite();
 }
 
+std::vector<double> SectionMap::gradient_at(std::span<const double> parameters, std::span<const double> state) const {
+    std::vector<double> gradient(states_, 0.0);
+    if (is_phase())
+        return gradient;
+    Workspace numbers = workspace(parameters);
+    std::copy(state.begin(), state.end(), numbers.inputs.begin());
+    section_.evaluate(numbers.inputs, numbers.gradient, numbers.work);
+    std::copy_n(numbers.gradient.begin() + 1, states_, gradient.begin());
+    return gradient;
+}
+
 void SectionMap::settle_on_section(Workspace& workspace, std::span<double> state) const {
     if (is_phase())
         return;
@@ -76,6 +90,22 @@ void SectionMap::settle_on_section(Workspace& workspace, std::span<double> state
         return;
     for (std::size_t i = 0; i < states_; ++i)
         state[i] -= workspace.gradient[0] * workspace.gradient[1 + i] / square;
+}
+
+void SectionMap::add_round_off(Workspace& workspace, std::size_t mode, std::span<const double> state, double time,
+                               std::span<double> result) const {
+    const Function& rates = simulation_.system().mode(mode).rates;
+    std::copy(state.begin(), state.end(), workspace.inputs.begin());
+    std::fill(workspace.errors.begin(), workspace.errors.end(), 0.0);
+    // What round-off makes of a speed it makes of the position, too.
+    for (int order = 0; order < 2; ++order) {
+        rates.error_bounds(workspace.inputs, workspace.errors, workspace.field, workspace.work);
+        for (std::size_t i = 0; i < states_; ++i) {
+            const double moved = workspace.field[i] * time;
+            workspace.errors[i] = std::isfinite(moved) ? moved : 0;
+            result[i] = std::max(result[i], workspace.errors[i]);
+        }
+    }
 }
 
 bool SectionMap::is_on_event(Workspace& workspace, std::size_t mode, std::span<const double> state,
@@ -158,7 +188,16 @@ Eigen::VectorXd newton_correction(const ReturnJacobian& jacobian, const Eigen::V
         const auto state = static_cast<Eigen::Index>(jacobian.active[static_cast<std::size_t>(i)]);
         right[i] = -defect[state] / scale[state];
     }
-    const Eigen::VectorXd solution = matrix.completeOrthogonalDecomposition().solve(right);
+    // What is left of entries that cancel is the error of derivatives: along directions in which all neighbours return,
+    // too, there is nothing to be corrected.
+    constexpr double errors_of_derivatives = 1e-12;
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factors(size, size);
+    const double largest = matrix.colwise().norm().maxCoeff();
+    const double usual = std::numeric_limits<double>::epsilon() * static_cast<double>(size);
+    if (largest > 0)
+        factors.setThreshold(std::max(usual, errors_of_derivatives / largest));
+    factors.compute(matrix);
+    const Eigen::VectorXd solution = factors.solve(right);
     for (Eigen::Index i = 0; i < size; ++i) {
         const auto state = static_cast<Eigen::Index>(jacobian.active[static_cast<std::size_t>(i)]);
         correction[state] = solution[i] * scale[state];
@@ -174,23 +213,24 @@ std::optional<ReturnSpectrum> return_spectrum(const SectionMap& map, const Retur
     if (jacobian.active.empty())
         return result;
     const Eigen::MatrixXd matrix = scaled_matrix(jacobian, scale);
-    const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix), transposed(matrix.transpose());
-    if (!matrix.allFinite() || solver.info() != Eigen::Success || transposed.info() != Eigen::Success)
+    const auto system = eigensystem(matrix), transposed = eigensystem(matrix.transpose());
+    if (!matrix.allFinite() || !system || !transposed)
         return std::nullopt;
-    const Eigen::VectorXcd& values = solver.eigenvalues();
+    const Eigen::VectorXcd& values = system->values;
     std::vector<Eigen::Index> order(jacobian.active.size());
     for (std::size_t i = 0; i < order.size(); ++i)
         order[i] = static_cast<Eigen::Index>(i);
     std::stable_sort(order.begin(), order.end(),
                      [&](auto a, auto b) { return std::abs(values[a]) > std::abs(values[b]); });
     // The flow's direction is projected out at a crossing section, which leaves one multiplier that is zero.
-    const std::size_t count = order.size() - (map.is_phase() ? 0 : 1);
+    // Of a single state that one is all there is: the return map forgets everything, and what is left is round-off.
+    const std::size_t count = map.is_phase() || order.size() == 1 ? order.size() : order.size() - 1;
     for (std::size_t i = 0; i < count; ++i)
-        result.multipliers.push_back(values[order[i]]);
-    const Eigen::VectorXd leading = solver.eigenvectors().col(order[0]).real();
+        result.multipliers.push_back(!map.is_phase() && order.size() == 1 ? 0.0 : values[order[i]]);
+    const Eigen::VectorXd leading = system->vectors.col(order[0]).real();
     Eigen::Index same = 0;
-    (transposed.eigenvalues().array() - values[order[0]]).abs().minCoeff(&same);
-    const Eigen::VectorXcd functional = transposed.eigenvectors().col(same);
+    (transposed->values.array() - values[order[0]]).abs().minCoeff(&same);
+    const Eigen::VectorXcd functional = transposed->vectors.col(same);
     for (std::size_t i = 0; i < jacobian.active.size(); ++i) {
         const auto state = static_cast<Eigen::Index>(jacobian.active[i]);
         result.direction[state] = leading[static_cast<Eigen::Index>(i)] * scale[state];

@@ -28,7 +28,7 @@ public:
 
     /// Numbers that every use needs, for one thread.
     struct Workspace {
-        std::vector<double> inputs, work, field, gradient, events, event_gradients;
+        std::vector<double> inputs, work, field, gradient, events, event_gradients, errors;
     };
     Workspace workspace(std::span<const double> parameters) const;
 
@@ -36,8 +36,14 @@ public:
     /// flow bring each back to it. @return false where the flow is tangent to the section
     bool project(Workspace& workspace, std::size_t mode, std::span<const double> state,
                  Eigen::MatrixXd& tangents) const;
+    /// Of the function whose zero is the section, by the states; of a phase, which takes no part, nought.
+    std::vector<double> gradient_at(std::span<const double> parameters, std::span<const double> state) const;
     /// Moves a state onto a crossing section by one step of Newton's method; a phase is left as it is.
     void settle_on_section(Workspace& workspace, std::span<double> state) const;
+    /// How far the rounding of rates may move each state within a time, where the motion stays about here. At least
+    /// what `result` has.
+    void add_round_off(Workspace& workspace, std::size_t mode, std::span<const double> state, double time,
+                       std::span<double> result) const;
     /// Whether an event of the mode happens within `time` of the state.
     bool is_on_event(Workspace& workspace, std::size_t mode, std::span<const double> state,
                      std::span<const double> periods, double time) const;

@@ -1,5 +1,6 @@
 #include "graze/symbolic/parser.hpp"
 
+#include "graze/symbolic/name_list.hpp"
 #include "symbolic/lexer.hpp"
 #include "symbolic/vocabulary.hpp"
 
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <functional>
 #include <numbers>
-#include <numeric>
 #include <stdexcept>
 
 namespace graze {
@@ -228,10 +228,7 @@ void Parser::refuse_name(const Token& name, bool is_call) const {
     if (!nearest.empty()) {
         remedy = fmt::format("did you mean '{}'?", nearest);
     } else if (is_call || !scope_.empty()) {
-        constexpr std::size_t most = 12;
-        const bool all = candidates.size() <= most;
-        candidates.resize(std::min(candidates.size(), most));
-        remedy = fmt::format("known are {}{}", fmt::join(candidates, ", "), all ? "" : ", ...");
+        remedy = fmt::format("known are {}", name_list(candidates, name.text));
     } else {
         remedy = "no names are known here: write a number";
     }
@@ -289,32 +286,6 @@ void Parser::refuse_end() const {
     source_.fail(offset, "this '(' is never closed", "add the missing ')'");
 }
 
-std::string lower_case(std::string_view text) {
-    std::string result(text);
-    for (char& character : result)
-        if (character >= 'A' && character <= 'Z')
-            character = static_cast<char>(character - 'A' + 'a');
-    return result;
-}
-
-/// Least number of letters to insert, remove, replace or exchange with a neighbour.
-std::size_t edit_distance(std::string_view one, std::string_view other) {
-    std::vector<std::size_t> before_last(other.size() + 1), last(other.size() + 1), current(other.size() + 1);
-    std::iota(current.begin(), current.end(), std::size_t{0});
-    for (std::size_t row = 1; row <= one.size(); ++row) {
-        std::swap(before_last, last);
-        std::swap(last, current);
-        current[0] = row;
-        for (std::size_t column = 1; column <= other.size(); ++column) {
-            const std::size_t replaced = last[column - 1] + (one[row - 1] != other[column - 1]);
-            current[column] = std::min({replaced, last[column] + 1, current[column - 1] + 1});
-            if (row > 1 && column > 1 && one[row - 1] == other[column - 2] && one[row - 2] == other[column - 1])
-                current[column] = std::min(current[column], before_last[column - 2] + 1);
-        }
-    }
-    return current.back();
-}
-
 } // namespace
 
 Expression parse_expression(Graph& graph, std::string_view text, const Scope& scope, const Place& place) {
@@ -357,25 +328,6 @@ bool is_valid_name(std::string_view name) {
 bool is_reserved_name(std::string_view name) {
     constexpr std::string_view words[] = {"pi", "t", "time", "and", "or", "not"};
     return function_named(name).has_value() || std::ranges::find(words, name) != std::end(words);
-}
-
-std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
-    constexpr std::size_t longest_compared = 64;
-    const std::string wanted = lower_case(name.substr(0, longest_compared + 1));
-    std::string nearest;
-    std::size_t least = 4; // more edits than this are no misspelling
-    for (const std::string& candidate : candidates) {
-        const std::size_t longer = std::max(name.size(), candidate.size());
-        if (longer > longest_compared)
-            continue;
-        const std::size_t distance = edit_distance(wanted, lower_case(candidate));
-        const std::size_t near = std::max<std::size_t>(1, longer / 3);
-        if (distance < least && distance < longer && distance <= near) {
-            least = distance;
-            nearest = candidate;
-        }
-    }
-    return nearest;
 }
 
 } // namespace graze

@@ -17,8 +17,34 @@ namespace {
 /// What stands under a root falls by no more than this in one step, so that the polynomials of the states tell it
 /// relative to its own size, however close to zero it comes.
 constexpr double least_share = 1e-2;
+/// An arc that begins where something under a root is zero, as a Hertz contact does, has no series there. Share of the
+/// time scale of the motion that it is taken along its rates, at first and at most, and by what the two rules for that
+/// may differ, relative to the state or to how far it goes.
+constexpr double first_leave = 1e-12, last_leave = 1e-9, leave_accuracy = 1e-15;
+/// How much larger what is under the root becomes than it was, since that was zero but for round-off.
+constexpr double clear_of_zero = 100;
+/// Where the motion has come as close to a zero as time can tell, it goes on to this share of what is left, as straight
+/// as a rate that stays finite makes it; the rates may grow by as much, and what stands under a root falls at least so.
+constexpr double left_share = 1e-9, most_growth = 2, least_fall = 0.75;
 /// Shares of the size of a series by which its rate is off for certain: where that is found, and where it begins.
 constexpr double least_jump = 1e-6, certain_jump = 1e-12;
+
+/// In what time something under a root, to a positive power, falls to zero from a state along its rates, if that takes
+/// about as long as `radius`; negative if nothing does.
+/// @param inputs state and parameters; as they were afterwards
+double time_to_zero(const Function& roots, std::span<double> inputs, std::span<const double> rates, double radius,
+                    std::span<double> work) {
+    std::vector<double> now(roots.outputs()), then(roots.outputs()), state(inputs.begin(), inputs.end());
+    roots.evaluate(inputs, now, work);
+    for (std::size_t i = 0; i < rates.size(); ++i)
+        inputs[i] += 0.5 * radius * rates[i];
+    roots.evaluate(inputs, then, work);
+    std::copy(state.begin(), state.end(), inputs.begin());
+    for (std::size_t r = 0; r < now.size(); r += 2)
+        if (now[r + 1] > 0 && now[r + 1] != std::floor(now[r + 1]) && now[r] > 0 && then[r] < least_fall * now[r])
+            return 0.5 * radius * now[r] / (now[r] - then[r]);
+    return -1;
+}
 
 } // namespace
 
@@ -101,6 +127,118 @@ void Trajectory::finish_at_branch(std::size_t state) {
         fmt::format("the rate of state '{}' jumps {}: what stands under a root or a power reaches zero; end the mode "
                     "by an event before it does",
                     simulation_.model().states[state].name, where()));
+}
+
+/// The state that the motion reaches in so short a time, by the trapezoidal rule; false where that does not lead to
+/// where all roots are clear of zero, or the rule of the middle leads elsewhere.
+bool Trajectory::can_leave_branch_by(double time, std::span<double> after) {
+    const Function& roots = compiled_mode_->roots;
+    std::vector<double> start(states_), end(states_), middle(states_), before(roots.outputs()), then(roots.outputs());
+    const auto rates_at = [&](double share, std::span<const double> rates, std::span<double> result) {
+        for (std::size_t i = 0; i < states_; ++i)
+            inputs_[i] = state_[i] + share * time * rates[i];
+        compiled_mode_->rates.evaluate(inputs_, result, work_);
+    };
+    rates_at(0, start, start);
+    roots.evaluate(inputs_, before, work_);
+    std::vector<double> known = start;
+    for (double& rate : known)
+        rate = std::isfinite(rate) ? rate : 0; // the power of what round-off has made negative
+    rates_at(1, known, end);
+    roots.evaluate(inputs_, then, work_);
+    bool leaves = false;
+    for (std::size_t r = 0; r < then.size(); r += 2) {
+        if (!(before[r + 1] > 0) || before[r + 1] == std::floor(before[r + 1]))
+            continue;
+        if (then[r] > clear_of_zero * std::abs(before[r]))
+            leaves = true;
+        else if (!(before[r] > 0 && then[r] > 0.5 * before[r])) // otherwise it is not at zero
+            return false;
+    }
+    for (std::size_t i = 0; i < states_; ++i)
+        start[i] = std::isfinite(start[i]) ? 0.5 * (start[i] + end[i]) : end[i];
+    rates_at(0.5, start, middle);
+    for (std::size_t i = 0; i < states_; ++i) {
+        after[i] = state_[i] + time * start[i];
+        const double size = std::max(std::abs(state_[i]), time * std::max(std::abs(start[i]), std::abs(end[i])));
+        if (!std::isfinite(after[i]) || !(time * std::abs(middle[i] - start[i]) <= leave_accuracy * size))
+            return false;
+    }
+    return leaves;
+}
+
+/// At the start of an arc, and only where its series do not exist, or for no time. @return whether the motion has left
+/// that place
+bool Trajectory::leave_branch() {
+    if (!compiled_mode_->has_roots || !arc_start_)
+        return false;
+    std::vector<double> after(states_);
+    double scale = largest_step_;
+    if (!(scale > 0)) { // the shortest time in which a state changes by as much as it is
+        std::copy(state_.begin(), state_.end(), inputs_.begin());
+        compiled_mode_->rates.evaluate(inputs_, after, work_);
+        for (std::size_t i = 0; i < states_; ++i) {
+            const double size = periods_[i] > 0 ? periods_[i] : std::abs(state_[i]), time = size / std::abs(after[i]);
+            if (time > 0 && std::isfinite(time) && (scale == 0 || time < scale))
+                scale = time;
+        }
+        scale = scale > 0 ? scale : 1;
+    }
+    const double remaining = (end_time_ - time_) - time_low_;
+    double time = -1;
+    for (double share = first_leave; time < 0 && share <= last_leave && share * scale < remaining; share *= 8)
+        time = can_leave_branch_by(share * scale, after) ? share * scale : -1;
+    if (time < 0 && remaining <= last_leave * scale) { // the motion ends before it has left
+        std::copy(state_.begin(), state_.end(), inputs_.begin());
+        compiled_mode_->rates.evaluate(inputs_, after, work_);
+        bool finite = true;
+        for (std::size_t i = 0; i < states_; ++i) {
+            after[i] = state_[i] + remaining * after[i];
+            finite = finite && std::isfinite(after[i]);
+        }
+        time = finite ? remaining : -1;
+    }
+    if (time < 0)
+        return false;
+    state_.assign(after.begin(), after.end());
+    add_time(time);
+    wrap_cyclic_states(false);
+    return true;
+}
+
+/// Steps have become too short for time. At a pole the solution ends; where what is under a root, or a power that is
+/// not whole, falls to zero the rates are finite, and only no numbers behind it.
+void Trajectory::finish_singular() {
+    // Where a series has only a few terms its last ones are round-off, and their ratio is no radius.
+    const double radius = std::min(step_size_.radius(series_.first(states_)), 16 * proposed_);
+    std::vector<double> rates(states_), closer(states_), beyond(states_);
+    std::copy(state_.begin(), state_.end(), inputs_.begin());
+    compiled_mode_->rates.evaluate(inputs_, rates, work_);
+    const double left =
+        compiled_mode_->has_roots ? time_to_zero(compiled_mode_->roots, inputs_, rates, radius, work_) : -1;
+    if (left > 0) {
+        const auto rates_after = [&](double time, std::span<double> result) {
+            for (std::size_t i = 0; i < states_; ++i)
+                inputs_[i] = state_[i] + time * rates[i];
+            compiled_mode_->rates.evaluate(inputs_, result, work_);
+        };
+        rates_after((1 - left_share) * left, closer);
+        rates_after(2 * left, beyond);
+        std::size_t lost = states_;
+        bool finite = true;
+        for (std::size_t i = 0; i < states_; ++i) {
+            finite = finite && std::abs(closer[i]) <= most_growth * std::abs(rates[i]);
+            lost = lost == states_ && !std::isfinite(beyond[i]) ? i : lost;
+        }
+        if (finite && lost < states_) {
+            finish(Ending::undefined, std::min(time_ + radius, end_time_),
+                   fmt::format("what stands under a root or a power in the rate of state '{}' reaches zero {}, and no "
+                               "rate is known beyond: make that zero an event, and what follows a mode",
+                               simulation_.model().states[lost].name, where()));
+            return;
+        }
+    }
+    finish(Ending::singular, std::min(time_ + radius, end_time_));
 }
 
 } // namespace graze

@@ -31,6 +31,13 @@ double root_uncertainty(std::span<const double> c, double s, double step, double
     return (uncertain_value < most * rate ? uncertain_value / rate : most) + by_start;
 }
 
+/// Where a function that falls reaches zero, if that lies behind a step by no more than `resolution`; negative
+/// otherwise.
+double zero_just_behind(std::span<const double> c, double step, double resolution) {
+    const double value = evaluate_polynomial(c, step), rate = evaluate_derivative(c, step);
+    return rate < 0 && value >= 0 && value <= -rate * resolution ? step - value / rate : -1;
+}
+
 } // namespace
 
 /// The watched event that happens first within `step`, which becomes the time until then. Roots are compared when they
@@ -79,6 +86,15 @@ std::size_t Trajectory::find_contact(double& step, const Outlook& outlook, std::
         look_beyond(first, step, uncertain);
     if (first == no_event)
         first = passed_with_period(whole, outlook, lane);
+    // What stands under a root is often what an event watches, as an indentation to the power 3/2: the contact ends
+    // where the series do. Steps go there, but not beyond: the last leaves a few of its lengths.
+    const bool at_branch = mode.has_roots && (branch_ahead_ < states_ || whole <= shortest_step());
+    for (std::size_t w = 0; first == no_event && at_branch && w < mode.watched.size(); ++w)
+        if (const double zero = zero_just_behind(event_series(w), whole, 16 * shortest_step());
+            watches_[w].side > 0 && zero >= 0) {
+            first = w;
+            step = zero;
+        }
     std::stable_sort(touches_.begin(), touches_.end(),
                      [](const Touch& a, const Touch& b) { return a.root.at < b.root.at; });
     return first;

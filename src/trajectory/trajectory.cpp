@@ -282,14 +282,20 @@ void Trajectory::advance(const Outlook& outlook, std::size_t lane) {
         return;
     if (series_.empty())
         throw std::logic_error("a step has to be proposed before it can be made");
+    const bool long_enough = proposed_ > 0 && proposed_ >= shortest_step();
+    if (!long_enough && leave_branch())
+        return;
     if (std::isnan(proposed_)) {
         announce_contact();
         return finish_undefined();
     }
     const double remaining = (end_time_ - time_) - time_low_;
     largest_step_ = std::max(largest_step_, std::min(proposed_, remaining));
-    if (!(proposed_ > 0) || proposed_ < shortest_step()) {
+    if (!long_enough) {
         announce_contact();
+        if (double step = shortest_step(); compiled_mode_->has_roots && !arc_start_)
+            if (const std::size_t watched = find_contact(step, outlook, lane); watched != no_event)
+                return make_contact(watched, step);
         return branch_ahead_ < states_ ? finish_at_branch(branch_ahead_) : finish_singular();
     }
     if (tangents_) {
@@ -412,12 +418,6 @@ void Trajectory::finish(Ending ending, double time, std::string detail) {
 
 std::string Trajectory::where() const {
     return fmt::format("in mode '{}' at time {:.15g}", simulation_.model().modes[mode_].name, time_);
-}
-
-void Trajectory::finish_singular() {
-    // Where a series has only a few terms its last ones are round-off, and their ratio is no radius.
-    const double radius = step_size_.radius(series_.first(states_));
-    finish(Ending::singular, std::min(time_ + std::min(radius, 16 * proposed_), end_time_));
 }
 
 void Trajectory::finish_unresolved() {

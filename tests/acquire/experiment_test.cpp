@@ -93,7 +93,8 @@ TEST(Experiment, SaysWhereAndWhatIsWrong) {
     EXPECT_EQ(std::count(falling.begin(), falling.end(), ';'), 1) << falling;
     for (const char* address : {"tcp:host:4711:5", "tcp::1", "tcp:host:0", "tcp:host:70000", "serial:", "tcp:[::1:1"})
         EXPECT_THAT(message("tcp:127.0.0.1:1", address), HasSubstr("is no device of samples")) << address;
-    EXPECT_EQ(device_address("tcp:[::1]:4711", {}).name, "::1");
+    EXPECT_THAT(message("\"none\"", "\"TCPIP0::host::INSTR\""), HasSubstr("give the port at which it takes SCPI"));
+    EXPECT_THAT(message("timeout = 0.2", "timeout = 0.2\nload = \"high\""), HasSubstr("give one of infinite"));
 }
 
 TEST(Experiment, TellsAllMistakesAtOnce) {

@@ -1,9 +1,11 @@
 #include "graze/acquire/generator_client.hpp"
 
 #include "acquire/scripted_line.hpp"
+#include "acquire/stranger_generator.hpp"
 #include "graze/bench/function_generator.hpp"
 #include "graze/symbolic/input_error.hpp"
 
+#include <algorithm>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <limits>
@@ -40,6 +42,24 @@ AcquisitionEnding ending_of(const std::function<void()>& work, std::string& what
         return error.ending();
     }
     return AcquisitionEnding::complete;
+}
+
+using testing::StrangerGenerator;
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+struct Stranger {
+    StrangerGenerator generator;
+    ScriptedLine line{[this](const std::string& said) { return generator.execute(said); }};
+};
+
+/// No more than the limits has left it, but for what it gave before it was told anything.
+void expect_within(const StrangerGenerator& generator, const GeneratorOptions& options, const std::string& what) {
+    constexpr double roundoff = 1e-3; // what it may tell beside what it was told
+    EXPECT_LE(generator.greatest_peaks, std::max(options.limits.amplitude, generator.first_peaks) * (1 + roundoff))
+        << what;
+    EXPECT_LE(generator.greatest_offset, std::max(options.limits.offset, generator.first_offset) * (1 + roundoff))
+        << what;
 }
 
 } // namespace
@@ -187,6 +207,260 @@ TEST(GeneratorClient, OpensALostLineAgainToBecomeSafe) {
     bent.line.mended_by_opening = false;
     EXPECT_FALSE(client.make_safe(0.1, problem));
     EXPECT_EQ(problem, "it is cut off");
+}
+
+/// In whatever state a generator stands, its output is as was asked for, or nothing.
+TEST(GeneratorClient, SendsVoltsAtTheOutputWhateverStateItStandsIn) {
+    for (unsigned seed = 0; seed < 400; ++seed) {
+        const double load = seed % 3 == 0 ? infinite : 50;
+        const unsigned habits = seed % 16; // of those that stick none
+        Stranger stranger{StrangerGenerator(seed, habits, load)};
+        GeneratorOptions given = options();
+        given.limits.amplitude = 2;
+        given.load = load;
+        GeneratorClient client(stranger.line, given);
+        const std::string what = "seed " + std::to_string(seed);
+        client.begin(6, 0.1, 0.3);
+        EXPECT_NEAR(stranger.generator.peaks(), 0.1, 1e-6) << what;
+        EXPECT_NEAR(stranger.generator.offset(), 0.3, 1e-6) << what;
+        EXPECT_TRUE(stranger.generator.is_on()) << what;
+        client.set_amplitude(2);
+        EXPECT_NEAR(stranger.generator.peaks(), 2, 1e-6) << what;
+        EXPECT_NEAR(client.amplitude(), 2, 1e-6) << what;
+        expect_within(stranger.generator, given, what);
+        std::string problem;
+        EXPECT_TRUE(client.make_safe(0.1, problem)) << what;
+        EXPECT_NEAR(stranger.generator.peaks(), 0.1, 1e-6) << what;
+        EXPECT_EQ(stranger.generator.offset(), 0) << what;
+    }
+}
+
+/// Where it does not take what makes numbers of volts mean something, no level leaves.
+TEST(GeneratorClient, SendsNoLevelToAGeneratorThatStaysAsItWas) {
+    std::size_t refused = 0;
+    for (unsigned seed = 0; seed < 160; ++seed) {
+        const unsigned stuck = 16U << (seed % 4), habits = stuck | (seed % 2 == 0 ? 13U : 4U);
+        Stranger stranger{StrangerGenerator(seed, habits, 50)};
+        GeneratorOptions given = options();
+        given.limits.amplitude = 2;
+        given.reopen = 0.02;
+        GeneratorClient client(stranger.line, given);
+        std::string what, problem;
+        const AcquisitionEnding ending = ending_of(
+            [&] {
+                client.begin(6, 0.1, 0);
+                client.set_amplitude(2);
+            },
+            what);
+        const bool safe = client.make_safe(0.1, problem);
+        expect_within(stranger.generator, given, what);
+        if (ending == AcquisitionEnding::complete) // it stood as it should
+            continue;
+        ++refused;
+        EXPECT_EQ(ending, AcquisitionEnding::clipped) << what;
+        EXPECT_THAT(what, HasSubstr("no level is sent"));
+        EXPECT_FALSE(safe);
+        EXPECT_TRUE(!stranger.generator.is_on() || (habits & StrangerGenerator::has_switch) == 0) << what;
+    }
+    EXPECT_GT(refused, 80U);
+}
+
+TEST(GeneratorClient, NoticesAUnitThatSomebodyHasChanged) {
+    for (const unsigned habits : {4U, 13U}) {
+        Stranger stranger{StrangerGenerator(5, habits, 50)};
+        GeneratorOptions given = options();
+        given.limits.amplitude = 2;
+        GeneratorClient client(stranger.line, given);
+        client.begin(6, 0.1, 0);
+        stranger.generator.turn_to_rms(); // 0.1 V of which are more
+        stranger.line.said.clear();
+        std::string what;
+        EXPECT_EQ(ending_of([&] { client.set_amplitude(2); }, what), AcquisitionEnding::clipped);
+        EXPECT_THAT(what, HasSubstr("stands at VOLT:UNIT VRMS instead of VPP: no level is sent"));
+        for (const std::string& said : stranger.line.said)
+            EXPECT_TRUE(said.back() == '?' || said == "SYST:REM" || said == "*CLS") << said;
+        EXPECT_TRUE(client.make_safe(0.1, what)) << what;
+        EXPECT_LE(stranger.generator.peaks(), 0.1 + 1e-6);
+        EXPECT_EQ(stranger.generator.is_on(), habits == 4U);
+    }
+}
+
+/// A level whose first sending was lost is not sent again to a generator that was switched off and on meanwhile.
+TEST(GeneratorClient, LooksAtTheGeneratorBeforeALevelIsSentAgain) {
+    for (const bool twice : {false, true}) {
+        Stranger stranger{StrangerGenerator(5, 13U, 50)};
+        bool lose = false;
+        ScriptedLine line{[&](const std::string& said) {
+            if (lose && said == "VOLT 2") {
+                lose = twice;
+                stranger.generator.turn_to_rms();
+                return std::string();
+            }
+            return stranger.generator.execute(said);
+        }};
+        GeneratorOptions given = options();
+        given.limits.amplitude = 2;
+        GeneratorClient client(line, given);
+        client.begin(6, 0.1, 0);
+        lose = true;
+        std::string what;
+        EXPECT_EQ(ending_of([&] { client.set_amplitude(2); }, what), AcquisitionEnding::clipped);
+        EXPECT_THAT(what, HasSubstr("stands at VOLT:UNIT VRMS instead of VPP: no level is sent"));
+        expect_within(stranger.generator, given, what);
+        EXPECT_EQ(std::count(line.said.begin(), line.said.end(), "VOLT 2"), 1);
+    }
+}
+
+/// Whose amplitude is another one once its frequency was set: without its output switched on nothing leaves it.
+TEST(GeneratorClient, AsksForTheAmplitudeAgainAfterTheFrequency) {
+    for (const bool has_switch : {true, false}) {
+        const unsigned habits = StrangerGenerator::frequency_resets | (has_switch ? 13U : 4U);
+        Stranger stranger{StrangerGenerator(5, habits, 50)};
+        stranger.generator.limit = 5.001;
+        GeneratorClient client(stranger.line, options());
+        std::string what, problem;
+        EXPECT_EQ(ending_of([&] { client.begin(6, 0.1, 0); }, what), AcquisitionEnding::clipped);
+        EXPECT_THAT(what, HasSubstr("gives an amplitude of 10 V instead of 0.1 V"));
+        const auto& said = stranger.line.said;
+        EXPECT_EQ(std::count(said.begin(), said.end(), "OUTP ON"), 0);
+        const auto set = std::find(said.begin(), said.end(), "FREQ 6");
+        ASSERT_LT(set + 2, said.end());
+        EXPECT_EQ(*(set + 1), "VOLT?");
+        EXPECT_EQ(stranger.generator.lines_beyond, has_switch ? 0U : 2U) << "FREQ and the question alone";
+        EXPECT_TRUE(client.make_safe(0.1, problem)) << problem;
+        EXPECT_LE(stranger.generator.peaks(), 0.1 + 1e-6);
+    }
+}
+
+/// Whose switch lets out what was set at another time: nothing but the question stands between the switch and its end.
+TEST(GeneratorClient, SwitchesOffAtOnceWhatTheSwitchItselfHasChanged) {
+    Stranger stranger{StrangerGenerator(5, StrangerGenerator::switch_recalls | 13U, 50)};
+    stranger.generator.limit = 5.001;
+    GeneratorClient client(stranger.line, options());
+    std::string what, problem;
+    EXPECT_EQ(ending_of([&] { client.begin(6, 0.1, 0); }, what), AcquisitionEnding::clipped);
+    EXPECT_THAT(what, HasSubstr("gives an amplitude of 7 V instead of 0.1 V; so it was since OUTP ON"));
+    const auto& said = stranger.line.said;
+    const auto on = std::find(said.begin(), said.end(), "OUTP ON");
+    ASSERT_LT(on + 2, said.end());
+    EXPECT_EQ(*(on - 1), "VOLT?");
+    EXPECT_EQ(*(on + 1), "VOLT?");
+    EXPECT_EQ(*(on + 2), "OUTP OFF");
+    EXPECT_EQ(std::count(said.begin(), said.end(), "OUTP ON"), 1);
+    EXPECT_EQ(stranger.generator.lines_beyond, 2U);
+    EXPECT_FALSE(stranger.generator.is_on());
+    EXPECT_TRUE(client.make_safe(0.1, problem)) << problem;
+    EXPECT_FALSE(stranger.generator.is_on());
+}
+
+/// A unit that changes with the switch makes 0.1 V more, though the number is the same.
+TEST(GeneratorClient, AsksForTheUnitAgainWhenTheOutputIsOn) {
+    Stranger stranger{StrangerGenerator(5, 13U, 50)};
+    ScriptedLine line{[&](const std::string& said) {
+        const std::string answer = stranger.generator.execute(said);
+        if (said == "OUTP ON")
+            stranger.generator.turn_to_rms();
+        return answer;
+    }};
+    GeneratorClient client(line, options());
+    std::string what;
+    EXPECT_EQ(ending_of([&] { client.begin(6, 0.1, 0); }, what), AcquisitionEnding::clipped);
+    EXPECT_THAT(what, HasSubstr("stands at VOLT:UNIT VRMS instead of VPP"));
+    EXPECT_FALSE(stranger.generator.is_on());
+}
+
+TEST(GeneratorClient, SilencesAnOutputWhoseFrequencyHasChangedItsAmplitude) {
+    for (const bool has_switch : {true, false}) {
+        Stranger stranger{StrangerGenerator(5, has_switch ? 13U : 4U, 50)};
+        GeneratorClient client(stranger.line, options());
+        client.begin(6, 0.1, 0);
+        client.set_amplitude(4);
+        client.set_frequency(7);
+        stranger.generator.take(StrangerGenerator::frequency_resets);
+        stranger.generator.limit = 5.001;
+        std::string what;
+        EXPECT_EQ(ending_of([&] { client.set_frequency(8); }, what), AcquisitionEnding::clipped);
+        EXPECT_THAT(what, HasSubstr("gives an amplitude of 10 V instead of 4 V since its frequency was set"));
+        EXPECT_EQ(stranger.generator.lines_beyond, 2U);
+        EXPECT_LE(stranger.generator.peaks(), 0.1 + 1e-6);
+        EXPECT_TRUE(client.make_safe(0.1, what)) << what;
+        EXPECT_LE(stranger.generator.peaks(), 0.1 + 1e-6);
+    }
+}
+
+TEST(GeneratorClient, SwitchesOnAgainWhereOnlyALetterOfAnAnswerWasLost) {
+    Stranger stranger{StrangerGenerator(5, 13U, 50)};
+    int asked = 0, times = 0;
+    ScriptedLine line{[&](const std::string& said) {
+        asked = said == "OUTP ON" ? 1 : asked;
+        std::string answer = stranger.generator.execute(said);
+        return said == "VOLT?" && asked == 1 && ++times == 1 ? "1.000000e01" : answer;
+    }};
+    GeneratorClient client(line, options());
+    client.begin(6, 0.1, 0);
+    EXPECT_TRUE(stranger.generator.is_on());
+    EXPECT_EQ(client.set_amplitude(2), 2);
+    EXPECT_EQ(std::count(line.said.begin(), line.said.end(), "OUTP ON"), 2);
+}
+
+/// One whose unit cannot be chosen cannot be made safe, but its switch can be believed.
+TEST(GeneratorClient, TellsThatTheOutputIsSwitchedOffWhereItCannotBeMadeSafe) {
+    for (const unsigned seed : {1U, 3U, 8U, 9U}) {
+        for (const bool has_switch : {true, false}) {
+            const unsigned habits = StrangerGenerator::modulation_is_stuck | StrangerGenerator::unit_is_stuck |
+                                    StrangerGenerator::shape_is_stuck | (has_switch ? 13U : 4U);
+            Stranger stranger{StrangerGenerator(seed, habits, 50)};
+            GeneratorOptions hasty = options();
+            hasty.reopen = 0.02;
+            GeneratorClient client(stranger.line, hasty);
+            std::string problem;
+            if (client.make_safe(0.1, problem))
+                continue; // it stood as it should
+            EXPECT_EQ(client.is_switched_off(), has_switch) << seed;
+        }
+    }
+    Stranger stranger{StrangerGenerator(5, 13U, 50)};
+    GeneratorClient unknown(stranger.line, options());
+    EXPECT_FALSE(unknown.is_switched_off());
+    EXPECT_TRUE(stranger.line.said.empty()) << "nobody knows who is there";
+}
+
+TEST(GeneratorClient, NamesTheQuestionThatIsNotAnswered) {
+    Bent bent;
+    bent.bend = [](const std::string& said, std::string answer) { return said == "FUNC:SHAP?" ? "" : answer; };
+    GeneratorClient client(bent.line, options());
+    std::string what;
+    EXPECT_EQ(ending_of([&] { client.begin(6, 1, 0); }, what), AcquisitionEnding::no_answer);
+    EXPECT_THAT(what, HasSubstr("the generator has not answered FUNC:SHAP? for 0.01 s"));
+}
+
+/// Each answer comes when the next question has been sent: none of them says how the generator stands.
+TEST(GeneratorClient, DoesNotTakeLateAnswersForOtherSettings) {
+    Bent bent;
+    bool late = false;
+    std::string held;
+    bent.bend = [&](const std::string&, std::string answer) {
+        if (late && !answer.empty())
+            std::swap(held, answer);
+        return answer;
+    };
+    GeneratorClient client(bent.line, options());
+    client.begin(6, 1, 0);
+    late = true;
+    std::string what;
+    EXPECT_EQ(ending_of([&] { client.amplitude(); }, what), AcquisitionEnding::garbled);
+    EXPECT_THAT(what, HasSubstr("come so late that they are not those to the questions"));
+    EXPECT_FALSE(client.is_switched_off());
+}
+
+TEST(GeneratorClient, MakesAPlainSineOfTheBenchsGeneratorToo) {
+    Bent bent;
+    bent.generator = FunctionGenerator({.left_as = "VOLT:UNIT VRMS;:VOLT 1;:FUNC:SHAP SQU;:OUTP:LOAD INF;:AM:STAT ON"});
+    GeneratorClient client(bent.line, options());
+    client.begin(6, 0.1, 0.2);
+    client.set_amplitude(2);
+    EXPECT_EQ(bent.generator.output(), (GeneratorOutput{6, 2, 0.2}));
+    EXPECT_EQ(bent.generator.execute("VOLT:UNIT?;:FUNC:SHAP?;:AM:STAT?"), "VPP;SIN;0");
 }
 
 } // namespace graze

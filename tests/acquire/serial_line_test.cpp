@@ -41,7 +41,7 @@ public:
     FarEnd(const FarEnd&) = delete;
     FarEnd& operator=(const FarEnd&) = delete;
     void say(const std::string& text) const {
-        EXPECT_EQ(write(master_, text.data(), text.size()), static_cast<ssize_t>(text.size()));
+        EXPECT_EQ(::write(master_, text.data(), text.size()), static_cast<ssize_t>(text.size()));
     }
     std::string heard() const {
         char buffer[4096];
@@ -115,7 +115,7 @@ private:
         }
         if (text_.empty())
             text_ = protocol_.next(SampleProtocol::rows_at_once);
-        const ssize_t sent = write(end_.descriptor(), text_.data(), text_.size()); // as much as there is room for
+        const ssize_t sent = ::write(end_.descriptor(), text_.data(), text_.size()); // as much as there is room for
         text_.erase(0, static_cast<std::size_t>(std::max<ssize_t>(sent, 0)));
     }
 

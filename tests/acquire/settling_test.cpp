@@ -1,5 +1,7 @@
 #include "graze/acquire/settling.hpp"
 
+#include "graze/symbolic/input_error.hpp"
+
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -27,7 +29,7 @@ TEST(RepeatWatch, FindsTheShortestPeriod) {
 }
 
 TEST(RepeatWatch, TakesNoNumbersThatAreNone) {
-    EXPECT_EQ(period_of([](int) { return std::nan(""); }, 20), 0U);
+    EXPECT_THROW(period_of([](int) { return std::nan(""); }, 20), InputError);
 }
 
 } // namespace graze

@@ -51,13 +51,17 @@ public:
         std::filesystem::remove_all(folder_);
     }
     std::string port() const { return (folder_ / "generator").string(); }
-    int connected() const {
+    /// Whether somebody listens at an address.
+    bool is_reached(in_addr_t where, int file) const {
         sockaddr_in address{};
         address.sin_family = AF_INET;
         address.sin_port = htons(service_->tcp_port());
-        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        address.sin_addr.s_addr = htonl(where);
+        return connect(file, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+    }
+    int connected() const {
         const int file = socket(AF_INET, SOCK_STREAM, 0);
-        EXPECT_EQ(connect(file, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+        EXPECT_TRUE(is_reached(INADDR_LOOPBACK, file));
         return file;
     }
     static void say(int file, const std::string& text) {
@@ -139,6 +143,14 @@ TEST(BenchService, BreaksOnRequest) {
     close(again);
     Served::say(served.connection, "READ 10\n");
     EXPECT_EQ(Served::heard(served.connection, "never").find("END"), std::string::npos);
+}
+
+/// Who listens at all addresses is reached at this one, too.
+TEST(BenchService, IsReachedFromThisMachineAlone) {
+    const Served served;
+    const int file = socket(AF_INET, SOCK_STREAM, 0);
+    EXPECT_FALSE(served.is_reached(INADDR_LOOPBACK + 1, file));
+    close(file);
 }
 
 TEST(BenchService, TakesNobodysName) {

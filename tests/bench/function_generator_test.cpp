@@ -1,5 +1,7 @@
 #include "graze/bench/function_generator.hpp"
 
+#include "graze/symbolic/input_error.hpp"
+
 #include <cmath>
 #include <gtest/gtest.h>
 #include <random>
@@ -63,10 +65,40 @@ TEST(FunctionGenerator, OfAHigherLoadShowsTwiceWithoutGivingMore) {
     EXPECT_EQ(generator.output().offset, 0);
 }
 
+/// By the definitions: root mean squares of a sine, a square and a triangle, power at 50 ohm over a milliwatt.
+TEST(FunctionGenerator, ShowsAmplitudesInTheUnitItStandsIn) {
+    FunctionGenerator generator = remote();
+    generator.execute("VOLT 2;:VOLT:UNIT VRMS");
+    EXPECT_NEAR(std::stod(generator.execute("VOLT?")), 1 / std::sqrt(2.0), 1e-6);
+    generator.execute("FUNC:SHAP SQU");
+    EXPECT_NEAR(std::stod(generator.execute("VOLT?")), 1, 1e-6);
+    generator.execute("FUNC:SHAP TRI");
+    EXPECT_NEAR(std::stod(generator.execute("VOLT?")), 1 / std::sqrt(3.0), 1e-6);
+    EXPECT_EQ(generator.output().amplitude, 2);
+    generator.execute("FUNC:SHAP SIN;:VOLT:UNIT DBM");
+    EXPECT_NEAR(std::stod(generator.execute("VOLT?")), 10, 1e-4); // 0.5 V^2 / 50 ohm
+    generator.execute("VOLT 0");
+    EXPECT_NEAR(generator.output().amplitude, 2 * std::sqrt(0.1), 1e-12); // a milliwatt
+    generator.execute("APPL:SIN 5, 10, 0.25");                            // an offset is in volts
+    EXPECT_NEAR(generator.output().amplitude, 2, 1e-12);
+    EXPECT_EQ(generator.output().offset, 0.25);
+    EXPECT_EQ(error(generator), "+0,\"No error\"");
+}
+
+TEST(FunctionGenerator, StandsAsItWasLeft) {
+    FunctionGenerator generator({.left_as = "VOLT:UNIT VRMS;:FUNC:SHAP SQU;:VOLT 1.5;:SWE:STAT ON"});
+    EXPECT_FALSE(generator.is_remote());
+    EXPECT_EQ(generator.output().shape, WaveShape::square);
+    EXPECT_DOUBLE_EQ(generator.output().amplitude, 3);
+    EXPECT_DOUBLE_EQ(generator.output().fundamental(), 12 / std::acos(-1.0));
+    EXPECT_EQ(generator.execute("SWE:STAT?;:AM:STAT?;:FUNC:SHAP?"), "1;0;SQU");
+    EXPECT_THROW(FunctionGenerator({.left_as = "VOLT 300"}), InputError);
+}
+
 TEST(FunctionGenerator, TellsMistakesInTheirOrder) {
     FunctionGenerator generator = remote();
     const GeneratorOutput before = generator.output();
-    for (const char* line : {"VOLTS 3", "VOLT 11", "VOLT", "VOLT 1, 2", "VOLT x", "FREQ 5 VPP", "FUNC:SHAP SQU",
+    for (const char* line : {"VOLTS 3", "VOLT 11", "VOLT", "VOLT 1, 2", "VOLT x", "FREQ 5 VPP", "FUNC:SHAP SAW",
                              "OUTP?", "FREQ 2e7", "VOLT 1\x01", "VOLT nan", "VOLT 1e999"})
         EXPECT_EQ(generator.execute(line), "") << line;
     EXPECT_EQ(generator.output(), before);

@@ -14,7 +14,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 
 /// u' = f(u) in units of length and time, where x = u + cos(theta) and nothing shows that u = 0 always solves it.
 Model hidden(const std::string& rate, double length = 1, double time = 1) {

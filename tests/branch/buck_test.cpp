@@ -8,7 +8,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 
 const char* const converter = R"toml(
 [parameters]

@@ -14,7 +14,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 
 std::vector<SpecialPoint> climbed(const Model& model, const BranchSettings& settings, std::size_t rungs) {
     const Ladder ladder = climb(model, first_grazing(model, settings), settings, rungs);

@@ -12,8 +12,8 @@
 namespace graze {
 namespace {
 
-using namespace testing;
-constexpr double pi = std::numbers::pi;
+using namespace graze::testing;
+using std::numbers::pi;
 
 double bisect(const std::function<double(double)>& function, double low, double high) {
     const bool negative = function(low) < 0;

@@ -17,7 +17,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 
 struct Found {
     double fold = 0;        ///< parameter at which the branch turns

@@ -11,8 +11,8 @@
 namespace graze {
 namespace {
 
-using namespace testing;
-constexpr double pi = std::numbers::pi;
+using namespace graze::testing;
+using std::numbers::pi;
 
 /// Period of a pendulum of length 1 under gravity 1 with an amplitude: the arithmetic-geometric mean of 1 and
 /// cos(amplitude / 2) (C. F. Gauss).
@@ -58,7 +58,7 @@ TEST(Conservative, pendulum_swings_up_to_the_top_in_any_units) {
         settings.steps = 400;
         settings.monitors = {
             {"reach", "", Monitor::Kind::maximum, model.symbol("phi"), "", false, {}, {}, {}, 3.0 * angle}};
-        std::size_t reached = 0;
+        std::size_t reached = 0, at_rest = 0;
         for (const int direction : {1, -1}) {
             settings.direction = direction;
             const Branch branch = follow_branch(model, start, settings);
@@ -72,8 +72,14 @@ TEST(Conservative, pendulum_swings_up_to_the_top_in_any_units) {
             EXPECT_TRUE(of_type(branch, PointType::fold).empty()) << names(branch);
             EXPECT_TRUE(of_type(branch, PointType::torus).empty()) << names(branch);
             reached += of_type(branch, PointType::bound).size();
+            for (const SpecialPoint& rest : of_type(branch, PointType::hopf)) {
+                ++at_rest;
+                EXPECT_EQ(branch.outcome, BranchOutcome::shrunk);
+                EXPECT_LT(std::abs(rest.solution.orbit.starts[0][0] / angle), 1e-9);
+            }
         }
-        EXPECT_EQ(reached, 2U); // either way: at rest the one side becomes the other
+        EXPECT_EQ(reached, 1U);
+        EXPECT_EQ(at_rest, 1U); // where the other side would begin
     }
 }
 

@@ -14,8 +14,8 @@
 namespace graze {
 namespace {
 
-using namespace testing;
-constexpr double pi = std::numbers::pi;
+using namespace graze::testing;
+using std::numbers::pi;
 
 /// The curve of points like this one, in the parameter and a further one.
 Branch curve_of(const Model& model, const SpecialPoint& point, BranchSettings settings, const std::string& further,
@@ -26,7 +26,7 @@ Branch curve_of(const Model& model, const SpecialPoint& point, BranchSettings se
     return follow_branch(model, point.solution.orbit, settings);
 }
 
-double value_of(const Model& model, const OrbitSolution& solution, const std::string& parameter) {
+double parameter_of(const Model& model, const OrbitSolution& solution, const std::string& parameter) {
     return solution.orbit.parameters[model.independent_parameter(parameter).place()];
 }
 
@@ -91,7 +91,7 @@ TEST(Curves, of_the_bouncing_ball_have_their_closed_forms) {
             EXPECT_EQ(names(curve), "BD");
             EXPECT_LT(curve.points.size(), 100U);
             for (const BranchPoint& one : curve.points) {
-                const double at = value_of(model, one.solution, "e");
+                const double at = parameter_of(model, one.solution, "e");
                 const bool folds = point.type == PointType::fold;
                 EXPECT_NEAR(one.parameter, folds ? fold(at) : flip(at), 1e-12 * flip(at)) << at;
                 // Near a fold a multiplier changes with the root of what is left uncertain.
@@ -128,7 +128,7 @@ TEST(Curves, of_the_impact_oscillator_have_their_closed_forms) {
                 ASSERT_GT(curve.points.size(), 10U);
                 EXPECT_LT(curve.points.size(), 200U);
                 for (const BranchPoint& one : curve.points) {
-                    const Oscillator known(value_of(model, one.solution, "omega"));
+                    const Oscillator known(parameter_of(model, one.solution, "omega"));
                     const double after = one.solution.orbit.starts[0][1];
                     const double speed = std::abs(after);
                     if (point.type == PointType::fold) {
@@ -151,7 +151,7 @@ TEST(Curves, of_the_impact_oscillator_have_their_closed_forms) {
                 EXPECT_EQ(last.type, PointType::grazing) << names(curve);
                 if (point.type == PointType::flip) {
                     EXPECT_TRUE(last.at_end);
-                    EXPECT_NEAR(value_of(model, last.solution, "omega"), half, 1e-9);
+                    EXPECT_NEAR(parameter_of(model, last.solution, "omega"), half, 1e-9);
                     EXPECT_NEAR(last.parameter, Oscillator(half).radius, 1e-9);
                 }
                 if (point.type == PointType::fold)
@@ -166,7 +166,8 @@ TEST(Curves, of_the_impact_oscillator_have_their_closed_forms) {
         const Branch touches = curve_of(model, branch.special.back(), settings, "omega", 1);
         const SpecialPoint meeting = nearest(touches, PointType::fold, end_of_folds.parameter);
         EXPECT_NEAR(meeting.parameter, end_of_folds.parameter, 1e-11);
-        EXPECT_NEAR(value_of(model, meeting.solution, "omega"), value_of(model, end_of_folds.solution, "omega"), 1e-11);
+        EXPECT_NEAR(parameter_of(model, meeting.solution, "omega"), parameter_of(model, end_of_folds.solution, "omega"),
+                    1e-11);
         EXPECT_LT(nearest_multiplier(meeting.solution, 1), 1e-6);
     }
 }
@@ -192,7 +193,7 @@ TEST(Curves, of_folds_that_end_in_a_touch_have_no_resonance_there_in_any_units) 
             ASSERT_GT(curve.points.size(), 5U) << curve.detail;
             EXPECT_TRUE(of_type(curve, PointType::resonance_1).empty()) << names(curve) << ' ' << length;
             for (const BranchPoint& one : curve.points)
-                EXPECT_NEAR(one.parameter, length * Oscillator(value_of(model, one.solution, "omega")).fold(false),
+                EXPECT_NEAR(one.parameter, length * Oscillator(parameter_of(model, one.solution, "omega")).fold(false),
                             1e-10 * length);
             ends += curve.outcome == BranchOutcome::unphysical && curve.special.back().type == PointType::grazing;
         }
@@ -216,13 +217,13 @@ TEST(Curves, of_touches_of_a_linear_oscillator_follow_its_response) {
         const Branch curve = curve_of(model, free.special[0], settings, "omega", way);
         EXPECT_EQ(curve.outcome, BranchOutcome::bound) << curve.detail;
         for (const BranchPoint& one : curve.points) {
-            EXPECT_NEAR(one.parameter * Oscillator(value_of(model, one.solution, "omega")).radius, 0.1, 1e-11);
+            EXPECT_NEAR(one.parameter * Oscillator(parameter_of(model, one.solution, "omega")).radius, 0.1, 1e-11);
             expect_kept(one, free.special[0], 1e-12);
         }
         // The least force is that at resonance.
         for (const SpecialPoint& turn : of_type(curve, PointType::extremum)) {
             ++turns;
-            EXPECT_NEAR(value_of(model, turn.solution, "omega"), std::sqrt(1 - 2 * 0.05 * 0.05), 1e-9);
+            EXPECT_NEAR(parameter_of(model, turn.solution, "omega"), std::sqrt(1 - 2 * 0.05 * 0.05), 1e-9);
             EXPECT_NEAR(turn.parameter, 0.1 * 2 * 0.05 * std::sqrt(1 - 0.05 * 0.05), 1e-12);
             EXPECT_EQ(turn.detail.substr(0, 9), "amplitude");
         }
@@ -284,17 +285,17 @@ TEST(Curves, of_folds_pass_the_cusp_of_duffings_oscillator) {
             expect_kept(one, branch.special[which], 1e-5);
         // It turns in both parameters.
         EXPECT_TRUE(cusps.back().located);
-        const double force = value_of(model, cusps.back().solution, "F");
+        const double force = parameter_of(model, cusps.back().solution, "F");
         for (const BranchPoint& one : curve.points) {
-            EXPECT_GE(value_of(model, one.solution, "F"), force - 1e-12);
+            EXPECT_GE(parameter_of(model, one.solution, "F"), force - 1e-12);
             EXPECT_GE(one.parameter, cusps.back().parameter - 1e-12);
         }
         for (const double rise : cusps.back().tangent.parameters)
             EXPECT_LT(std::abs(rise), 1e-7);
     }
     EXPECT_NEAR(cusps[0].parameter, cusps[1].parameter, 1e-10);
-    const double force = value_of(model, cusps[0].solution, "F");
-    EXPECT_NEAR(value_of(model, cusps[1].solution, "F"), force, 1e-10);
+    const double force = parameter_of(model, cusps[0].solution, "F");
+    EXPECT_NEAR(parameter_of(model, cusps[1].solution, "F"), force, 1e-10);
     // Two folds above it, and none below.
     EXPECT_EQ(of_type(over_frequency(force * 1.001), PointType::fold).size(), 2U);
     EXPECT_EQ(of_type(over_frequency(force * 0.999), PointType::fold).size(), 0U);
@@ -317,7 +318,7 @@ TEST(Curves, of_touches_find_where_an_impact_does_not_act_on_the_next_one) {
     for (const int way : {1, -1})
         for (const SpecialPoint& one :
              of_type(curve_of(model, branch.special[0], settings, "omega", way), PointType::sensitivity))
-            found.push_back(value_of(model, one.solution, "omega"));
+            found.push_back(parameter_of(model, one.solution, "omega"));
     std::sort(found.begin(), found.end());
     const double own = std::sqrt(1 - known.zeta * known.zeta);
     ASSERT_EQ(found.size(), 3U);
@@ -342,7 +343,7 @@ TEST(Curves, of_the_boundary_between_classes_of_touches_have_their_closed_form) 
     ASSERT_FALSE(found.empty());
     for (const SpecialPoint& one : found) {
         const double k =
-            std::round(2 * std::sqrt(1 - known.zeta * known.zeta) / value_of(model, one.solution, "omega"));
+            std::round(2 * std::sqrt(1 - known.zeta * known.zeta) / parameter_of(model, one.solution, "omega"));
         BranchSettings boundary;
         boundary.parameter = model.independent_parameter("zeta");
         boundary.free = {model.independent_parameter("omega"), model.independent_parameter("sigma")};
@@ -358,9 +359,9 @@ TEST(Curves, of_the_boundary_between_classes_of_touches_have_their_closed_form) 
             EXPECT_NEAR(curve.points.back().parameter, way > 0 ? 0.5 : 0.01, 1e-12);
             for (const BranchPoint& point : curve.points) {
                 const double zeta = point.parameter, omega = 2 * std::sqrt(1 - zeta * zeta) / k;
-                EXPECT_NEAR(value_of(model, point.solution, "omega"), omega, 1e-11) << zeta;
+                EXPECT_NEAR(parameter_of(model, point.solution, "omega"), omega, 1e-11) << zeta;
                 const double amplitude = 1 / std::hypot(1 - omega * omega, 2 * zeta * omega);
-                EXPECT_NEAR(value_of(model, point.solution, "sigma") / amplitude, 1, 1e-11) << zeta;
+                EXPECT_NEAR(parameter_of(model, point.solution, "sigma") / amplitude, 1, 1e-11) << zeta;
                 expect_kept(point, *boundary.kept, 1e-11 * amplitude);
             }
         }
@@ -389,7 +390,7 @@ TEST(Curves, of_the_microactuator_have_their_published_values) {
     for (const BranchPoint& one : first.points)
         expect_kept(one, grazing, 1e-10);
     const SpecialPoint least = nearest(first, PointType::extremum, 0.17);
-    EXPECT_NEAR(value_of(model, least.solution, "omega"), 0.48719539788245, 1e-12);
+    EXPECT_NEAR(parameter_of(model, least.solution, "omega"), 0.48719539788245, 1e-12);
     EXPECT_NEAR(least.parameter, 0.17099889286674, 1e-13);
     // Curves of folds and flips with one impact end where an impact does not act on the next one.
     const Branch slower = curve_of(model, grazing, wide, "omega", -1);
@@ -401,7 +402,7 @@ TEST(Curves, of_the_microactuator_have_their_published_values) {
     for (const std::pair<double, double>& at : published)
         EXPECT_TRUE(std::any_of(joints.begin(), joints.end(), [&](const SpecialPoint& one) {
             return std::abs(one.parameter - at.second) < 1e-9 &&
-                   std::abs(value_of(model, one.solution, "omega") - at.first) < 1e-9;
+                   std::abs(parameter_of(model, one.solution, "omega") - at.first) < 1e-9;
         })) << at.first;
     // Curves of flips and folds end on it, where it has a multiplier -1 or 1.
     for (std::size_t i = 0; i < 3; ++i) {
@@ -414,7 +415,7 @@ TEST(Curves, of_the_microactuator_have_their_published_values) {
         EXPECT_EQ(last.type, PointType::grazing);
         const SpecialPoint meeting = nearest(first, point.type, last.parameter);
         EXPECT_NEAR(meeting.parameter, last.parameter, 1e-11);
-        EXPECT_NEAR(value_of(model, meeting.solution, "omega"), value_of(model, last.solution, "omega"), 1e-11);
+        EXPECT_NEAR(parameter_of(model, meeting.solution, "omega"), parameter_of(model, last.solution, "omega"), 1e-11);
     }
     // That of orbits with an impact ends in the point which is published.
     const Branch impacting = follow(model, branches_at(model, grazing, settings).at(0), settings);
@@ -422,7 +423,7 @@ TEST(Curves, of_the_microactuator_have_their_published_values) {
     ASSERT_EQ(flips.outcome, BranchOutcome::unphysical);
     const SpecialPoint& last = flips.special.back();
     EXPECT_TRUE(last.at_end);
-    EXPECT_NEAR(value_of(model, last.solution, "omega"), 0.61364946180363, 1e-11);
+    EXPECT_NEAR(parameter_of(model, last.solution, "omega"), 0.61364946180363, 1e-11);
     EXPECT_NEAR(last.parameter, 0.58163432990654, 1e-11);
 }
 
@@ -444,7 +445,7 @@ TEST(Curves, of_torus_points_have_their_closed_form) {
         const Branch curve = curve_of(model, points[0], settings, "p", way);
         EXPECT_EQ(curve.outcome, BranchOutcome::bound) << curve.detail;
         for (const BranchPoint& one : curve.points) {
-            EXPECT_NEAR(value_of(model, one.solution, "p"), 0, 1e-12);
+            EXPECT_NEAR(parameter_of(model, one.solution, "p"), 0, 1e-12);
             for (const auto multiplier : one.solution.multipliers)
                 EXPECT_NEAR(std::abs(multiplier), 1, 1e-10);
         }

@@ -18,8 +18,8 @@
 namespace graze {
 namespace {
 
-using namespace testing;
-constexpr double pi = std::numbers::pi;
+using namespace graze::testing;
+using std::numbers::pi;
 
 /// Two equal masses, springs to the walls and of stiffness k between them, damping in proportion to stiffness; the
 /// first is forced by cos(omega t) and has a stop. Coordinates (x + y)/2 and (x - y)/2 are two single oscillators.

@@ -14,8 +14,8 @@
 namespace graze {
 namespace {
 
-using namespace testing;
-constexpr double pi = std::numbers::pi;
+using namespace graze::testing;
+using std::numbers::pi;
 
 /// x relaxes to p at a rate of c. @param value of p, at which it begins at rest
 struct Relaxing {

@@ -10,7 +10,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 
 /// An impact oscillator that a frame carries along: how far and how fast does not act back on it.
 Model carried_oscillator(double zeta, double e, double drift, double by_place, double by_speed, double by_impact) {

@@ -10,7 +10,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 
 /// The impact microactuator, whose frame slips after a contact (J1) until it sticks (J8).
 struct Microactuator {

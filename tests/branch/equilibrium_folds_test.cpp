@@ -15,7 +15,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 
 /// A plate on a spring that is attracted through a gap: it is pulled in at V^2 = 4 k d^3/27.
 Model plate(double gap, double stiffness, double time) {

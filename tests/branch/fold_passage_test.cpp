@@ -12,8 +12,8 @@
 namespace graze {
 namespace {
 
-using namespace testing;
-constexpr double pi = std::numbers::pi;
+using namespace graze::testing;
+using std::numbers::pi;
 
 /// The first fold of a branch that is followed in a parameter.
 SpecialPoint fold_of(const Model& model, const Orbit& orbit, const BranchSettings& settings) {

@@ -12,7 +12,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 
 Monitor held(const Model& model, Monitor::Kind kind, const std::string& expression, double value) {
     Monitor result;

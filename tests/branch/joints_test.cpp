@@ -13,7 +13,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 
 /// The only point of a type, of which there must be one.
 SpecialPoint only(const Branch& branch, PointType type) {

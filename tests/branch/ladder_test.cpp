@@ -12,7 +12,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 
 TEST(Ladder, ends_where_it_cannot_go_on_and_says_why) {
     const Model model = chattering_oscillator(0.5, 1, 1);

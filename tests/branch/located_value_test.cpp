@@ -9,7 +9,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 
 SpecialPoint mems_grazing(Model& model) {
     model = load_model("mems-switch");

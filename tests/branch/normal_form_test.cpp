@@ -14,9 +14,9 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 using Complex = std::complex<double>;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// The number behind the last `=` of a detail.
 double coefficient_of(const SpecialPoint& point) {

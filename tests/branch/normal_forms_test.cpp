@@ -12,8 +12,8 @@
 namespace graze {
 namespace {
 
-using namespace testing;
-constexpr double pi = std::numbers::pi;
+using namespace graze::testing;
+using std::numbers::pi;
 
 /// x = cos(theta) + u with u' = rate, theta' = 1.
 Model about_clock(const std::string& rate, double p, double x, const std::string& more = "") {

@@ -10,7 +10,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 
 /// An impact oscillator with one impact per period of the force.
 struct OneImpact {

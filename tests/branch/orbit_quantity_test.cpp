@@ -21,7 +21,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 
 std::unique_ptr<OrbitCondition> held(OrbitQuantity quantity) {
     return std::make_unique<OrbitQuantity>(std::move(quantity));

@@ -13,7 +13,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 
 /// x decays, at other rates after each event of a clock: 1 up to a, 3 from then on, 2 after b^2 if that comes, until
 /// the clock is set back after a time 2 and x gains 1.

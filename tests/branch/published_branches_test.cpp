@@ -13,8 +13,8 @@
 namespace graze {
 namespace {
 
-using namespace testing;
-constexpr double pi = std::numbers::pi;
+using namespace graze::testing;
+using std::numbers::pi;
 
 struct Microactuator {
     Model model = load_model("impact-microactuator");

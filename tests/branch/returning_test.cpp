@@ -11,7 +11,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 
 /// Duffing's oscillator with a force F, in units of time and length, and something that it drives along.
 Model duffing(double damping, double omega, double time, double length) {

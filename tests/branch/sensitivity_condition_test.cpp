@@ -11,7 +11,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 
 struct Touching {
     Model model;

@@ -8,7 +8,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 
 SpecialPoint first_touch(const Model& model, const char* section, const char* parameter, double least, double greatest,
                          std::size_t cycles = 2000, int direction = 1) {

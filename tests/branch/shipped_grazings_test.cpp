@@ -17,7 +17,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 
 struct Judged {
     CycleMap map;

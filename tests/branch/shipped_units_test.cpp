@@ -11,7 +11,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 
 /// How numbers of other units follow from those of the model: times these.
 struct Factors {

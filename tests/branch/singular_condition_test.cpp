@@ -16,9 +16,9 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Factory of_multiplier(double multiplier) {
     return [multiplier](const OrbitEquations& equations, const OrbitEvaluation& at) {

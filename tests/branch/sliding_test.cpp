@@ -16,7 +16,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 
 /// x'' + x = friction(1 - x') + amplitude cos(nu t), with a cubic law of friction (M. di Bernardo, P. Kowalczyk and A.
 /// B. Nordmark, Int. J. Bifurcation Chaos 13, 2003).

@@ -11,7 +11,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 
 /// The orbit with half of the greatest speed that there can be, on the side on which the model can follow it.
 OrbitSolution start_of(const Oscillator& known, double periods) {

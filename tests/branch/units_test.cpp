@@ -9,7 +9,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 
 /// An oscillator between two stops, with the counter of a machine that it drives, in units of time and length.
 Model between_stops(double time, double length) {

@@ -10,8 +10,8 @@
 namespace graze {
 namespace {
 
-using namespace testing;
-constexpr double pi = std::numbers::pi;
+using namespace graze::testing;
+using std::numbers::pi;
 
 /// Sliding without stops under dry friction F and the force cos(omega t) (J. P. Den Hartog, 1931), without viscous
 /// damping: amplitude sqrt(V^2 - (F U)^2), V the response and U the damping function, force at the turning points

@@ -14,7 +14,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 
 constexpr double growth = 0.3;
 

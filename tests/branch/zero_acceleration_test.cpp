@@ -11,7 +11,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 
 /// A ball that is let go from rest at a height, falls on a table that moves as A sin(omega t), rests on it, and is
 /// taken up again after each period. With the phase p of the table at which it lands without speed,

@@ -95,6 +95,23 @@ trip_time = { overshoot = 1 }
         EXPECT_THAT(found[i], HasSubstr(parts[i]));
 }
 
+TEST(Design, SaysWhatAYieldTakes) {
+    const std::string head = "name = \"a\"\nmodel = \"mems-switch\"\ncontrol = \"V\"\n[approach]\nrange = [0.05, 0.6]\n"
+                             "[dimensions.delta]\nrange = [0.1, 1]\n";
+    EXPECT_THAT(mistakes_of(head + "[wanted]\nyield = 0.9\n").front(), HasSubstr("no dimension has a tolerance"));
+    const std::string made = head + "tolerance = \"1%\"\n";
+    EXPECT_THAT(mistakes_of(made + "[wanted]\nyield = 0.9\n").front(), HasSubstr("which trip values will do"));
+    EXPECT_THAT(mistakes_of(made + "[wanted]\nvalue = [0.2, 0.3]\nyield = 0\n").front(),
+                HasSubstr("the yield 0 is no share of devices above 0"));
+    EXPECT_THAT(mistakes_of(made + "[wanted]\nvalue = [0.2, 0.3]\nyield = 95\n").front(),
+                HasSubstr("as 0.95 for 95 percent"));
+    EXPECT_THAT(mistakes_of(made + "[wanted]\nvalue = 0.2\nimportance = { value = 1000 }\n").front(),
+                HasSubstr("give from 0.01 to 100"));
+    EXPECT_THAT(mistakes_of(made + "[wanted]\nvalue = 0.2\nimportance = { speed = 2 }\n").front(),
+                HasSubstr("unknown key 'speed'"));
+    EXPECT_TRUE(mistakes_of(made + "[wanted]\nvalue = [0.2, 0.3]\nyield = 1\nimportance = { yield = 2 }\n").empty());
+}
+
 TEST(Design, SaysWhatIsMissingOrDoesNotGoTogether) {
     EXPECT_EQ(mistakes_of("").size(), 4U); // name, approach, dimensions, model
     EXPECT_THAT(mistakes_of("name = \"a\"\nmodel = \"mems-switch\"\ncontrol = \"V\"\n[approach]\nrun = \"x\"\n"

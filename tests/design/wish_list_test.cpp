@@ -131,8 +131,43 @@ TEST(WishList, wants_that_contradict_share_the_violation) {
         // What stands in no contradiction is met, though the largest violation would not be less without it.
         EXPECT_TRUE(found.wants[2].met);
         EXPECT_FALSE(found.wants[2].binds);
-        EXPECT_NE(found.reason.find("'frequency', 'deflection'"), std::string::npos) << found.reason;
+        EXPECT_NE(found.reason.find("in the way: 'frequency' (2 is wanted), 'deflection' ("), std::string::npos)
+            << found.reason;
     }
+}
+
+TEST(WishList, misses_count_as_often_as_they_are_important) {
+    const auto at = [](std::span<const double> d) { return WantedValue{d[0], {1}, {}}; };
+    WishList list{{{"x", 2, 0, 10, 1}}, {{"one", 1, 1, 0, at}, {"three", 3, 3, 0, at}}};
+    // (x - 1)/1 = (3 - x)/3, and with the second thrice: x - 1 = 3 - x.
+    FoundDesign found = design_for(list);
+    EXPECT_EQ(found.outcome, WishOutcome::unmet);
+    EXPECT_NEAR(found.dimensions[0].value, 1.5, 1e-9);
+    list.wants[1].importance = 3;
+    found = design_for(list);
+    EXPECT_NEAR(found.dimensions[0].value, 2, 1e-9);
+    EXPECT_NEAR(found.violation, 1, 1e-9);
+    EXPECT_EQ(words_of(list.wants[1], found.wants[1]),
+              "not met: 3 is wanted, 33.3 percent off, counted 3 times, binds");
+    EXPECT_EQ(found.reason,
+              "no device near this one comes closer; in the way: 'one' (1 is wanted), 'three' (3 is wanted)");
+    list.wants[1].importance = 0;
+    EXPECT_THROW(design_for(list), InputError);
+}
+
+TEST(WishList, what_is_missing_is_told_where_the_search_ends_early) {
+    const SpringMass spring;
+    WishList list = spring.wishes({spring.frequency(2, 2), spring.deflection(0, 1e-3)});
+    list.wants[0].text = "the frequency";
+    WishOptions options;
+    options.evaluations = 2;
+    const FoundDesign found = design_for(list, options);
+    ASSERT_EQ(found.outcome, WishOutcome::unfinished);
+    EXPECT_NE(
+        found.reason.find("2 devices were tried, as many as are allowed; the best of them misses the frequency (2 "
+                          "is wanted)"),
+        std::string::npos)
+        << found.reason;
 }
 
 TEST(WishList, a_range_that_is_too_narrow_binds) {

@@ -68,11 +68,107 @@ class = "persists"
         << met.values().front();
 }
 
+/// The trip value is in proportion to sigma, made to 1 percent: of value V it has a deviation of V/100.
+double share_within(double least, double greatest, double value) {
+    const auto below = [&](double limit) { return 0.5 * std::erfc((value - limit) / (0.01 * value) / std::sqrt(2.0)); };
+    return below(greatest) - below(least);
+}
+
+TEST(Wishes, ForAYieldAreMetByTheDevicesThatAreMade) {
+    Design design = parse_design(oscillator_text("[wanted]\nvalue = [0.198, 0.206]\nyield = 0.9\n"), "d.toml");
+    design.yield.devices = 2000;
+    const MetWishes met = meet_wishes(design, trip_of(design));
+    ASSERT_EQ(met.found.outcome, WishOutcome::met) << met.found.reason;
+    ASSERT_EQ(met.list.wants.size(), 2U);
+    EXPECT_EQ(met.list.wants[1].name, "yield");
+    EXPECT_EQ(met.list.wants[1].least, 0.9);
+    EXPECT_GE(*met.found.wants[1].value, 0.9); // counted
+    // The nearest device has no more than is wanted: of 2000 devices the share is known to 0.7 percent, as a deviation.
+    EXPECT_NEAR(share_within(0.198, 0.206, *met.trip_value), 0.9, 0.025);
+
+    design.wanted.least_yield = 1; // all of those that are made
+    const MetWishes all = meet_wishes(design, trip_of(design));
+    EXPECT_NE(all.found.outcome, WishOutcome::met); // 0.206/0.198 are 4 deviations: 95 percent at most
+    EXPECT_FALSE(all.found.wants[1].met);
+    EXPECT_GT(*all.found.wants[1].value, 0.93);
+    EXPECT_NE(all.found.reason.find("the yield"), std::string::npos) << all.found.reason;
+}
+
+TEST(Wishes, ForAYieldThatIsFarAwayLeadToIt) {
+    // No device of the first kind is within the limits, nor any that is near to it.
+    Design design = parse_design(oscillator_text("within = [0.29, 0.31]\n[wanted]\nyield = 0.95\n"), "d.toml");
+    const MetWishes met = meet_wishes(design, trip_of(design));
+    ASSERT_EQ(met.found.outcome, WishOutcome::met) << met.found.reason;
+    EXPECT_NEAR(share_within(0.29, 0.31, *met.trip_value), 0.95, 0.06); // of 200 devices
+    design.yield.least = 0.2999;                                        // a thirtieth of a deviation to either side
+    design.yield.greatest = 0.3001;
+    const MetWishes narrow = meet_wishes(design, trip_of(design));
+    EXPECT_NE(narrow.found.outcome, WishOutcome::met);
+    EXPECT_LT(*narrow.found.wants[0].value, 0.2);
+    EXPECT_FALSE(narrow.found.wants[0].met);
+}
+
+TEST(Wishes, OfADeviceAreToldWithoutASearch) {
+    const Design design = parse_design(
+        oscillator_text("[wanted]\nvalue = [0.15, 0.16]\nclass = \"trips\"\nsensitivity = { zeta = 0.001 }\n"),
+        "d.toml");
+    const MetWishes at = wishes_at(design, trip_of(design));
+    ASSERT_EQ(at.found.wants.size(), 3U);
+    EXPECT_EQ(at.values(), (std::vector{0.2, 0.1}));
+    EXPECT_NEAR(*at.found.wants[0].value, oscillator_value(0.2, 0.1), 1e-9);
+    EXPECT_TRUE(at.found.wants[0].met);
+    const double root = oscillator_value(1, 0.1);
+    EXPECT_NEAR(*at.found.wants[2].value, 0.01 / (root * root), 1e-8);
+    EXPECT_FALSE(at.found.wants[2].met);
+    EXPECT_EQ(at.found.outcome, WishOutcome::unmet);
+}
+
+TEST(Wishes, ThatTheRangeOfTheApproachKeepsFromBeingMetSaySo) {
+    std::string text = oscillator_text("[wanted]\nvalue = 0.28\n");
+    text.replace(text.find("range = [0.01, 1]"), 17, "range = [0.01, 0.25]");
+    const MetWishes met = [&] {
+        const Design design = parse_design(text, "d.toml");
+        WishesOptions options;
+        options.evaluations = 300; // where devices end to be known it goes on in small steps
+        return meet_wishes(design, trip_of(design), options);
+    }();
+    EXPECT_NE(met.found.outcome, WishOutcome::met);
+    EXPECT_NEAR(*met.trip_value, 0.25, 0.01); // as near as the range allows
+    EXPECT_NE(met.found.reason.find("the trip value (0.28 is wanted)"), std::string::npos) << met.found.reason;
+    EXPECT_NE(met.found.reason.find("approach.range, 0.01 to 0.25"), std::string::npos) << met.found.reason;
+    EXPECT_NE(met.found.reason.find("widen it"), std::string::npos) << met.found.reason;
+}
+
 TEST(Wishes, ForAWayBackThatIsNotThereAreRefused) {
     Design design = load_design("mems-switch");
     design.wanted.least_reset = 0.1;
     design.wanted.greatest_reset = 0.2;
     EXPECT_THROW(meet_wishes(design, trip_of(design)), InputError);
+}
+
+/// Times jump from cycle to cycle: value and class were met, and time, but not all of them together.
+TEST(WishesSlow, ForAValueAClassAndATimeAreMetTogetherOrSayWhatIsMissing) {
+    Design design = load_design("mems-switch");
+    design.wanted = {};
+    design.wanted.value = 0.17;
+    design.wanted.outcome = GrazingOutcome::lost;
+    design.wanted.overshoot = 1e-4;
+    design.wanted.longest_time = 30;
+    const TripPoint trip = trip_of(design);
+    const MetWishes met = meet_wishes(design, trip);
+    ASSERT_EQ(met.found.outcome, WishOutcome::met) << met.found.reason;
+    ASSERT_EQ(met.found.wants.size(), 3U);
+    EXPECT_LE(*met.found.wants[2].value, 30);
+    EXPECT_LE(met.found.evaluations, 2000U);
+    const TripPoint made = trip_of(with_values(design, met.values()));
+    EXPECT_NEAR(made.value(), 0.17, 1e-8);
+    EXPECT_EQ(class_at(made).outcome, GrazingOutcome::lost);
+
+    design.wanted.longest_time = 1; // less than a cycle
+    const MetWishes closest = meet_wishes(design, trip);
+    EXPECT_EQ(closest.found.outcome, WishOutcome::unmet);
+    EXPECT_NE(closest.found.reason.find("the shortest was"), std::string::npos) << closest.found.reason;
+    EXPECT_TRUE(closest.found.wants[0].met && closest.found.wants[1].met && !closest.found.wants[2].met);
 }
 
 } // namespace graze::testing

@@ -15,7 +15,7 @@
 namespace graze {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// The ball at rest in front of the shaker, whose amplitude just reaches it.
 Orbit resting_ball(const Model& model) {

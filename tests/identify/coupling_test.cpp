@@ -3,6 +3,8 @@
 #include "graze/symbolic/input_error.hpp"
 #include "identify/noise.hpp"
 
+#include <functional>
+
 namespace graze::testing {
 
 namespace {
@@ -74,6 +76,37 @@ TEST(Coupling, IntervalsCoverTheTruth) {
     expect_coverage(first, "beta1");
     expect_coverage(second, "beta2");
     EXPECT_LE(regression, first) << "which takes displacements as exact";
+}
+
+/// What is left of loads that are none of such a magnet is no noise.
+TEST(Coupling, TellsWhatIsNoEquilibrium) {
+    const auto changed = [](std::uint64_t seed, const std::function<void(StaticLoad&, std::size_t)>& change) {
+        Noise noise(seed);
+        std::vector<StaticLoad> loads = loads_of(noise, 1e-6, 1e-3);
+        loads.resize(30);
+        for (std::size_t i = 0; i < loads.size(); ++i)
+            change(loads[i], i);
+        return coupling(loads, known()).reasons;
+    };
+    std::size_t alarms = 0;
+    std::string last;
+    for (std::uint64_t seed = 1; seed <= experiments; ++seed)
+        if (const std::vector<std::string> reasons = changed(seed, [](StaticLoad&, std::size_t) {}); !reasons.empty()) {
+            ++alarms;
+            last = reasons.front();
+        }
+    EXPECT_LE(alarms, 2U) << last;
+    const std::vector<std::function<void(StaticLoad&, std::size_t)>> spoilers{
+        [](StaticLoad& load, std::size_t) { load.displacement += 5e-5; },
+        [](StaticLoad& load, std::size_t) { load.current += 0.1; },
+        [](StaticLoad& load, std::size_t i) { load.displacement += 5e-6 * static_cast<double>(i); },
+        [](StaticLoad& load, std::size_t) { load.displacement -= 100 * load.displacement * load.displacement; },
+        [](StaticLoad& load, std::size_t) { load.current = std::min(load.current, 0.9 * current_at(1.2e-3)); },
+        [](StaticLoad& load, std::size_t i) { load.current *= i == 7 ? 1.05 : 1; },
+    };
+    for (std::size_t k = 0; k < spoilers.size(); ++k)
+        for (std::uint64_t seed = 1; seed <= 20; ++seed)
+            EXPECT_FALSE(changed(seed, spoilers[k]).empty()) << k << ", seed " << seed;
 }
 
 TEST(Coupling, ErrorsOfWhatIsKnownMoveTheConstants) {

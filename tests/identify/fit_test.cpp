@@ -150,6 +150,35 @@ rates = { T = "-T/tau" }
     EXPECT_EQ(asked, 1001) << "no motion begins any more";
 }
 
+/// Of a channel with the wrong sign or unit no parameters make a fit: it ends soon, and says which one.
+TEST(Fit, SaysWhatDoesNotMatch) {
+    for (const double factor : {-1.0, 57.29577951308232}) {
+        RecordedMotion motion(wall_model(), {"x", "v"}, 0.013, 0.05, 200);
+        for (double& value : motion.task.records[0].readings[1].values)
+            value *= factor;
+        motion.add_noise(0.005, 3);
+        for (const char* name : {"c", "k", "wall", "e"})
+            motion.forget(name, 1.02);
+        motion.forget_states();
+        FitSettings settings;
+        int asked = 0;
+        settings.interrupted = [&] {
+            ++asked;
+            return false;
+        };
+        const Fit fit = fit_model(motion.model, motion.task, settings);
+        EXPECT_NE(name_of(fit.ending), "converged") << factor;
+        EXPECT_THAT(fit.detail, ::testing::HasSubstr("does not match from time")) << factor;
+        EXPECT_THAT(fit.detail, ::testing::HasSubstr("look at its sign, its unit")) << factor;
+        // Ended early it says the same, as soon as all pieces were looked at.
+        int until = asked / 2;
+        settings.interrupted = [&] { return --until < 0; };
+        const Fit ended = fit_model(motion.model, motion.task, settings);
+        EXPECT_EQ(name_of(ended.ending), "interrupted");
+        EXPECT_THAT(ended.detail, ::testing::HasSubstr("before it had converged"));
+    }
+}
+
 /// The same motion in nano- and in megaunits.
 TEST(Fit, UnitsMakeNoDifference) {
     const auto swing = [](double length, double time) {

@@ -1,6 +1,7 @@
 #include "graze/identify/identification.hpp"
 
 #include "graze/symbolic/input_error.hpp"
+#include "identify/noise.hpp"
 
 #include <cmath>
 #include <functional>
@@ -132,6 +133,22 @@ TEST(Identification, RestitutionsOfSeveralRecordsAreCombined) {
     EXPECT_NEAR(line.y[0], -value_of(both, "restitution").estimate.value * line.x[0], 1e-12);
 }
 
+/// An offset that is small beside velocities, but not beside their errors, is seen by those: the scatter about the
+/// line is what it makes itself.
+TEST(Identification, OffsetsOfVelocitiesAreTold) {
+    IdentificationSettings settings;
+    settings.least_jump = 1;
+    NamedRecord ball = drops("a", 0.85);
+    Noise noise(3);
+    for (double& v : ball.samples.values[0])
+        v += 0.01 * noise.normal();
+    EXPECT_THAT(identify_restitution(each({ball}), settings).warnings, ::testing::IsEmpty());
+    for (double& v : ball.samples.values[0])
+        v += 0.2;
+    EXPECT_THAT(identify_restitution(each({ball}), settings).warnings,
+                ::testing::Contains(::testing::HasSubstr("may have an offset")));
+}
+
 TEST(Identification, CouplingsAreOfRowsOrOfRecords) {
     // Eq. (5.13) with the constants of Appendix C.
     constexpr double beta1 = 1.902e-5, beta2 = 1.631e-3, gap = 0.00479102312304, stiffness = 0.6462 * 95.94 * 95.94;
@@ -186,7 +203,7 @@ TEST(Identification, ImpedancesWarnOfSigns) {
     EXPECT_LE(found.shown.front().measured.x.back(), 3 / frequency) << "the first periods tell enough";
     const Identification turned = identify_impedance(each({coil(-1)}), {});
     ASSERT_EQ(turned.warnings.size(), 2U) << "neither is that of a coil";
-    EXPECT_THAT(turned.warnings[0], HasSubstr("coil: the resistance comes out below zero"));
+    EXPECT_THAT(turned.warnings[0], HasSubstr("the resistance comes out below zero"));
     IdentificationSettings half;
     half.asked_as = "--";
     half.beta1 = Estimate{1.9e-5, 0, 0};

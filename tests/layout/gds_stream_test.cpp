@@ -1,5 +1,7 @@
 #include "graze/layout/gds_stream.hpp"
 
+#include "graze/symbolic/input_error.hpp"
+
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -97,6 +99,47 @@ TEST(GdsStream, RefusesWhatTheFormatCannotHave) {
     library = small_library();
     library.cells[0].name = std::string(33, 'A');
     EXPECT_THROW(gds_stream(library), std::length_error);
+}
+
+/// What GDSII has no room for, and cells that contain themselves.
+TEST(GdsStream, WrongUsesAreRefused) {
+    const GridPolygon square{{0, 0}, {1, 0}, {1, 1}};
+    const auto library = [](const LayoutCell& cell) {
+        LayoutLibrary result;
+        result.name = "l";
+        result.cells = {cell};
+        return result;
+    };
+    LayoutCell cell;
+    cell.name = "a";
+    cell.add(mask_layers::front, square);
+    EXPECT_NO_THROW(gds_stream(library(cell)));
+    for (const MaskLayer layer : {MaskLayer{70'000, 0}, MaskLayer{1, 70'000}, MaskLayer{-1, 0}}) {
+        LayoutCell wrong = cell;
+        wrong.add(layer, square);
+        EXPECT_THROW(gds_stream(library(wrong)), InputError);
+    }
+    for (const GridPolygon& polygon : {GridPolygon{}, GridPolygon{{0, 0}}, GridPolygon{{0, 0}, {1, 0}}}) {
+        LayoutCell wrong = cell;
+        wrong.add(mask_layers::front, polygon);
+        EXPECT_THROW(gds_stream(library(wrong)), InputError);
+    }
+    for (const CellText& text : {CellText{mask_layers::notes, {0, 0}, std::string(100'000, 'x'), 1},
+                                 CellText{mask_layers::notes, {0, 0}, "x", std::nan("")}}) {
+        LayoutCell wrong = cell;
+        wrong.texts = {text};
+        EXPECT_THROW(gds_stream(library(wrong)), InputError);
+    }
+    for (const std::string& name : {std::string("a"), std::string("missing")}) { // itself, nothing
+        LayoutCell wrong = cell;
+        wrong.references = {CellReference{name, {0, 0}}};
+        EXPECT_THROW(gds_stream(library(wrong)), InputError);
+        EXPECT_THROW(flattened(library(wrong), "a"), InputError);
+        EXPECT_THROW(areas_of(library(wrong), "a"), InputError);
+    }
+    LayoutLibrary twice = library(cell);
+    twice.cells.push_back(cell);
+    EXPECT_THROW(gds_stream(twice), InputError);
 }
 
 } // namespace

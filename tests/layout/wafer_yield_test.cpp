@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace graze::testing {
@@ -65,10 +66,7 @@ TEST(WaferYield, OfADeviceIsWhatSimulationSays) {
             if (name == "f0")
                 one.set_parameter("f", value);
         }
-        const std::vector<std::string> names = one.independent_parameters();
-        const std::vector<double> values = one.parameter_values();
-        for (const std::string& name : names)
-            parameters.push_back(values[*one.find_parameter(name)]);
+        parameters = one.parameter_values();
         const double cycle = 1 / (device.lumped->frequency() / 1000);
         // From rest; the way up leaves a disturbance of 0.94^250, the rest is for contacts to grow.
         EXPECT_FALSE(shop.trips(parameters, {0, 0, 0}, cycle, 0.999 * device.value)) << i;
@@ -76,6 +74,18 @@ TEST(WaferYield, OfADeviceIsWhatSimulationSays) {
         ASSERT_TRUE(device.trip_time);
         EXPECT_GT(*device.trip_time, cycle);
     }
+}
+
+/// Dependent parameters have no values of their own among those of the model.
+TEST(WaferYield, TunesTheDriveOfAModelWhoseParametersStandInAnyOrder) {
+    const DeviceFile file = load_device_file("mems-switch-device");
+    Design design = load_design("mems-switch-device");
+    design.model.set_parameter("f", 0.5 * *design.model.parameters[*design.model.find_parameter("f0")].value);
+    std::rotate(design.model.parameters.begin(), design.model.parameters.end() - 3, design.model.parameters.end());
+    ASSERT_TRUE(design.model.parameters.front().expression) << "a dependent one comes first";
+    const Design drawn = design_of_device(design, file);
+    EXPECT_NEAR(*drawn.model.parameters[*drawn.model.find_parameter("f")].value,
+                0.5e-3 * lumped_model_of(file).frequency(), 1e-12);
 }
 
 TEST(WaferYield, DependsOnTheSeedAndNotOnThreads) {

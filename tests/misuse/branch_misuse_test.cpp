@@ -11,7 +11,7 @@ namespace {
 
 using Numbers = std::vector<double>;
 
-using namespace testing;
+using namespace graze::testing;
 
 /// A circle.
 bool residual(std::span<const double> u, std::span<double> values) {

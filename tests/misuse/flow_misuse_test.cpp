@@ -13,7 +13,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 
 /// x' = y, y' = -k x with the outputs x + y, x y: two states, one parameter.
 struct Pendulum {

@@ -17,7 +17,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 
 /// Runs a trajectory on which nothing of what it was made from remains but its observer.
 void run_alone(Trajectory& trajectory) {

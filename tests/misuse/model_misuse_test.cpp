@@ -10,7 +10,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 
 struct Defect {
     std::string name;

@@ -18,7 +18,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 
 /// A folder with a file in which there are a sweep of four points with two states, coordinates and values, and a
 /// branch.

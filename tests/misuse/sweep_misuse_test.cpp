@@ -11,7 +11,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 
 using Values = std::vector<Expression>;
 using Samplings = std::vector<Sampling>;

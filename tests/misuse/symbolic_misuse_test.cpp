@@ -12,7 +12,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 
 using Unary = Expression (*)(const Expression&);
 using Binary = Expression (*)(const Expression&, const Expression&);

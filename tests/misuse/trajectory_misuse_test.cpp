@@ -9,7 +9,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 
 void options(WrongUses& wrong) {
     const auto option = [&](const std::string& name, const std::function<void(SimulationOptions&)>& set) {

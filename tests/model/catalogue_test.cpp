@@ -3,6 +3,7 @@
 #include "graze/model/check.hpp"
 #include "graze/model/model_file.hpp"
 #include "graze/symbolic/input_error.hpp"
+#include "places.hpp"
 
 #include <gtest/gtest.h>
 
@@ -26,7 +27,7 @@ std::string message(const std::string& name) {
 
 TEST(Catalogue, HoldsTheFilesOfModelsWordForWord) {
     std::set<std::string> files;
-    for (const auto& file : std::filesystem::directory_iterator(GRAZE_SOURCE_DIR "/models"))
+    for (const auto& file : std::filesystem::directory_iterator(std::string(testing::source_folder) + "/models"))
         if (file.path().extension() == ".toml") {
             files.insert(file.path().stem().string());
             std::ostringstream text;
@@ -65,7 +66,7 @@ TEST(Catalogue, ShippedModelsAreRightDocumentedAndReadBackTheSame) {
 
 TEST(Catalogue, LoadsByNameOrPath) {
     const std::string name = catalogue().front().name;
-    EXPECT_EQ(load_model(GRAZE_SOURCE_DIR "/models/" + name + ".toml").name, name);
+    EXPECT_EQ(load_model(std::string(testing::source_folder) + "/models/" + name + ".toml").name, name);
     EXPECT_FALSE(find_in_catalogue("nothing-like-it"));
     EXPECT_EQ(load_model("microbeam-3").name, "microbeam-3");
     EXPECT_EQ(load_model("microbeam-12").states.size(), 25u);

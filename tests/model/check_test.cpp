@@ -1,11 +1,14 @@
 #include "graze/model/check.hpp"
 
+#include "graze/model/catalogue.hpp"
 #include "graze/model/model_file.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <set>
+#include <sstream>
 
 namespace graze {
 namespace {
@@ -146,6 +149,21 @@ TEST(Check, DrawsTheConnectivityGraph) {
     expect_line("mode0 -> end [label = \"J1: contact / impact\"];");
     expect_line("mode0 -> mode1 [label = \"J1: contact / land [chatter]\", style = dashed];");
     expect_line("end [shape = doublecircle");
+}
+
+TEST(Check, DrawsOneArrowForAllTransitionsBetweenTwoModes) {
+    const std::string graph = connectivity_graph(load_model("impact-microactuator"));
+    std::set<std::string> arrows;
+    std::istringstream lines(graph);
+    for (std::string line; std::getline(lines, line);)
+        if (line.find(" -> ") != std::string::npos) {
+            const bool dashed = line.find("style = dashed") != std::string::npos;
+            EXPECT_TRUE(arrows.insert(line.substr(0, line.find(" [")) + (dashed ? " dashed" : "")).second) << line;
+        }
+    EXPECT_GT(arrows.size(), 8U);
+    for (const char* name : {"J1", "J2", "J3", "J4", "J5", "J6", "J7", "J8", "J9", "J10", "J11", "J12", "J13"})
+        EXPECT_NE(graph.find(std::string(name) + ": "), std::string::npos) << name;
+    EXPECT_NE(graph.find("J1: front / impact [x2 > 0]\\nJ1: front / impact [F < 0]"), std::string::npos) << graph;
 }
 
 } // namespace

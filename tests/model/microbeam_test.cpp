@@ -4,6 +4,7 @@
 #include "graze/model/model_file.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "model/evaluate_model.hpp"
+#include "places.hpp"
 
 #include <gtest/gtest.h>
 
@@ -406,7 +407,7 @@ std::pair<std::string, std::vector<double>> without_fractions(const std::string&
 }
 
 TEST(Microbeam, TheShippedFileIsWhatTheBuilderWrites) {
-    std::ifstream file(GRAZE_SOURCE_DIR "/models/microbeam.toml");
+    std::ifstream file(std::string(testing::source_folder) + "/models/microbeam.toml");
     ASSERT_TRUE(file);
     std::ostringstream text;
     text << file.rdbuf();

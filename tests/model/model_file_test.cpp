@@ -4,6 +4,7 @@
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "model/model_file_toml.hpp"
+#include "places.hpp"
 
 #include <gtest/gtest.h>
 
@@ -609,7 +610,7 @@ TEST(ModelFile, FindsPlacesInsideStrings) {
 
 /// The fenced block of the guide that begins with this line.
 std::string block_of_the_guide(const std::string& fence) {
-    std::ifstream file(GRAZE_SOURCE_DIR "/docs/model-format.md");
+    std::ifstream file(std::string(testing::source_folder) + "/docs/model-format.md");
     std::string result;
     std::string line;
     while (std::getline(file, line) && line != fence) {

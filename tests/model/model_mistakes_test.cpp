@@ -13,8 +13,8 @@
 namespace graze {
 namespace {
 
-using testing::ElementsAre;
-using testing::StartsWith;
+using ::testing::ElementsAre;
+using ::testing::StartsWith;
 
 /// Beginnings of the messages, without the name of the file.
 std::vector<std::string> mistakes_of(const std::string& text) {

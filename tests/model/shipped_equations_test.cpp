@@ -24,7 +24,7 @@ using testing::rates;
 using testing::shipped;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(BouncingBall, KeepsItsEnergyInFlightAndLosesRelativeVelocityInImpacts) {
     const Model model = shipped("bouncing-ball");

@@ -2,6 +2,7 @@
 
 #include "graze/model/model_file.hpp"
 #include "model/evaluate_model.hpp"
+#include "places.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -12,7 +13,7 @@
 namespace graze::testing {
 
 inline std::filesystem::path models_folder() {
-    return std::filesystem::path(GRAZE_SOURCE_DIR) / "models";
+    return std::filesystem::path(testing::source_folder) / "models";
 }
 
 inline Model shipped(const std::string& name) {

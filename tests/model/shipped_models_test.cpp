@@ -1,5 +1,6 @@
 #include "graze/model/check.hpp"
 #include "model/shipped_model.hpp"
+#include "places.hpp"
 
 #include <gtest/gtest.h>
 
@@ -61,7 +62,8 @@ TEST_P(ShippedModel, IsDocumented) {
     EXPECT_FALSE(model.sections.empty());
     EXPECT_FALSE(model.quantities.empty());
     const std::string page = GetParam() + ".md";
-    EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(GRAZE_SOURCE_DIR) / "docs" / "models" / page)) << page;
+    EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(testing::source_folder) / "docs" / "models" / page))
+        << page;
 }
 
 TEST_P(ShippedModel, ReadsBackWhenWritten) {

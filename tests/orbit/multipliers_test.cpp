@@ -15,7 +15,7 @@
 namespace graze {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// x' = c' + A (x - c) about a motion c = (cos, sin): multipliers exp(2 pi a) for eigenvalues a of A.
 Model relaxation(double fast, double slow, double skew) {

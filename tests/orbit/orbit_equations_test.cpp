@@ -28,7 +28,7 @@ struct Case {
     std::string model;
 };
 
-std::string name_of(const testing::TestParamInfo<Case>& info) {
+std::string name_of(const ::testing::TestParamInfo<Case>& info) {
     std::string name = info.param.model + (info.param.method == Method::shooting ? "_shooting" : "_collocation");
     std::replace(name.begin(), name.end(), '-', '_');
     return name;
@@ -60,7 +60,7 @@ Orbit orbit_of(const Model& model) {
     return solution.orbit;
 }
 
-class Equations : public testing::TestWithParam<Case> {
+class Equations : public ::testing::TestWithParam<Case> {
 protected:
     Equations() : model(model_of(GetParam().model)), orbit(orbit_of(model)) {}
 
@@ -193,10 +193,10 @@ TEST_P(Equations, a_direction_that_does_not_fit_is_refused) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, Equations,
-                         testing::Values(Case{Method::shooting, "impact-oscillator"},
-                                         Case{Method::collocation, "impact-oscillator"},
-                                         Case{Method::shooting, "electromagnetic-testbed"},
-                                         Case{Method::collocation, "electromagnetic-testbed"}),
+                         ::testing::Values(Case{Method::shooting, "impact-oscillator"},
+                                           Case{Method::collocation, "impact-oscillator"},
+                                           Case{Method::shooting, "electromagnetic-testbed"},
+                                           Case{Method::collocation, "electromagnetic-testbed"}),
                          name_of);
 
 TEST(Collocation, converges_with_the_eighth_power) {

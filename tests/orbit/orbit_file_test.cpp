@@ -14,7 +14,7 @@
 namespace graze {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// The first and the last row of each segment of the linear impact oscillator's orbit.
 const std::string heading = "segment,mode,end,t,x,v,theta\n";

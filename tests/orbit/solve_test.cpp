@@ -12,7 +12,7 @@
 namespace graze {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// One impact per n periods of the force of a linear impact oscillator x'' + 2 zeta x' + x = cos(omega t), in closed
 /// form (Shaw and Holmes 1983): the free motion from the stop and back is linear in the impact velocity and in the
@@ -214,6 +214,38 @@ TEST(SolveOrbit, says_what_is_wrong) {
     const OrbitSolution lost = solve_orbit(model, orbit);
     EXPECT_NE(lost.outcome, OrbitOutcome::converged);
     EXPECT_FALSE(lost.detail.empty());
+}
+
+TEST(SolveOrbit, a_single_state_that_is_reset_forgets_all) {
+    const Model model = parse_model(R"toml(
+name = "integrate and fire"
+[states]
+u = 0
+[modes.only]
+rates = { u = "2 - u" }
+watch = ["fire"]
+[events.fire]
+function = "1 - u"
+[jumps.reset]
+u = 0
+[[transitions]]
+mode = "only"
+event = "fire"
+label = "fire"
+jump = "reset"
+next = "only"
+)toml",
+                                    "integrate and fire");
+    Orbit orbit;
+    orbit.signature = parse_signature(model, "fire");
+    orbit.starts = {{0.1}};
+    orbit.durations = {0.6};
+    const OrbitSolution found = solve_orbit(model, orbit);
+    ASSERT_EQ(found.outcome, OrbitOutcome::converged);
+    EXPECT_NEAR(found.orbit.period(), std::log(2.0), 1e-13);
+    ASSERT_EQ(found.multipliers.size(), 1u);
+    EXPECT_EQ(std::abs(found.multipliers.front()), 0);
+    EXPECT_TRUE(is_stable(found));
 }
 
 } // namespace

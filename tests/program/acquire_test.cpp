@@ -1,4 +1,5 @@
 #include "graze/acquire/serial_line.hpp"
+#include "places.hpp"
 #include "run_graze.hpp"
 
 #include <chrono>
@@ -23,7 +24,7 @@ class Process {
 public:
     /// @param log for what it prints; @param most bytes of a file that it may write; 0: any
     Process(const std::string& line, std::string log, rlim_t most = 0) : log_(std::move(log)) {
-        std::vector<std::string> words = split(GRAZE_PROGRAM " " + line, ' ');
+        std::vector<std::string> words = split(program_file + (" " + line), ' ');
         std::vector<char*> arguments;
         for (std::string& word : words)
             arguments.push_back(word.data());

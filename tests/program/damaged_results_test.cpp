@@ -29,6 +29,7 @@ kind = "orbit"
 from = { x = -0.07 }
 [runs.free]
 kind = "continue"
+direction = "up"
 start = { run = "rest" }
 along = { omega = [3.9, 4.1] }
 steps = 20

@@ -89,6 +89,11 @@ TEST_F(DesignCommand, LeavesNoTablesOfAnotherDesignInItsFolder) {
     // Of another's work it takes nothing away, whatever it is called.
     const std::string mine = results + "/curve-mine.csv";
     std::ofstream(mine) << "t,q\n0,1\n";
+    const std::string page = (folder / "page.svg"); // in a folder that has not been used before
+    std::ofstream(page) << "<svg/>";
+    ASSERT_EQ(run_graze({"design", design(small_design()), "--output", folder.path(), "--quiet", "--no-pictures"}).code,
+              0);
+    EXPECT_EQ(contents(page), "<svg/>");
     std::string other = small_design();
     for (const std::string part :
          {"adjustable = \"delta\"\n", "[dimensions.zeta]\nrange = [0.01, 0.03]\n", "tolerance = \"1%\"\n"})

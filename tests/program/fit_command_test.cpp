@@ -143,7 +143,7 @@ TEST_F(FitCommand, NeverWritesOverItsModel) {
         for (const char* option : {" --save ", " --output "}) {
             const Printed printed = run_graze(fit(a + " --free c,k" + option + name));
             EXPECT_EQ(printed.code, 2) << option << name;
-            EXPECT_THAT(printed.err, HasSubstr("the model: "));
+            EXPECT_THAT(printed.err, HasSubstr("is the file of an input too"));
         }
     EXPECT_EQ(contents(model), before);
 }
@@ -189,7 +189,7 @@ TEST_F(FitCommand, MistakesAreOneLineWithARemedy) {
         {brief + " --free c,k", "3 readings cannot tell 4 numbers"},
         {one + " --free c", "fewer than two rows"},
         {(folder / "none.csv") + " --free c", "none.csv: the record cannot be read"},
-        {a + " --free c --save " + a, "is the file of --save too"},
+        {a + " --free c --save " + a, "is the file of an input too"},
     };
     for (const auto& [rest, message] : mistakes) {
         const Printed printed = run_graze(fit(rest));

@@ -161,6 +161,7 @@ model = "dry-friction-oscillator"
 set = { friction_static = 0.3, friction_dynamic = 0.3 }
 [runs.slow]
 kind = "continue"
+direction = "up"
 set = { omega = 0.2 }
 along = { omega = [0.15, 0.3] }
 )toml";

@@ -137,6 +137,17 @@ TEST_F(Hostile, TextsOfPicturesAreDrawnOrRefused) {
     }
 }
 
+/// gnuplot leaves what ends a section of XML alone.
+TEST_F(Hostile, PicturesAreWellFormed) {
+    const std::string title = "a ]]> b < & > \xef\xbf\xbe c";
+    study("\"s\"", "\"r\"", "\"p\"", quoted(title));
+    ASSERT_EQ(run_graze(std::vector<std::string>{"run", folder / "study.toml", "--output", folder / "out"}).code, 0);
+    const std::string drawn = contents(folder / "out/p.svg");
+    EXPECT_THAT(drawn, HasSubstr("]]&gt; b &lt; &amp;"));
+    EXPECT_EQ(drawn.find("]]>"), std::string::npos);
+    EXPECT_EQ(drawn.find("\xef\xbf\xbe"), std::string::npos);
+}
+
 TEST_F(Hostile, TextForGnuplotStaysText) {
     std::mt19937 random(3);
     for (int i = 0; i < 5000; ++i) {
@@ -225,6 +236,26 @@ TEST_F(Hostile, PipesAndDevicesAreRefusedAtOnce) {
         EXPECT_THAT(printed.err, AnyOf(HasSubstr("pipe"), HasSubstr("device"), HasSubstr("no plain file")));
     }
     EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(10));
+}
+
+TEST_F(Hostile, PathsThatLeadNowhereAreTold) {
+    const std::string loop = folder / "loop.toml", name(300, 'a'), path(5000, 'b');
+    std::filesystem::create_symlink("loop.toml", loop);
+    for (const std::string& file : {loop, loop + "/x", folder / name, name, path, folder / (path + "/" + path)})
+        for (const std::string command :
+             {"check ", "run ", "info ", "export ", "plot ", "points ", "design ", "layout ", "record ", "acquire ",
+              "simulate --time 1 ", "identify decrement ", "orbit ", "ladder ", "grazing ", "trip ", "tolerance "}) {
+            const bool of_point = command == "orbit " || command == "ladder " || command == "grazing " ||
+                                  command == "trip " || command == "tolerance ";
+            const Printed printed = run_graze(command + file + (of_point ? " GR1" : ""));
+            EXPECT_EQ(printed.code, 2) << command << printed.err;
+            EXPECT_EQ(std::count(printed.err.begin(), printed.err.end(), '\n'), 1) << printed.err;
+            EXPECT_LT(printed.err.size(), 1500U) << command;
+        }
+    for (const std::string& file : {loop + "/x", folder / name}) {
+        EXPECT_EQ(run_graze("simulate bouncing-ball --time 1 --output " + file).code, 2);
+        EXPECT_EQ(run_graze("run " + study("\"s\"") + " --no-pictures --output " + file).code, 2);
+    }
 }
 
 /// What gnuplot leaves when the disk is full: an empty file, or a part of one, and exit status 0.

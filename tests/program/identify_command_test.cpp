@@ -69,7 +69,7 @@ TEST_F(IdentifyCommand, FindsFrequencyAndDamping) {
     EXPECT_NEAR(table.number(0, "value"), natural, 1e-9 * natural);
     EXPECT_NEAR(table.number(1, "value"), damping, 1e-9);
     EXPECT_LE(table.number(0, "low"), table.number(0, "value"));
-    EXPECT_EQ(table.number(0, "freedom"), 17);
+    EXPECT_GT(table.number(0, "freedom"), 1000); // all samples tell, not the peaks alone
 }
 
 TEST_F(IdentifyCommand, FindsWhereAReleaseComesToRest) {

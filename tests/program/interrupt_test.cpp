@@ -1,5 +1,6 @@
 // Ctrl-C and SIGTERM, with a process of their own.
 
+#include "places.hpp"
 #include "run_graze.hpp"
 
 #include <csignal>
@@ -7,6 +8,7 @@
 #include <fstream>
 #include <gmock/gmock.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -35,14 +37,15 @@ pid_t started(std::vector<std::string> words, const std::string& messages) {
 } // namespace
 
 class Interrupt : public ::testing::TestWithParam<int> {};
+class EndingSignal : public ::testing::TestWithParam<int> {};
 
 TEST_P(Interrupt, WritesWhatWasComputed) {
     const Folder folder;
     const std::string file = folder / "run.csv", messages = folder / "messages";
-    std::vector<std::string> words{GRAZE_PROGRAM, "simulate",  "electromagnetic-testbed",
-                                   "--periods",   "100000000", "--section",
-                                   "phase0",      "--format",  "csv",
-                                   "--output",    file,        "--progress"};
+    std::vector<std::string> words{program_file, "simulate",  "electromagnetic-testbed",
+                                   "--periods",  "100000000", "--section",
+                                   "phase0",     "--format",  "csv",
+                                   "--output",   file,        "--progress"};
     const pid_t child = started(words, messages);
     ASSERT_GT(child, 0);
     // Progress appears after two seconds: then it is certainly running.
@@ -69,7 +72,7 @@ TEST_P(Interrupt, LeavesNoPartOfARecord) {
         for (int i = 0; i < 1'000'000; ++i)
             rows << i << ',' << i % 1000 << '\n';
     }
-    std::vector<std::string> words{GRAZE_PROGRAM, "record", record, "--derivative", "q", "--write", file};
+    std::vector<std::string> words{program_file, "record", record, "--derivative", "q", "--write", file};
     const pid_t child = started(words, messages);
     ASSERT_GT(child, 0);
     constexpr std::size_t with_its_own = 3; // the record, the messages, and what is being written
@@ -84,13 +87,40 @@ TEST_P(Interrupt, LeavesNoPartOfARecord) {
     EXPECT_EQ(folder.files(), 2U);
 }
 
+/// A command that has nothing to bring to an end is broken off: nothing of what it was writing is left.
+TEST_P(EndingSignal, LeavesNoPartOfAnExport) {
+    const rlimit no_core{0, 0}; // some of these signals leave a picture of the memory
+    setrlimit(RLIMIT_CORE, &no_core);
+    const Folder folder;
+    const std::string study = folder.write("s.toml", "name = \"s\"\nmodel = \"bouncing-ball\"\n[runs.r]\nkind = "
+                                                     "\"simulate\"\ntime = 1\n");
+    ASSERT_EQ(run_graze({"run", study, "--output", folder / "results", "--quiet"}).code, 0);
+    const std::string rows =
+        "WITH RECURSIVE c(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM c LIMIT 1000000000) SELECT x "
+        "FROM c";
+    const std::string file = folder / "out.csv", messages = folder / "messages";
+    const pid_t child = started(
+        {program_file, "export", folder / "results", "--sql", rows, "--format", "csv", "--output", file}, messages);
+    ASSERT_GT(child, 0);
+    constexpr std::size_t with_its_own = 4; // study, results, messages, and what is being written
+    for (int i = 0; i < 20'000 && folder.files() < with_its_own; ++i)
+        usleep(1000);
+    EXPECT_EQ(folder.files(), with_its_own);
+    kill(child, GetParam());
+    int status = 0;
+    waitpid(child, &status, 0);
+    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == GetParam());
+    EXPECT_EQ(contents(messages), "");
+    EXPECT_EQ(folder.files(), with_its_own - 1);
+}
+
 /// One motion of a study that would take years: it is left as soon as that is asked for.
 TEST_P(Interrupt, LeavesALongMotionOfAStudy) {
     const Folder folder;
     const std::string study = folder / "stiff.toml", results = folder / "results", messages = folder / "messages";
     std::ofstream(study) << "name = \"stiff\"\nmodel = \"electromagnetic-testbed\"\nset = { R = 1.41e12 }\n"
                             "[runs.a]\nkind = \"simulate\"\ntime = 0.01\n";
-    std::vector<std::string> words{GRAZE_PROGRAM, "run", study, "--output", results};
+    std::vector<std::string> words{program_file, "run", study, "--output", results};
     const pid_t child = started(words, messages);
     ASSERT_GT(child, 0);
     for (int i = 0; i < 60'000 && !std::filesystem::exists(results + "/results.sqlite"); ++i)
@@ -112,5 +142,7 @@ TEST_P(Interrupt, LeavesALongMotionOfAStudy) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Signals, Interrupt, ::testing::Values(SIGINT, SIGTERM));
+INSTANTIATE_TEST_SUITE_P(Signals, EndingSignal,
+                         ::testing::Values(SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGALRM, SIGUSR1, SIGXCPU));
 
 } // namespace graze::testing

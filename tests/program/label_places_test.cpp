@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 namespace graze::testing {
 
 using ::testing::ElementsAre;
@@ -48,9 +50,8 @@ TEST(LabelPlaces, LinesLeadToLabelsThatStandOff) {
     FigurePanel panel = unit_panel();
     FigureSeries symbols{"", FigureSeries::Style::symbols, 0, {}};
     for (int i = 0; i < 5; ++i)
-        for (int k = 0; k < 5; ++k) { // a crowd of symbols around the point in the middle
-            symbols.points.push_back({0.5 + 0.02 * (i - 2), 0.5 + 0.03 * (k - 2)});
-        }
+        for (int k = 0; k < 5; ++k) // a crowd around the point in the middle, which lines leave between two symbols
+            symbols.points.push_back({0.5 + 0.045 * (i - 2), 0.5 + 0.07 * (k - 2)});
     panel.series = {symbols};
     panel.labels = {{{0.5, 0.5}, "SN1"}};
     const LabelPlaces places = places_of(panel);
@@ -60,10 +61,66 @@ TEST(LabelPlaces, LinesLeadToLabelsThatStandOff) {
         EXPECT_FALSE(places.labels[0].box.meets(mark));
 }
 
+TEST(LabelPlaces, WhatCouldBeTakenForAnotherPointsLabelIsListed) {
+    FigurePanel panel = unit_panel();
+    FigureSeries symbols{"", FigureSeries::Style::symbols, 0, {}};
+    for (int i = 0; i < 9; ++i)
+        for (int k = 0; k < 9; ++k) // symbols so dense that no line leaves without meeting one
+            symbols.points.push_back({0.5 + 0.012 * (i - 4), 0.5 + 0.018 * (k - 4)});
+    panel.series = {symbols};
+    panel.labels = {{{0.5, 0.5}, "SN1", 0, 0, "branch"}};
+    const LabelPlaces places = places_of(panel);
+    EXPECT_TRUE(places.labels.empty());
+    EXPECT_THAT(places.notes, ElementsAre("without room for a label: SN1 (branch)"));
+}
+
+TEST(LabelPlaces, EachIsNearerToItsOwnSymbolThanToAnyOther) {
+    FigurePanel panel = unit_panel();
+    FigureSeries symbols{"", FigureSeries::Style::symbols, 0, {}};
+    for (int i = 0; i < 12; ++i) {
+        const PlanePoint at{0.4 + 0.013 * i, 0.4 + 0.02 * ((7 * i) % 5)};
+        symbols.points.push_back(at);
+        panel.labels.push_back({at, "EX" + std::to_string(i + 1)});
+    }
+    panel.series = {symbols};
+    const LabelPlaces places = places_of(panel);
+    ASSERT_GT(places.labels.size(), 4U);
+    const auto away = [](const Box& box, const PlanePoint& point) {
+        return std::hypot(std::max({box.left - point.x, point.x - box.right, 0.0}),
+                          std::max({box.low - point.y, point.y - box.high, 0.0}));
+    };
+    for (const PlacedLabel& label : places.labels)
+        for (const PlanePoint& point : symbols.points) {
+            const PlanePoint other{300 * point.x, 200 * point.y};
+            if (std::hypot(other.x - label.point.x, other.y - label.point.y) < mark_size(9) / 2)
+                continue; // they have one label
+            if (label.led)
+                EXPECT_FALSE(
+                    part_within(label.leader_start, label.leader_end, Box::around(other, mark_size(9), mark_size(9))))
+                    << label.text;
+            else
+                EXPECT_LT(away(label.box, label.point), away(label.box, other)) << label.text;
+        }
+}
+
+TEST(LabelPlaces, MergedLabelsHaveNoCurvesColourAndMoreThanThreeAreListed) {
+    FigurePanel panel = unit_panel();
+    panel.labels = {{{0.3, 0.3}, "GR1", 0}, {{0.3, 0.3}, "SN1", 1}, {{0.6, 0.6}, "PD1", 2}, {{0.6, 0.6}, "PD2", 2}};
+    for (int i = 1; i < 6; ++i)
+        panel.labels.push_back({{0.8, 0.2}, "GR" + std::to_string(i), 3, 1, "G"});
+    const LabelPlaces places = places_of(panel);
+    ASSERT_EQ(places.labels.size(), 3U);
+    EXPECT_EQ(places.labels[0].colour, FigureSeries::black);
+    EXPECT_EQ(places.labels[1].colour, 2U);
+    EXPECT_EQ(places.labels[2].text, "[1]");
+    EXPECT_THAT(places.notes, ElementsAre("[1]: GR1 (G), GR2 (G), GR3 (G), GR4 (G), GR5 (G)"));
+}
+
 TEST(LabelPlaces, OfTooManyTheMostImportantStay) {
     FigurePanel panel = unit_panel();
     for (int i = 0; i < 150; ++i)
-        panel.labels.push_back({{0.1 + 5e-3 * i, 0.5}, "EX" + std::to_string(i), 0, i % 50 == 25 ? 0 : 2});
+        panel.labels.push_back(
+            {{0.02 + 0.0633 * (i % 15), 0.05 + 0.09 * (i / 15)}, "EX" + std::to_string(i), 0, i % 50 == 25 ? 0 : 2});
     const LabelPlaces places = places_of(panel);
     EXPECT_GT(places.labels.size(), 8U);
     EXPECT_LT(places.labels.size(), 31U);

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 namespace graze::testing {
 namespace {
@@ -100,6 +101,78 @@ TEST_F(LayoutCommand, DrawsPictures) {
     EXPECT_EQ(folder.files(), 3U) << "and nothing besides";
 }
 
+TEST_F(LayoutCommand, WritesTheDeviceForCircuits) {
+    const std::string path = folder / "device.va";
+    ASSERT_EQ(run_graze({"layout", "mems-switch-device", "--verilog-a", path}).code, 0);
+    EXPECT_THAT(contents(path), HasSubstr("module mems_switch_device_va(fixed, moving);"));
+    const Printed several = run_graze({"layout", design("[device]\n[wafer]\nvary = { stop_gap = [8, 9] }\n"), "--wafer",
+                                       "--verilog-a", folder / "wafer.va"});
+    EXPECT_EQ(several.code, 2);
+    EXPECT_THAT(several.err, HasSubstr("--verilog-a: the wafer has 2 devices that differ"));
+    EXPECT_THAT(run_graze({"layout", "mems-switch-device", "--verilog-a", folder / "device.v"}).err,
+                HasSubstr("let the name end in .va"));
+    const Printed other = run_graze({"layout", design("model = \"mems-switch\"\n[device]\n"), "--verilog-a", path});
+    EXPECT_EQ(other.code, 2);
+    EXPECT_THAT(other.err, HasSubstr("has no parameter 'm'"));
+}
+
+/// The shipped design with few points and devices, in a folder: from the design to the drawing and back.
+TEST_F(LayoutCommand, DrawsWhatADesignHasFoundAndGivesItBackSlow) {
+    std::string text = run_graze("design mems-switch-device --show").out;
+    const auto change = [&](const std::string& from, const std::string& to) {
+        ASSERT_NE(text.find(from), std::string::npos) << from;
+        text.replace(text.find(from), from.size(), to);
+    };
+    change("curve = 31", "curve = 2");
+    change("plane = 15", "plane = 2");
+    change("devices = 2000", "devices = 20");
+    std::ofstream(folder / "mine.toml") << text;
+    const std::string mine = folder / "mine.toml", found = folder / "found";
+    EXPECT_THAT(run_graze({"layout", mine, "--from-design", found}).err,
+                HasSubstr("has no device.toml; make it by: graze design " + mine + " --output " + found));
+    const Printed made = run_graze({"design", mine, "--output", found, "--no-pictures", "--quiet"});
+    ASSERT_EQ(made.code, 0) << made.err;
+    EXPECT_TRUE(std::filesystem::exists(found + "/device.va"));
+    const Printed drawn = run_graze(
+        {"layout", mine, "--from-design", found, "--output", folder / "a.gds", "--format", "csv", "--digits", "12"});
+    EXPECT_EQ(drawn.code, 0) << drawn.err;
+    const auto cell = [&](const std::string& row, int column) {
+        std::istringstream lines(drawn.out);
+        for (std::string line; std::getline(lines, line);)
+            if (line.starts_with(row + ",")) {
+                std::istringstream cells(line);
+                std::string one;
+                for (int i = 0; i <= column; ++i)
+                    std::getline(cells, one, ',');
+                return std::stod(one);
+            }
+        ADD_FAILURE() << "no " << row << " in\n" << drawn.out;
+        return 0.0;
+    };
+    EXPECT_NEAR(cell("trip_value", 1), 28, 28e-8); // as is wanted
+    // The grid of 1 nm allows for 5e-5 of gaps, of which the voltage changes by up to twice as much each; the
+    // frequency's 5e-7 count 23 times.
+    EXPECT_NEAR(cell("trip_value", 2), 28, 28 * 3e-4);
+    for (const char* quantity : {"d", "stop", "f0", "zeta", "m", "area"})
+        EXPECT_NEAR(cell(quantity, 2), cell(quantity, 1), 1e-4 * cell(quantity, 1)) << quantity;
+    // What is left in the folder is the same device for further commands.
+    const Printed again = run_graze({"layout", mine, "--set", "@" + found + "/drawing.toml", "--parameters",
+                                     folder / "again.toml", "--output", folder / "b.gds"});
+    ASSERT_EQ(again.code, 0) << again.err;
+    EXPECT_EQ(contents(folder / "a.gds"), contents(folder / "b.gds"));
+    const auto numbers = [](const std::string& parameters) { return parameters.substr(parameters.find("[set]")); };
+    EXPECT_EQ(numbers(contents(folder / "again.toml")), numbers(contents(found + "/drawn.toml")));
+    // What is given stays, and what that keeps from being met is told.
+    const Printed given =
+        run_graze({"layout", mine, "--from-design", found, "--set", "pressure=4000", "--format", "csv"});
+    EXPECT_EQ(given.code, 3);
+    EXPECT_THAT(given.out, HasSubstr("not as designed: pressure is given by --set"));
+    EXPECT_EQ(run_graze({"layout", mine, "--from-design", found, "--yield", "2"}).code, 2);
+    EXPECT_THAT(
+        run_graze({"layout", "mems-switch-device", "--from-design", found, "--output", found + "/device.toml"}).err,
+        HasSubstr("let the name end in"));
+}
+
 TEST_F(LayoutCommand, WritesNothingOfWhatIsWrong) {
     const std::vector<std::pair<std::string, std::string>> mistakes{
         {"[device]\ngap = -1\n", "mine.toml:3:7: device.gap is -1 um, not positive; give a positive length"},
@@ -123,11 +196,15 @@ TEST_F(LayoutCommand, WritesNothingOfWhatIsWrong) {
     }
     const std::string file = design("[device]\n");
     EXPECT_THAT(run_graze({"layout", file, "--output", folder / "a.dxf"}).err, HasSubstr("let the name end in .gds"));
-    EXPECT_THAT(run_graze({"layout", file, "--mask", "1"}).err, HasSubstr("--mask has no effect without --output"));
-    EXPECT_THAT(run_graze({"layout", file, "--mask", "1", "--output", folder / "a.svg"}).err, HasSubstr("both masks"));
-    EXPECT_THAT(run_graze({"layout", file, "--output", folder / "a.gds", "--picture", folder / "none/a.svg"}).err,
-                HasSubstr("cannot be written"));
-    EXPECT_THAT(run_graze({"layout", file, "--output", folder / "none/a.gds"}).err, HasSubstr("cannot be written"));
+    EXPECT_THAT(run_graze({"layout", file, "--markers", folder / "a.txt"}).err,
+                HasSubstr("a.txt' does not say what kind of file to write; let the name end in .lyrdb"));
+    EXPECT_THAT(run_graze({"layout", file, "--mask", "1"}).err,
+                HasSubstr("--mask has no effect without --picture or --output; add --output or leave it out"));
+    for (const std::string option : {"--seed", "--jobs", "--folder"})
+        EXPECT_THAT(run_graze({"layout", file, option, "1"}).err, HasSubstr(option + " has no effect without --yield"));
+    EXPECT_THAT(run_graze({"layout", file, "--output", folder / "a.gds", "--picture", file + "/a.svg"}).err,
+                HasSubstr("cannot be made"));
+    EXPECT_THAT(run_graze({"layout", file, "--output", file + "/a.gds"}).err, HasSubstr("cannot be made"));
     EXPECT_THAT(run_graze({"layout", file, "--set", "gab=1"}).err, HasSubstr("did you mean 'gap'?"));
     EXPECT_THAT(run_graze({"layout", file, "--mask", "3"}).err, HasSubstr("--mask"));
     EXPECT_THAT(run_graze("layout mems-swich").err, HasSubstr("did you mean"));

@@ -57,7 +57,7 @@ TEST(LayoutModel, RefusesWhatTheEtchTakesAway) {
 TEST(LayoutModel, SaysWhichFilesThereAre) {
     const Printed text = run_graze({"layout", "mems-switch-device", "--output", "x.txt"});
     EXPECT_EQ(text.code, 2);
-    EXPECT_THAT(text.err, HasSubstr("what kind of masks or picture to draw; let the name end in .gds"));
+    EXPECT_THAT(text.err, HasSubstr("what kind of file to write; let the name end in .gds"));
     const Printed unknown = run_graze({"layout", std::string(3000, 'n')});
     EXPECT_EQ(unknown.code, 2);
     EXPECT_LT(unknown.err.size(), 1000U);
@@ -67,6 +67,8 @@ TEST(LayoutModel, WritesTheRecipe) {
     const Folder folder;
     ASSERT_EQ(run_graze({"layout", "mems-switch-device", "--recipe", folder / "recipe.md"}).code, 0);
     EXPECT_THAT(contents(folder / "recipe.md"), HasSubstr("Etch 50 um deep"));
+    ASSERT_EQ(run_graze({"layout", "mems-switch-device", "--recipe", folder / "recipe.svg"}).code, 0);
+    EXPECT_THAT(contents(folder / "recipe.svg"), HasSubstr("9  silicon is etched through, to the epoxy"));
 }
 
 TEST(LayoutModel, PrintsCommandsForTheMasksThatRun) {
@@ -106,8 +108,10 @@ TEST(LayoutYield, MakesAFolderOfTablesAndMaps) {
     EXPECT_THAT(printed.out, HasSubstr("\nclass_trips,16,,"));
     EXPECT_THAT(printed.out, HasSubstr("\ntrip_time_median,"));
     const std::string devices = contents(place + "/devices.csv");
-    EXPECT_EQ(header(devices), "wafer,site,x,y,more_bias,more_thickness,more_taper,more_stop_gap,m,f0,zeta,area,d,stop,"
-                               "V,class,trip_time");
+    EXPECT_THAT(
+        header(devices),
+        ::testing::StartsWith("wafer,site,x,y,more_bias,more_thickness,more_taper,more_stop_gap,m,f0,zeta,area,d,stop,"
+                              "V,class,trip_time,drawn_electrode_length"));
     EXPECT_EQ(std::count(devices.begin(), devices.end(), '\n'), 17);
     EXPECT_TRUE(JsonCheck(contents(place + "/report.json")).valid());
     const Printed again = run_graze(words);

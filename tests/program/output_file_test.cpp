@@ -53,6 +53,39 @@ TEST(OutputFile, FollowsLinks) {
     EXPECT_EQ(contents(path), "new");
 }
 
+/// In a folder that others write to, too.
+TEST(OutputFile, NobodyKnowsWhereItIsWritten) {
+    const Folder folder;
+    const std::string path = folder / "table.csv";
+    const FileReplacement one(path), other(path);
+    EXPECT_NE(one.temporary_path(), other.temporary_path());
+    EXPECT_EQ(one.temporary_path().find(std::to_string(getpid())), std::string::npos);
+    for (const FileReplacement* file : {&one, &other})
+        EXPECT_TRUE(std::filesystem::is_regular_file(std::filesystem::symlink_status(file->temporary_path())));
+}
+
+TEST(OutputFile, WhatAnotherProgramPutsInItsPlaceIsNotUsed) {
+    const Folder folder;
+    const std::string path = folder / "table.csv", precious = folder.write("precious", "precious");
+    write_file(path, "old");
+    FileReplacement file(path);
+    std::filesystem::remove(file.temporary_path());
+    std::filesystem::create_symlink(precious, file.temporary_path());
+    file.write("new");
+    EXPECT_EQ(contents(precious), "precious");
+    EXPECT_THROW(file.commit(), InputError);
+    EXPECT_EQ(contents(path), "old");
+}
+
+TEST(OutputFile, NamesMayBeAsLongAsTheSystemTakes) {
+    const Folder folder;
+    const std::string path = folder / (std::string(251, 'a') + ".csv");
+    write_file(path, "new");
+    EXPECT_EQ(contents(path), "new");
+    EXPECT_THROW(write_file(folder / (std::string(252, 'a') + ".csv"), "new"), InputError);
+    EXPECT_EQ(folder.files(), 1U);
+}
+
 TEST(OutputFile, SaysWhatIsWrong) {
     const Folder folder;
     EXPECT_THROW(require_writable(""), InputError);

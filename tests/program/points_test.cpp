@@ -188,6 +188,23 @@ TEST_F(Points, ExportsBranchesBesideOtherRuns) {
     EXPECT_EQ(Csv(run_graze({"export", path, "--what", "multipliers", "--format", "csv"}).out).rows.size(), 40U);
 }
 
+TEST_F(Points, ExportRefusesLabelsAndDirectionsThatNothingHas) {
+    write_branches();
+    write_sweep();
+    for (const std::string words :
+         {"--run first --label GR7", "--run first --label Fold", "--run swept --label periodc",
+          "--run first --direction sideways", "--what multipliers --label x"}) {
+        const Printed printed = run_graze("export " + path + " " + words);
+        EXPECT_EQ(printed.code, 2) << words;
+        EXPECT_THAT(printed.err, HasSubstr("no point has the")) << words;
+        EXPECT_EQ(std::count(printed.err.begin(), printed.err.end(), '\n'), 1) << printed.err;
+    }
+    // What might be there, and is not, chooses nothing.
+    for (const std::string words : {"--run first --label NS", "--run first --label GR1", "--run swept --label chaotic",
+                                    "--run swept --direction down", "--run first --direction down"})
+        EXPECT_EQ(run_graze("export " + path + " " + words).code, 0) << words;
+}
+
 TEST_F(Points, ExportTellsWhichTablesARunHas) {
     write_sweep();
     write_branches();

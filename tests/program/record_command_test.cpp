@@ -138,11 +138,11 @@ TEST_F(RecordCommand, MistakesAreOneLineWithARemedy) {
     const std::string run = file("run.csv");
     std::ofstream(folder / "header.csv") << "t [s], V [V]\n";
     std::ofstream(folder / "two.csv") << std::string("\xff\xfet\0,\0v\0\n\0", 10);
-    std::ofstream(folder / "wrong.csv") << "t [s], V [V], v [mm/s]\n0,1,2\n1,nan,2\n";
+    std::ofstream(folder / "wrong.csv") << "t [s], V [V], v [mm/s]\n0,1,2\n1,one,2\n";
     const std::vector<std::pair<std::string, std::string>> mistakes{
         {folder / "none.csv", "none.csv: the record cannot be read"},
-        {folder / "wrong.csv", "wrong.csv:3:3: 'nan' is no finite number"},
-        {run + " " + (folder / "wrong.csv"), "wrong.csv:3:3: 'nan'"},
+        {folder / "wrong.csv", "wrong.csv:3:3: 'one' is no finite number"},
+        {run + " " + (folder / "wrong.csv"), "wrong.csv:3:3: 'one'"},
         {run + " --what sections", "name the channel of the input by --reference"},
         {run + " --what sections --reference W", "--reference: the record has no channel 'W'"},
         {run + " --what sections --reference V --level 7", "does not rise through 7 twice"},

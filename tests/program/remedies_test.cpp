@@ -1,3 +1,4 @@
+#include "places.hpp"
 #include "run_graze.hpp"
 
 #include <gmock/gmock.h>
@@ -65,7 +66,7 @@ struct Text {
 /// All texts that may name commands: messages and help, documentation.
 std::vector<Text> texts() {
     std::vector<Text> all;
-    const std::filesystem::path root = GRAZE_SOURCE_DIR;
+    const std::filesystem::path root = source_folder;
     for (const char* folder : {"src", "docs"})
         for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
             const auto extension = entry.path().extension();

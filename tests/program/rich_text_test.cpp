@@ -44,13 +44,13 @@ TEST(RichText, LatexTakesNoLetterAsACommand) {
 }
 
 TEST(RichText, LinesAreBrokenAtBlanks) {
-    EXPECT_THAT(wrapped("one two three", 100, 3), ElementsAre("one two three"));
-    EXPECT_THAT(wrapped("one two three", 4.5, 3), ElementsAre("one two", "three"));
-    EXPECT_THAT(wrapped("one two three", 2.5, 2), ElementsAre("one", "two…"));
-    EXPECT_THAT(wrapped("one V = 0.3 m", 4.5, 3), ElementsAre("one", "V = 0.3", "m"));
-    EXPECT_THAT(wrapped("one (Fig. 2)", 5, 3), ElementsAre("one", "(Fig. 2)"));
-    EXPECT_THAT(wrapped("", 5, 2), ElementsAre());
-    for (const std::string& line : wrapped("ein überlanges Wort: ääääääääääääääääääääääää", 6, 9))
+    EXPECT_THAT(wrapped_lines("one two three", 100, 3), ElementsAre("one two three"));
+    EXPECT_THAT(wrapped_lines("one two three", 4.5, 3), ElementsAre("one two", "three"));
+    EXPECT_THAT(wrapped_lines("one two three", 2.5, 2), ElementsAre("one", "two…"));
+    EXPECT_THAT(wrapped_lines("one V = 0.3 m", 4.5, 3), ElementsAre("one", "V = 0.3", "m"));
+    EXPECT_THAT(wrapped_lines("one (Fig. 2)", 5, 3), ElementsAre("one", "(Fig. 2)"));
+    EXPECT_THAT(wrapped_lines("", 5, 2), ElementsAre());
+    for (const std::string& line : wrapped_lines("ein überlanges Wort: ääääääääääääääääääääääää", 6, 9))
         EXPECT_LE(width_of(rich(line)), 6) << line;
 }
 

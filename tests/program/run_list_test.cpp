@@ -74,10 +74,11 @@ TEST_F(RunList, FitsATerminalOfAHundredColumns) {
 
 TEST_F(RunList, HasACellForEachNumberInCsv) {
     const Printed printed = list("csv");
-    EXPECT_EQ(header(printed.out), "run,kind,points,computed,seconds,status,points_chattering,points_ended,problem");
+    EXPECT_EQ(header(printed.out),
+              "run,kind,points,computed,seconds,status,points_chattering,points_ended,problem,rate_of_escape");
     const std::string first = split(printed.out, '\n').at(1), second = split(printed.out, '\n').at(2);
     EXPECT_THAT(first, HasSubstr(",done,1,0,\"point 0: "));
-    EXPECT_TRUE(second.ends_with(",done,0,1,")) << second;
+    EXPECT_TRUE(second.ends_with(",done,0,1,,")) << second;
     EXPECT_TRUE(JsonCheck(list("json").out).valid());
 }
 

@@ -58,7 +58,7 @@ TEST(RunMeasured, what_is_found_is_printed_kept_and_exported) {
 
 TEST(RunMeasured, records_that_are_none_end_with_two) {
     const testing::TemporaryFolder folder;
-    folder.write("a.csv", "t,V\n0,1\n1,nan\n");
+    folder.write("a.csv", "t,V\n0,1\n1,one\n");
     const std::string head = "name = \"s\"\n[runs.a]\nkind = \"record\"\n";
     const testing::Printed outside =
         run_graze({"run", folder.write("o.toml", head + "files = \"../a.csv\"\n"), "--output", folder / "o"});

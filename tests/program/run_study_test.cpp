@@ -1,3 +1,4 @@
+#include "places.hpp"
 #include "program/run_graze.hpp"
 
 #include <gmock/gmock.h>
@@ -121,7 +122,7 @@ TEST_F(RunStudyTest, pictures_of_every_kind_are_drawn) {
     EXPECT_GT(drawn({"--run", "sweep", "--kind", "regression", "--y", "I"}), 2'000u);
 }
 
-#ifdef GRAZE_PROGRAM
+#ifdef GRAZE_PROGRAM_BUILT
 /// Starts the program and kills it after a while. @return whether it had ended by itself
 bool run_and_kill(const std::vector<std::string>& words, std::chrono::microseconds after) {
     const pid_t child = fork();
@@ -133,7 +134,7 @@ bool run_and_kill(const std::vector<std::string>& words, std::chrono::microsecon
         for (const std::string& word : words)
             arguments.push_back(const_cast<char*>(word.c_str()));
         arguments.push_back(nullptr);
-        execv(GRAZE_PROGRAM, arguments.data());
+        execv(testing::program_file, arguments.data());
         _exit(127);
     }
     std::this_thread::sleep_for(after);
@@ -305,6 +306,7 @@ vary = { T = [1, 2] }
 cycles = 60
 [runs.samples]
 kind = "continue"
+direction = "up"
 along = { T = [0.9, 1.1] }
 monitors = { a = { maximum = "start" }, A = { minimum = "start" }, type = "period", parameter = { maximum = "arclength" } }
 )toml";

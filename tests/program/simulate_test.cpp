@@ -12,7 +12,7 @@ using ::testing::HasSubstr;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A harmonic oscillator, whose motion is known: x = cos(w t), v = -w sin(w t) from the standard state.
 const std::string oscillator = R"(

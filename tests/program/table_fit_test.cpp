@@ -84,4 +84,22 @@ TEST(TableFit, LinesOfCommandsFitATerminalUnlessAllIsAskedFor) {
     EXPECT_THAT(header(asked.out), HasSubstr("1+1"));
 }
 
+TEST(TableFit, ShortensLongTexts) {
+    std::string many, mixed;
+    for (int i = 0; i < 24; ++i)
+        many += i == 0 ? "impact" : " impact";
+    for (int i = 0; i < 24; ++i)
+        mixed += i == 0 ? "left right" : " left right";
+    EXPECT_EQ(shortened_words("impact full", 40), "impact full");
+    EXPECT_EQ(shortened_words("impact impact full", 40), "impact impact full");
+    EXPECT_EQ(shortened_words(many + " full", 40), "impact (24 times) full");
+    EXPECT_EQ(shortened_words(mixed, 40), "left right left right ... (48 words)");
+    Table table({{"signature", ""}, {"value", ""}});
+    table.add(mixed);
+    table.add(1.0);
+    EXPECT_TRUE(fitted(table, 8, 100, {}).shortened);
+    EXPECT_LE(fitted(table, 8, 100, {}).table.text(0, 0).size(), 40U);
+    EXPECT_EQ(fitted(table, 8, 100, {}).table.number(0, 1), 1.0);
+}
+
 } // namespace graze::testing

@@ -136,6 +136,7 @@ from = { q = 0, v = 0, theta = 0 }
 
 [runs.touching]
 kind = "continue"
+direction = "up"
 start = { run = "free" }
 along = { V = [0.01, 0.4] }
 
@@ -146,6 +147,7 @@ from = { q = 0, v = 0, theta = 0 }
 
 [runs.folding]
 kind = "continue"
+direction = "up"
 start = { run = "slower" }
 along = { V = [0.01, 0.4] }
 )toml";

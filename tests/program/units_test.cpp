@@ -72,6 +72,7 @@ kind = "orbit"
 set = { V0 = 1.5, f = 8 }
 [runs.branch]
 kind = "continue"
+direction = "up"
 start = { run = "free" }
 along = { V0 = [1, 1.6] }
 )";

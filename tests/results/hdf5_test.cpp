@@ -9,7 +9,9 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <vector>
@@ -108,7 +110,7 @@ private:
 };
 
 /// A folder of its own for each test.
-class Hdf5 : public testing::Test {
+class Hdf5 : public ::testing::Test {
 protected:
     void SetUp() override { std::filesystem::create_directories(folder_); }
     void TearDown() override { std::filesystem::remove_all(folder_); }
@@ -252,6 +254,20 @@ TEST_F(Hdf5, texts_have_the_length_of_the_longest_unless_that_is_huge) {
     EXPECT_EQ(detail.width(), 0U);
     EXPECT_EQ(symmetry.texts(), std::vector<std::string>(4)); // nothing at all
     EXPECT_EQ(symmetry.width(), 1U);
+}
+
+/// The library would note in each dataset when it was made, in seconds.
+TEST_F(Hdf5, equal_results_are_equal_files) {
+    write_branch(path("results.sqlite"));
+    const ResultFile file(path("results.sqlite"), ResultFile::Access::read);
+    const auto bytes = [&](const char* name) {
+        export_hdf5(file, {"b"}, path(name));
+        std::ifstream stream(path(name), std::ios::binary);
+        return std::string{std::istreambuf_iterator<char>(stream), {}};
+    };
+    const std::string first = bytes("first.h5");
+    usleep(1'100'000);
+    EXPECT_TRUE(bytes("second.h5") == first);
 }
 
 TEST_F(Hdf5, files_have_the_size_of_the_data) {

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-class OrbitRows : public testing::Test {
+class OrbitRows : public ::testing::Test {
 protected:
     void SetUp() override {
         path_ =

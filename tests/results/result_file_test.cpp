@@ -22,14 +22,14 @@
 namespace graze {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
-class ResultFileTest : public testing::Test {
+class ResultFileTest : public ::testing::Test {
 protected:
     void SetUp() override {
         folder_ =
             std::filesystem::temp_directory_path() / ("graze-results-" + std::to_string(getpid()) + "-" +
-                                                      testing::UnitTest::GetInstance()->current_test_info()->name());
+                                                      ::testing::UnitTest::GetInstance()->current_test_info()->name());
         std::filesystem::remove_all(folder_);
         std::filesystem::create_directories(folder_);
     }

@@ -14,16 +14,16 @@
 namespace graze {
 namespace {
 
-using testing::ElementsAre;
-using testing::Pair;
+using ::testing::ElementsAre;
+using ::testing::Pair;
 
 /// A sweep over omega, whose values are called like columns and coordinates, in both directions.
-class StoredRunTest : public testing::Test {
+class StoredRunTest : public ::testing::Test {
 protected:
     void SetUp() override {
         path_ =
             (std::filesystem::temp_directory_path() / ("graze-stored-run-" + std::to_string(getpid()) + "-" +
-                                                       testing::UnitTest::GetInstance()->current_test_info()->name()))
+                                                       ::testing::UnitTest::GetInstance()->current_test_info()->name()))
                 .string();
         remove();
         file_ = std::make_unique<ResultFile>(path_, ResultFile::Access::write);

@@ -17,7 +17,7 @@
 namespace graze {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// Without damping worth mentioning, grazing is where 1/(omega^2 - 1) is the gap; here with the damping.
 const std::string study_text = R"(
@@ -37,18 +37,21 @@ direction = "both"
 
 [runs.impacting]
 kind = "continue"
+direction = "up"
 start = { run = "free", point = "GR1" }
 along = { omega = [2.2, 4.5] }
 monitors = { speed = { value = "v", at = "impact", report = 0.5 }, reach = { minimum = "x" } }
 
 [runs.doubled]
 kind = "continue"
+direction = "up"
 start = { run = "impacting", point = "PD1" }
 along = { omega = [2.2, 4.5] }
 stop = "PD"
 
 [runs.wider]
 kind = "continue"
+direction = "up"
 text = "another parameter, from a point that is not special"
 start = { run = "impacting", at = { omega = 2.3 } }
 along = { e = [0.5, 0.95] }
@@ -60,12 +63,12 @@ set = { omega = 2.3 }
 vary = { e = [0.78, 0.8] }
 )";
 
-class BranchRun : public testing::Test {
+class BranchRun : public ::testing::Test {
 protected:
     void SetUp() override {
         folder_ =
             std::filesystem::temp_directory_path() / ("graze-branch-" + std::to_string(getpid()) + "-" +
-                                                      testing::UnitTest::GetInstance()->current_test_info()->name());
+                                                      ::testing::UnitTest::GetInstance()->current_test_info()->name());
         std::filesystem::create_directories(folder_);
         path_ = (folder_ / "results.sqlite").string();
     }
@@ -91,6 +94,7 @@ model = "impact-oscillator"
 set = { zeta = 0.05, sigma = 1 }
 [runs.free]
 kind = "continue"
+direction = "up"
 set = { omega = 2.4, amplitude = 0.5 }
 along = { amplitude = [0.1, 10] }
 grazing = true
@@ -102,6 +106,7 @@ direction = "down"
 grazing = true
 [runs.boundary]
 kind = "curve"
+direction = "up"
 start = { run = "touches", point = "VS1" }
 along = { zeta = [0.01, 0.5], omega = [0.1, 3] }
 free = { amplitude = [0, 100] }
@@ -136,12 +141,14 @@ free = { amplitude = [0, 100] }
     const std::string first = text.substr(0, text.find("[runs.boundary]"));
     EXPECT_THAT(refusal(first + R"([runs.b]
 kind = "curve"
+direction = "up"
 start = { run = "touches", point = "VS1" }
 along = { zeta = [0.01, 0.5], omega = [0.1, 3] }
 )"),
                 HasSubstr("needs a third parameter"));
     EXPECT_THAT(refusal(first + R"([runs.b]
 kind = "curve"
+direction = "up"
 start = { run = "free", point = "GR1" }
 along = { zeta = [0.01, 0.5], omega = [0.1, 3] }
 free = ["amplitude"]
@@ -190,11 +197,13 @@ direction = "both"
 
 [runs.flips]
 kind = "curve"
+direction = "up"
 start = { run = "impacting", point = "PD1" }
 along = { omega = [2.2, 4.5], e = [0.7, 0.9] }
 
 [runs.as_fast]
 kind = "curve"
+direction = "up"
 start = { run = "impacting", point = "UZ1" }
 along = { omega = [2.2, 4.5], amplitude = [0.1, 5] }
 monitors = { speed = { value = "v", at = "impact", fixed = true } }
@@ -263,10 +272,12 @@ along = { a = [-2, 5] }
 direction = "down"
 [runs.folds]
 kind = "curve"
+direction = "up"
 start = { run = "fixed", point = "SN1" }
 along = { b = [0.1, 1.5], a = [-2, 5] }
 [runs.last]
 kind = "curve"
+direction = "up"
 start = { run = "folds", point = "R1-1")" +
                last + " }\nalong = { a = [-2, 5], b = [0.1, 1.5] }\n";
     };
@@ -284,9 +295,9 @@ start = { run = "folds", point = "R1-1")" +
     }
     std::filesystem::remove(path_);
     EXPECT_THAT(refusal(study(", onto = \"PD\"")),
-                testing::AllOf(HasSubstr("the point of type R1 (1:1 resonance) is no flip"),
-                               HasSubstr("multipliers are 1"),
-                               HasSubstr("curves that begin there are \"SN\", \"NS\"")));
+                ::testing::AllOf(HasSubstr("the point of type R1 (1:1 resonance) is no flip"),
+                                 HasSubstr("multipliers are 1"),
+                                 HasSubstr("curves that begin there are \"SN\", \"NS\"")));
     std::filesystem::remove(path_);
     EXPECT_THAT(refusal(study("")), HasSubstr("onto = \"SN\" or onto = \"NS\""));
 }
@@ -442,6 +453,25 @@ TEST_F(BranchRun, keeps_what_fails) {
     EXPECT_EQ(reports[2].outcome, RunOutcome::complete) << "it does not depend on the others";
 }
 
+/// A branch that has one orbit only, because it cannot go on from that, is no result to be content with.
+TEST_F(BranchRun, that_does_not_leave_its_first_orbit_has_failed) {
+    const std::string rest = "name = \"s\"\nmodel = \"impact-oscillator\"\n[runs.rest]\nkind = \"orbit\"\n"
+                             "set = { omega = 4 }\nfrom = { x = -0.07 }\n[runs.a]\nkind = \"continue\"\n"
+                             "start = { run = \"rest\" }\nalong = { omega = [3.9, 4] }\ndirection = \"up\"\n";
+    for (int again = 0; again < 2; ++again) { // also when it is found in the file
+        const auto reports = run(rest);
+        ASSERT_EQ(reports.size(), 2U);
+        EXPECT_EQ(reports[1].outcome, RunOutcome::failed);
+        EXPECT_THAT(reports[1].problem, HasSubstr("does not leave its first orbit, up: bound reached"));
+        EXPECT_THAT(reports[1].remedy, HasSubstr("the other direction"));
+    }
+    // The orbit is there, and others may begin with it; both ways there is one.
+    const auto reports = run(rest + "[runs.b]\nkind = \"continue\"\nstart = { run = \"a\", point = \"EP1\" }\n"
+                                    "along = { omega = [3.9, 4] }\ndirection = \"both\"\n");
+    ASSERT_EQ(reports.size(), 3U);
+    EXPECT_EQ(reports[2].outcome, RunOutcome::complete) << reports[2].problem;
+}
+
 /// Failures at every place of a chain of runs: all that do not depend on one are done, all others say why not.
 TEST_F(BranchRun, what_does_not_depend_on_a_failure_is_done) {
     const std::string head = "name = \"s\"\nmodel = \"impact-oscillator\"\n";
@@ -482,6 +512,7 @@ set = { omega = 4, e = 0.7, zeta = 0.03 }
 from = { x = -0.07 }
 [runs.free]
 kind = "continue"
+direction = "up"
 start = { run = "rest" }
 along = { omega = [3.9, 4.1] }
 [runs.motion]

@@ -14,7 +14,7 @@
 namespace graze {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const std::string touches = R"(
 name = "s"
@@ -31,12 +31,12 @@ along = { omega = [1.5, 2.5], sigma = [0.001, 20] }
 direction = "both"
 )";
 
-class ImpactingCurveRun : public testing::Test {
+class ImpactingCurveRun : public ::testing::Test {
 protected:
     void SetUp() override {
         path_ = (std::filesystem::temp_directory_path() /
                  ("graze-impacting-" + std::to_string(getpid()) + "-" +
-                  testing::UnitTest::GetInstance()->current_test_info()->name() + ".sqlite"))
+                  ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".sqlite"))
                     .string();
     }
     void TearDown() override {

@@ -20,7 +20,7 @@
 namespace graze {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// A slow force presses the mass against the stop: what does it do before it stays there?
 const std::string free_text = R"(
@@ -40,12 +40,12 @@ along = { sigma = [0.1, 3] }
 rungs = 6
 )";
 
-class LadderRun : public testing::Test {
+class LadderRun : public ::testing::Test {
 protected:
     void SetUp() override {
         path_ = (std::filesystem::temp_directory_path() /
                  ("graze-ladder-" + std::to_string(getpid()) + "-" +
-                  testing::UnitTest::GetInstance()->current_test_info()->name() + ".sqlite"))
+                  ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".sqlite"))
                     .string();
     }
     void TearDown() override {
@@ -246,6 +246,7 @@ direction = "both"
     EXPECT_THAT(refusal(free_text + ladder_text + R"(
 [runs.orbits]
 kind = "continue"
+direction = "up"
 start = { run = "ladder", point = "CH1" }
 along = { sigma = [0.1, 3] }
 )"),

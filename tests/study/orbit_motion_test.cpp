@@ -1,5 +1,7 @@
 #include "graze/results/orbit_motion.hpp"
 
+#include "graze/branch/switching.hpp"
+#include "graze/model/catalogue.hpp"
 #include "graze/study/runner.hpp"
 #include "graze/study/study_catalogue.hpp"
 #include "graze/symbolic/function.hpp"
@@ -10,7 +12,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <set>
+#include <utility>
 
 namespace graze {
 namespace {
@@ -129,6 +133,30 @@ TEST(OrbitMotion, of_every_orbit_of_the_shipped_studies_starts_where_stored_and_
 
 TEST(OrbitMotionSlow, of_orbits_of_large_models_starts_where_stored_and_closes) {
     EXPECT_GT(expect_all_closed(true).orbits, 8u);
+}
+
+/// As a damaged file may have it.
+TEST(OrbitMotion, of_a_segment_without_end_is_broken_off) {
+    Model model = load_model("impact-oscillator");
+    for (const auto& [name, value] : {std::pair{"sigma", 0.5}, {"omega", 1.2}, {"amplitude", 0.1}})
+        model.set_parameter(name, value);
+    AttractorOptions options;
+    options.section = "phase0";
+    const Orbit orbit = find_orbit(model, options).orbit;
+    ASSERT_EQ(orbit_motion(model, orbit, 10).front().problem, "");
+    for (const double duration : {1e300, -1e300, 1e12, std::numeric_limits<double>::infinity(),
+                                  -std::numeric_limits<double>::infinity(), std::nan("")}) {
+        Orbit endless = orbit;
+        endless.durations.front() = duration;
+        endless.signature.push_back(endless.signature.front());
+        endless.starts.push_back(endless.starts.front());
+        endless.durations.push_back(1e200);
+        const std::vector<SegmentMotion> motion = orbit_motion(model, endless, 10);
+        ASSERT_EQ(motion.size(), 2U);
+        EXPECT_NE(motion[0].problem, "") << duration;
+        EXPECT_NE(motion[1].problem, "") << duration;
+        EXPECT_LE(motion[0].times.size() + motion[1].times.size(), 30U) << duration;
+    }
 }
 
 } // namespace

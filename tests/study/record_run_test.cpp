@@ -264,6 +264,27 @@ TEST_F(RecordRunTest, a_diagram_has_a_point_for_each_record_and_a_direction) {
     EXPECT_EQ(figure.panels[0].x_unit, "V");
 }
 
+TEST(RecordRun, channels_of_a_bench_are_what_its_model_says) {
+    const Study study = parse_study(R"(name = "s"
+model = "ball-and-shaker"
+[runs.r]
+kind = "record"
+reference = "s"
+coordinate = "reach"
+[runs.r.bench]
+channels = { v = "v", s = { value = "shaker", noise = 0.1 }, twice = "2*v" }
+rate = 1000
+time = 1
+)",
+                                    "s.toml");
+    const Model& model = study.runs.at(0).model; // as it is kept with the results
+    ASSERT_EQ(model.states.size(), 3U);
+    EXPECT_EQ(model.states[0].text, "velocity of the ball");
+    EXPECT_EQ(model.states[1].text, "position of the shaker's head");
+    EXPECT_EQ(model.states[2].text, "");
+    EXPECT_EQ(model.parameters.at(0).text, "amplitude of s");
+}
+
 TEST_F(RecordRunTest, measured_points_lie_over_computed_ones) {
     for (int i = 1; i <= 2; ++i)
         folder_.write(fmt::format("{}.csv", i), waves(i, 1));
@@ -388,9 +409,40 @@ TEST_F(RecordRunTest, records_stay_in_the_folder_of_the_study) {
     EXPECT_EQ(told("inside/link.csv"), "");
 }
 
+TEST_F(RecordRunTest, rows_with_missing_values_are_left_out_and_told) {
+    folder_.write("nan.csv", "t,V\n0,1\n1,nan\n2,3\n");
+    for (const RunReport& report : run(std::string(head) + "files = \"nan.csv\"\n"))
+        EXPECT_TRUE(report.complete()) << report.problem;
+    const ResultFile file(results(), ResultFile::Access::read);
+    EXPECT_THAT(file.point("r", 0)->result.outcome.detail,
+                HasSubstr("1 of 3 rows are left out, of which a value is missing (the first in line 3)"));
+    std::vector<double> times;
+    for (const std::vector<double>& row : samples("record"))
+        times.push_back(row[0]);
+    EXPECT_EQ(times, (std::vector<double>{0, 2}));
+}
+
+TEST_F(RecordRunTest, an_instruments_text_is_read_from_the_lines_that_are_told) {
+    // Units above names, and a line of numbers before both, which would pass for the first row.
+    std::string text = "1, 2\n3, 4\ns, mm\nt, q\n";
+    for (int i = 0; i < 50; ++i)
+        text += fmt::format("{}, {}\n", i, 2 * i);
+    folder_.write("a.csv", text);
+    run(std::string(head) + "files = \"a.csv\"\nlines = { skip = 2, names = 4, units = 3 }\n");
+    const auto rows = samples("record");
+    ASSERT_EQ(rows.size(), 50u);
+    EXPECT_THAT(rows[7], ElementsAre(7, 14));
+    const ResultFile file(results(), ResultFile::Access::read);
+    const auto stored = file.find_run("r");
+    ASSERT_EQ(stored->values.size(), 1u);
+    EXPECT_EQ(stored->values[0].name, "q");
+    EXPECT_EQ(stored->values[0].unit, "mm");
+    EXPECT_THAT(refusal(std::string(head) + "files = \"a.csv\"\nlines = { names = 0 }\n"), HasSubstr("s.toml:5:"));
+}
+
 TEST_F(RecordRunTest, what_is_no_record_is_told_with_its_place) {
     folder_.write("a.csv", waves(2, 1));
-    folder_.write("nan.csv", "t,V\n0,1\n1,nan\n");
+    folder_.write("word.csv", "t,V\n0,1\n1,high\n");
     folder_.write("huge.csv", "t,V\n0,1\n1,1e999\n");
     folder_.write("binary.csv", std::string("\x7f"
                                             "ELF\0\1\2\3",
@@ -401,7 +453,7 @@ TEST_F(RecordRunTest, what_is_no_record_is_told_with_its_place) {
     folder_.write("units.csv", "t [s], V [mV], q [mm]\n0,1,2\n1,2,3\n");
     folder_.write("names.csv", "t,2 b\n0,1\n1,2\n");
     const auto told = [&](const std::string& rest) { return refusal(head + rest); };
-    EXPECT_THAT(told("files = \"nan.csv\"\n"), HasSubstr("nan.csv:3:"));
+    EXPECT_THAT(told("files = \"word.csv\"\n"), HasSubstr("word.csv:3:"));
     EXPECT_THAT(told("files = \"huge.csv\"\n"), HasSubstr("huge.csv:3:"));
     EXPECT_THAT(told("files = \"binary.csv\"\n"), HasSubstr("binary.csv"));
     EXPECT_THAT(told("files = \"empty.csv\"\n"), HasSubstr("empty.csv"));

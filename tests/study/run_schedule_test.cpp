@@ -13,7 +13,7 @@
 namespace graze {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 const std::function<bool()> never = [] { return false; };
 
@@ -72,7 +72,7 @@ TEST(RunSchedule, a_run_begins_after_the_one_that_it_starts_from) {
             {
                 const std::lock_guard lock(log.mutex);
                 for (const std::size_t before : runs[run].after)
-                    EXPECT_THAT(log.ended, testing::Contains(before));
+                    EXPECT_THAT(log.ended, ::testing::Contains(before));
             }
             log.begin(run, threads);
             std::this_thread::sleep_for(std::chrono::microseconds(50 * (run % 3)));

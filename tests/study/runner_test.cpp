@@ -16,7 +16,7 @@
 namespace graze {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const char* const text = R"(
 name = "s"
@@ -34,12 +34,12 @@ cycles = 60
 start = { run = "sweep", at = { omega = 2.8 }, direction = "up" }
 )";
 
-class RunnerTest : public testing::Test {
+class RunnerTest : public ::testing::Test {
 protected:
     void SetUp() override {
         path_ =
             (std::filesystem::temp_directory_path() / ("graze-runner-" + std::to_string(getpid()) + "-" +
-                                                       testing::UnitTest::GetInstance()->current_test_info()->name()))
+                                                       ::testing::UnitTest::GetInstance()->current_test_info()->name()))
                 .string();
         remove();
     }

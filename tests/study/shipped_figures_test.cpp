@@ -46,8 +46,10 @@ public:
     void run(const std::vector<std::string>& names) {
         RunnerOptions options;
         options.only = names;
-        for (const RunReport& report : run_study(study, *file_, options))
+        for (const RunReport& report : run_study(study, *file_, options)) {
             EXPECT_TRUE(report.complete()) << report.name << ": " << report.problem;
+            expect_end(report.name);
+        }
     }
     const ResultFile& file() const { return *file_; }
     const StudyTable& table(const std::string& name) const {
@@ -69,6 +71,16 @@ public:
     const Study study;
 
 private:
+    /// A branch ends where something ends it, unless the study says after how many steps.
+    void expect_end(const std::string& name) const {
+        const auto run =
+            std::find_if(study.runs.begin(), study.runs.end(), [&](const StudyRun& one) { return one.name == name; });
+        if (run == study.runs.end() || !run->is_branch() || run->branch.settings.steps != BranchSettings().steps)
+            return;
+        for (const OrbitRecord& record : file_->orbits(name, true))
+            EXPECT_NE(record.point.detail, name_of(BranchOutcome::steps)) << name;
+    }
+
     std::string path_;
     std::optional<ResultFile> file_;
 };
@@ -101,7 +113,7 @@ TEST(ShippedFigures, ladders_of_grazings_of_the_microactuator) {
     results.run({"five_impacts", "fast_ladder"});
     const std::vector<double> computed{0.5876212422746997, 0.7304755333366196, 0.8095127614194632, 0.8558788675649937,
                                        0.8819580628177297};
-    expect_ladder(results, "grazings", computed, {.5876, .7305, .8095, .8559, .8819}, {.5528, .5873, .5603}, 3);
+    expect_ladder(results, "grazings", computed, {.5876, .7305, .8095, .8559, .8819}, {.5528, .5873, .5603}, 4);
     expect_ladder(results, "grazings-fast",
                   {.52745995765981, .66636423118007, .74940362005310, .79897011651099, .82715666925300, .84240315127881,
                    .85032000894172, .85431167398464},
@@ -129,7 +141,7 @@ std::size_t end_parameter(const ShippedResults& results, const char* name) {
 
 TEST(ShippedFigures, map_of_the_microactuator) {
     ShippedResults results("microactuator");
-    results.run({"touches_1", "touches_3", "flips_1"});
+    results.run({"touches_1", "touches_2", "touches_3", "flips_1", "joining_folds_1", "slow_flips_1"});
     const Table joints = make_table(results.table("joints"), results.file());
     // Two joints and the lowest voltage, by the published values; columns label, omega, V.
     const std::vector<std::array<double, 2>> expected{{0.61364946180363, 0.58163432990654},
@@ -143,8 +155,25 @@ TEST(ShippedFigures, map_of_the_microactuator) {
     const SpecialPoint end = results.point("flips_1", "GR1");
     EXPECT_NEAR(end.solution.orbit.parameters[end_parameter(results, "omega")], expected[0][0], 1e-12);
     EXPECT_NEAR(end.solution.orbit.parameters[end_parameter(results, "V")], expected[0][1], 1e-12);
+    // One curve of folds leads from joint to joint. At the cusp between them two folds meet: see below.
+    const Table folds = make_table(results.table("joining-folds"), results.file());
+    ASSERT_EQ(folds.rows(), 3U);
+    for (std::size_t column = 0; column < 2; ++column) {
+        EXPECT_NEAR(folds.number(0, column + 1), expected[0][column], 1e-9);
+        EXPECT_NEAR(folds.number(2, column + 1), expected[1][column], 1e-9);
+    }
+    // At the cusp the curve turns in both parameters.
+    EXPECT_NEAR(folds.number(1, 1), 0.7454, 5e-5); // known from elsewhere to four digits
+    auto on_folds = StoredRun(results.file(), "joining_folds_1", {}).rows({.quantities = {"omega", "V"}});
+    while (on_folds.next())
+        for (std::size_t column = 0; column < 2; ++column)
+            EXPECT_LE(on_folds.number(column), folds.number(1, column + 1) + 1e-12);
+    // The flips from the slower joint.
+    const SpecialPoint slow = results.point("slow_flips_1", "EP1");
+    EXPECT_NEAR(slow.solution.orbit.parameters[end_parameter(results, "omega")], expected[1][0], 1e-9);
+    EXPECT_NEAR(slow.solution.orbit.parameters[end_parameter(results, "V")], expected[1][1], 1e-9);
     // Slowly, touches come near to the static pull-in voltage 2 d / 3 sqrt(k d / (3 alpha)).
-    for (const char* run : {"touches_1", "touches_3"}) {
+    for (const char* run : {"touches_1", "touches_2", "touches_3"}) {
         double slowest = 1, voltage = 0;
         auto rows = StoredRun(results.file(), run, {}).rows({.quantities = {"omega", "V"}});
         while (rows.next())
@@ -342,6 +371,36 @@ TEST(ShippedFigures, nine_modes_against_a_stiff_stop) {
     EXPECT_NEAR(one / table.number(0, 3), 1, 0.05);
 }
 
+/// Section 3.4: how much higher modes have of the motion, and how many of them it takes to tell that of the first.
+TEST(ShippedFigures, amplitudes_of_modes_against_three_stops) {
+    ShippedResults results("microbeam-amplitudes");
+    results.run({});
+    const Table nine = make_table(results.table("modes-9"), results.file());
+    ASSERT_EQ(nine.rows(), 3U);
+    // Computed independently for the stiffest stop; what is printed for the others is rounded to one or two digits.
+    const double computed[] = {11.21, 2.28, .525, .182}, digit[] = {.01, .01, .001, .001};
+    const double printed[2][4] = {{3, .6, .1, .05}, {5, .4, .2, .05}}, rounding[] = {.5, .1, .05, .01};
+    const std::size_t first = 7; // columns run, label, k, V, two of the first mode, one of the third
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_NEAR(nine.number(2, first + i), computed[i], digit[i] / 2) << i;
+        for (std::size_t stop = 0; stop < 2; ++stop)
+            EXPECT_NEAR(nine.number(stop, first + i), printed[stop][i], rounding[i]) << stop << ' ' << i;
+    }
+    // One mode is within 3, 3 and 5 percent of nine, seven within 0.2; the more, the closer.
+    const double one_mode[] = {.04, .04, .05};
+    for (std::size_t stop = 0; stop < 3; ++stop) {
+        double before = 1;
+        for (const int modes : {1, 3, 5, 7}) {
+            const Table table = make_table(results.table("modes-" + std::to_string(modes)), results.file());
+            ASSERT_EQ(table.rows(), 3U) << modes;
+            const double error = std::abs(table.number(stop, 4) / nine.number(stop, 4) - 1);
+            EXPECT_LT(error, before) << stop << ' ' << modes;
+            EXPECT_LT(error, modes == 1 ? one_mode[stop] : modes == 7 ? 0.002 : 1) << stop << ' ' << modes;
+            before = error;
+        }
+    }
+}
+
 /// Figs 3.4 and 3.5 with the unstable branches between the folds, for three stops.
 TEST(ShippedFigures, stops_of_three_stiffnesses) {
     ShippedResults results("microbeam-stops");
@@ -484,6 +543,31 @@ TEST(ShippedFigures, root_manifold_of_a_compliant_contact) {
     }
 }
 
+/// Fig. 3.2, the other sign: where alpha is negative the orbit goes on into contact, without a fold.
+TEST(ShippedFigures, contact_that_does_not_fold) {
+    ShippedResults results("microbeam-stops");
+    results.run({"persisting"});
+    const StoredRun run(results.file(), "no_contact_20", {});
+    const System system(run.model);
+    const Orbit orbit = results.point("no_contact_20", "GR1").solution.orbit;
+    CycleMapOptions options;
+    options.parameter = run.model.independent_parameter("V");
+    const Verdict verdict = verdict_of(cycle_map(system, orbit, touches_of(system, orbit).at(0), options));
+    EXPECT_EQ(verdict.outcome, GrazingOutcome::persists);
+    EXPECT_LT(*verdict.alpha, 0);
+    // What the study's monitor measures from is the touch itself.
+    EXPECT_NEAR(orbit.parameters[options.parameter->place()], 0.016867990101159434, 1e-14);
+    double root_before = 0, distance_before = 0;
+    for (const OrbitRecord& record : results.file().orbits("persisting", false)) {
+        const double root = record.point.monitors.at(0), distance = record.point.monitors.at(1);
+        EXPECT_LT(root, root_before);
+        EXPECT_LT(distance, distance_before);
+        root_before = root;
+        distance_before = distance;
+    }
+    EXPECT_LT(distance_before, -60); // to the edge of the picture
+}
+
 /// Pull-in by the gap: static equilibria by the balance of forces alone, whose voltage is greatest at the fold.
 TEST(ShippedFigures, pull_in_by_the_gap) {
     ShippedResults results("microbeam-stops");
@@ -521,7 +605,12 @@ TEST(ShippedFigures, pull_in_by_the_gap) {
 
 TEST(ShippedFiguresSlow, stops_of_three_stiffnesses_and_nine_modes) {
     ShippedResults results("microbeam-stops");
-    results.run({"nine_contact_500", "nine_contact_5000"});
+    results.run({"nine_contact_100", "nine_contact_500", "nine_contact_5000"});
+    // Both folds that one mode has at the published voltages: the higher modes are small.
+    EXPECT_NEAR(results.point("nine_contact_100", "SN1").parameter, 0.032825650930776, 0.01 * 0.0328);
+    EXPECT_NEAR(results.point("nine_contact_100", "SN2").parameter, 0.022532683475758, 0.01 * 0.0225);
+    for (const char* run : {"nine_contact_500", "nine_contact_5000"})
+        EXPECT_LT(results.point(run, "SN2").parameter, results.point(run, "SN1").parameter) << run;
     const double touch = results.point("nine_no_contact", "GR1").parameter;
     const double middle = results.point("nine_contact_500", "SN1").parameter,
                  stiff = results.point("nine_contact_5000", "SN1").parameter;

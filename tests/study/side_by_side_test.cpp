@@ -26,6 +26,7 @@ set = { sigma = 0.5, omega = 1.2, amplitude = 0.1 }
 kind = "orbit"
 [runs.branch]
 kind = "continue"
+direction = "up"
 start = { run = "rest" }
 along = { amplitude = [0.05, 0.6] }
 steps = 30
@@ -53,12 +54,12 @@ start = { run = "wrong" }
 time = 1
 )";
 
-class SideBySide : public testing::Test {
+class SideBySide : public ::testing::Test {
 protected:
     void SetUp() override {
         path_ =
             (std::filesystem::temp_directory_path() / ("graze-side-" + std::to_string(getpid()) + "-" +
-                                                       testing::UnitTest::GetInstance()->current_test_info()->name()))
+                                                       ::testing::UnitTest::GetInstance()->current_test_info()->name()))
                 .string();
         remove();
     }

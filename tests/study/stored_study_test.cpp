@@ -19,7 +19,7 @@
 namespace graze {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// A study with a run of every kind, of a model in a file of its own, from a table in a file.
 constexpr const char* text = R"(
@@ -41,7 +41,7 @@ kind = "basin"
 draws = 9
 seed = 7
 vary = { x = { random = [-1, 0] } }
-set = { e = 0.7 }
+set = { e = 0.8 }
 bounds = { v = [-50, 50] }
 cycles = 60
 start = { run = "sweep", at = { omega = 2.8 }, direction = "up" }
@@ -82,12 +82,12 @@ kind = "portrait"
 at = [{ omega = 2.8 }]
 )";
 
-class StoredStudyTest : public testing::Test {
+class StoredStudyTest : public ::testing::Test {
 protected:
     void SetUp() override {
         folder_ =
             std::filesystem::temp_directory_path() / ("graze-stored-" + std::to_string(getpid()) + "-" +
-                                                      testing::UnitTest::GetInstance()->current_test_info()->name());
+                                                      ::testing::UnitTest::GetInstance()->current_test_info()->name());
         std::filesystem::remove_all(folder_);
         std::filesystem::create_directories(folder_);
     }

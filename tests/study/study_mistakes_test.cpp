@@ -11,9 +11,9 @@
 namespace graze {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::SizeIs;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
 
 /// "line: problem" of each mistake.
 std::vector<std::string> mistakes_in(const std::string& text) {

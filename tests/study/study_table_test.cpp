@@ -18,8 +18,8 @@
 namespace graze {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 const std::string runs = R"(name = "s"
 model = "impact-oscillator"
@@ -29,11 +29,13 @@ kind = "orbit"
 set = { amplitude = 0.1 }
 [runs.up]
 kind = "continue"
+direction = "up"
 start = { run = "free" }
 along = { amplitude = [0.05, 1] }
 monitors = { reach = { maximum = "x" } }
 [runs.hits]
 kind = "continue"
+direction = "up"
 start = { run = "up", point = "GR1" }
 along = { amplitude = [0.05, 1] }
 monitors = { reach = { maximum = "x" } }
@@ -190,7 +192,7 @@ TEST(StudyTable, says_what_the_results_do_not_have) {
         make_table(study.tables.at(0), results.file());
         ADD_FAILURE() << "a column that is not there";
     } catch (const InputError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("s.toml:23:9: run 'up': no such column: speed"));
+        EXPECT_THAT(error.what(), HasSubstr("s.toml:25:9: run 'up': no such column: speed"));
     }
 }
 
@@ -221,34 +223,34 @@ TEST(StudyTable, mistakes_are_told_with_their_place_and_remedy) {
     };
     for (
         const Case& wrong : std::vector<Case>{
-            {"[tables.t]\ncolumns = \"x\"", "s.toml:23:9: tables.t shows no run; give run = \"NAME\""},
-            {"[tables.t]\nrun = \"up\"", "s.toml:23:9: tables.t has no columns; name parameters, values or monitors"},
+            {"[tables.t]\ncolumns = \"x\"", "s.toml:25:9: tables.t shows no run; give run = \"NAME\""},
+            {"[tables.t]\nrun = \"up\"", "s.toml:25:9: tables.t has no columns; name parameters, values or monitors"},
             {"[tables.t]\nrun = \"upp\"\ncolumns = \"x\"",
-             "s.toml:23:9: the study has no run 'upp'; did you mean 'up'?"},
+             "s.toml:25:9: the study has no run 'upp'; did you mean 'up'?"},
             {"[tables.t]\nrun = \"up\"\ncolums = \"x\"",
-             "s.toml:25:1: unknown key 'colums' in tables.t; did you mean 'columns'?"},
-            {"[tables.\"a/b\"]\nrun = \"up\"", "s.toml:23:9: 'a/b' cannot be the name of a table"},
+             "s.toml:27:1: unknown key 'colums' in tables.t; did you mean 'columns'?"},
+            {"[tables.\"a/b\"]\nrun = \"up\"", "s.toml:25:9: 'a/b' cannot be the name of a table"},
             {"[tables.t]\nruns = [\"up\", \"motion\"]\ncolumns = \"x\"",
              "branches and other runs have different columns"},
             {"[tables.t]\nrun = \"up\"\ncolumns = [\"x\", \"x = reach\"]",
-             "s.toml:25:17: there is another column 'x'; leave it out, or give it a name of its own: \"NAME = reach\""},
-            {"[tables.t]\nrun = \"up\"\ncolumns = \"x =\"", "s.toml:25:11: tables.t.columns names nothing"},
-            {"[tables.t]\nrun = \"up\"\ncolumns = \"label\"", "s.toml:23:9: the table has a column 'label' by itself"},
+             "s.toml:27:17: there is another column 'x'; leave it out, or give it a name of its own: \"NAME = reach\""},
+            {"[tables.t]\nrun = \"up\"\ncolumns = \"x =\"", "s.toml:27:11: tables.t.columns names nothing"},
+            {"[tables.t]\nrun = \"up\"\ncolumns = \"label\"", "s.toml:25:9: the table has a column 'label' by itself"},
             {"[tables.t]\nruns = [\"up\", \"hits\"]\ncolumns = \"run = reach\"",
              "the table has a column 'run' by itself"},
             {"[tables.t]\nrun = \"up\"\ncolumns = \"x\"\nratios = { x = \"x\" }",
-             "s.toml:26:12: there is another column 'x'"},
+             "s.toml:28:12: there is another column 'x'"},
             {"[tables.t]\nrun = \"up\"\ncolumns = \"reach\"\nratios = { r = \"rech\" }",
-             "s.toml:26:16: the table has no column 'rech'; did you mean 'reach'?"},
+             "s.toml:28:16: the table has no column 'rech'; did you mean 'reach'?"},
             {"[tables.t]\nrun = \"up\"\ncolumns = \"x\"\npoints = [\"GR\", \"XY1\"]",
-             "s.toml:26:10: 'XY1' is no label and no type of points; labels are like GR1; types are SN"},
-            {"[tables.t]\nrun = \"up\"\ncolumns = \"x\"\npoints = \"GR1x\"", "'GR1x' is no label"},
+             "s.toml:28:10: 'XY1' is no label, no name and no type of points; labels are like GR1; types are SN"},
+            {"[tables.t]\nrun = \"up\"\ncolumns = \"x\"\npoints = \"GR1x\"", "'GR1x' is no label, no name"},
             {"[tables.t]\nrun = \"motion\"\ncolumns = \"x\"\npoints = \"GR\"", "points of run 'motion' have no labels"},
             {"[tables.t]\nrun = \"up\"\ncolumns = \"x\"\nsamples = \"low\"", "orbits of run 'up' are not sampled"},
             {"[tables.t]\nrun = \"motion\"\ncolumns = \"x\"\nsamples = \"lw\"",
              "there is no sampling 'lw'; did you mean 'low'?"},
             {"[pictures.t]\nrun = \"up\"\n[tables.t]\nrun = \"up\"\ncolumns = \"x\"",
-             "s.toml:25:9: there is a picture 't', whose table has the same file; give the table another name"},
+             "s.toml:27:9: there is a picture 't', whose table has the same file; give the table another name"},
         })
         EXPECT_THAT(refusal(wrong.table), HasSubstr(wrong.message)) << wrong.table;
     EXPECT_EQ(refusal("[tables.t]\nrun = \"motion\"\ncolumns = [\"label\", \"x\", \"is_low = x <= -0.1\"]"), "");

@@ -13,8 +13,8 @@
 namespace graze {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 const std::string head = "name = \"s\"\nmodel = \"impact-oscillator\"\n";
 
@@ -77,6 +77,20 @@ TEST(Study, sweeps_go_up_down_or_both_ways) {
     EXPECT_THAT(values("up"), ElementsAre(1, 2, 3));
     EXPECT_THAT(values("down"), ElementsAre(3, 2, 1));
     EXPECT_THAT(values("both"), ElementsAre(1, 2, 3, 3, 2, 1));
+}
+
+TEST(Study, branches_and_curves_go_both_ways_unless_told) {
+    const std::string branch = "[runs.a]\nkind = \"continue\"\nalong = { omega = [4, 5] }\n";
+    EXPECT_EQ(only_run(branch).direction, SweepDirection::both);
+    EXPECT_EQ(only_run(branch + "direction = \"down\"\n").direction, SweepDirection::down);
+    const std::string curve = "[runs.b]\nkind = \"curve\"\nstart = { run = \"a\", point = \"GR1\" }\n"
+                              "along = { omega = [4, 5], zeta = [0.1, 0.2] }\n";
+    const Study study =
+        parse_study(head + branch + curve + "[runs.c]" + curve.substr(8) + "direction = \"up\"\n", "s.toml");
+    EXPECT_EQ(study.runs.at(1).direction, SweepDirection::both);
+    EXPECT_EQ(study.runs.at(2).direction, SweepDirection::up);
+    // A motion goes one way.
+    EXPECT_EQ(only_run("[runs.a]\nkind = \"sweep\"\nvary = { omega = [4, 5] }").direction, SweepDirection::up);
 }
 
 TEST(Study, runs_come_after_those_they_start_from) {
@@ -261,13 +275,13 @@ TEST(Study, of_two_keys_that_contradict_none_is_ignored) {
              p + "[runs.q]\nkind = \"simulate\"\ntime = 1\nmodel = \"bouncing-ball\"\n" + start,
              p + "[runs.q]\nkind = \"orbit\"\n" + start +
                  "[runs.r]\nkind = \"orbit\"\nstart = { run = \"q\" }\ncycles = 9"})
-        EXPECT_THAT(refusal(head + wrong), testing::HasSubstr("; ")) << wrong;
+        EXPECT_THAT(refusal(head + wrong), ::testing::HasSubstr("; ")) << wrong;
 }
 
 TEST(Study, shipped_ones_can_be_read) {
     EXPECT_THAT(shipped_studies(),
                 ElementsAre("ball-and-shaker", "electromagnetic-testbed", "mems-switch", "microactuator", "microbeam",
-                            "microbeam-modes", "microbeam-stops", "testbed-experiment"));
+                            "microbeam-amplitudes", "microbeam-modes", "microbeam-stops", "testbed-experiment"));
     for (const std::string& name : shipped_studies())
         EXPECT_FALSE(load_study(name).runs.empty()) << name;
 }
@@ -318,4 +332,23 @@ TEST(Study, mistakes_are_told_with_their_place_and_remedy) {
 }
 
 } // namespace
+TEST(StudyTest, initial_states_may_follow_from_what_varies) {
+    const std::string begin = "name = \"s\"\n[runs.a]\nmodel = \"impact-oscillator\"\nkind = \"basin\"\n"
+                              "vary = { x = [-1, -0.5], omega = [2, 3] }\n";
+    const Study study = parse_study(begin + "from = { v = \"0.5*x + omega\", theta = \"pi\" }\n", "s.toml");
+    const StudyRun& run = study.runs[0];
+    ASSERT_EQ(run.following.size(), 1U);
+    const Plan plan = plan_of(run, System(run.model), nullptr);
+    const std::size_t x = *run.model.find_state("x"), v = *run.model.find_state("v");
+    for (std::size_t point = 0; point < 4; ++point) {
+        const std::vector<double> coordinates = coordinates_of(run, point);
+        const PointStart start = plan.start(point);
+        EXPECT_EQ(start.state[x], coordinates[0]);
+        EXPECT_EQ(start.state[v], 0.5 * coordinates[0] + coordinates[1]);
+    }
+    // What does not vary has no value that differs from point to point, and what varies is not said twice.
+    EXPECT_THROW(parse_study(begin + "from = { v = \"theta\" }\n", "s.toml"), InputError);
+    EXPECT_THROW(parse_study(begin + "from = { x = \"omega\" }\n", "s.toml"), InputError);
+}
+
 } // namespace graze

@@ -11,7 +11,7 @@
 namespace graze {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 PointResult settle(const Model& model, const std::string& section) {
     AttractorOptions options;
@@ -235,6 +235,99 @@ TEST(AttractorSearch, testbed_at_published_values) {
     EXPECT_NEAR(impacting.multipliers[0].real(), 0.6128, 5e-5);
     EXPECT_NEAR(impacting.multipliers[1].real(), 0.1126, 5e-5);
     EXPECT_NEAR(*impacting.lyapunov, std::log(0.6128) / (3 / 6.25), 2e-4);
+}
+
+TEST(AttractorSearch, a_reset_makes_a_single_state_superstable) {
+    // Integrate and fire: u' = I - u up to 1, then from 0 on; the period is log(I / (I - 1)).
+    for (const double current : {1.001, 1.5, 20.0}) {
+        const PointResult result = settle(parse_model(fmt::format(R"toml(
+name = "integrate and fire"
+[states]
+u = 0
+[modes.only]
+rates = {{ u = "{} - u" }}
+watch = ["fire"]
+[events.fire]
+function = "1 - u"
+[jumps.reset]
+u = 0
+[[transitions]]
+mode = "only"
+event = "fire"
+jump = "reset"
+next = "only"
+[sections.threshold]
+function = "1 - u"
+direction = "falling"
+)toml",
+                                                                  current),
+                                                      "integrate and fire"));
+        ASSERT_EQ(result.label, Label::periodic) << current;
+        EXPECT_EQ(result.period, 1u);
+        EXPECT_NEAR(result.duration, std::log(current / (current - 1)), 1e-11);
+        ASSERT_EQ(result.multipliers.size(), 1u);
+        EXPECT_EQ(std::abs(result.multipliers.front()), 0);
+    }
+}
+
+TEST(AttractorSearch, a_state_that_only_rounding_moves_does_not_keep_others_from_settling) {
+    // The second oscillator is driven by what cancels.
+    const PointResult result = settle(parse_model(R"toml(
+name = "symmetric"
+[states]
+x = 0
+v = 0
+q = 0
+r = 0
+theta = { initial = 0, period = "2*pi" }
+[definitions]
+F = "cos(theta)"
+[modes.only]
+rates = { x = "v", v = "F - x*2 - 0.3*v", q = "r", r = "(0.1*v + 0.2*F) - 0.3*(v/3 + F*(2/3)) - 7.3*q - 0.3*r", theta = 1 }
+[sections.clock]
+state = "theta"
+value = 0
+)toml",
+                                                  "symmetric"));
+    EXPECT_EQ(result.label, Label::periodic);
+    EXPECT_EQ(result.period, 1u);
+    EXPECT_NEAR(std::abs(result.multipliers.front()), std::exp(-0.15 * 2 * 3.14159265358979), 1e-9);
+}
+
+TEST(AttractorSearch, multipliers_that_are_zero_are_so_exactly) {
+    for (const double current : {1.001, 1.1, 1.5, 3.0, 1e3}) {
+        // x' = I - x, set back from 1 to 0: fires every log(I/(I - 1)).
+        const Model neuron = parse_model(fmt::format(R"toml(
+name = "neuron"
+[states]
+x = 0
+[events]
+fires = {{ function = "1 - x", kind = "section" }}
+[jumps.reset]
+x = 0
+[modes.only]
+rates = {{ x = "{:.17g} - x" }}
+watch = ["fires"]
+[[transitions]]
+mode = "only"
+event = "fires"
+jump = "reset"
+next = "only"
+[sections.half]
+function = "x - 0.5"
+direction = "rising"
+[initial]
+mode = "only"
+)toml",
+                                                     current),
+                                         "neuron");
+        const PointResult result = settle(neuron);
+        EXPECT_EQ(result.label, Label::periodic) << current;
+        EXPECT_NEAR(result.duration, std::log(current / (current - 1)), 1e-11 * result.duration);
+        ASSERT_EQ(result.multipliers.size(), 1u);
+        EXPECT_EQ(result.multipliers.front(), 0.0);
+        EXPECT_FALSE(result.lyapunov) << "an exponent of round-off";
+    }
 }
 
 } // namespace

@@ -133,5 +133,102 @@ TEST(Equilibrium, driven_parameters_are_judged_by_multipliers) {
     EXPECT_GT(std::abs(within.state[0]), 0.01);
 }
 
+/// Stuck to a table that moves up and down by a clock.
+TEST(Equilibrium, what_a_table_carries_does_not_rest) {
+    for (const double amplitude : {1e-9, 1e-2, 1e3}) {
+        const PointResult result = settle(parse_model(fmt::format(R"toml(
+name = "ride"
+[states]
+x = 0
+v = {{ initial = {0:.17g} }}
+p = {{ initial = 0, period = "2*pi" }}
+[modes.stuck]
+rates = {{ x = "v", v = "-{0:.17g}*sin(p)", p = 1 }}
+[sections.clock]
+state = "p"
+value = 0
+)toml",
+                                                                  amplitude),
+                                                      "ride"));
+        EXPECT_NE(result.label, Label::equilibrium) << amplitude;
+    }
+}
+
+TEST(Equilibrium, carried_states_keep_their_signs) {
+    // Above mu = 0 x grows, below it dies out, and never becomes negative: from 0 - the pulses leave it there - too.
+    const auto sweep = [](double mu, double x) {
+        return settle(parse_model(fmt::format(R"toml(
+name = "pulses"
+[states]
+x = {{ initial = {} }}
+y = 1
+p = {{ initial = 0, period = 1 }}
+[modes.only]
+rates = {{ x = "x*({} + y - 1 - x)", y = "1 - y", p = 0.2 }}
+watch = ["tick"]
+[events.tick]
+function = "0.5 - p"
+kind = "section"
+[jumps.pulse]
+y = "y"
+[[transitions]]
+mode = "only"
+event = "tick"
+jump = "pulse"
+next = "only"
+[sections.clock]
+state = "p"
+value = 0
+)toml",
+                                              x, mu),
+                                  "pulses"));
+    };
+    double x = 0.5;
+    for (const double mu : {-1.0, -0.5, -2.0, 0.5, -1.0, 1.0}) {
+        const PointResult result = sweep(mu, x);
+        x = result.state[0];
+        EXPECT_GT(x, 0) << mu;
+        EXPECT_NEAR(x, std::max(mu, 0.0), 1e-9) << mu;
+    }
+}
+
+TEST(Equilibrium, states_that_only_rounding_moves_have_no_scale_of_their_own) {
+    // Down in a well of Duffing's, in units in which the rounded force there is not zero: no return ever comes.
+    for (const double length : {1e-9, 1e-6, 1e-3, 1.0, 7.0, 1e6})
+        for (const auto section : {SectionOf::clock, SectionOf::states}) {
+            const PointResult result = settle(oscillator("X - X^3 - 0.2*V", section, 1, 0, 1.3, length));
+            EXPECT_EQ(result.label, Label::equilibrium) << length << name_of(result.label);
+            ASSERT_TRUE(result.lyapunov) << length;
+            EXPECT_NEAR(*result.lyapunov, -0.1, 1e-9) << length;
+        }
+}
+
+TEST(Equilibrium, what_rests_at_a_centre_is_left_there) {
+    // Nothing attracts there and nothing repels.
+    for (const double length : {1e-9, 1.0, 1e6}) {
+        const PointResult result = settle(oscillator("X - X^3", SectionOf::clock, 1, 0, 1.3, length));
+        EXPECT_EQ(result.label, Label::unsettled) << length << name_of(result.label);
+        EXPECT_NEAR(result.state[0], length, 1e-12 * length);
+    }
+}
+
+TEST(Equilibrium, sweeps_come_back_from_an_equilibrium_that_loses_its_stability) {
+    // x' = x (k - x): zero below k = 0, and k above, however long the sweep has been below.
+    for (const double length : {1e-9, 1.0, 1e6}) {
+        std::vector<double> state{0.5 * length, 0};
+        for (int k = -20; k <= 20; ++k) {
+            if (k == 0)
+                continue; // comes closer more slowly than anything can tell
+            const double parameter = 0.05 * k;
+            const PointResult result = settle(
+                first_order(fmt::format("x*({:.17g} - x/{:.17g})", parameter, length), SectionOf::clock, 0), {}, state);
+            EXPECT_EQ(result.label, Label::equilibrium) << parameter << name_of(result.label);
+            EXPECT_NEAR(result.state[0], std::max(parameter, 0.0) * length, 1e-9 * length) << parameter;
+            EXPECT_GT(result.state[0], 1e-40 * length) << "next to nothing, but not less with every point";
+            state = result.state;
+        }
+    }
+}
+
 } // namespace
 } // namespace graze

@@ -32,8 +32,30 @@ TEST(Exponent, truth_lies_within_the_stated_error) {
         count(settle(oscillator(fmt::format("{}*V - X", 2 * zeta), SectionOf::clock, 1, 0, 1.7)), zeta,
               fmt::format("growth {}", k));
     }
-    EXPECT_GE(all, 100);
+    for (int k = 0; k < 20; ++k) { // random: tents of two slopes, whose invariant density is even
+        const double a = 0.21 + 0.029 * k;
+        count(settle(in_two_pieces(fmt::format("z/{:.17g}", a), fmt::format("(1 - z)/{:.17g}", 1 - a), a, 0.1234)),
+              -a * std::log(a) - (1 - a) * std::log(1 - a), fmt::format("tent {}", k));
+    }
+    EXPECT_GE(all, 120);
     EXPECT_GE(within, 0.95 * all) << all;
+}
+
+TEST(Exponent, all_cycles_behind_the_transient_count) {
+    // The error falls like the inverse root of the cycles that are asked for.
+    std::vector<double> errors;
+    for (const std::size_t cycles : {150u, 5000u, 40000u}) {
+        AttractorOptions options;
+        options.cycles = cycles;
+        const PointResult result = settle(iterated("4*z*(1 - z)", 0.1234), options);
+        ASSERT_EQ(result.label, Label::chaotic);
+        EXPECT_EQ(result.cycles, cycles + std::max<std::size_t>(cycles, options.chaos_cycles));
+        errors.push_back(*result.lyapunov_error);
+        EXPECT_NEAR(*result.lyapunov, std::log(2.0), 2 * errors.back()) << cycles;
+    }
+    EXPECT_LT(errors[1], 0.7 * errors[0]);
+    EXPECT_LT(errors[2], 0.7 * errors[1]);
+    EXPECT_LT(errors[2], 0.005);
 }
 
 } // namespace

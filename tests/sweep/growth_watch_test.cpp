@@ -35,5 +35,72 @@ TEST(GrowthWatch, growth_that_ends_is_not_called_so) {
     EXPECT_EQ(settle(oscillator("-X + cos(theta)", SectionOf::clock, 0, 0)).label, Label::unsettled);
 }
 
+/// Grows at the rate a/2 about zero and is damped where |x| > 1.
+Model damped_outside(double a, double x, double length = 1) {
+    return parse_model(fmt::format(R"toml(
+name = "damped outside"
+[states]
+x = {{ initial = {1:.17g} }}
+v = 0
+[events]
+up = {{ function = "{2:.17g} - x", kind = "section" }}
+down = {{ function = "x + {2:.17g}", kind = "section" }}
+in_right = {{ function = "x - {2:.17g}", kind = "section" }}
+in_left = {{ function = "-{2:.17g} - x", kind = "section" }}
+[modes.inner]
+rates = {{ x = "v", v = "{0:.17g}*v - x" }}
+watch = ["up", "down"]
+[modes.right]
+rates = {{ x = "v", v = "-0.5*v - x" }}
+watch = ["in_right"]
+[modes.left]
+rates = {{ x = "v", v = "-0.5*v - x" }}
+watch = ["in_left"]
+[[transitions]]
+mode = "inner"
+event = "up"
+next = "right"
+[[transitions]]
+mode = "inner"
+event = "down"
+next = "left"
+[[transitions]]
+mode = "right"
+event = "in_right"
+next = "inner"
+[[transitions]]
+mode = "left"
+event = "in_left"
+next = "inner"
+[sections.top]
+function = "v"
+direction = "falling"
+[initial]
+mode = "inner"
+)toml",
+                                   a, x * length, length),
+                       "damped outside");
+}
+
+TEST(GrowthWatch, growth_that_an_event_ahead_ends_is_not_called_so) {
+    for (const double length : {1e-9, 1.0, 1e6}) {
+        // Which comes late, by as many decades as one likes.
+        for (const double start : {1e-2, 1e-10, 1e-30})
+            EXPECT_EQ(settle(damped_outside(0.3, start, length)).label, Label::periodic) << start << " " << length;
+        EXPECT_EQ(settle(damped_outside(0.001, 0.01, length)).label, Label::unsettled) << length;
+    }
+}
+
+TEST(GrowthWatch, what_is_ahead_may_be_any_number_of_decades_away) {
+    for (const double length : {1e-9, 1.0, 1e6}) {
+        // An event after 43 decades, and a quadratic term after 300.
+        EXPECT_EQ(settle(damped_outside(0.3, 1e-43, length)).label, Label::periodic) << length;
+        const PointResult result =
+            settle(first_order(fmt::format("x*(1 - x/{:.17g})", length), SectionOf::clock, 1e-300));
+        EXPECT_EQ(result.label, Label::equilibrium) << name_of(result.label);
+        EXPECT_NEAR(result.state[0], length, 1e-9 * length);
+    }
+}
+
 } // namespace
 } // namespace graze

@@ -1,7 +1,9 @@
 #include "graze/sweep/plan.hpp"
 
 #include "graze/model/catalogue.hpp"
+#include "graze/model/model_file.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <map>
@@ -111,6 +113,71 @@ TEST(Plan, stops_when_asked_and_passes_errors_on) {
     EXPECT_THROW(execute(setting.plan, *setting.searches, {}, {.jobs = 2},
                          [](std::size_t, const PointStart&, PointResult&) { throw std::runtime_error("full"); }),
                  std::runtime_error);
+}
+
+/// A forced oscillator in front of a wall that the parameter moves in.
+Model walled(double start) {
+    return parse_model(fmt::format(R"toml(
+name = "walled"
+[parameters]
+wall = 1
+[states]
+x = {{ initial = {} }}
+v = 0
+theta = {{ initial = 0, period = "2*pi" }}
+[events.stop]
+function = "wall - x"
+[jumps.impact]
+v = "-0.5*v"
+[modes.only]
+rates = {{ x = "v", v = "-x - 0.4*v + 2*cos(theta)", theta = 1.3 }}
+watch = ["stop"]
+[[transitions]]
+mode = "only"
+event = "stop"
+jump = "impact"
+next = "only"
+[sections.s]
+state = "theta"
+value = 2.5
+[initial]
+mode = "only"
+)toml",
+                                   start),
+                       "walled");
+}
+
+TEST(Plan, a_chain_goes_on_where_a_carried_state_has_become_inadmissible) {
+    // The wall moves in by more than the oscillator keeps away from it.
+    for (const double start : {-3.0, 0.0}) {
+        const Model model = walled(start);
+        const auto searches = attractor_searches(model, {.section = "s"}, {}, {}, {});
+        Plan plan;
+        plan.chain_length = 6;
+        plan.carry = true;
+        plan.start = [&](std::size_t point) {
+            return PointStart{{2 - 0.5 * static_cast<double>(point)}, model.initial_state(), model.initial_mode};
+        };
+        std::size_t anew = 0, points = 0;
+        const auto keep = [&](std::size_t point, const PointStart& begun, PointResult& result) {
+            ++points;
+            EXPECT_TRUE(can_be_carried_on(result)) << point << " " << result.outcome.detail;
+            EXPECT_LE(begun.state[0], begun.parameters[0] + 1e-12);
+            anew += result.outcome.detail.starts_with("began anew") ? 1 : 0;
+            EXPECT_LE(result.state[0], begun.parameters[0] + 1e-12);
+        };
+        EXPECT_TRUE(execute(plan, *searches, {}, {}, keep));
+        EXPECT_EQ(points, 6u);
+        EXPECT_GE(anew, 1u);
+    }
+    // A start that nobody carried along is left as it is given.
+    const Model model = walled(2);
+    const auto searches = attractor_searches(model, {.section = "s"}, {}, {}, {});
+    Plan plan;
+    plan.start = [&](std::size_t) { return PointStart{{1}, model.initial_state(), model.initial_mode}; };
+    EXPECT_TRUE(execute(plan, *searches, {}, {}, [&](std::size_t, const PointStart&, PointResult& result) {
+        EXPECT_EQ(result.label, Label::failed);
+    }));
 }
 
 } // namespace

@@ -80,5 +80,12 @@ TEST(QuasiPeriodic, a_focus_that_hardly_attracts_is_none) {
     EXPECT_EQ(result.label, Label::equilibrium);
 }
 
+TEST(QuasiPeriodic, motions_that_grow_are_not_called_so) {
+    // z -> 1.63 z + 1 leads away below -1/0.63, from where 1 - 3.7 z has thrown it: by contacts in every return.
+    const PointResult map = settle(in_two_pieces("1.63*z + 1", "-3.7*z + 1", 0, 0.21));
+    EXPECT_EQ(map.label, Label::unbounded) << name_of(map.label);
+    EXPECT_NE(settle(iterated("-1.05*z", 1)).label, Label::quasi_periodic);
+}
+
 } // namespace
 } // namespace graze

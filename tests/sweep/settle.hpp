@@ -119,4 +119,43 @@ mode = "only"
                        "map");
 }
 
+/// z -> left where z < border, right elsewhere, once in every unit of time: both branches are maps of z.
+inline Model in_two_pieces(const std::string& left, const std::string& right, double border, double z) {
+    return parse_model(fmt::format(R"toml(
+name = "map in two pieces"
+[states]
+z = {{ initial = {0:.17g} }}
+theta = {{ initial = 0, period = 1 }}
+[events]
+tick = {{ function = "cos(2*pi*theta)", kind = "section" }}
+[modes.left]
+rates = {{ z = 0, theta = 1 }}
+watch = ["tick"]
+[modes.right]
+rates = {{ z = 0, theta = 1 }}
+watch = ["tick"]
+[jumps.left]
+z = "{1}"
+[jumps.right]
+z = "{2}"
+[[transitions]]
+mode = "left"
+event = "tick"
+jump = "left"
+next = [{{ when = "z < {3:.17g}", mode = "left" }}, {{ mode = "right" }}]
+[[transitions]]
+mode = "right"
+event = "tick"
+jump = "right"
+next = [{{ when = "z < {3:.17g}", mode = "left" }}, {{ mode = "right" }}]
+[sections.half]
+state = "theta"
+value = 0.5
+[initial]
+mode = "{4}"
+)toml",
+                                   z, left, right, border, z < border ? "left" : "right"),
+                       "map in two pieces");
+}
+
 } // namespace graze

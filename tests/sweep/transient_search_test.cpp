@@ -71,8 +71,8 @@ TEST(TransientSearchSlow, gives_up_what_does_not_happen) {
         EXPECT_EQ(result.label, Label::failed);
         EXPECT_EQ(result.outcome.ending, Ending::step_limit);
         EXPECT_GT(result.time, 1e5 * time);
-        EXPECT_THAT(result.outcome.detail, testing::HasSubstr("no contact that ends the motion"));
-        EXPECT_THAT(result.outcome.detail, testing::HasSubstr("give a time too"));
+        EXPECT_THAT(result.outcome.detail, ::testing::HasSubstr("no contact that ends the motion"));
+        EXPECT_THAT(result.outcome.detail, ::testing::HasSubstr("give a time too"));
     }
     // A motion at rest is one step, along which only the phase passes.
     Model rest = oscillator(1);
@@ -84,7 +84,7 @@ TEST(TransientSearchSlow, gives_up_what_does_not_happen) {
     const PointResult skipped =
         simulated(oscillator(0), {.section = "never", .time = 1, .skip_periods = 1, .counted = {0}});
     EXPECT_EQ(skipped.label, Label::failed);
-    EXPECT_THAT(skipped.outcome.detail, testing::HasSubstr("skip a time instead of periods"));
+    EXPECT_THAT(skipped.outcome.detail, ::testing::HasSubstr("skip a time instead of periods"));
 }
 
 TEST(TransientSearchSlow, waits_as_long_as_it_is_told_to) {

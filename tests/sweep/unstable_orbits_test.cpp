@@ -18,7 +18,7 @@ struct Logistic {
         : model(iterated(fmt::format("{}*z*(1 - z)", r), 0.3)), fixed(1 - 1 / r),
           setting(model, {.section = "half"}, {}, {}, {}), maps(setting.variational),
           derivatives(setting.variational, maps),
-          finder(setting.map, setting.layout, setting.image, setting.image_modes, &derivatives),
+          finder(setting.map, setting.field, setting.layout, setting.image, setting.image_modes, &derivatives),
           motion(setting.map, 50, {}), jets(setting.simulation, LaneKind::single) {}
 
     /// Where a motion that starts at z has come to after some returns.

@@ -12,7 +12,7 @@ using namespace graze::testing;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Powers u^n that have their peak of height 1 at s = centre, with the integral over the whole line or half a period.
 struct Peak {

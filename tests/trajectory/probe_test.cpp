@@ -7,7 +7,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 using std::numbers::pi;
 
 /// Counts passages and keeps the last time and state of each probe, as runs are long.

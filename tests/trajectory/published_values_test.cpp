@@ -17,7 +17,7 @@
 namespace graze {
 namespace {
 
-using namespace testing;
+using namespace graze::testing;
 using std::numbers::pi;
 
 /// Takes an event out of a model: what would happen if the stop were not there.

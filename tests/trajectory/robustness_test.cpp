@@ -45,7 +45,7 @@ const std::vector<Scenario>& scenarios() {
     return all;
 }
 
-class Robustness : public testing::TestWithParam<std::size_t> {};
+class Robustness : public ::testing::TestWithParam<std::size_t> {};
 
 TEST_P(Robustness, RandomParametersEndRegularly) {
     const Scenario& scenario = scenarios()[GetParam()];
@@ -77,7 +77,7 @@ TEST_P(Robustness, RandomParametersEndRegularly) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(ShippedModels, Robustness, testing::Range<std::size_t>(0, scenarios().size()));
+INSTANTIATE_TEST_SUITE_P(ShippedModels, Robustness, ::testing::Range<std::size_t>(0, scenarios().size()));
 
 /// A mass that constant forces pull to a ridge from either side, and that loses speed each time it crosses: like a
 /// block that rocks from edge to edge. Crossings accumulate although no event follows itself.

@@ -38,6 +38,7 @@ struct AcquisitionReport {
     std::size_t unsettled = 0;  ///< of these, without sections that repeat
     bool safe = true;           ///< the generator itself has told its safe amplitude
     std::string unsafe_because; ///< where it has not
+    bool off = false;           ///< where it has not: it has told that its output is switched off instead
 };
 
 /// Steps a generator from level to level, waits, records, until all records are there; those that are there already are

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graze/acquire/generator_client.hpp"
+#include "graze/acquire/instrument_address.hpp"
 #include "graze/acquire/serial_line.hpp"
 #include "graze/symbolic/input_error.hpp"
 
@@ -39,11 +40,11 @@ struct SettlingOptions {
 /// An experiment: levels of a generator, one after the other, with a record at each (docs/experiment.md).
 struct Experiment {
     std::string name, text, file;
-    SerialSettings serial;
+    SerialSettings serial; ///< of the generator; its port may also be a name of VISA, see generator_address
     GeneratorOptions generator;
     double safe = 0; ///< amplitude, in V from peak to peak, before, after, and whenever anything goes wrong
     double offset = 0;
-    std::string device;            ///< "tcp:HOST:PORT" or "serial:PATH"
+    std::string device;            ///< see device_address
     unsigned sample_baud = 115200; ///< of a serial line; it has one stop bit, no parity and no flow control
     double sample_timeout = 5;
     double sample_patience = 10;         ///< how many times as long as samples last they may take to come
@@ -62,15 +63,6 @@ struct Experiment {
     /// What records depend on, a line each: those of another one must not come into the same folder.
     std::string settings() const;
 };
-
-/// Where samples come from.
-struct DeviceAddress {
-    bool is_tcp = false;
-    std::string name; ///< of a host, or path
-    unsigned short port = 0;
-};
-/// @throws InputError with the place unless it is "tcp:HOST:PORT" or "serial:PATH"
-DeviceAddress device_address(const std::string& text, const Place& place);
 
 /// Reads an experiment. All that it will send is within its limits.
 /// @param file the name to use in messages

@@ -56,9 +56,9 @@ public:
 };
 
 /// The next line. @param timeout seconds; @param interrupted asked some twenty times a second; may be empty
-/// @param who for messages, as "the generator"
-/// @throws InstrumentError when none comes in time, or somebody interrupts
+/// @param who for messages, as "the generator"; @param question what it was asked, for messages; may be empty
+/// @throws InstrumentError when none comes in time, or somebody interrupts; InputError for a timeout that is no number
 std::string awaited_line(InstrumentLine& line, double timeout, const std::function<bool()>& interrupted,
-                         std::string_view who);
+                         std::string_view who, std::string_view question = {});
 
 } // namespace graze

@@ -14,8 +14,11 @@ namespace graze {
 class RepeatWatch {
 public:
     /// @param tolerances of each value of a section; @param repeats so many in a row have to; @param period the longest
+    /// @throws InputError for none of them, for more than 100,000 sections, and for tolerances that are negative or no
+    ///         numbers
     RepeatWatch(std::vector<double> tolerances, std::size_t repeats, std::size_t period);
-    /// @param section as many values as there are tolerances
+    /// @param section as many values as there are tolerances. @throws InputError for another number of them, or what is
+    ///        no number
     void add(std::vector<double> section);
     /// After how many sections they repeat; 0: they do not.
     std::size_t period() const;

@@ -38,6 +38,7 @@ struct BenchSettings {
     double anti_alias = 0;  ///< corner of a low-pass filter in each channel, in Hz; 0: none
     std::uint64_t seed = 1; ///< of noise
     double clip = std::numeric_limits<double>::infinity(); ///< of the generator, see GeneratorSettings
+    std::string left_as{};                                 ///< what the generator stands at, see GeneratorSettings
     double tolerance = 1e-10;                              ///< of the simulation
     /// @throws InputError naming the setting that is out of range
     void validate() const;

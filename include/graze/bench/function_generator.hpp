@@ -9,11 +9,19 @@
 
 namespace graze {
 
-/// A sine, as the display of a function generator shows it.
+enum class WaveShape { sine, square, triangle, ramp, dc };
+/// In which amplitudes are told and shown: from peak to peak, root mean square, or power at 50 ohm above a milliwatt.
+enum class VoltageUnit { vpp, vrms, dbm };
+
+/// A wave, as the display of a function generator shows it.
 struct GeneratorOutput {
     double frequency = 1000; ///< in Hz
-    double amplitude = 0.1;  ///< from peak to peak, in V
+    double amplitude = 0.1;  ///< from peak to peak, in V; dc has none
     double offset = 0;       ///< in V
+    WaveShape shape = WaveShape::sine;
+
+    /// From peak to peak, of the part of the wave at its frequency, which drives a model that knows of sines only.
+    double fundamental() const;
 
     bool operator==(const GeneratorOutput&) const = default;
 };
@@ -24,18 +32,22 @@ struct GeneratorSettings {
     /// The largest amplitude that it gives, whatever it accepts: larger ones are cut down without an error, and only
     /// what it tells of itself shows it.
     double clip = std::numeric_limits<double>::infinity();
+    /// A line of commands that has been carried out before anybody comes: as whoever used it last has left it.
+    std::string left_as{};
 };
 
-/// What a sine generator answers to SCPI: commands, settings and errors of Hewlett-Packard's 33120A, as its user's
+/// What a generator answers to SCPI: commands, settings and errors of Hewlett-Packard's 33120A, as its user's
 /// guide describes them for the RS-232 interface. Lines in, lines out; no time, no input or output.
 ///
 /// Known are SYST:REM, SYST:LOC, SYST:RWL, SYST:ERR?, SYST:BEEP, *CLS, *IDN?, *RST, *OPC, *OPC?, *TST?, *WAI, *ESR?,
-/// APPL:SIN f, vpp, offset, APPL?, FREQ, VOLT, VOLT:OFFS, VOLT:UNIT (VPP or VRMS), FUNC:SHAP SIN and OUTP:LOAD 50 or
-/// INF, with what goes with them: queries, MIN, MAX and DEF, units, long and short forms, SOUR: before them, several
-/// commands in a line. A value out of range (-222) changes nothing.
+/// APPL:SIN f, vpp, offset, APPL?, FREQ, VOLT, VOLT:OFFS, VOLT:UNIT (VPP, VRMS or DBM), FUNC:SHAP (SIN, SQU, TRI, RAMP
+/// or DC), OUTP:LOAD 50 or INF, and the switches of modulations AM:STAT, FM:STAT, FSK:STAT, BM:STAT and SWE:STAT, with
+/// what goes with them: queries, MIN, MAX and DEF, units, long and short forms, SOUR: before them, several commands in
+/// a line. A value out of range (-222) changes nothing. Modulations are switches here that do nothing else.
 class FunctionGenerator {
 public:
-    explicit FunctionGenerator(const GeneratorSettings& settings = {}) : settings_(settings) {}
+    /// @throws InputError when it has an error after the line that it was left by
+    explicit FunctionGenerator(const GeneratorSettings& settings = {});
 
     /// Does what a line asks for. @return its answer without a terminator, answers to several queries separated by
     /// semicolons; empty: none
@@ -61,7 +73,7 @@ private:
     bool read_number(const std::string& text, bool is_frequency, double least, double most, double& value);
     bool set_voltages(double amplitude, double offset);
     double load_factor() const { return high_load_ ? 2 : 1; }
-    double unit_factor() const;
+    double shown_amplitude() const;
     void reset();
 
     void remote(Unit& unit);
@@ -74,11 +86,14 @@ private:
     void voltage_unit(Unit& unit);
     void shape(Unit& unit);
     void load(Unit& unit);
+    void modulation(Unit& unit);
 
     GeneratorSettings settings_;
     GeneratorOutput output_;
-    bool remote_ = false, high_load_ = false, in_rms_ = false;
-    int events_ = 0; ///< register of standard events
+    VoltageUnit unit_ = VoltageUnit::vpp;
+    bool remote_ = false, high_load_ = false;
+    std::vector<std::string> modulations_; ///< that are on
+    int events_ = 0;                       ///< register of standard events
     std::vector<int> errors_;
 };
 

@@ -67,6 +67,7 @@ enum class BranchOutcome {
     unphysical,     ///< beyond the last special point orbits are not admissible
     closed,         ///< it has come back to its first point
     returned,       ///< it has come back to a branch of more regular orbits: of half the period, or symmetric
+    shrunk,         ///< its orbits shrink to an equilibrium: it ends there
     no_convergence, ///< steps have become too small
     undefined,      ///< the model is not defined beyond
     too_long,       ///< orbits take more and more steps of integration, as where a period grows without end

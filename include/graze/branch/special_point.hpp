@@ -39,6 +39,7 @@ enum class PointType {
     fold_torus,        ///< FT: on a curve of folds or torus points: a multiplier is 1, and two lie on the unit circle
     flip_torus,        ///< PT: on a curve of flips or torus points: a multiplier is -1, and two lie on the unit circle
     chatter,           ///< CH: contacts accumulate just where the motion leaves: a ladder of grazings leads there
+    hopf,              ///< HB: the orbit shrinks to an equilibrium, as at a Hopf bifurcation
     extremum,          ///< EX: the period, where it is free, is longest or shortest; or a parameter, on a curve
     bound,             ///< BD: a bound that was given is reached
     crossing,          ///< UZ: a monitor takes a value that was asked for

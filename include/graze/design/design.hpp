@@ -72,6 +72,10 @@ struct Wanted {
     std::optional<double> clear; ///< least distance of the trip value from every other point before it
     /// Greatest percents of the trip value for one percent of each parameter.
     std::vector<std::pair<ParameterId, double>> sensitivities;
+    std::optional<double> least_yield; ///< share of the devices made with the tolerances that will do
+    Place yield_place{};
+    /// How many times a miss counts, by the wish's key, as "trip_time"; once where nothing is said.
+    std::vector<std::pair<std::string, double>> importance;
 
     bool is_empty() const;
 };
@@ -98,6 +102,10 @@ struct Design {
     std::size_t curve_points = 41, plane_points = 31;        ///< along each dimension
     DesignYield yield;
     Wanted wanted;
+
+    /// Trip values that will do: those of the yield, or else those that are wanted; none: all will.
+    std::optional<double> least_usable() const { return yield.least ? yield.least : wanted.least; }
+    std::optional<double> greatest_usable() const { return yield.greatest ? yield.greatest : wanted.greatest; }
 
     /// Its place among the dimensions.
     std::optional<std::size_t> find_dimension(std::string_view name) const;

@@ -35,7 +35,15 @@ struct Want {
     /// The departure that counts as one: violations are measured in it. 0: the size of the greater limit.
     double scale = 0;
     /// Asked with one number for each dimension, within their ranges. Numbers that are not finite are taken for none.
-    std::function<WantedValue(std::span<const double> design)> value;
+    std::function<WantedValue(std::span<const double> design)> value{};
+    double importance = 1; ///< how many times a violation counts
+    std::string text{};    ///< for messages, as "the trip value"; empty: the name
+    std::string limits{};  ///< in words, as "at most 3"; empty: the numbers
+
+    /// "the trip value (at most 3 is wanted)".
+    std::string in_words() const;
+    /// "at most 3 is wanted".
+    std::string limits_in_words() const;
 };
 
 struct WishList {
@@ -79,6 +87,12 @@ struct FoundWant {
     bool binds = false; ///< a looser limit would give a better design
     double weight = 0;  ///< by how much, for one scale of it; see FoundDesign
 };
+
+/// What a design has of a want that has this value, none: no such value. Nothing is known of what binds.
+FoundWant found_want(const Want& want, std::optional<double> value, double tolerance = WishOptions().tolerance);
+
+/// "met", or "not met: at most 3 is wanted, 5 percent off".
+std::string words_of(const Want& want, const FoundWant& found);
 
 /// Weights say, to first order, by how much `distance` falls where all wants are met, and the largest violation
 /// where they are not, when a limit is moved by one scale. What binds has a weight; where several wants say the same

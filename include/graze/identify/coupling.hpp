@@ -3,6 +3,7 @@
 #include "graze/identify/estimate.hpp"
 
 #include <span>
+#include <string>
 #include <vector>
 
 namespace graze {
@@ -28,6 +29,10 @@ struct Coupling {
     /// By Eqs. (5.15) and (5.16) of B. E. Wilcox's dissertation, which take measured displacements as exact.
     double regression_beta1 = 0, regression_beta2 = 0;
     std::vector<double> residuals; ///< by how much each displacement differs from the equilibrium at its current
+    /// Why these are no equilibria of such a magnet with nothing but noise, in words; empty: they may be. Tested are an
+    /// offset, a drift from load to load and a bend of either scale (F tests, to one chance in 10^4), single loads that
+    /// lie far off, and what is left in the order of displacements (ResidualTest).
+    std::vector<std::string> reasons;
 };
 
 /// From equilibria m w0^2 q = beta1 I^2/(2 (beta2 + d - q)^2), Eq. (5.13): least squares in which displacements and

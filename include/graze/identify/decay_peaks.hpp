@@ -1,5 +1,6 @@
 #pragma once
 
+#include "graze/identify/decay_wave.hpp"
 #include "graze/record/samples.hpp"
 
 #include <cstddef>
@@ -11,6 +12,7 @@ namespace graze {
 struct DecayPeaks {
     std::vector<double> times, heights; ///< above the rest position
     double rest = 0, rest_error = 0;    ///< where the oscillation comes to rest, with its standard error
+    DecayWave wave{};                   ///< through all samples of these periods
 };
 
 /// The first peaks of a channel after it has first risen through the position where it is in the end, each by a

@@ -27,4 +27,18 @@ struct Decrement {
 /// @throws InputError for others
 Decrement logarithmic_decrement(std::span<const DecayPeaks> releases);
 
+/// Natural frequency and damping ratio from the waves of many releases.
+struct DampedOscillation {
+    Estimate frequency;    ///< w0, in radians by unit of time
+    Estimate damping;      ///< zeta
+    double covariance = 0; ///< of the two
+    /// The chance that releases of one oscillator differ by as much; 1 of a single one.
+    double chance = 1;
+};
+
+/// The mean of the releases' waves by their covariances, which is what a common fit of all samples gives. Unlike peaks,
+/// whose heights are known by fewer samples and whose logarithms are bent by noise, waves have no bias.
+/// @throws InputError where there is no wave
+DampedOscillation damped_oscillation(std::span<const DecayWave> releases);
+
 } // namespace graze

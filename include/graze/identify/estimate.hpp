@@ -20,6 +20,11 @@ struct Estimate {
 /// @param freedom positive, whole or not
 double student_quantile(double probability, double freedom);
 
+/// Fisher's distribution: the chance that a ratio of mean squares with `first` and `second` degrees of freedom is
+/// larger.
+/// @param ratio not negative; freedoms positive
+double fisher_tail(double ratio, double first, double second);
+
 /// Estimates of one number from several sets of measurements.
 struct Combined {
     Estimate mean;

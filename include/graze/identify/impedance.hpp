@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graze/identify/estimate.hpp"
+#include "graze/identify/residual_test.hpp"
 #include "graze/record/harmonic.hpp"
 
 #include <span>
@@ -9,12 +10,13 @@ namespace graze {
 
 /// A coil with its mass clamped, under a sinusoidal voltage.
 struct Impedance {
-    double frequency = 0;      ///< w, in radians by unit of time
-    Harmonic voltage, current; ///< about the middle of the record
-    Estimate magnitude;        ///< V0/I0
-    Estimate lag;              ///< phi, in radians
-    Estimate resistance;       ///< R
-    Estimate inductance;       ///< L, all of it
+    double frequency = 0;                        ///< w, in radians by unit of time
+    Harmonic voltage, current;                   ///< about the middle of the record
+    Estimate magnitude;                          ///< V0/I0
+    Estimate lag;                                ///< phi, in radians
+    Estimate resistance;                         ///< R
+    Estimate inductance;                         ///< L, all of it
+    ResidualTest voltage_left{}, current_left{}; ///< whether they are sines
 };
 
 /// From amplitudes and phase of voltage and current: R = V0/I0 cos(phi), w L = V0/I0 sin(phi), which is Eqs. (5.17) to

@@ -79,9 +79,13 @@ struct PlacedShape {
     GridPolygon polygon;
 };
 /// All polygons of a cell and of what is in it. @throws std::out_of_range when there is no such cell
+/// @throws InputError unless each cell of the library stands after those that it contains, under a name of its own
 std::vector<PlacedShape> flattened(const LayoutLibrary& library, std::string_view cell);
 /// Square micrometres of what is drawn in a cell and in those in it, by layer; what overlaps counts twice.
 std::map<MaskLayer, double> areas_of(const LayoutLibrary& library, std::string_view cell);
+
+/// @throws InputError unless each cell stands after those that it contains, under a name of its own
+void require_order_of_cells(const LayoutLibrary& library);
 
 /// Letters, digits and underscores: as names of cells may be. At most 28 of them.
 std::string cell_name(std::string_view text);

@@ -14,13 +14,14 @@ namespace graze {
 enum class SegmentEnd {
     event,   ///< the segment's transition is made: its event, its jump
     section, ///< a section of the model is passed, which changes nothing
+    cut,     ///< nothing: a plane across the motion is passed, through where the next segment was found to begin
 };
 
 /// One smooth piece of an orbit: the motion in a mode, up to an event or section.
 struct Segment {
     std::size_t mode = 0;
     SegmentEnd end = SegmentEnd::event;
-    std::size_t index = 0; ///< in Model::transitions or Model::sections
+    std::size_t index = 0; ///< in Model::transitions or Model::sections; of cuts 0
     bool operator==(const Segment&) const = default;
 };
 
@@ -29,12 +30,14 @@ using Signature = std::vector<Segment>;
 
 /// Whether a transition may lead to a mode: by one of its alternatives.
 bool can_lead_to(const Transition& transition, std::size_t mode);
-/// The name of a segment's end in signatures: the transition's label, or the section's name.
+/// How signatures call a cut: "~".
+const std::string& cut_name();
+/// The name of a segment's end in signatures: the transition's label, the section's name, or "~" for a cut.
 const std::string& end_name(const Model& model, const Segment& segment);
 
 /// Reads signatures such as "J1 J8", "{J1,J8}^2", "impact^4" or "(impact release)^2 impact": labels of transitions and
-/// names of sections, repeated by ^; braces, parentheses and commas only group and part. Modes follow from the model's
-/// graph; where they do not, write "mode:label".
+/// names of sections, repeated by ^; braces, parentheses and commas only group and part. "~" is a cut. Modes follow
+/// from the model's graph; where they do not, write "mode:label".
 /// @throws InputError for names that the model does not have, and lists that its graph does not allow
 Signature parse_signature(const Model& model, std::string_view text, const Place& place = {});
 /// Text that parse_signature reads back, as short as repetition makes it: "(J1 J8)^2".

@@ -35,7 +35,7 @@ std::string_view name_of(OrbitOutcome outcome);
 struct OrbitSolution {
     Orbit orbit; ///< the last iterate when not converged
     OrbitOutcome outcome = OrbitOutcome::not_converged;
-    std::string detail; ///< why not converged
+    std::string detail; ///< why not converged; of one that has, that it is one of a family
     std::size_t iterations = 0;
     double residual = 0;         ///< of the equations, relative to the size of each unknown
     std::optional<double> error; ///< estimate, relative in the same sense
@@ -53,7 +53,7 @@ bool is_stable(const OrbitSolution& solution);
 std::size_t unstable_directions(const OrbitSolution& solution);
 
 /// A periodic orbit near a candidate, by Newton's method on multiple shooting with exact derivatives, damped where it
-/// would overshoot.
+/// would overshoot. Of a family of orbits at the same parameters, as conservative models have, the nearest one.
 /// @throws InputError when the candidate does not fit the model or the options are out of range
 OrbitSolution solve_orbit(const System& system, const Orbit& candidate, const OrbitOptions& options = {});
 

@@ -14,6 +14,7 @@ struct RecordedImpact {
     double time = 0, time_error = 0;
     double before = 0, before_error = 0; ///< velocity just before, with its standard error
     double after = 0, after_error = 0;   ///< and just after
+    double covariance = 0;               ///< of both velocities: an error of the time moves both
 };
 
 struct ImpactSettings {

@@ -16,15 +16,18 @@ public:
     ~RecordWriter();
     RecordWriter(const RecordWriter&) = delete;
     RecordWriter& operator=(const RecordWriter&) = delete;
-    /// @throws InputError when it cannot be written
+    /// @throws InputError when it cannot be written, is closed, or for samples that are no finite numbers or not as
+    /// many
+    ///         as the channels
     void write(const Samples& samples);
-    /// Before this the file is not complete. @throws InputError when it cannot be written
+    /// Before this the file is not complete. @throws InputError when it cannot be written, or is closed already
     void close();
 
     class Target;
 
 private:
-    std::unique_ptr<Target> target_;
+    std::unique_ptr<Target> target_; ///< none once it is closed
+    std::size_t channels_ = 0;
 };
 
 } // namespace graze

@@ -30,10 +30,10 @@ struct Samples {
     std::size_t rows() const { return times.size(); }
     /// No rows of so many channels.
     void clear(std::size_t channels);
-    /// Rows first ... last - 1 of others.
+    /// Rows first ... last - 1 of others. @throws InputError where there are not so many, or other channels
     void append(const Samples& others, std::size_t first, std::size_t last);
     void append(const Samples& others) { append(others, 0, others.rows()); }
-    /// The first rows go.
+    /// The first rows go. @throws InputError where there are not so many
     void drop_front(std::size_t rows);
 };
 

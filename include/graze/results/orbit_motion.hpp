@@ -19,7 +19,8 @@ struct SegmentMotion {
 };
 
 /// The motion along the segments of an orbit as they are given: events on the way do not happen, so that orbits which
-/// the model would not follow can be shown too.
+/// the model would not follow can be shown too. Of orbits that take more than 100,000 steps the rest is left out, which
+/// `problem` says.
 /// @param samples about how many rows there are of a whole period; both ends of each segment are among them
 std::vector<SegmentMotion> orbit_motion(const Model& model, const Orbit& orbit, std::size_t samples);
 

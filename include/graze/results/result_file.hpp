@@ -33,6 +33,11 @@ enum class RunStatus {
 /// As in the file: "unfinished", "complete" or "failed".
 std::string_view name_of(RunStatus status);
 
+/// What a study calls a special point of a run besides its label.
+struct PointName {
+    std::string label, name;
+};
+
 /// What is known of a run besides its points.
 struct RunRecord {
     std::string name; ///< letters, digits, '.', '_' and '-'
@@ -52,11 +57,16 @@ struct RunRecord {
     RunStatus status = RunStatus::unfinished;
     std::string file = {};    ///< from which it was read
     std::string failure = {}; ///< why it failed, and what to do; on one line, without what controls a terminal
+    std::vector<PointName> point_names = {}; ///< of its special points, as the study calls them
 
     /// Whether its points are orbits.
     bool is_branch() const { return kind == "orbit" || is_followed(); }
     /// Whether orbits are followed: along a branch, or a curve.
     bool is_followed() const { return kind == "continue" || kind == "curve" || kind == "ladder"; }
+    /// What people are shown in the place of a label: the point's name, if it has one.
+    const std::string& point_name(const std::string& label) const;
+    /// The label of the point with this name; empty: none has it.
+    std::string label_named(const std::string& shown) const;
 };
 
 /// The result file of a study's folder, or the file itself.
@@ -96,10 +106,15 @@ public:
     void begin_run(const RunRecord& run);
     /// Orders runs as these names are; others come behind them, in the order in which they are.
     void order_runs(const std::vector<std::string>& names);
+    /// Gives special points of a run other names, which change none of its numbers.
+    void name_points(const std::string& run, const std::vector<PointName>& names);
     /// Removes a run with all that belongs to it.
     void remove_run(const std::string& name);
     /// Adds a point to a run. Written for good within a second, or by `flush`.
     void add_point(const std::string& run, const PointRecord& point);
+    /// Gives points of a run another label, with the reason, once more is known than each tells by itself.
+    void set_label(const std::string& run, const std::vector<std::size_t>& points, Label label,
+                   const std::string& detail);
     /// Adds an orbit to a run of kind orbit or continue.
     void add_orbit(const std::string& run, const OrbitRecord& orbit);
     /// Keeps what a run of kind identify has found, in the place of what it had found.

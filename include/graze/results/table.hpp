@@ -9,7 +9,8 @@
 
 namespace graze {
 
-/// Rows of numbers and words under named columns, as they go to a user.
+/// Rows of numbers and words under named columns, as they go to a user. What asks for a cell throws InputError where
+/// there is none.
 class Table {
 public:
     struct Column {
@@ -31,7 +32,8 @@ public:
     /// Whether a number is missing.
     bool is_missing(std::size_t row, std::size_t column) const;
     double number(std::size_t row, std::size_t column) const { return cell(row, column).number; }
-    const std::string& text(std::size_t row, std::size_t column) const { return *texts_[cell(row, column).text]; }
+    /// @throws InputError when the cell has a number
+    const std::string& text(std::size_t row, std::size_t column) const;
     /// Names of the columns in which a number is missing.
     std::vector<std::string> incomplete_columns() const;
     /// Keeps only the rows 0, 2, 4, ...
@@ -43,12 +45,12 @@ private:
         double number;
         std::uint32_t text; ///< index of a text, or `none`
     };
-    const Cell& cell(std::size_t row, std::size_t column) const { return cells_[row * columns_.size() + column]; }
+    const Cell& cell(std::size_t row, std::size_t column) const;
 
     std::vector<Column> columns_;
     std::vector<Cell> cells_;
     std::map<std::string, std::uint32_t, std::less<>> text_indices_; ///< texts repeat; each is kept once
-    std::vector<const std::string*> texts_;
+    std::vector<std::string> texts_;
 };
 
 } // namespace graze

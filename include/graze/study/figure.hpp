@@ -30,14 +30,16 @@ struct FigureSeries {
     std::vector<PlaneBox> cells{};      ///< of cells: what is filled
     std::vector<double> along{};        ///< of lines: how far along a smooth curve each point is; empty: straight lines
     std::vector<std::size_t> corners{}; ///< points at which a smooth curve may have one
+    int hatch = 0;                      ///< of cells: which of gnuplot's patterns fills them; 0: the colour alone
 };
 
-/// A short text beside a point. Where there is no room for all, those of higher rank are left out.
+/// A short text beside a point. Where there is no room for all, those of higher rank are listed under the panel.
 struct FigureLabel {
     PlanePoint at;
     std::string text;          ///< plain
     std::size_t colour = 1001; ///< as of series; black
     int rank = 0;
+    std::string owner{}; ///< what it is a point of, where labels of several curves may have the same text
 };
 
 struct FigurePanel {
@@ -50,7 +52,9 @@ struct FigurePanel {
     std::optional<std::pair<double, double>> x_range, y_range;
     std::vector<FigureSeries> series;
     std::vector<double> marks; ///< thin vertical lines
+    std::string marks_title{}; ///< what they mean, for the legend
     std::vector<FigureLabel> labels;
+    std::vector<std::string> notes{}; ///< what stands under the panel: what it leaves out, and why
 };
 
 /// How large a picture is on paper, and its letters.
@@ -58,6 +62,7 @@ struct FigureStyle {
     double width = 0, height = 0; ///< in mm; 0: as usual, and as high as fits
     double font_size = 0;         ///< in points; 0: by the width
     std::string font;             ///< its name; empty: without serifs
+    bool grey = false;            ///< without colours: shades, and symbols along the lines
 };
 
 /// What a picture shows, however it is drawn: panels row by row.

@@ -2,6 +2,7 @@
 
 #include "graze/branch/orbit_branch.hpp"
 #include "graze/model/model.hpp"
+#include "graze/results/result_file.hpp"
 #include "graze/study/figure.hpp"
 #include "graze/study/identify_request.hpp"
 #include "graze/study/record_request.hpp"
@@ -41,6 +42,12 @@ struct Variation {
     double low = 0, high = 0;   ///< of random draws
     bool logarithmic = false;   ///< draws are uniform in the logarithm
     double offset = 0;          ///< added to draws
+};
+
+/// An initial state that follows from what varies.
+struct FollowingState {
+    std::size_t state = 0;
+    Expression value{}; ///< in parameters and in states that vary
 };
 
 /// In which order a sweep goes through the values of its first axis.
@@ -84,11 +91,13 @@ struct StudyRun {
     Place place;
     /// Parameters and initial state set as the run asks. Of a record its channels, as states that rest.
     Model model;
-    std::vector<Variation> axes; ///< the first is swept along, the others make chains. Lists vary as a grid
-    std::size_t draws = 0;       ///< points drawn at random (times the grid of the lists); 0: none
+    std::vector<Variation> axes;           ///< the first is swept along, the others make chains. Lists vary as a grid
+    std::vector<FollowingState> following; ///< initial states, other than the model's, of each point anew
+    std::size_t draws = 0;                 ///< points drawn at random (times the grid of the lists); 0: none
     std::uint64_t seed = 1;
-    SweepDirection direction = SweepDirection::up; ///< also of branches, at first
-    bool carry = true;                             ///< sweeps: states are carried along
+    SweepDirection direction =
+        SweepDirection::up; ///< also of branches, at first; in files these go both ways if not told
+    bool carry = true;      ///< sweeps: states are carried along
     std::optional<StartFrom> start;
     std::vector<std::string> parameters; ///< runs of kind identify: what they find takes the place of what is set
     Place parameters_place;
@@ -100,7 +109,8 @@ struct StudyRun {
     SimulationOptions simulation;
     std::vector<Sampling> samplings;
     std::vector<std::string> value_names, value_units;
-    std::vector<Expression> values; ///< in states and parameters
+    std::vector<Expression> values;     ///< in states and parameters
+    std::vector<PointName> point_names; ///< of special points of a branch; no part of what is computed
 
     /// Whether its points are records, or what was found from them: nothing is simulated by the study itself.
     bool is_measured() const { return kind == RunKind::record || kind == RunKind::identify; }

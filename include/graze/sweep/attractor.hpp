@@ -17,7 +17,8 @@ namespace graze {
 enum class Label {
     periodic,       ///< a stable periodic orbit, confirmed by Newton's method
     quasi_periodic, ///< averages converge fast, the largest Lyapunov exponent is zero
-    chaotic,        ///< the largest Lyapunov exponent is positive
+    chaotic,        ///< the largest Lyapunov exponent is positive, and remains so
+    transient,      ///< chaotic for all `cycles`, but not for ever: it left later, or motions like it do (EscapeLaw)
     equilibrium,    ///< a stable state at which all rests but clocks and drifting states
     unbounded,      ///< grows for ever: by decades already, in a field that does not bend beyond
     unsettled,      ///< none of these could be shown within the cycles allowed
@@ -51,8 +52,16 @@ struct AttractorOptions {
     /// Displacement of a motion that sits on an unstable orbit or equilibrium: relative to the spread of the states,
     /// or, where nothing moves, to the length over which the field is linear. 0: such a motion is unsettled.
     double disturbance = 1e-6;
-    std::size_t lyapunov_cycles = 60; ///< the last of `cycles`, over which the exponent is averaged; 0: none
-    double longest_return = 0;        ///< time without a return after which a point is given up as unsettled; 0: none
+    /// The last of `cycles`, over which the exponent is averaged at least: half of `cycles` if that is more, and
+    /// whatever returns come behind. 0: no exponent.
+    std::size_t lyapunov_cycles = 60;
+    /// Returns for which a motion must remain chaotic before it is called so; `cycles` if that is more.
+    std::size_t chaos_cycles = 1500;
+    /// Whether a motion that looked chaotic for all `cycles` is left there: its state and samples are those of that
+    /// time, and if it settles on anything when it is followed for longer it is a transient. So a sweep that carries
+    /// states along does not depend on how long chaos is retested. Otherwise it is what it settles on in the end.
+    bool stay_in_transients = false;
+    double longest_return = 0; ///< time without a return after which a point is given up as unsettled; 0: none
     std::vector<StateBounds> bounds = {}; ///< leaving them is an escape
     /// @throws InputError naming the option that is out of range
     void validate(const Model& model) const;

@@ -23,7 +23,10 @@ struct PointStart {
 struct Plan {
     std::size_t chains = 1;
     std::size_t chain_length = 1;
-    bool carry = false; ///< each point of a chain begins where the one before ended, if that was regular
+    /// Each point of a chain begins where the one before ended, if that was regular. Where that state violates a
+    /// barrier the point begins at its start or, where that does too, at the nearest admissible state, and its outcome
+    /// says so.
+    bool carry = false;
     /// @param point number; must give the same whenever asked, from any thread
     std::function<PointStart(std::size_t point)> start;
 

@@ -148,6 +148,8 @@ private:
     bool root_vanishes(double s);
     std::size_t limit_to_branch(double& step);
     void finish_at_branch(std::size_t state);
+    bool leave_branch();
+    bool can_leave_branch_by(double time, std::span<double> after);
     // What the observer is told of it (report.cpp)
     bool make_step(double& length);
     void report_passage(std::size_t probe, double at, int direction, bool at_contact);

@@ -22,10 +22,12 @@ USUAL = {
 def draw(name, arguments, strict=False):
     """Returns whether it was drawn; a refusal must be one message.
 
-    What is strict breaks all rules that compare distances, and tells the worst of each, which is kept beside the table.
+    What is strict breaks all rules that compare distances, and tells the worst of each, which is kept beside the table
+    together with their markers.
     """
-    done = subprocess.run(
-        [GRAZE, "layout", *arguments, "--output", f"{name}.gds", "--format", "csv"], capture_output=True, text=True)
+    markers = ["--markers", f"{name}.lyrdb"] if strict else []
+    done = subprocess.run([GRAZE, "layout", *arguments, *markers, "--output", f"{name}.gds", "--format", "csv"],
+                          capture_output=True, text=True)
     if done.returncode == 2 and done.stderr.count("\n") == 1 and not done.stdout:
         return False
     if strict and done.returncode == 3:

@@ -168,6 +168,24 @@ class Drawing:
         least("chamber_overlap", [lambda d, p=part: chamber.enclosing_check(p, d, False, projection) for part in parts])
         least("undercut", [lambda d: electrode.enclosing_check(base, d, False, projection)])
 
+    def check_markers(self):
+        """The marker browser's database has an item for each place that was told, in its cell and category."""
+        with open(self.name + ".rules") as lines:
+            told = re.findall(r"rule (\w+) is .* at \(([-.0-9]+), ([-.0-9]+)\) um of (\w+),", lines.read())
+        markers = pya.ReportDatabase("markers")
+        markers.load(self.name + ".lyrdb")
+        self.expect(markers.top_cell_name == self.top.name, f"top cell {markers.top_cell_name} of markers")
+        found = []
+        for item in markers.each_item():
+            boxes = [value.box() for value in item.each_value() if value.is_box()]
+            texts = [value.string() for value in item.each_value() if value.is_string()]
+            self.expect(len(boxes) == 1 and len(texts) == 1, "a marker without place or text")
+            rule, cell = markers.category_by_id(item.category_id()).name(), markers.cell_by_id(item.cell_id()).name()
+            self.expect(all(text.startswith(rule + " is ") for text in texts), f"marker text {texts}")
+            found += [(rule, f"{box.center().x:.3f}", f"{box.center().y:.3f}", cell) for box in boxes]
+        told = [(rule, f"{float(x):.3f}", f"{float(y):.3f}", cell) for rule, x, y, cell in told]
+        self.expect(len(told) > 0 and sorted(found) == sorted(told), f"markers {found}, told {told}")
+
     @staticmethod
     def no_sliver(region, least):
         """Nothing narrower than half of what is drawn as narrowest: no accident of polygons that almost coincide."""
@@ -188,6 +206,7 @@ try:
             drawing.check_device(device)
         if os.path.exists(one + ".rules"):
             drawing.check_rules()
+            drawing.check_markers()
             ruled += 1
     if len(names) < 10 or ruled < 10:
         wrong.append(f"only {len(names)} drawings")

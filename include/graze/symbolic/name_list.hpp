@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace graze {
+
+/// Names for a message, separated by commas: all of a few; of more than `most` so many, the nearest to the one that was
+/// wanted first, and how many there are besides.
+/// @param wanted empty: the first ones are shown
+std::string name_list(const std::vector<std::string>& names, std::string_view wanted = {}, std::size_t most = 12);
+
+} // namespace graze

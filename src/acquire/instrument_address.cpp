@@ -1,0 +1,117 @@
+#include "graze/acquire/instrument_address.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <string_view>
+#include <vector>
+
+namespace graze {
+
+namespace {
+
+bool starts_with_word(std::string_view text, std::string_view word) {
+    return text.size() >= word.size() && std::equal(word.begin(), word.end(), text.begin(), [](char one, char other) {
+               return one == static_cast<char>(std::toupper(static_cast<unsigned char>(other)));
+           });
+}
+
+bool is_word(std::string_view text, std::string_view word) {
+    return text.size() == word.size() && starts_with_word(text, word);
+}
+
+bool are_digits(std::string_view text) {
+    return std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+bool read_port(std::string_view text, unsigned short& port) {
+    const auto [next, error] = std::from_chars(text.data(), text.data() + text.size(), port);
+    return error == std::errc() && next == text.data() + text.size() && port > 0;
+}
+
+/// Between double colons; an address in brackets may have some in it.
+std::vector<std::string_view> visa_parts(std::string_view text) {
+    std::vector<std::string_view> parts;
+    std::size_t begin = 0;
+    bool bracketed = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        bracketed = text[i] == '[' || (bracketed && text[i] != ']');
+        if (bracketed || text.substr(i, 2) != "::")
+            continue;
+        parts.push_back(text.substr(begin, i - begin));
+        begin = ++i + 1;
+    }
+    parts.push_back(text.substr(begin));
+    return parts;
+}
+
+std::string_view without_brackets(std::string_view host) {
+    const bool bracketed = host.size() > 2 && host.front() == '[' && host.back() == ']';
+    return bracketed ? host.substr(1, host.size() - 2) : host;
+}
+
+[[noreturn]] void refuse(const std::string& text, const Place& place, const char* problem, const char* remedy) {
+    throw InputError(place, fmt::format("'{}' {}", text, problem), remedy);
+}
+
+InstrumentAddress visa_address(const std::string& text, const Place& place) {
+    const std::vector<std::string_view> parts = visa_parts(text);
+    InstrumentAddress address;
+    constexpr std::size_t kind_of_serial = 4, kind_of_tcp = 5; // letters of ASRL and TCPIP
+    if (starts_with_word(text, "ASRL")) {
+        const std::string_view path = parts[0].substr(kind_of_serial);
+        if (are_digits(path))
+            refuse(text, place, "numbers a serial line, which has no number here",
+                   "give its path, as ASRL/dev/ttyUSB0::INSTR");
+        if (parts.size() > 2 || (parts.size() == 2 && !is_word(parts[1], "INSTR")))
+            refuse(text, place, "is no name of a serial line", "write it as ASRL/dev/ttyUSB0::INSTR");
+        address.name = path;
+        return address;
+    }
+    address.is_tcp = true;
+    constexpr std::size_t of_socket = 4;
+    if (parts.size() != of_socket || !is_word(parts[3], "SOCKET") || !are_digits(parts[0].substr(kind_of_tcp)) ||
+        without_brackets(parts[1]).empty() || !read_port(parts[2], address.port))
+        refuse(text, place, "is no name of a TCP socket",
+               "give the port at which it takes SCPI, as TCPIP0::192.168.1.5::5025::SOCKET; VXI-11 and HiSLIP "
+               "(TCPIP0::HOST::INSTR) are not spoken");
+    address.name = without_brackets(parts[1]);
+    return address;
+}
+
+} // namespace
+
+bool is_visa_name(const std::string& text) {
+    return text.find("::") != std::string::npos && (starts_with_word(text, "ASRL") || starts_with_word(text, "TCPIP"));
+}
+
+InstrumentAddress device_address(const std::string& text, const Place& place) {
+    if (is_visa_name(text))
+        return visa_address(text, place);
+    InstrumentAddress address;
+    const std::size_t first = text.find(':'), last = text.rfind(':');
+    const std::string kind = text.substr(0, first);
+    if (kind == "serial" && first != std::string::npos && first + 1 < text.size()) {
+        address.name = text.substr(first + 1);
+        return address;
+    }
+    const bool bracketed = text.find('[') == first + 1 && text.find(']') + 1 == last; // an IPv6 address
+    const bool one_name = bracketed || text.find(':', first + 1) == last;
+    if (kind == "tcp" && last != first && last > first + 1 && one_name) {
+        address.is_tcp = true;
+        address.name = without_brackets(std::string_view(text).substr(first + 1, last - first - 1));
+        if (read_port(std::string_view(text).substr(last + 1), address.port))
+            return address;
+    }
+    throw InputError(place, fmt::format("'{}' is no device of samples", text),
+                     "give \"tcp:HOST:PORT\", \"serial:PATH\", or a name of VISA as TCPIP0::HOST::PORT::SOCKET");
+}
+
+InstrumentAddress generator_address(const std::string& text, const Place& place) {
+    const bool named = is_visa_name(text) || text.starts_with("tcp:") || text.starts_with("serial:");
+    return named ? device_address(text, place) : InstrumentAddress{false, text, 0};
+}
+
+} // namespace graze

@@ -1,0 +1,132 @@
+#include "branch/bounds.hpp"
+
+#include "branch/branch_state.hpp"
+#include "orbit/eigen_index.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace graze {
+
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double round_off = 1e-12; // of the bounds, or of the scale of a parameter whose bound is zero
+
+/// The parameter that a test of a bound is about, if it is about one, with its bounds.
+FreeBounds bounds_of(const BranchSettings& settings, const BranchTest& test) {
+    return test.free ? settings.free_bounds[*test.free]
+                     : FreeBounds{settings.parameter, settings.least, settings.greatest};
+}
+
+} // namespace
+
+std::vector<BranchTest> tests_of_bounds(const BranchSettings& settings, std::span<const double> parameters,
+                                        std::span<const double> monitors) {
+    std::vector<BranchTest> tests;
+    const auto add = [&](std::optional<double> least, std::optional<double> greatest, double value, BranchTest test) {
+        const bool always = !test.monitor && !test.free;
+        const double size = std::max(std::abs(least.value_or(0)), std::abs(greatest.value_or(0)));
+        test.type = PointType::bound;
+        test.noise = round_off * (size > 0 ? size : 1);
+        if (test.value = least ? value - *least : nothing; least || always)
+            tests.push_back(test);
+        if (test.value = greatest ? *greatest - value : nothing; greatest || always)
+            tests.push_back(test);
+    };
+    add(settings.least, settings.greatest, parameters[settings.parameter.place()], {});
+    for (std::size_t f = 0; f < settings.free_bounds.size(); ++f) {
+        const FreeBounds& bounds = settings.free_bounds[f];
+        add(bounds.least, bounds.greatest, parameters[bounds.parameter.place()], {.free = f});
+    }
+    for (std::size_t m = 0; m < settings.monitors.size(); ++m)
+        add(settings.monitors[m].least, settings.monitors[m].greatest, monitors[m], {.monitor = m});
+    return tests;
+}
+
+void test_bounds(const TestedPoint& point, std::vector<BranchTest>& tests) {
+    const std::vector<ParameterId>& free = point.equations.free();
+    for (BranchTest test : tests_of_bounds(point.settings, point.at.parameters, point.monitors)) {
+        if (!test.monitor) {
+            const ParameterId one = bounds_of(point.settings, test).parameter;
+            const auto which = static_cast<std::size_t>(std::find(free.begin(), free.end(), one) - free.begin());
+            test.noise =
+                std::min(test.noise, round_off * point.at.scales[index(point.equations.layout().parameter(which))]);
+        }
+        tests.push_back(test);
+    }
+}
+
+namespace {
+
+/// By how much a parameter that varies changes over the last step.
+double length_of_step(BranchState& state, ParameterId parameter) {
+    const std::vector<ParameterId>& free = state.problem().equations().free();
+    const auto which = static_cast<std::size_t>(std::find(free.begin(), free.end(), parameter) - free.begin());
+    const std::size_t place = state.problem().equations().layout().parameter(which);
+    return std::abs(state.continuation().point().u[place] - state.continuation().previous().u[place]);
+}
+
+} // namespace
+
+bool confirm_bound(BranchState& state, SpecialPoint& special, const BranchTest& test) {
+    const BranchSettings& settings = state.settings();
+    if (test.monitor) {
+        special.detail =
+            fmt::format("{} = {:.10g}", settings.monitors[*test.monitor].name, special.monitors[*test.monitor]);
+        return special.located;
+    }
+    const FreeBounds bounds = bounds_of(settings, test);
+    double& value = special.solution.orbit.parameters[bounds.parameter.place()];
+    // Round-off would leave the bound on the one side or the other, and so would what a crossing near by leaves
+    // uncertain.
+    constexpr double uncertain = 1e-8; // of the step
+    for (const auto& bound : {bounds.least, bounds.greatest})
+        if (bound && std::abs(value - *bound) < uncertain * length_of_step(state, bounds.parameter))
+            value = *bound;
+    special.parameter = special.solution.orbit.parameters[settings.parameter.place()];
+    special.detail =
+        fmt::format("{} = {:.10g}", state.model().independent_parameters()[bounds.parameter.place()], value);
+    return special.located;
+}
+
+bool is_beyond_bounds(const std::vector<BranchTest>& tests) {
+    return std::any_of(tests.begin(), tests.end(), [](const BranchTest& test) {
+        return test.type == PointType::bound && test.value < -test.noise;
+    });
+}
+
+std::string beyond_in_words(const BranchState& state, const BranchPoint& point) {
+    const BranchSettings& settings = state.settings();
+    const std::vector<double>& parameters = point.solution.orbit.parameters;
+    for (const BranchTest& test : tests_of_bounds(settings, parameters, point.monitors)) {
+        if (!is_beyond_bounds({test}))
+            continue;
+        if (test.monitor)
+            return fmt::format("{} = {:.10g} lies beyond its bound", settings.monitors[*test.monitor].name,
+                               point.monitors[*test.monitor]);
+        const ParameterId one = bounds_of(settings, test).parameter;
+        return fmt::format("{} = {:.10g} lies beyond its bound", state.model().independent_parameters()[one.place()],
+                           parameters[one.place()]);
+    }
+    return "";
+}
+
+void put_on_bounds(const BranchSettings& settings, Orbit& orbit) {
+    const auto put = [&](ParameterId parameter, const std::optional<double>& least,
+                         const std::optional<double>& greatest) {
+        double& value = orbit.parameters[parameter.place()];
+        if (least)
+            value = std::max(value, *least);
+        if (greatest)
+            value = std::min(value, *greatest);
+    };
+    put(settings.parameter, settings.least, settings.greatest);
+    for (const FreeBounds& bounds : settings.free_bounds)
+        put(bounds.parameter, bounds.least, bounds.greatest);
+}
+
+} // namespace graze

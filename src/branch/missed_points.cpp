@@ -1,0 +1,244 @@
+#include "branch/missed_points.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <utility>
+
+namespace graze {
+
+namespace {
+
+using Multipliers = std::vector<std::complex<double>>;
+
+/// How many multipliers are unstable: between two numbers, as such on the circle may be either.
+struct Count {
+    int least = 0, most = 0;
+    bool is_certain() const { return least == most; }
+};
+
+Count unstable(const Multipliers& multipliers, double margin) {
+    Count count;
+    for (const std::complex<double> one : multipliers) {
+        count.least += std::abs(one) > 1 + margin ? 1 : 0;
+        count.most += std::abs(one) > 1 - margin ? 1 : 0;
+    }
+    return count;
+}
+
+/// By how many multipliers a point of this type changes the number of unstable ones; 0 for others.
+int crossing_at(PointType type) {
+    switch (type) {
+    case PointType::fold:
+    case PointType::branch_point:
+    case PointType::flip:
+    case PointType::asymmetry:
+        return 1;
+    case PointType::torus:
+        return 2;
+    default:
+        return 0;
+    }
+}
+
+/// Whether points at which so many multipliers cross, by one and in pairs, may change one number into the other.
+bool may_explain(const Count& before, const Count& after, int singles, int pairs) {
+    const int least = after.least - before.most, most = after.most - before.least;
+    for (int change = least; change <= most; ++change)
+        if (std::abs(change) <= singles + 2 * pairs && (change - singles) % 2 == 0)
+            return true;
+    return false;
+}
+
+class Search {
+public:
+    /// @param size how many multipliers the orbits at both ends have, and those between have to have
+    Search(BranchState& state, const TestLocator& locate, const std::vector<SpecialPoint>& known, std::size_t size)
+        : state_(state), locate_(locate), known_(known), size_(size) {}
+
+    /// Halves a part of the step until what is in it is explained.
+    void look(const StepSample& low, const StepSample& high) {
+        constexpr double narrow = 1e-9; // as a fraction of the step
+        const Count before = unstable(low.multipliers, margin), after = unstable(high.multipliers, margin);
+        if (may_explain(before, after, 0, 0))
+            return;
+        std::vector<SpecialPoint> located;
+        if (is_explained_by_tests(low, high, located)) {
+            std::move(located.begin(), located.end(), std::back_inserter(result));
+            return;
+        }
+        StepSample middle;
+        if (high.fraction - low.fraction < narrow || !sample_between(low, high, middle))
+            return note_coincident(low, high);
+        look(low, middle);
+        look(middle, high);
+    }
+
+    std::vector<SpecialPoint> result;
+
+private:
+    static constexpr double margin = 1e-9; // of the modulus of a multiplier: less is round-off
+
+    bool sample(double fraction, StepSample& here, BranchPoint& there) {
+        ContinuationPoint at;
+        if (!state_.continuation().between(fraction, at) || !state_.describe(at, there, here.tests))
+            return false;
+        here.fraction = fraction;
+        here.multipliers = multipliers_followed(there.solution);
+        return here.multipliers.size() == size_;
+    }
+    /// One whose number of unstable multipliers is certain.
+    bool sample_between(const StepSample& low, const StepSample& high, StepSample& middle) {
+        constexpr double shares[] = {0.5, 0.4, 0.6, 0.25, 0.75, 0.1, 0.9};
+        BranchPoint there;
+        return std::any_of(std::begin(shares), std::end(shares), [&](double share) {
+            return sample(low.fraction + share * (high.fraction - low.fraction), middle, there) &&
+                   unstable(middle.multipliers, margin).is_certain();
+        });
+    }
+
+    bool is_explained_by_tests(const StepSample& low, const StepSample& high, std::vector<SpecialPoint>& located) {
+        int singles = 0, pairs = 0;
+        std::vector<std::size_t> changed;
+        for (std::size_t i = 0; i < low.tests.size() && low.tests.size() == high.tests.size(); ++i) {
+            const int count = crossing_at(low.tests[i].type);
+            if (count == 0 || !(low.tests[i].value * high.tests[i].value < 0))
+                continue;
+            (count == 1 ? singles : pairs) += 1;
+            changed.push_back(i);
+        }
+        if (changed.empty() ||
+            !may_explain(unstable(low.multipliers, margin), unstable(high.multipliers, margin), singles, pairs))
+            return false;
+        for (const std::size_t i : changed) {
+            auto special = locate_(i, {low.fraction, low.tests[i].value}, {high.fraction, high.tests[i].value});
+            if (!special)
+                return false;
+            located.push_back(std::move(*special));
+        }
+        return true;
+    }
+
+    /// Several multipliers that cross at one place, as those of devices that are alike: no test tells that.
+    void note_coincident(const StepSample& low, const StepSample& high) {
+        const Count before = unstable(low.multipliers, margin), after = unstable(high.multipliers, margin);
+        const auto rank = static_cast<std::size_t>(std::min(before.most, after.most));
+        const auto count = static_cast<std::size_t>(std::abs(after.most - before.most));
+        const Multipliers sorted = by_modulus(low.multipliers);
+        if (count == 0 || rank + count > sorted.size())
+            return;
+        std::size_t ones = 0, minus_ones = 0;
+        for (std::size_t i = rank; i < rank + count; ++i) {
+            ones += is_near(sorted[i], 1) ? 1 : 0;
+            minus_ones += is_near(sorted[i], -1) ? 1 : 0;
+        }
+        const std::size_t others = count - ones - minus_ones;
+        const PointType flip = state_.problem().equations().symmetry() ? PointType::asymmetry : PointType::flip;
+        const auto in_words = [](std::size_t number, const char* where) {
+            return number == 1 ? fmt::format("a multiplier crosses {}", where)
+                               : fmt::format("{} multipliers cross {} at once", number, where);
+        };
+        // One alone makes a fold or a branch point, which have tests of their own: where neither has changed its sign
+        // the step has lost its branch, and there is nothing to be named.
+        const std::optional<PointType> alone = ones == 1 ? singular_type(low, high) : PointType::branch_point;
+        if (ones > 0 && alone)
+            note(low, high, rank, *alone, in_words(ones, "1"));
+        if (minus_ones > 0)
+            note(low, high, rank, flip, in_words(minus_ones, "-1"));
+        if (others > 0)
+            note(low, high, rank, PointType::torus, in_words(others, "the unit circle"));
+    }
+    static std::optional<PointType> singular_type(const StepSample& low, const StepSample& high) {
+        for (std::size_t i = 0; i < low.tests.size() && low.tests.size() == high.tests.size(); ++i) {
+            const PointType type = low.tests[i].type;
+            if ((type == PointType::fold || type == PointType::branch_point) &&
+                low.tests[i].value * high.tests[i].value < 0)
+                return type;
+        }
+        return std::nullopt;
+    }
+    static bool is_near(std::complex<double> multiplier, double number) {
+        constexpr double near = 1e-3;
+        return std::abs(multiplier / std::abs(multiplier) - number) < near;
+    }
+    static Multipliers by_modulus(Multipliers multipliers) {
+        std::sort(multipliers.begin(), multipliers.end(), [](auto a, auto b) { return std::abs(a) > std::abs(b); });
+        return multipliers;
+    }
+
+    /// @param rank of the multiplier that crosses, in the order of their sizes
+    void note(const StepSample& low, const StepSample& high, std::size_t rank, PointType type, std::string detail) {
+        constexpr double close = 1e-6;
+        constexpr int most = 60;
+        BranchPoint there, best;
+        const auto growth = [&](const StepSample& here) { return std::abs(by_modulus(here.multipliers)[rank]) - 1; };
+        StepSample here, begin = low, end = high;
+        double off = std::min(std::abs(growth(low)), std::abs(growth(high))), at = low.fraction;
+        bool any = false;
+        for (int i = 0; i < most; ++i) {
+            const double first = growth(begin), last = growth(end);
+            const double fraction = i % 2 == 0
+                                        ? begin.fraction - first * (end.fraction - begin.fraction) / (last - first)
+                                        : 0.5 * (begin.fraction + end.fraction);
+            if (!(fraction > begin.fraction && fraction < end.fraction) || !sample(fraction, here, there))
+                break;
+            const double value = growth(here);
+            if (!any || std::abs(value) < off) {
+                off = std::abs(value);
+                best = there;
+                at = fraction;
+                any = true;
+            }
+            if (value == 0)
+                break;
+            (value * first > 0 ? begin : end) = here;
+        }
+        if (!any && !sample(at, here, best))
+            return;
+        SpecialPoint special = special_of_type(type, best);
+        special.located = off < close;
+        special.detail = std::move(detail);
+        if (!is_known(special, low, high))
+            result.push_back(std::move(special));
+    }
+    /// What has been found there by its test says less: how many cross.
+    bool is_known(const SpecialPoint& special, const StepSample& low, const StepSample& high) const {
+        const LastStep step = state_.last_step();
+        return special.detail.starts_with("a multiplier") &&
+               std::any_of(known_.begin(), known_.end(), [&](const SpecialPoint& one) {
+                   const double at = step.fraction(one.arclength);
+                   return crossing_at(one.type) > 0 && at >= low.fraction && at <= high.fraction;
+               });
+    }
+
+    BranchState& state_;
+    const TestLocator& locate_;
+    const std::vector<SpecialPoint>& known_;
+    std::size_t size_;
+};
+
+} // namespace
+
+const std::vector<std::complex<double>>& multipliers_followed(const OrbitSolution& solution) {
+    return solution.half_multipliers.empty() ? solution.multipliers : solution.half_multipliers;
+}
+
+std::vector<SpecialPoint> missed_points(BranchState& state, const StepSample& low, const StepSample& high,
+                                        const std::vector<SpecialPoint>& found, const TestLocator& locate) {
+    constexpr double certain = 1e-6; // of the modulus of a multiplier
+    int singles = 0, pairs = 0;
+    for (const SpecialPoint& one : found) {
+        singles += crossing_at(one.type) == 1 ? 1 : 0;
+        pairs += crossing_at(one.type) == 2 ? 1 : 0;
+    }
+    if (low.multipliers.empty() || low.multipliers.size() != high.multipliers.size() ||
+        may_explain(unstable(low.multipliers, certain), unstable(high.multipliers, certain), singles, pairs))
+        return {};
+    Search search(state, locate, found, low.multipliers.size());
+    search.look(low, high);
+    return std::move(search.result);
+}
+
+} // namespace graze

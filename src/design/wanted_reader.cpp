@@ -1,0 +1,78 @@
+#include "design/wanted_reader.hpp"
+
+#include "design/design_keys.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+
+namespace graze {
+
+void WantedReader::read_item(const TomlEntry& item) {
+    if (item.name == "value" && item.node->is_array()) {
+        std::tie(wanted_.least, wanted_.greatest) = reader_.range(design_.model, item);
+    } else if (item.name == "value") {
+        wanted_.value = number(item);
+    } else if (item.name == "class") {
+        constexpr GrazingOutcome outcomes[] = {GrazingOutcome::lost, GrazingOutcome::persists, GrazingOutcome::folds};
+        wanted_.outcome = outcomes[reader_.choice(item, {"trips", "persists", "folds"})];
+    } else if (item.name == "reset") {
+        std::tie(wanted_.least_reset, wanted_.greatest_reset) = reader_.range(design_.model, item);
+        wanted_.reset_place = reader_.toml().place(*item.node);
+    } else if (item.name == "clear") {
+        wanted_.clear = reader_.positive(design_.model, item);
+    } else if (item.name == "trip_time") {
+        reader_.each_of(item, {"overshoot", "longest"}, [&](const TomlEntry& one) {
+            (one.name == "overshoot" ? wanted_.overshoot : wanted_.longest_time) = reader_.positive(design_.model, one);
+        });
+        if (!wanted_.overshoot || !wanted_.longest_time)
+            reader_.fail(item, fmt::format("{} is not complete", item.path),
+                         "write { overshoot = A, longest = B }: the greatest time at that overshoot");
+    } else if (item.name == "yield") {
+        read_yield(item);
+    } else if (item.name == "importance") {
+        read_importance(item);
+    } else {
+        reader_.each_of(item, {}, [&](const TomlEntry& one) {
+            const ParameterId parameter = at(one.place, [&] { return design_.model.independent_parameter(one.name); });
+            wanted_.sensitivities.emplace_back(parameter, reader_.positive(design_.model, one));
+        });
+    }
+}
+
+void WantedReader::read_yield(const TomlEntry& item) {
+    wanted_.yield_place = reader_.toml().place(*item.node);
+    const double share = number(item);
+    if (!(share > 0 && share <= 1))
+        reader_.fail(item, fmt::format("the yield {:.6g} is no share of devices above 0", share),
+                     "give the least share of devices that will do, up to 1, as 0.95 for 95 percent");
+    if (!design_.dimensions.empty() && // which else could not be read, and that is told
+        std::none_of(design_.dimensions.begin(), design_.dimensions.end(),
+                     [](const DesignDimension& one) { return one.tolerance && one.tolerance->size > 0; }))
+        reader_.fail(item, "a yield is wanted, and no dimension has a tolerance",
+                     "give dimensions.NAME.tolerance, as \"1%\"");
+    wanted_.least_yield = share;
+}
+
+void WantedReader::read_importance(const TomlEntry& item) {
+    reader_.each_of(
+        item, {"value", "class", "trip_time", "reset", "clear", "sensitivity", "yield"}, [&](const TomlEntry& one) {
+            constexpr double most = 100; // of misses down to 1e-9, which are none
+            const double times = reader_.positive(design_.model, one);
+            if (!(times >= 1 / most && times <= most))
+                reader_.fail(one, fmt::format("{} is {:.6g}", one.path, times),
+                             fmt::format("give from {} to {}: how many times a miss counts", 1 / most, most));
+            wanted_.importance.emplace_back(one.name, times);
+        });
+}
+
+void WantedReader::read(const TomlEntry& entry) {
+    reader_.each_of(entry, {"value", "class", "trip_time", "reset", "clear", "sensitivity", "yield", "importance"},
+                    [&](const TomlEntry& item) { read_item(item); });
+    if (const auto& yield = wanted_.yield_place; wanted_.least_yield && !design_.least_usable())
+        throw InputError(yield, "a yield is wanted, and nothing says which trip values will do",
+                         "give yield.within = [A, B], or wanted.value = [A, B]");
+}
+
+} // namespace graze

@@ -1,0 +1,207 @@
+#include "graze/layout/process_steps.hpp"
+
+#include "graze/symbolic/require.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+/// From the left to the right end of a stretch of the section, in micrometres.
+struct Stretch {
+    double left, right;
+};
+using Stretches = std::vector<Stretch>; ///< from left to right, apart
+
+Stretches joined(Stretches all) {
+    std::sort(all.begin(), all.end(), [](const Stretch& a, const Stretch& b) { return a.left < b.left; });
+    Stretches result;
+    for (const Stretch& one : all)
+        if (!result.empty() && one.left <= result.back().right)
+            result.back().right = std::max(result.back().right, one.right);
+        else
+            result.push_back(one);
+    return result;
+}
+
+/// Where a line y = const is within polygons. Corners lie on the grid, the line between its rows.
+Stretches cut(const std::vector<GridPolygon>& polygons, double y) {
+    const double row = std::floor(y * grid_per_micrometre) + 0.5;
+    Stretches all;
+    for (const GridPolygon& polygon : polygons) {
+        std::vector<double> crossings;
+        for (std::size_t i = 0; i < polygon.size(); ++i) {
+            const GridPoint &from = polygon[i], &to = polygon[(i + 1) % polygon.size()];
+            const auto low = static_cast<double>(from.y), high = static_cast<double>(to.y);
+            if ((low < row) != (high < row))
+                crossings.push_back(static_cast<double>(from.x) +
+                                    (row - low) / (high - low) * static_cast<double>(to.x - from.x));
+        }
+        std::sort(crossings.begin(), crossings.end());
+        for (std::size_t i = 0; i + 1 < crossings.size(); i += 2)
+            all.push_back({crossings[i] / grid_per_micrometre, crossings[i + 1] / grid_per_micrometre});
+    }
+    return joined(std::move(all));
+}
+
+/// What is between stretches, from end to end.
+Stretches beside(const Stretches& stretches, const Stretch& whole) {
+    Stretches rest;
+    double left = whole.left;
+    for (const Stretch& one : stretches) {
+        if (one.left > left)
+            rest.push_back({left, one.left});
+        left = std::max(left, one.right);
+    }
+    if (whole.right > left)
+        rest.push_back({left, whole.right});
+    return rest;
+}
+
+bool holds(const Stretches& stretches, double x) {
+    return std::any_of(stretches.begin(), stretches.end(),
+                       [&](const Stretch& one) { return one.left <= x && x < one.right; });
+}
+
+/// The stretches of a section, and what is made of them.
+class CrossSection {
+public:
+    CrossSection(const DeviceFile& file, const Layout& layout, double y)
+        : file_(&file), film_(file.process.wafer_thickness * film) {
+        const GridBox& die = layout.devices.front().drawing.die;
+        whole_ = {static_cast<double>(die.left) / grid_per_micrometre,
+                  static_cast<double>(die.right) / grid_per_micrometre};
+        std::vector<GridPolygon> back, front;
+        for (PlacedShape& shape : flattened(layout.library, layout.top)) {
+            if (shape.layer == mask_layers::front_marks) {
+                const GridBox box = bounding_box(shape.polygon);
+                marks_.push_back({static_cast<double>(box.left) / grid_per_micrometre,
+                                  static_cast<double>(box.right) / grid_per_micrometre});
+            }
+            if (shape.layer == mask_layers::back)
+                back.push_back(std::move(shape.polygon));
+            else if (shape.layer == mask_layers::front)
+                front.push_back(std::move(shape.polygon));
+        }
+        chambers_ = cut(back, y);
+        etched_ = cut(front, y);
+        marks_ = joined(std::move(marks_));
+    }
+
+    std::vector<ProcessStep> steps() {
+        const double front = file_->process.wafer_thickness;
+        const Stretches all{whole_};
+        step("1  resist on the back, opened by mask 1").add(wafer(all));
+        last().add(film_of(ProcessMaterial::resist, beside(chambers_, whole_), -film_, 0));
+        step(fmt::format("2  chambers are etched, {:g} µm deep", file_->process.chamber_depth)).add(carved(all));
+        last().add(film_of(ProcessMaterial::resist, beside(chambers_, whole_), -film_, 0));
+        step("3  the resist is stripped").add(carved(all));
+        step("4  resist on the front, opened at marks of mask 2").add(carved(all));
+        last().add(film_of(ProcessMaterial::resist, beside(marks_, whole_), front, front + film_));
+        step("5  aluminium is sputtered, and lifted off but for the marks").add(carved(all));
+        last().add(film_of(ProcessMaterial::aluminium, marks_, front, front + film_ / 2));
+        step("6  epoxy on a second wafer").add(base());
+        step("7  the wafers are bonded").add(base()).add(carved(all));
+        last().add(film_of(ProcessMaterial::aluminium, marks_, front, front + film_ / 2));
+        const Stretches kept = beside(etched_, whole_);
+        step("8  resist opened by mask 2; developer takes the marks").add(base()).add(carved(all));
+        last().add(film_of(ProcessMaterial::resist, kept, front, front + film_));
+        step("9  silicon is etched through, to the epoxy").add(base()).add(carved(kept));
+        last().add(film_of(ProcessMaterial::resist, kept, front, front + film_));
+        step("10  the resist is stripped").add(base()).add(carved(kept));
+        step("11  aluminium on all that is seen from the front").add(base()).add(carved(kept)).add(coat(kept));
+        return std::move(steps_);
+    }
+
+private:
+    using Slabs = std::vector<ProcessSlab>;
+    /// A step that is being described.
+    struct Pen {
+        ProcessStep* step;
+        Pen& add(const Slabs& slabs) {
+            step->slabs.insert(step->slabs.end(), slabs.begin(), slabs.end());
+            return *this;
+        }
+    };
+    Pen step(std::string text) {
+        steps_.push_back({std::move(text), {}});
+        return last();
+    }
+    Pen last() { return {&steps_.back()}; }
+
+    static Slabs film_of(ProcessMaterial material, const Stretches& stretches, double low, double high) {
+        Slabs slabs;
+        for (const Stretch& one : stretches)
+            slabs.push_back({material, one.left, one.right, low, high});
+        return slabs;
+    }
+    Slabs wafer(const Stretches& stretches) const {
+        return film_of(ProcessMaterial::silicon, stretches, 0, file_->process.wafer_thickness);
+    }
+    /// The device's wafer with its chambers, where it is left.
+    Slabs carved(const Stretches& left) const {
+        Slabs slabs;
+        for (const Stretch& one : left) {
+            std::vector<double> ends{one.left, one.right};
+            for (const Stretch& chamber : chambers_)
+                for (const double end : {chamber.left, chamber.right})
+                    if (one.left < end && end < one.right)
+                        ends.push_back(end);
+            std::sort(ends.begin(), ends.end());
+            for (std::size_t i = 0; i + 1 < ends.size(); ++i)
+                slabs.push_back({ProcessMaterial::silicon, ends[i], ends[i + 1], floor_at((ends[i] + ends[i + 1]) / 2),
+                                 file_->process.wafer_thickness});
+        }
+        return slabs;
+    }
+    double floor_at(double x) const { return holds(chambers_, x) ? file_->process.chamber_depth : 0; }
+    Slabs base() const {
+        return {
+            {ProcessMaterial::silicon, whole_.left, whole_.right, -film_ - file_->conditions.base_thickness, -film_},
+            {ProcessMaterial::epoxy, whole_.left, whole_.right, -film_, 0}};
+    }
+    /// On the front, down the walls, and on the epoxy where it is seen from the front: not below what overhangs.
+    Slabs coat(const Stretches& kept) const {
+        const double front = file_->process.wafer_thickness, metal = film_ / 2;
+        Slabs slabs = film_of(ProcessMaterial::aluminium, kept, front, front + metal);
+        const Slabs floors = film_of(ProcessMaterial::aluminium, beside(kept, whole_), 0, metal);
+        slabs.insert(slabs.end(), floors.begin(), floors.end());
+        constexpr double beside_wall = 1e-3;
+        for (const Stretch& one : kept) {
+            const double of_wall = std::min(metal, (one.right - one.left) / 4);
+            if (one.left > whole_.left)
+                slabs.push_back({ProcessMaterial::aluminium, one.left, one.left + of_wall,
+                                 floor_at(one.left + beside_wall), front});
+            if (one.right < whole_.right)
+                slabs.push_back({ProcessMaterial::aluminium, one.right - of_wall, one.right,
+                                 floor_at(one.right - beside_wall), front});
+        }
+        return slabs;
+    }
+
+    static constexpr double film = 0.08; ///< of the wafer's thickness: how thick films are shown
+    const DeviceFile* file_;
+    double film_;
+    Stretch whole_{};
+    Stretches chambers_, etched_, marks_;
+    std::vector<ProcessStep> steps_;
+};
+
+} // namespace
+
+std::vector<ProcessStep> process_steps(const DeviceFile& file, const Layout& layout, double y) {
+    require_index(0, layout.devices.size(), "device");
+    return CrossSection(file, layout, y).steps();
+}
+
+double plane_through_stop(const Layout& layout) {
+    require_index(0, layout.devices.size(), "device");
+    const GridBox stop = bounding_box(layout.devices.front().drawing.stops.front());
+    return static_cast<double>(stop.bottom + stop.top) / 2 / grid_per_micrometre;
+}
+
+} // namespace graze

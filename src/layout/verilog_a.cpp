@@ -1,0 +1,147 @@
+#include "graze/layout/verilog_a.hpp"
+
+#include "graze/layout/lumped_model.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/physical_unit.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cctype>
+#include <limits>
+#include <optional>
+
+namespace graze {
+
+namespace {
+
+struct ModuleParameter {
+    const char* name;
+    const char* unit;
+    const char* range; ///< of Verilog-A
+    const char* text;
+    double least, most;
+    bool may_be_least; ///< whether the least value itself is allowed
+};
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr ModuleParameter permittivity{"epsilon", "F/m",    "(0:inf)", "permittivity between the electrodes",
+                                       0,         infinite, false};
+constexpr std::array parameters{
+    ModuleParameter{"m", "kg", "(0:inf)", "mass, with what moves of its springs", 0, infinite, false},
+    ModuleParameter{"f0", "Hz", "(0:inf)", "natural frequency", 0, infinite, false},
+    ModuleParameter{"zeta", "", "[0:inf)", "damping ratio", 0, infinite, true},
+    ModuleParameter{"area", "m^2", "(0:inf)", "of the capacitor, with its fringe", 0, infinite, false},
+    ModuleParameter{"d", "m", "(0:inf)", "gap of the electrodes at rest", 0, infinite, false},
+    ModuleParameter{"stop", "m", "(0:inf)", "way to the stops", 0, infinite, false},
+    ModuleParameter{"e", "", "[0:1]", "coefficient of restitution of the stops", 0, 1, true},
+};
+
+std::optional<std::size_t> find_independent(const Model& model, const char* name) {
+    const auto place = model.find_parameter(name);
+    return place && !model.parameters[*place].expression ? place : std::nullopt;
+}
+
+/// In the unit of the SI.
+double value_of(const Model& model, const ModuleParameter& one) {
+    const auto place = find_independent(model, one.name);
+    if (!place)
+        throw InputError(fmt::format("the model {} has no parameter '{}'", model.name, one.name),
+                         "name a model of a switch with m, f0, zeta, area, d, stop and e, as mems-switch-device");
+    const Parameter& parameter = model.parameters[*place];
+    double value = *parameter.value;
+    try {
+        value = converted(value, physical_unit(parameter.unit), physical_unit(one.unit));
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("'{}' of the model {} has the unit '{}': {}", one.name, model.name, parameter.unit,
+                                     error.problem()),
+                         error.remedy());
+    }
+    if (!(value > one.least || (one.may_be_least && value == one.least)) || !(value <= one.most && value < infinite))
+        throw InputError(fmt::format("'{}' of the model {} is {:.6g} {}", one.name, model.name, value, one.unit),
+                         fmt::format("give a value within {}", one.range));
+    return value;
+}
+
+/// No word of the language ends like that.
+std::string module_name(const std::string& name) {
+    std::string result;
+    for (const char letter : name)
+        result += std::isalnum(static_cast<unsigned char>(letter)) ? letter : '_';
+    if (result.empty() || std::isdigit(static_cast<unsigned char>(result.front())))
+        result.insert(0, "_");
+    return result + "_va";
+}
+
+constexpr const char* equations = R"(
+    real w0, k, c, damping_of_stop, k_stop, c_stop, q, v, voltage, left, attraction, suspension, contact;
+
+    analog begin
+        w0 = 6.283185307179586*f0;
+        k = m*w0*w0;
+        c = 2*zeta*m*w0;
+        damping_of_stop = (e > 0) ? -ln(e)/sqrt(9.869604401089358 + ln(e)*ln(e)) : 1;
+        k_stop = m*hardness*w0*hardness*w0;
+        c_stop = 2*damping_of_stop*m*hardness*w0;
+
+        q = 1e-6*V(position);
+        v = 1e-3*V(velocity);
+        voltage = V(fixed, moving);
+        left = (d - q > closed) ? d - q : closed;
+        attraction = epsilon*area*voltage*voltage/(2*left*left);
+        suspension = -c*v - k*q;
+        contact = 0;
+        if (q < -stop)
+            contact = -k_stop*(q + stop) - c_stop*v;
+        else if (q > d - closed)
+            contact = -k_stop*(q - d + closed) - c_stop*v;
+
+        I(position) <+ ddt(V(position)) - 1e3*V(velocity);
+        I(velocity) <+ ddt(V(velocity)) - 1e3*(attraction + suspension + contact)/m;
+        I(fixed, moving) <+ ddt(epsilon*area*voltage/left);
+        $bound_step(0.01/f0);
+    end
+endmodule
+)";
+
+} // namespace
+
+bool has_verilog_a(const Model& model) {
+    for (const ModuleParameter& one : parameters)
+        if (!find_independent(model, one.name))
+            return false;
+    return true;
+}
+
+std::string verilog_a_text(const Model& model, const std::string& name, const std::string& generator) {
+    const std::string module = module_name(name);
+    std::string text = fmt::format(
+        R"(// {0}: an electrostatic switch as one mass on a spring, with stops. Written by {1}.
+// Verilog-A of the Verilog-AMS Language Reference Manual 2.4, without events; inner unknowns are electrical nodes.
+`include "disciplines.vams"
+
+module {2}(fixed, moving);
+    inout fixed, moving;
+    electrical fixed, moving;      // the electrodes: a voltage between them attracts
+    electrical position, velocity; // 1 V is 1 um towards the fixed electrode, and 1 mm/s
+
+)",
+        name, generator, module);
+    const auto declare = [&](const char* what, const std::string& value, const char* range,
+                             const std::string& meaning) {
+        text += fmt::format("    parameter real {} = {} from {}; // {}\n", what, value, range, meaning);
+    };
+    const auto declare_value = [&](const ModuleParameter& one, double value) {
+        declare(one.name, fmt::format("{}", value), one.range,
+                *one.unit ? fmt::format("{}, {}", one.unit, one.text) : one.text);
+    };
+    for (const ModuleParameter& one : parameters)
+        declare_value(one, value_of(model, one));
+    declare_value(permittivity,
+                  find_independent(model, permittivity.name) ? value_of(model, permittivity) : vacuum_permittivity);
+    declare("hardness", "100", "[1:inf)", "natural frequency on a stop, by f0");
+    declare("closed", "0.05*d", "(0:inf)", "m, gap at which the electrodes rest on one another");
+    return text + equations;
+}
+
+} // namespace graze

@@ -1,0 +1,185 @@
+#include "record/column_names.hpp"
+
+#include "base/letter_case.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/printable.hpp"
+#include "graze/symbolic/trimmed.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+namespace graze {
+
+namespace {
+
+constexpr std::size_t most_columns = 10'000;
+constexpr std::size_t longest_channel_name = 100;
+
+bool is_blank(char letter) {
+    return letter == ' ' || letter == '\t';
+}
+
+std::string_view without_quotes(std::string_view text) {
+    return text.size() > 1 && text.front() == '"' && text.back() == '"' ? text.substr(1, text.size() - 2) : text;
+}
+
+std::string_view without_brackets(std::string_view text) {
+    const bool has =
+        text.size() > 1 && ((text.front() == '(' && text.back() == ')') || (text.front() == '[' && text.back() == ']'));
+    return has ? trimmed(text.substr(1, text.size() - 2)) : text;
+}
+
+Place column_of(const Place& line, std::size_t begin) {
+    return {line.file, line.line, line.line > 0 ? static_cast<int>(begin) + 1 : 0};
+}
+
+} // namespace
+
+char separator_of_names(std::string_view line) {
+    line = trimmed(line);
+    for (const char separator : {';', ',', '\t', ' '}) {
+        int depth = 0;
+        for (const char letter : line) {
+            depth += letter == '[' || letter == '(' ? 1 : letter == ']' || letter == ')' ? -1 : 0;
+            if (letter == separator && depth <= 0)
+                return separator == '\t' ? ' ' : separator;
+        }
+    }
+    return ',';
+}
+
+std::vector<NameField> name_fields(std::string_view line, char separator) {
+    std::vector<NameField> fields;
+    std::size_t begin = 0;
+    int depth = 0;
+    for (std::size_t i = 0; i <= line.size(); ++i) {
+        if (i < line.size()) {
+            const char letter = line[i];
+            depth += letter == '[' || letter == '(' ? 1 : letter == ']' || letter == ')' ? -1 : 0;
+            const bool ends = separator == ' ' ? is_blank(letter) : letter == separator;
+            if (!ends || depth > 0)
+                continue;
+        }
+        const NameField field{line.substr(begin, i - begin), begin};
+        begin = i + 1;
+        const std::string_view text = trimmed(field.text);
+        if (separator == ' ' && text.empty())
+            continue;
+        if (separator == ' ' && !fields.empty() && (text.front() == '[' || text.front() == '('))
+            fields.back().text = line.substr(fields.back().begin, i - fields.back().begin);
+        else
+            fields.push_back(field);
+    }
+    while (fields.size() > 1 && trimmed(fields.back().text).empty())
+        fields.pop_back();
+    return fields;
+}
+
+Channel named_channel(const NameField& field, const Place& line) {
+    std::string_view text = without_quotes(trimmed(field.text));
+    Channel channel;
+    const std::size_t bracket = text.find_first_of("[(");
+    if (bracket != std::string_view::npos && (text.back() == ']' || text.back() == ')')) {
+        channel.unit = trimmed(text.substr(bracket + 1, text.size() - bracket - 2));
+        text = trimmed(text.substr(0, bracket));
+    }
+    text = without_quotes(text);
+    channel.name = text;
+    double number = 0;
+    const char* const end = text.data() + text.size();
+    const bool is_number = std::from_chars(text.data(), end, number).ptr == end; // "nan" too
+    if (text.empty() || is_number || text.size() > longest_channel_name || channel.unit.size() > longest_channel_name ||
+        !is_plain_line(channel.name) || !is_plain_line(channel.unit))
+        throw InputError(column_of(line, field.begin),
+                         fmt::format("'{}' is no name of a column", printable_line(shortened(field.text, 100))),
+                         "write names with their units, as in 't [s], V [V], q [mm]'");
+    return channel;
+}
+
+RecordHeader header_of(const std::vector<NameField>& fields, const Place& line) {
+    if (fields.size() < 2)
+        throw InputError(line, "there is only one column",
+                         "give the time first and then a column for each channel, separated by commas");
+    RecordHeader header;
+    for (const NameField& field : fields) {
+        const Channel channel = named_channel(field, line);
+        const auto same = [&](const Channel& one) { return one.name == channel.name; };
+        const Place at = column_of(line, field.begin);
+        if (std::any_of(header.channels.begin(), header.channels.end(), same))
+            throw InputError(at, fmt::format("column '{}' is there twice", channel.name),
+                             "give each column a name of its own");
+        if (header.channels.size() > most_columns)
+            throw InputError(at, fmt::format("there are more than {} columns", most_columns),
+                             "give the time and the channels that are wanted");
+        header.channels.push_back(channel);
+    }
+    header.time = header.channels.front();
+    header.channels.erase(header.channels.begin());
+    return header;
+}
+
+void require_closed_brackets(std::string_view line, const Place& place) {
+    constexpr std::size_t none = std::string_view::npos;
+    std::size_t square = none, round = none; // where one was opened
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        if (line[i] == '[' && square != none) // within one there is no other
+            break;
+        if (line[i] == '[')
+            square = i;
+        else if (line[i] == ']')
+            square = none;
+        else if (line[i] == '(' && round == none)
+            round = i;
+        else if (line[i] == ')')
+            round = none;
+    }
+    if ((square == none && round == none) || !is_plain_line(std::string(line)))
+        return;
+    throw InputError(column_of(place, std::min(square, round)), "the bracket of a unit is not closed",
+                     "write names with their units, as in 't [s], V [V]'");
+}
+
+namespace {
+
+/// As instruments spell them, in small letters, and the symbol of SI.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 20> spelt_units{{
+    {"second", "s"}, {"seconds", "s"}, {"sec", "s"},     {"secs", "s"},   {"volt", "V"},
+    {"volts", "V"},  {"ampere", "A"},  {"amperes", "A"}, {"amp", "A"},    {"amps", "A"},
+    {"watt", "W"},   {"watts", "W"},   {"ohm", "ohm"},   {"ohms", "ohm"}, {"hertz", "Hz"},
+    {"metre", "m"},  {"meter", "m"},   {"metres", "m"},  {"meters", "m"}, {"newton", "N"},
+}};
+
+constexpr std::array<std::string_view, 40> symbols{
+    "s",  "ms", "us",  "ns",   "\xc2\xb5s", "\xce\xbcs", "ps", "min", "h",   "V",   "mV",   "uV", "kV", "Vpp",
+    "A",  "mA", "uA",  "nA",   "W",         "mW",        "Hz", "kHz", "MHz", "ohm", "kohm", "m",  "mm", "um",
+    "nm", "cm", "m/s", "mm/s", "m/s^2",     "g",         "N",  "mN",  "rad", "deg", "Pa",   "%",
+};
+
+} // namespace
+
+std::string unit_of_word(std::string_view word) {
+    const std::string_view text = without_brackets(without_quotes(trimmed(word)));
+    const std::string small = in_small_letters(text);
+    const auto* const spelt =
+        std::find_if(spelt_units.begin(), spelt_units.end(), [&](const auto& one) { return one.first == small; });
+    return std::string(spelt != spelt_units.end() ? spelt->second : text);
+}
+
+bool is_unit_word(std::string_view word) {
+    const std::string_view text = without_quotes(trimmed(word));
+    if (text.empty() || without_brackets(text).size() < text.size())
+        return !text.empty();
+    const std::string small = in_small_letters(text);
+    return std::any_of(spelt_units.begin(), spelt_units.end(), [&](const auto& one) { return one.first == small; }) ||
+           std::find(symbols.begin(), symbols.end(), text) != symbols.end();
+}
+
+RecordHeader parse_record_header(const std::string& line, const Place& place) {
+    require_closed_brackets(line, place);
+    return header_of(name_fields(line, separator_of_names(line)), place);
+}
+
+} // namespace graze

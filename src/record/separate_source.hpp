@@ -1,0 +1,53 @@
+#pragma once
+
+#include "graze/record/samples.hpp"
+
+#include <sys/types.h>
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace graze {
+
+/// What a process that reads a file may take.
+struct ReadingLimits {
+    std::size_t memory = std::size_t{768} << 20; ///< bytes, besides what the process that asks has already
+    double work = 2;                             ///< seconds of processor time for the header, and for each part
+    double silence = 60;                         ///< seconds of waiting for the header, and for each part
+};
+
+/// A source that is made and read in a process of its own (fork), for libraries that a damaged file makes crash, hang
+/// or take all memory: what happens there is told here by an InputError. The process opens one file at most, writes
+/// none, and ends with this object. It reads ahead while parts are processed here.
+class SeparateSource : public SampleSource {
+public:
+    using Make = std::function<std::unique_ptr<SampleSource>()>;
+
+    /// @param path of the file, for messages; @param make opens the source, in the other process
+    /// @throws InputError that `make` has thrown, or when the process has not survived it
+    SeparateSource(std::string path, const Make& make, const ReadingLimits& limits = {});
+    ~SeparateSource() override;
+    const RecordHeader& header() const override { return header_; }
+    /// @throws InputError that the source has thrown, or when the process has not survived it
+    bool read(Samples& samples) override;
+
+private:
+    void fill(void* to, std::size_t size);
+    char next_kind();
+    std::string next_text();
+    [[noreturn]] void pass_on_refusal();
+    [[noreturn]] void tell_end(bool silent);
+    [[noreturn]] void tell_nonsense();
+    int end(bool at_once);
+
+    std::string path_;
+    ReadingLimits limits_;
+    RecordHeader header_;
+    pid_t process_ = -1;
+    int pipe_ = -1;
+    bool complete_ = false; ///< the end was reached without a mistake
+};
+
+} // namespace graze

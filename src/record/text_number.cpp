@@ -1,0 +1,89 @@
+#include "record/text_number.hpp"
+
+#include "base/letter_case.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string>
+#include <system_error>
+
+namespace graze {
+
+namespace {
+
+/// IEEE 488.2 and SCPI-99, section 7.2.1: infinity and "not a number".
+bool is_code_of_missing(double value) {
+    constexpr double infinity = 9.9e37, none = 9.91e37;
+    return std::abs(value) == infinity || std::abs(value) == none;
+}
+
+} // namespace
+
+bool is_word_of_missing(std::string_view field) {
+    if (field.size() > 2 && field.front() == '"' && field.back() == '"')
+        field = field.substr(1, field.size() - 2);
+    if (!field.empty() && field.find_first_not_of('-') == std::string_view::npos)
+        return true;
+    if (!field.empty() && field.find_first_not_of('*') == std::string_view::npos)
+        return true;
+    const bool is_signed = !field.empty() && (field.front() == '+' || field.front() == '-');
+    const std::string small = in_small_letters(is_signed ? field.substr(1) : field);
+    constexpr std::array words{"",         "nan",    "na",      "n/a",    "#n/a",     "null", "none", "inf",
+                               "infinity", "1.#inf", "1.#qnan", "1.#ind", "overload", "ovld", "ol"};
+    return std::find(words.begin(), words.end(), small) != words.end();
+}
+
+const char* NumberReader::read_beginning(const char* at, const char* end, double& value) {
+    if (at != end && *at == '+')
+        ++at;
+    double read = 0;
+    const auto [next, error] = std::from_chars(at, end, read);
+    if (error == std::errc::result_out_of_range) {
+        const std::string_view text(at, static_cast<std::size_t>(next - at));
+        const std::size_t exponent = text.find_first_of("eE");
+        if (exponent == std::string_view::npos || exponent + 1 >= text.size() || text[exponent + 1] != '-')
+            return nullptr;
+        value = 0;
+        return next;
+    }
+    if (error != std::errc() || !std::isfinite(read))
+        return nullptr;
+    value = read;
+    return next;
+}
+
+FieldKind NumberReader::read(std::string_view field, bool may_have_comma, double& value) {
+    const char* const end = field.data() + field.size();
+    double read = 0;
+    if (field.empty()) // which may be nowhere: no pointer to it tells where a number ends
+        return FieldKind::missing;
+    if (!may_have_comma || field.find(',') == std::string_view::npos) {
+        if (read_beginning(field.data(), end, read) == end) {
+            const bool has_point = field.find('.') != std::string_view::npos;
+            if (has_point && decimal_ == ',')
+                return FieldKind::text;
+            decimal_ = has_point ? '.' : decimal_;
+            if (is_code_of_missing(read))
+                return FieldKind::missing;
+            value = read;
+            return FieldKind::number;
+        }
+        return is_word_of_missing(field) ? FieldKind::missing : FieldKind::text;
+    }
+    constexpr std::size_t longest = 400;
+    if (decimal_ == '.' || field.size() > longest || field.find('.') != std::string_view::npos)
+        return FieldKind::text;
+    std::array<char, longest> copy{};
+    std::replace_copy(field.begin(), field.end(), copy.begin(), ',', '.'); // a second one ends the number
+    if (read_beginning(copy.data(), copy.data() + field.size(), read) != copy.data() + field.size())
+        return FieldKind::text;
+    decimal_ = ',';
+    if (is_code_of_missing(read))
+        return FieldKind::missing;
+    value = read;
+    return FieldKind::number;
+}
+
+} // namespace graze

@@ -1,0 +1,75 @@
+#include "graze/study/escape_rates.hpp"
+
+#include "graze/study/study.hpp"
+
+#include <algorithm>
+#include <map>
+#include <string>
+
+namespace graze {
+
+namespace {
+
+bool is(const std::string& text, Label label) {
+    return text == name_of(label);
+}
+
+/// Whether it is known when a motion left, or that it has not.
+bool is_known(const std::string& label) {
+    return !is(label, Label::unsettled) && !is(label, Label::failed);
+}
+
+bool has_left(const std::string& kind, const std::string& label, const std::string& ending) {
+    if (kind == name_of(RunKind::simulate))
+        return !is(label, Label::ended) || ending == name_of(Ending::terminal);
+    return !is(label, Label::chaotic) && !is(label, Label::transient);
+}
+
+struct Group {
+    std::vector<Stay> stays;
+    std::vector<std::size_t> chaotic;
+};
+
+} // namespace
+
+std::vector<EscapeRate> escape_rates(const StoredRun& run) {
+    const RunRecord& record = run.record;
+    if (record.kind != name_of(RunKind::basin) && record.kind != name_of(RunKind::simulate))
+        return {};
+    std::vector<std::string> parameters;
+    for (const ResultColumn& coordinate : record.coordinates)
+        if (std::none_of(record.states.begin(), record.states.end(),
+                         [&](const ResultColumn& state) { return state.name == coordinate.name; }))
+            parameters.push_back(coordinate.name);
+    std::map<std::vector<double>, Group> groups;
+    auto rows = run.rows({.columns = {"number", "label", "ending", "cycles"}, .quantities = parameters});
+    while (rows.next()) {
+        const std::string label = rows.text(1);
+        const std::int64_t cycles = rows.integer(3);
+        if (!is_known(label) || cycles < 1)
+            continue;
+        std::vector<double> at;
+        for (std::size_t p = 0; p < parameters.size(); ++p)
+            at.push_back(rows.number(4 + p));
+        Group& group = groups[at];
+        group.stays.push_back({static_cast<std::size_t>(cycles), has_left(record.kind, label, rows.text(2))});
+        if (is(label, Label::chaotic))
+            group.chaotic.push_back(static_cast<std::size_t>(rows.integer(0)));
+    }
+    std::vector<EscapeRate> rates;
+    for (auto& [at, group] : groups)
+        if (const auto law = escape_law(group.stays))
+            rates.push_back({at, *law, std::move(group.chaotic)});
+    return rates;
+}
+
+void label_transients(ResultFile& file, const std::string& run) {
+    std::vector<std::size_t> points;
+    for (const EscapeRate& rate : escape_rates(StoredRun(file, run, {})))
+        points.insert(points.end(), rate.chaotic.begin(), rate.chaotic.end());
+    if (!points.empty())
+        file.set_label(run, points, Label::transient,
+                       "chaotic so far, but motions like it leave at a rate that it agrees with");
+}
+
+} // namespace graze

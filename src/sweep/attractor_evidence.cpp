@@ -1,0 +1,177 @@
+// Evidence behind a label: motions are followed for longer before they are called periodic or chaotic.
+
+#include "sweep/approach.hpp"
+#include "sweep/attractor_search.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+constexpr std::size_t longest_stay = 20;  ///< in `cycles`, with an orbit
+constexpr std::size_t beside_orbits = 10; ///< times as long a motion must remain chaotic that passes by a stable orbit
+constexpr double last_share = 0.25;       ///< of the returns of an exponent, in which neighbours must still part
+constexpr double part_still = 0.25;       ///< at least at this share of the rate over all
+
+} // namespace
+
+/// The first half of the cycles counts as transient, unless the exponent is asked for over more.
+std::size_t AttractorSearch::exponent_cycles() const {
+    const AttractorOptions& options = setting_->options;
+    return options.lyapunov_cycles == 0
+               ? 0
+               : std::min(options.cycles, std::max(options.lyapunov_cycles, options.cycles / 2));
+}
+
+/// The motion is close to a stable orbit: it has to stay there.
+bool AttractorSearch::begin_stay() {
+    const System& compiled = setting_->simulation.system();
+    const bool events = !finder_.contacts().empty() || !compiled.mode(finder_.mode()).watched.empty();
+    stay_.begin(finder_, watcher_, periods_, events);
+    staying_ = true;
+    return go_on_staying();
+}
+
+/// Whether the motion is, to within round-off, on an orbit that neither attracts nor repels: one of many side by side,
+/// or one in whose states there is one too many, such as the height of what is carried.
+bool AttractorSearch::repeats_exactly() {
+    constexpr double round_off = 1e-10; ///< in units of the states' extents
+    constexpr double neutral = 1e-6;    ///< by which a multiplier may differ from 1 that is double
+    return !finder_.multipliers().empty() && std::abs(std::abs(finder_.multipliers().front()) - 1) <= neutral &&
+           watcher_.distance(watcher_.recent(0).state, finder_.point()) <= round_off;
+}
+
+OrbitStay::Verdict AttractorSearch::go_on_repeating() {
+    constexpr std::size_t long_enough = 50; ///< periods
+    const std::size_t period = finder_.period(), gone = watcher_.returns() - repeating_since_;
+    if (gone % period != 0)
+        return OrbitStay::Verdict::staying;
+    if (gone > 0 && (!repeats_exactly() || !same_contacts(finder_, watcher_, 1)))
+        return OrbitStay::Verdict::left;
+    return gone < long_enough * period ? OrbitStay::Verdict::staying : OrbitStay::Verdict::stayed;
+}
+
+/// The motion is on such an orbit. No multiplier says that it will stay: it has to repeat itself for long.
+bool AttractorSearch::begin_repeating() {
+    repeating_ = staying_ = true;
+    repeating_since_ = watcher_.returns();
+    return go_on_staying();
+}
+
+bool AttractorSearch::go_on_staying() {
+    const OrbitStay::Verdict verdict = repeating_ ? go_on_repeating() : stay_.look(finder_, watcher_, periods_);
+    if (verdict == OrbitStay::Verdict::stayed)
+        return finish_periodic();
+    const std::size_t most = longest_stay * setting_->options.cycles;
+    if (verdict == OrbitStay::Verdict::staying && !repeating_ && stay_.gone(watcher_) >= most) {
+        finish(Label::unsettled);
+        result_.outcome.detail = fmt::format(
+            "the motion has stayed close to a stable orbit of period {} for {} returns, of {} after which it "
+            "could be known not to leave again; raise `cycles`",
+            finder_.period(), stay_.gone(watcher_), stay_.needed());
+        return false;
+    }
+    if (verdict == OrbitStay::Verdict::staying) {
+        watcher_.stop_after(watcher_.returns() + 1);
+        extend();
+        return true;
+    }
+    note_passed_orbit();
+    staying_ = repeating_ = guessed_ = false;
+    // Time for the exponent, if it was due in the meantime.
+    if (!exponent_.begun())
+        limit_ = std::max(limit_, watcher_.returns() + exponent_cycles());
+    if (finder_.period() < thresholds_.size())
+        thresholds_[finder_.period()] /= 3; // the next try begins closer to the orbit
+    if (++tries_ > most_tries && finder_.period() < thresholds_.size())
+        thresholds_[finder_.period()] = -1;
+    return go_on();
+}
+
+/// An orbit was found that the motion does not settle on.
+void AttractorSearch::note_passed_orbit() {
+    const auto& multipliers = finder_.multipliers();
+    if (multipliers.empty() || std::abs(multipliers.front()) < 1)
+        passed_period_ = finder_.period();
+}
+
+/// Returns for which a motion must remain chaotic: more where it has passed by a stable orbit, on which it may settle
+/// when it happens to come close enough.
+std::size_t AttractorSearch::chaos_needed() const {
+    const std::size_t usual = std::max(setting_->options.cycles, setting_->options.chaos_cycles);
+    return passed_period_ > 0 ? beside_orbits * usual : usual;
+}
+
+void AttractorSearch::keep_chaos() {
+    recorder_.keep_last(setting_->options.keep);
+    const Return& last = watcher_.recent(0);
+    chaos_ = Chaos{last.state, last.mode, recorder_.samples(), exponent_.value(), exponent_.error()};
+}
+
+/// The motion is what it was after `cycles`, whatever became of it later.
+void AttractorSearch::return_to_chaos() {
+    const bool chaotic = result_.label == Label::chaotic;
+    if (!chaotic && (result_.label == Label::unsettled || result_.label == Label::failed))
+        return;
+    if (!chaotic) {
+        PointResult result;
+        result.label = Label::transient;
+        result.outcome = result_.outcome;
+        result.outcome.detail = fmt::format(
+            "chaotic for up to {} returns, then {}{}", result_.cycles, name_of(result_.label),
+            result_.label == Label::periodic ? fmt::format(" with period {}", result_.period) : std::string());
+        result.cycles = result_.cycles;
+        result.periods_run = result_.periods_run;
+        result.time = result_.time;
+        result.lyapunov = chaos_->lyapunov;
+        result.lyapunov_error = chaos_->error;
+        result_ = std::move(result);
+    }
+    result_.state = chaos_->state;
+    result_.mode = chaos_->mode;
+    result_.samples = std::move(chaos_->samples);
+}
+
+/// Many transients look chaotic until they suddenly settle: the motion is followed for longer. A stable orbit is looked
+/// for in its middle.
+std::optional<bool> AttractorSearch::confirm_chaos() {
+    confirming_ = true;
+    if (++chaotic_ == 1 && setting_->options.stay_in_transients)
+        keep_chaos();
+    chaotic_since_ = watcher_.returns();
+    limit_ = chaotic_since_ + chaos_needed();
+    visited_.values.clear();
+    std::fill(thresholds_.begin(), thresholds_.end(), setting_->options.recurrence);
+    guesses_ = {middle_of(watcher_, setting_->map, 1, periods_)};
+    return try_next_guess();
+}
+
+/// A motion that was taken for chaotic has been followed for longer.
+std::optional<bool> AttractorSearch::conclude_chaos() {
+    exponent_.catch_up();
+    if (exponent_.known() && exponent_.is_positive() &&
+        exponent_.value_over_last(last_share) > part_still * exponent_.value() &&
+        !growth_.is_linear(watcher_, exponent_.returns())) {
+        if (watcher_.returns() < chaotic_since_ + chaos_needed()) {
+            limit_ = chaotic_since_ + chaos_needed();
+            return std::nullopt;
+        }
+        finish(Label::chaotic);
+        if (passed_period_ > 0)
+            result_.outcome.detail = fmt::format("chaotic for {} returns; as it passes by a stable orbit of period {} "
+                                                 "it may be a transient that settles there later",
+                                                 result_.cycles, passed_period_);
+        return false;
+    }
+    // It has gone over into something else, of which an exponent has to tell anew.
+    confirming_ = false;
+    start_exponent(watcher_.has_stuck(watcher_.remembered()));
+    lengthen();
+    return std::nullopt;
+}
+
+} // namespace graze

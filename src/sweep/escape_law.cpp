@@ -1,0 +1,99 @@
+#include "graze/sweep/escape_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace graze {
+
+namespace {
+
+constexpr std::size_t fewest = 10;   ///< motions that leave
+constexpr double in_19_of_20 = 1.96; ///< standard errors
+/// Of Kolmogorov's distribution: times at which motions leave that have a constant rate contradict it once in ten
+/// cases.
+constexpr double contradicts = 1.22;
+constexpr std::size_t parts = 40; ///< of the motions that leave, after which the law may begin to hold
+
+/// The motions that are still there after so many returns.
+class Remainder {
+public:
+    /// @param sorted by their returns
+    Remainder(std::span<const Stay> sorted, std::size_t from) : from_(from) {
+        for (const Stay& stay : sorted)
+            if (stay.cycles > from)
+                stays_.push_back(stay);
+        for (const Stay& stay : stays_) {
+            left_ += stay.left ? 1 : 0;
+            at_risk_ += static_cast<double>(stay.cycles - from);
+        }
+    }
+
+    std::size_t left() const { return left_; }
+
+    /// Whether motions leave in proportion to how many returns all of them make together.
+    bool leave_steadily() const {
+        double risk = 0, largest = 0; // up to the return before
+        std::size_t gone = 0, time = from_, before = 0;
+        const auto compare = [&](double returns, std::size_t leaving) {
+            largest = std::max(
+                largest, std::abs(static_cast<double>(leaving) / static_cast<double>(left_) - returns / at_risk_));
+        };
+        while (before < stays_.size()) {
+            const std::size_t next = stays_[before].cycles;
+            const auto there = static_cast<double>(stays_.size() - before);
+            compare(risk + there * static_cast<double>(next - 1 - time), gone);
+            risk += there * static_cast<double>(next - time);
+            time = next;
+            for (; before < stays_.size() && stays_[before].cycles == next; ++before)
+                gone += stays_[before].left ? 1 : 0;
+            compare(risk, gone);
+        }
+        return largest * std::sqrt(static_cast<double>(left_)) < contradicts;
+    }
+
+    EscapeLaw law() const {
+        const double share = static_cast<double>(left_) / at_risk_; // that leaves from one return to the next
+        EscapeLaw law;
+        law.rate = -std::log1p(-share);
+        law.error = in_19_of_20 * std::sqrt(share / (at_risk_ * (1 - share)));
+        law.from = from_;
+        law.left = left_;
+        law.remaining = stays_.size() - left_;
+        return law;
+    }
+
+private:
+    std::size_t from_, left_ = 0;
+    double at_risk_ = 0; ///< returns of all motions together
+    std::vector<Stay> stays_;
+};
+
+} // namespace
+
+std::optional<EscapeLaw> escape_law(std::span<const Stay> stays) {
+    std::vector<Stay> sorted(stays.begin(), stays.end());
+    std::sort(sorted.begin(), sorted.end(), [](const Stay& a, const Stay& b) { return a.cycles < b.cycles; });
+    std::vector<std::size_t> times;
+    for (const Stay& stay : sorted)
+        if (stay.left)
+            times.push_back(stay.cycles);
+    if (times.size() < fewest)
+        return std::nullopt;
+    std::size_t before = 0;
+    for (std::size_t part = 0; part < parts; ++part) {
+        const std::size_t from = part == 0 ? 0 : times[part * times.size() / parts];
+        if (part > 0 && from == before)
+            continue;
+        before = from;
+        const Remainder remainder(sorted, from);
+        if (remainder.left() < fewest)
+            return std::nullopt;
+        // All at once are no law, but the time that it takes to see where motions are.
+        if (remainder.leave_steadily() && remainder.law().rate < 20)
+            return remainder.law();
+    }
+    return std::nullopt;
+}
+
+} // namespace graze

@@ -1,0 +1,36 @@
+#include "sweep/invariant_plane.hpp"
+
+#include <Eigen/SVD>
+
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+/// By which points may differ that lie on a plane: more than rounding makes of them, less than any disturbance.
+constexpr double in_plane = 1e-9;
+
+} // namespace
+
+Eigen::MatrixXd normals_of_plane(const Eigen::MatrixXd& points, const Eigen::VectorXd& away) {
+    const Eigen::Index count = points.rows(), size = points.cols();
+    if (size == 0 || count < 2 * size + 2)
+        return Eigen::MatrixXd(size, 0);
+    Eigen::MatrixXd rows(count + 1, size);
+    rows.topRows(count) = points.rowwise() - points.row(0);
+    const double length = away.norm();
+    rows.bottomRows(1).setZero();
+    if (length > 0)
+        rows.bottomRows(1) = away.transpose() / length * std::sqrt(static_cast<double>(count));
+    if (!rows.allFinite())
+        return Eigen::MatrixXd(size, 0);
+    const Eigen::JacobiSVD<Eigen::MatrixXd> factors(rows, Eigen::ComputeThinU | Eigen::ComputeFullV);
+    const double most = in_plane * std::sqrt(static_cast<double>(count));
+    Eigen::Index normals = 0;
+    while (normals < size && factors.singularValues()[size - 1 - normals] <= most)
+        ++normals;
+    return factors.matrixV().rightCols(normals);
+}
+
+} // namespace graze

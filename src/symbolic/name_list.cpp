@@ -1,0 +1,90 @@
+#include "graze/symbolic/name_list.hpp"
+
+#include "graze/symbolic/parser.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace graze {
+
+namespace {
+
+constexpr std::size_t longest_compared = 64; ///< letters of names
+
+std::string lower_case(std::string_view text) {
+    std::string result(text);
+    for (char& character : result)
+        if (character >= 'A' && character <= 'Z')
+            character = static_cast<char>(character - 'A' + 'a');
+    return result;
+}
+
+/// Least number of letters to insert, remove, replace or exchange with a neighbour.
+std::size_t edit_distance(std::string_view one, std::string_view other) {
+    std::vector<std::size_t> before_last(other.size() + 1), last(other.size() + 1), current(other.size() + 1);
+    std::iota(current.begin(), current.end(), std::size_t{0});
+    for (std::size_t row = 1; row <= one.size(); ++row) {
+        std::swap(before_last, last);
+        std::swap(last, current);
+        current[0] = row;
+        for (std::size_t column = 1; column <= other.size(); ++column) {
+            const std::size_t replaced = last[column - 1] + (one[row - 1] != other[column - 1]);
+            current[column] = std::min({replaced, last[column] + 1, current[column - 1] + 1});
+            if (row > 1 && column > 1 && one[row - 1] == other[column - 2] && one[row - 2] == other[column - 1])
+                current[column] = std::min(current[column], before_last[column - 2] + 1);
+        }
+    }
+    return current.back();
+}
+
+/// How far a name is from another: below all others those that it is a part of.
+std::size_t distance_between(const std::string& wanted, const std::string& candidate) {
+    const std::string other = lower_case(std::string_view(candidate).substr(0, longest_compared));
+    const std::size_t distance = edit_distance(wanted, other);
+    const bool part = wanted.size() > 1 && other.find(wanted) != std::string::npos;
+    return part ? distance : distance + longest_compared;
+}
+
+} // namespace
+
+std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
+    const std::string wanted = lower_case(name.substr(0, longest_compared + 1));
+    std::string nearest;
+    std::size_t least = 4; // more edits than this are no misspelling
+    for (const std::string& candidate : candidates) {
+        const std::size_t longer = std::max(name.size(), candidate.size());
+        if (longer > longest_compared)
+            continue;
+        const std::size_t distance = edit_distance(wanted, lower_case(candidate));
+        const std::size_t near = std::max<std::size_t>(1, longer / 3);
+        if (distance < least && distance < longer && distance <= near) {
+            least = distance;
+            nearest = candidate;
+        }
+    }
+    return nearest;
+}
+
+std::string name_list(const std::vector<std::string>& names, std::string_view wanted, std::size_t most) {
+    if (names.size() <= most)
+        return fmt::format("{}", fmt::join(names, ", "));
+    std::vector<std::string> shown;
+    if (wanted.empty()) {
+        shown.assign(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(most));
+    } else {
+        const std::string lower = lower_case(wanted.substr(0, longest_compared));
+        std::vector<std::pair<std::size_t, std::size_t>> order; // distance, place
+        for (std::size_t i = 0; i < names.size(); ++i)
+            order.emplace_back(distance_between(lower, names[i]), i);
+        std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(most), order.end());
+        for (std::size_t i = 0; i < most; ++i)
+            shown.push_back(names[order[i].second]);
+    }
+    return fmt::format("{} and {} more", fmt::join(shown, ", "), names.size() - most);
+}
+
+} // namespace graze

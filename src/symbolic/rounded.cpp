@@ -1,0 +1,21 @@
+#include "graze/symbolic/rounded.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <string>
+#include <system_error>
+
+namespace graze {
+
+double rounded(double value, int digits) {
+    if (!std::isfinite(value))
+        return value;
+    const std::string text = fmt::format("{:.{}g}", value, digits);
+    double result = value;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), result);
+    return error == std::errc() ? result : value; // such as the largest number, whose decimal may be beyond it
+}
+
+} // namespace graze

@@ -1,0 +1,19 @@
+#include "base/letter_case.hpp"
+
+#include <gtest/gtest.h>
+
+namespace graze {
+namespace {
+
+TEST(LetterCase, changes_letters_of_ascii_alone) {
+    EXPECT_EQ(in_small_letters("Outp:LOAD? 9.9E+37"), "outp:load? 9.9e+37");
+    EXPECT_EQ(in_capitals("vpp, 5 \xc2\xb5s"), "VPP, 5 \xc2\xb5S");
+    EXPECT_EQ(in_small_letters("\xc3\x84"
+                               "B"),
+              "\xc3\x84"
+              "b");
+    EXPECT_EQ(in_capitals(""), "");
+}
+
+} // namespace
+} // namespace graze

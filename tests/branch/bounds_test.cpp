@@ -1,0 +1,137 @@
+// Bounds hold whatever else lies in the step that comes to them: branch points, folds, and both at once.
+
+#include "follow.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace graze {
+namespace {
+
+using namespace graze::testing;
+using std::numbers::pi;
+
+/// u' = growth(u, mu) about x = cos(theta).
+Model about_a_clock(const std::string& growth) {
+    return model_from(fmt::format(R"toml(
+[parameters]
+mu = 1
+[states]
+x = 1
+theta = {{ initial = 0, period = "2*pi" }}
+[definitions]
+u = "x - cos(theta)"
+[modes.only]
+rates = {{ x = "{} - sin(theta)", theta = 1 }}
+[sections.start]
+state = "theta"
+value = 0
+)toml",
+                                  growth));
+}
+
+Orbit orbit_at(const Model& model, double mu, double u) {
+    return {parse_signature(model, "start"), {mu}, {{1 + u, 0}}, {2 * pi}, std::nullopt};
+}
+
+BranchSettings between(const Model& model, double least, double greatest, int direction) {
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter("mu");
+    settings.least = least;
+    settings.greatest = greatest;
+    settings.direction = direction;
+    return settings;
+}
+
+void expect_within(const Branch& branch, double least, double greatest) {
+    EXPECT_EQ(branch.outcome, BranchOutcome::bound) << branch.detail << ' ' << names(branch);
+    for (const BranchPoint& point : branch.points) {
+        EXPECT_GE(point.parameter, least);
+        EXPECT_LE(point.parameter, greatest);
+        EXPECT_EQ(point.solution.orbit.parameters[0], point.parameter);
+    }
+    for (const SpecialPoint& point : branch.special) {
+        EXPECT_GE(point.parameter, least) << short_name(point.type);
+        EXPECT_LE(point.parameter, greatest) << short_name(point.type);
+    }
+    ASSERT_FALSE(branch.points.empty());
+    const double end = branch.points.back().parameter;
+    EXPECT_TRUE(end == least || end == greatest) << end;
+}
+
+TEST(Bounds, hold_beside_and_on_a_branch_point) {
+    // Two straight branches cross at mu = 0: u = mu and u = 0.
+    const Model model = about_a_clock("mu*u - u^2");
+    for (const double bound : {0.0, 1e-3, 1e-7, 1e-10, -1e-10, -1e-7, -1e-4, -0.01, -0.3})
+        for (const bool straight : {false, true}) {
+            const Branch branch =
+                follow_branch(model, orbit_at(model, 1, straight ? 0 : 1), between(model, bound, 2, -1));
+            expect_within(branch, bound, 2);
+            EXPECT_EQ(branch.points.back().parameter, bound) << bound;
+            if (bound <= 0 || bound > 1e-9) { // nearer before the crossing, round-off decides on which side that is
+                EXPECT_EQ(names(branch), bound <= 0 ? "BP BD" : "BD") << bound;
+            }
+            for (const SpecialPoint& point : of_type(branch, PointType::branch_point))
+                EXPECT_NEAR(point.parameter, 0, 1e-9);
+        }
+    // From below, towards the other bound.
+    for (const double bound : {0.0, 1e-4, -1e-4}) {
+        const Branch branch = follow_branch(model, orbit_at(model, -1, 0), between(model, -2, bound, 1));
+        expect_within(branch, -2, bound);
+        EXPECT_EQ(branch.points.back().parameter, bound);
+    }
+}
+
+TEST(Bounds, hold_beside_a_pitchfork_and_a_fold) {
+    // On the parabola mu = u^2 the parameter turns where the other branch crosses.
+    const Model pitchfork = about_a_clock("mu*u - u^3");
+    for (const double bound : {1e-2, 1e-4, 1e-7})
+        expect_within(follow_branch(pitchfork, orbit_at(pitchfork, 1, 1), between(pitchfork, bound, 2, -1)), bound, 2);
+    const Model fold = about_a_clock("mu - u^2");
+    for (const double bound : {1e-2, 1e-5, 1e-9})
+        expect_within(follow_branch(fold, orbit_at(fold, 1, 1), between(fold, bound, 2, -1)), bound, 2);
+    const Branch beyond = follow_branch(fold, orbit_at(fold, 1, 1), between(fold, -1e-3, 2, -1));
+    expect_within(beyond, -1e-3, 2);
+    EXPECT_EQ(names(beyond), "SN BD");
+    EXPECT_EQ(beyond.points.back().parameter, 2);
+}
+
+TEST(Bounds, hold_on_branches_that_leave_a_point) {
+    const Model model = about_a_clock("mu*u - u^2");
+    for (const double bound : {-1e-3, -1e-5, -0.5}) {
+        const BranchSettings settings = between(model, bound, 2, -1);
+        const Branch first = follow_branch(model, orbit_at(model, 1, 0), settings);
+        const auto points = of_type(first, PointType::branch_point);
+        ASSERT_EQ(points.size(), 1U);
+        std::size_t reached = 0;
+        for (const BranchStart& start : branches_at(model, points.front(), settings)) {
+            const Branch other = follow(model, start, settings);
+            for (const BranchPoint& point : other.points) {
+                EXPECT_GE(point.parameter, bound);
+                EXPECT_NEAR(point.solution.orbit.starts[0][0] - 1, point.parameter, 1e-9);
+            }
+            EXPECT_EQ(other.outcome, BranchOutcome::bound);
+            reached += other.points.empty() ? 0 : 1;
+        }
+        EXPECT_GE(reached, 1U);
+    }
+}
+
+TEST(Bounds, of_monitors_hold_from_the_first_orbit_on) {
+    const Model model = about_a_clock("mu - u");
+    BranchSettings settings = between(model, -2, 2, 1);
+    settings.monitors = {{"start", "", Monitor::Kind::start, model.symbol("x"), "", false, {}, {}, 1.2, 1.5}};
+    const Branch none = follow_branch(model, orbit_at(model, 1, 1), settings);
+    EXPECT_TRUE(none.points.empty());
+    EXPECT_EQ(none.outcome, BranchOutcome::bound);
+    EXPECT_NE(none.detail.find("start = 2"), std::string::npos) << none.detail;
+    const Branch branch = follow_branch(model, orbit_at(model, 0.3, 0.3), settings);
+    EXPECT_EQ(branch.outcome, BranchOutcome::bound);
+    EXPECT_NEAR(branch.points.back().parameter, 0.5, 1e-9);
+}
+
+} // namespace
+} // namespace graze

@@ -1,0 +1,80 @@
+// Hopf points do not depend on the section at which orbits are looked at: those of textbook oscillators, in closed
+// form, by sections that miss the equilibrium.
+
+#include "follow.hpp"
+#include "maps.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace graze {
+namespace {
+
+using namespace graze::testing;
+using std::numbers::pi;
+
+/// Parameters of a branch rise or fall up to its end, where round-off decides: nothing is gone over twice.
+void expect_no_return(const Branch& branch) {
+    for (std::size_t k = 2; k < branch.points.size(); ++k)
+        EXPECT_GT((branch.points[k].parameter - branch.points[k - 1].parameter) *
+                      (branch.points[1].parameter - branch.points[0].parameter),
+                  -1e-12)
+            << k;
+}
+
+TEST(HopfPoint, of_a_mass_on_a_belt_is_found_by_any_section) {
+    // The trace of the Jacobian at the equilibrium is 1 - a^2.
+    for (const char* section : {"x", "x + 0.5", "x - 0.2", "x + 0.2", "v - 0.1", "x + 0.8", "v + 0.2", "x + v", "v"}) {
+        const Model model = model_from(fmt::format(R"toml(
+[parameters]
+a = 0.5
+[states]
+x = 1
+v = 0
+[modes.f]
+rates = {{ x = "v", v = "-x - ((v-a)^3/3 - (v-a))" }}
+[sections.s]
+function = "{}"
+direction = "rising"
+)toml",
+                                                   section));
+        const Branch branch = follow_branch(model, settled(model, "s").orbit, in_parameter(model, "a", 0.1, 2));
+        EXPECT_EQ(names(branch), "EX HB") << section;
+        EXPECT_EQ(branch.outcome, BranchOutcome::shrunk) << section;
+        ASSERT_FALSE(branch.special.empty());
+        EXPECT_NEAR(branch.special.back().parameter, 1, 1e-10) << section;
+        EXPECT_NEAR(branch.special.back().solution.orbit.period(), 2 * pi, 1e-8) << section;
+        expect_no_return(branch);
+    }
+}
+
+TEST(HopfPoint, of_the_brusselator_is_found_by_any_section) {
+    for (const char* section : {"x - 0.99", "x - 0.8", "x - 0.6", "x - 1.2", "x - 1.5", "x - 1"}) {
+        const Model model = model_from(fmt::format(R"toml(
+[parameters]
+a = 2.5
+[states]
+x = 1.5
+y = 2
+[modes.f]
+rates = {{ x = "1 - (a+1)*x + x^2*y", y = "a*x - x^2*y" }}
+[sections.s]
+function = "{}"
+direction = "rising"
+)toml",
+                                                   section));
+        BranchSettings settings = in_parameter(model, "a", 1, 4);
+        settings.direction = -1;
+        const Branch branch = follow_branch(model, settled(model, "s").orbit, settings);
+        EXPECT_EQ(names(branch), "HB") << section;
+        ASSERT_FALSE(branch.special.empty());
+        EXPECT_NEAR(branch.special.back().parameter, 2, 1e-10) << section;
+        EXPECT_NEAR(branch.special.back().solution.orbit.period(), 2 * pi, 1e-8) << section;
+        expect_no_return(branch);
+    }
+}
+
+} // namespace
+} // namespace graze

@@ -1,0 +1,73 @@
+// Multipliers that cross within one step of a branch, or at one place: of maps whose multipliers are closed forms.
+
+#include "follow.hpp"
+#include "maps.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace graze {
+namespace {
+
+using namespace graze::testing;
+
+Branch of_map(const std::string& parameters, const std::vector<std::string>& images, double least, double greatest) {
+    const Model model = map_model(parameters, images);
+    return follow_branch(model, fixed_point(model, std::vector<double>(images.size(), 0.0)),
+                         in_parameter(model, "p", least, greatest));
+}
+
+TEST(MissedPoints, two_flips_within_one_step_are_both_found) {
+    for (const double apart : {1e-3, 1e-5}) {
+        const Branch branch =
+            of_map("p = 0.5", {"-p*x - 0.5*x^3", fmt::format("-p*y/{:.17g} - 0.5*y^3", 1 + apart)}, 0.1, 1.9);
+        ASSERT_EQ(names(branch), "PD PD BD") << apart;
+        EXPECT_NEAR(branch.special[0].parameter, 1, 1e-9);
+        EXPECT_NEAR(branch.special[1].parameter, 1 + apart, 1e-9);
+    }
+}
+
+TEST(MissedPoints, two_branch_points_within_one_step_are_both_found) {
+    const Branch branch = of_map("p = 0.5", {"p*x - x^3", "p*y/1.001 - y^3"}, 0.2, 1.9);
+    ASSERT_EQ(names(branch), "BP BP BD");
+    EXPECT_NEAR(branch.special[0].parameter, 1, 1e-7);
+    EXPECT_NEAR(branch.special[1].parameter, 1.001, 1e-7);
+}
+
+TEST(MissedPoints, multipliers_that_cross_together_are_counted) {
+    const Branch flips = of_map("p = 0.5", {"-p*x - 0.5*x^3", "-p*y - 0.5*y^3"}, 0.1, 1.9);
+    ASSERT_EQ(names(flips), "PD BD");
+    EXPECT_NEAR(flips.special[0].parameter, 1, 1e-8);
+    EXPECT_NE(flips.special[0].detail.find("2 multipliers cross -1 at once"), std::string::npos);
+    const Branch crossings = of_map("p = 0.5", {"p*x - x^3", "p*y - y^3"}, 0.2, 1.9);
+    ASSERT_EQ(names(crossings), "BP BD");
+    EXPECT_NEAR(crossings.special[0].parameter, 1, 1e-6);
+    EXPECT_NE(crossings.special[0].detail.find("2 multipliers cross 1 at once"), std::string::npos);
+}
+
+TEST(MissedPoints, a_pitchfork_from_the_branch_that_turns_is_one_point) {
+    const Model model = map_model("p = 1.3", {"p*x - x^3"});
+    BranchSettings settings = in_parameter(model, "p", 0.5, 3);
+    settings.direction = -1;
+    const Branch branch = follow_branch(model, fixed_point(model, {std::sqrt(0.3)}), settings);
+    EXPECT_EQ(of_type(branch, PointType::fold).size(), 0U) << names(branch);
+    ASSERT_EQ(of_type(branch, PointType::branch_point).size(), 1U) << names(branch);
+    EXPECT_NEAR(of_type(branch, PointType::branch_point)[0].parameter, 1, 1e-9);
+}
+
+TEST(MissedPoints, coefficients_that_are_round_off_decide_nothing) {
+    const Branch flip = of_map("p = 0.5", {"-p*x + 0.3"}, 0.1, 1.9);
+    ASSERT_EQ(of_type(flip, PointType::flip).size(), 1U) << names(flip);
+    EXPECT_TRUE(of_type(flip, PointType::flip)[0].detail.starts_with("criticality not decided"))
+        << of_type(flip, PointType::flip)[0].detail;
+    const Branch torus = of_map("p = -0.3", {"(1 + p)*(0.6*x - 0.8*y)", "(1 + p)*(0.8*x + 0.6*y)"}, -0.5, 0.5);
+    ASSERT_EQ(of_type(torus, PointType::torus).size(), 1U) << names(torus);
+    EXPECT_TRUE(of_type(torus, PointType::torus)[0].detail.starts_with("criticality not decided"))
+        << of_type(torus, PointType::torus)[0].detail;
+}
+
+} // namespace
+} // namespace graze

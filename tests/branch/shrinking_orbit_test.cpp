@@ -1,0 +1,208 @@
+// Branches of free oscillations that shrink to an equilibrium end there, and once: at values that normal forms, the
+// criterion of Routh and Hurwitz, or a scaling of the equations tell.
+
+#include "follow.hpp"
+#include "maps.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace graze {
+namespace {
+
+using namespace graze::testing;
+using std::numbers::pi;
+
+/// r' = r (mu - c r^2 - d r^4) about (mu a, 0), theta' = 1.3 + 0.2 mu + 0.5 r^2.
+Model normal_form(double c, double d, double mu, double radius, double a = 0) {
+    return model_from(fmt::format(R"toml(
+[parameters]
+mu = {:.17g}
+[states]
+x = {:.17g}
+y = 0
+[definitions]
+u = "x - mu*{}"
+s = "u^2 + y^2"
+growth = "mu - {}*s - {}*s^2"
+turn = "1.3 + 0.2*mu + 0.5*s"
+[modes.only]
+rates = {{ x = "growth*u - turn*y", y = "turn*u + growth*y" }}
+[sections.right]
+function = "y"
+direction = "rising"
+)toml",
+                                  mu, radius + mu * a, a, c, d));
+}
+
+Orbit circle(const Model& model, double mu, double radius, double a = 0) {
+    return {parse_signature(model, "right"),
+            model.parameter_values(),
+            {{radius + mu * a, 0}},
+            {2 * pi / (1.3 + 0.2 * mu + 0.5 * radius * radius)},
+            {}};
+}
+
+Branch down_from(const Model& model, const Orbit& orbit, const std::string& parameter, double least, double greatest,
+                 double largest_step = 0.05) {
+    BranchSettings settings = in_parameter(model, parameter, least, greatest);
+    settings.direction = -1;
+    settings.continuation.largest_step = largest_step;
+    return follow_branch(model, orbit, settings);
+}
+
+void expect_hopf(const Branch& branch, const Model& model, double parameter, double period) {
+    EXPECT_EQ(branch.outcome, BranchOutcome::shrunk) << name_of(branch.outcome) << branch.detail;
+    ASSERT_FALSE(branch.special.empty());
+    const SpecialPoint& end = branch.special.back();
+    EXPECT_EQ(end.type, PointType::hopf);
+    EXPECT_NEAR(end.parameter, parameter, 1e-10 * (1 + std::abs(parameter)));
+    EXPECT_NEAR(end.solution.orbit.period(), period, 1e-8 * period);
+    // What it says of its own error is true.
+    ASSERT_TRUE(end.solution.error);
+    const std::string detail = end.detail;
+    const double error = std::stod(detail.substr(detail.find("+-") + 3));
+    EXPECT_LE(std::abs(end.parameter - parameter), error) << detail;
+    EXPECT_LT(error, 1e-9 * (1 + std::abs(parameter))) << detail;
+    EXPECT_EQ(branch.points.back().parameter, end.parameter);
+    EXPECT_EQ(end.solution.orbit.parameters[model.independent_parameter("mu").place()], end.parameter);
+}
+
+TEST(ShrinkingOrbit, ends_at_a_hopf_point_of_a_normal_form) {
+    for (const double a : {0.0, 3.0})
+        for (const double largest : {0.05, 0.4, 0.013}) {
+            const Model model = normal_form(1, 0, 0.25, 0.5, a);
+            const Branch branch = down_from(model, circle(model, 0.25, 0.5, a), "mu", -1, 1, largest);
+            EXPECT_EQ(names(branch), "HB");
+            expect_hopf(branch, model, 0, 2 * pi / 1.3);
+            for (std::size_t k = 0; k + 1 < branch.points.size(); ++k) {
+                const BranchPoint& point = branch.points[k];
+                const double u = point.solution.orbit.starts[0][0] - a * point.parameter;
+                EXPECT_GT(u, 0); // nothing is gone over twice
+                EXPECT_NEAR(u * u, point.parameter, 1e-9);
+                // The multiplier is exp(-2 mu T), which counts as 1 from 1 - 1e-8 on: up to mu = 1e-9.
+                EXPECT_TRUE(point.stable || point.parameter < 2e-9);
+            }
+        }
+}
+
+TEST(ShrinkingOrbit, finds_a_fold_before_the_hopf_point) {
+    // mu = -c r^2 + r^4 turns at r^2 = c/2.
+    for (const double c : {1.0, 0.1, 0.01}) {
+        const double radius = std::sqrt(2 * c), mu = -c * radius * radius + std::pow(radius, 4);
+        const Model model = normal_form(-c, 1, mu, radius);
+        const Branch branch = down_from(model, circle(model, mu, radius), "mu", -10, 10);
+        ASSERT_EQ(names(branch), "SN HB") << c;
+        EXPECT_NEAR(branch.special[0].parameter, -c * c / 4, 1e-10);
+        expect_hopf(branch, model, 0, 2 * pi / 1.3);
+    }
+}
+
+TEST(ShrinkingOrbit, goes_where_the_criterion_of_routh_and_hurwitz_says) {
+    // A relief valve (C. Hos and A. R. Champneys, Physica D 241, 2012) loses its rest where (k + g)(k g + 1) = g + h.
+    constexpr double k = 1.25, beta = 20, delta = 10;
+    const auto lack = [](double y) {
+        const double root = std::sqrt(y + delta), g = beta * y / (2 * root), h = beta * root;
+        return (k + g) * (k * g + 1) - g - h;
+    };
+    double low = 0.1, high = 10;
+    for (int i = 0; i < 200; ++i)
+        (lack(0.5 * (low + high)) < 0 ? low : high) = 0.5 * (low + high);
+    const double flow = low * std::sqrt(low + delta), g = beta * low / (2 * std::sqrt(low + delta));
+    const Model model = model_from(R"toml(
+[parameters]
+mu = 8
+[states]
+y1 = 2.4
+y2 = 0
+y3 = 13
+[modes.open]
+rates = { y1 = "y2", y2 = "-1.25*y2 - (y1 + 10) + y3", y3 = "20*(mu - y1*sqrt(y3))" }
+watch = ["seat"]
+[events.seat]
+function = "y1"
+[jumps.bounce]
+y2 = "-0.8*y2"
+[[transitions]]
+mode = "open"
+event = "seat"
+jump = "bounce"
+next = "open"
+[sections.highest]
+function = "y2"
+direction = "falling"
+)toml");
+    BranchSettings settings = in_parameter(model, "mu", 1, 20);
+    const Branch branch = follow_branch(model, settled(model, "highest").orbit, settings);
+    EXPECT_EQ(names(branch), "HB");
+    EXPECT_NEAR(flow, 8.491118, 5e-7);
+    expect_hopf(branch, model, flow, 2 * pi / std::sqrt(k * g + 1));
+}
+
+TEST(ShrinkingOrbit, in_proportion_to_the_parameter_ends_on_a_surface) {
+    // Growing about x = mu on the right of x = 0 and decaying on its left, all in proportion to mu.
+    const Model model = model_from(R"toml(
+[parameters]
+mu = 1
+[states]
+x = 1
+v = 1
+[modes.right]
+rates = { x = "v", v = "mu - x + 0.2*v" }
+watch = ["leave_right"]
+[modes.left]
+rates = { x = "v", v = "mu - x - 0.6*v" }
+watch = ["leave_left"]
+[events.leave_right]
+function = "x"
+kind = "section"
+[events.leave_left]
+function = "-x"
+kind = "section"
+[[transitions]]
+mode = "right"
+event = "leave_right"
+label = "to_left"
+next = "left"
+[[transitions]]
+mode = "left"
+event = "leave_left"
+label = "to_right"
+next = "right"
+[sections.rightmost]
+function = "v"
+direction = "falling"
+[initial]
+mode = "right"
+)toml");
+    const OrbitSolution first = settled(model, "rightmost");
+    const Branch branch = down_from(model, first.orbit, "mu", -1, 2);
+    EXPECT_EQ(names(branch), "HB");
+    expect_hopf(branch, model, 0, first.orbit.period());
+    EXPECT_NE(branch.special.back().detail.find("on the surface of event"), std::string::npos);
+}
+
+TEST(ShrinkingOrbit, is_none_where_a_clock_goes_on) {
+    // A force p cos(theta) on a linear oscillator: at p = 0 nothing moves but the clock, and the branch goes through.
+    const Model model = model_from(R"toml(
+[parameters]
+mu = 0.5
+[states]
+x = 0
+v = 0
+theta = { initial = 0, period = "2*pi" }
+[modes.only]
+rates = { x = "v", v = "mu*cos(theta) - 0.4*v - 4*x", theta = 1 }
+[sections.start]
+state = "theta"
+value = 0
+)toml");
+    const Branch branch = down_from(model, settled(model, "start").orbit, "mu", -0.5, 1);
+    EXPECT_EQ(names(branch), "BD");
+    EXPECT_EQ(branch.outcome, BranchOutcome::bound);
+}
+
+} // namespace
+} // namespace graze

@@ -1,0 +1,213 @@
+// Branches of orbits that come to touch the section at which they are cut only, and then no longer reach it: orbits and
+// multipliers in closed form, which know nothing of sections.
+
+#include "follow.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace graze {
+namespace {
+
+using namespace graze::testing;
+using std::numbers::pi;
+
+/// A circle of the radius r with r' = r g(r, mu), at the frequency w, in the plane of x and y; the section is x =
+/// level.
+std::string circle(const std::string& growth, double level, const std::string& direction, const std::string& more = "",
+                   const std::string& states = "") {
+    return fmt::format(R"toml(
+[parameters]
+mu = 1
+[states]
+x = 1
+y = 0
+{}
+[definitions]
+w = 1.3
+s = "x^2 + y^2"
+g = "{}"
+[modes.only]
+rates = {{ x = "g*x - w*y", y = "w*x + g*y"{} }}
+[sections.level]
+function = "x - {:.17g}"
+direction = "{}"
+)toml",
+                       states, growth, more, level, direction);
+}
+constexpr double round = 2 * pi / 1.3;
+
+Orbit on_circle(const Model& model, double mu, double radius, double level, bool falling,
+                std::vector<double> further = {}) {
+    const double y = std::sqrt(radius * radius - level * level) * (falling ? 1 : -1);
+    std::vector<double> start{level, y};
+    start.insert(start.end(), further.begin(), further.end());
+    return {parse_signature(model, "level"), {mu}, {start}, {round}, std::nullopt};
+}
+
+double radius_of(const BranchPoint& point) {
+    const std::vector<double>& start = point.solution.orbit.starts[0];
+    return std::hypot(start[0], start[1]);
+}
+
+TEST(TouchedSection, circle_shrinks_through_it) {
+    for (const bool falling : {true, false})
+        for (const double level : {0.5, -0.4}) {
+            const Model model = model_from(circle("mu - s", level, falling ? "falling" : "rising"));
+            BranchSettings settings;
+            settings.parameter = model.independent_parameter("mu");
+            settings.least = 0.01;
+            settings.greatest = 2;
+            settings.direction = -1;
+            const Branch branch = follow_branch(model, on_circle(model, 1, 1, level, falling), settings);
+            EXPECT_EQ(branch.outcome, BranchOutcome::bound) << branch.detail;
+            EXPECT_EQ(names(branch), "BD") << level << falling;
+            for (const BranchPoint& point : branch.points) {
+                EXPECT_NEAR(radius_of(point), std::sqrt(point.parameter), 1e-9);
+                EXPECT_NEAR(point.solution.orbit.period(), round, 1e-9);
+                ASSERT_EQ(point.solution.multipliers.size(), 1U);
+                EXPECT_NEAR(point.solution.multipliers[0].real(), std::exp(-2 * point.parameter * round), 1e-8);
+                EXPECT_TRUE(point.stable);
+            }
+            EXPECT_EQ(to_string(model, branch.points.front().solution.orbit.signature), "level");
+            EXPECT_EQ(to_string(model, branch.points.back().solution.orbit.signature), "~");
+            // And back from there, with the cut, to where the circle is large.
+            settings.direction = 1;
+            const Branch back = follow_branch(model, branch.points.back().solution.orbit, settings);
+            EXPECT_EQ(names(back), "BD");
+            EXPECT_EQ(back.points.back().parameter, 2);
+            EXPECT_NEAR(radius_of(back.points.back()), std::sqrt(2.0), 1e-9);
+        }
+}
+
+/// r' = r (mu + r^2 - r^4): two circles meet at mu = -1/4, where the section has been left already.
+TEST(TouchedSection, fold_beyond_it_is_found) {
+    const double level = 0.8;
+    const Model model = model_from(circle("mu + s - s^2", level, "falling"));
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter("mu");
+    settings.least = -1;
+    settings.greatest = -0.05;
+    settings.direction = -1;
+    const double mu = -0.1, radius = std::sqrt(0.5 + std::sqrt(0.25 + mu));
+    const Branch branch = follow_branch(model, on_circle(model, mu, radius, level, true), settings);
+    ASSERT_EQ(names(branch), "SN BD") << branch.detail;
+    EXPECT_NEAR(branch.special[0].parameter, -0.25, 1e-10);
+    EXPECT_EQ(branch.special[1].parameter, -0.05);
+    for (const BranchPoint& point : branch.points) {
+        const double s = std::pow(radius_of(point), 2);
+        EXPECT_NEAR(point.parameter + s - s * s, 0, 1e-9);
+    }
+    // Not where the section is touched, at s = level^2.
+    EXPECT_LT(radius_of(branch.points.back()), level);
+}
+
+/// Beside the circle (p, q), which turn by half a turn in each round: multipliers -exp(a T) and -exp(-T). Two orbits
+/// of twice the period with p^2 = a leave at a = mu - 0.1 = 0.
+const char* const half_turns =
+    R"(, p = "(0.5*(a - 1) - (p^2 + q^2))*p + 0.5*(a + 1)*(c*p + d*q) - 0.5*w*q", q = "(0.5*(a - 1) - (p^2 + q^2))*q + 0.5*(a + 1)*(d*p - c*q) + 0.5*w*p")";
+
+TEST(TouchedSection, flip_beyond_it_is_found_and_left) {
+    const double level = 0.5;
+    std::string text = circle("mu - s", level, "falling", half_turns, "p = 0\nq = 0");
+    text.replace(text.find("w = 1.3"), 7, "w = 1.3\na = \"mu - 0.1\"\nc = \"x/sqrt(s)\"\nd = \"y/sqrt(s)\"");
+    const Model model = model_from(text);
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter("mu");
+    settings.least = 0.02;
+    settings.greatest = 0.9;
+    settings.direction = -1;
+    const Branch branch = follow_branch(model, on_circle(model, 0.9, std::sqrt(0.9), level, true, {0, 0}), settings);
+    ASSERT_EQ(names(branch), "PD BD") << branch.detail;
+    expect_flip(branch.special[0]);
+    EXPECT_NEAR(branch.special[0].parameter, 0.1, 1e-9);
+    for (const BranchPoint& point : branch.points)
+        EXPECT_LT(nearest_multiplier(point.solution, -std::exp((point.parameter - 0.1) * round)), 1e-6);
+    const Branch doubled = follow(model, branches_at(model, branch.special[0], settings).front(), settings);
+    ASSERT_GT(doubled.points.size(), 5U) << doubled.detail;
+    for (const BranchPoint& point : doubled.points) {
+        const std::vector<double>& start = point.solution.orbit.starts[0];
+        EXPECT_NEAR(start[2] * start[2] + start[3] * start[3], point.parameter - 0.1, 1e-9);
+        EXPECT_NEAR(point.solution.orbit.period(), 2 * round, 1e-9);
+        EXPECT_NEAR(radius_of(point), std::sqrt(point.parameter), 1e-9);
+    }
+    EXPECT_EQ(names(doubled), "BD");
+    // Down again it comes back to the orbits of half its period.
+    settings.direction = -1;
+    const Branch back = follow_branch(model, doubled.points.back().solution.orbit, settings);
+    EXPECT_EQ(back.outcome, BranchOutcome::returned) << back.detail << names(back);
+    EXPECT_NEAR(back.points.back().parameter, 0.1, 1e-6);
+}
+
+/// The circle is run through at two frequencies, on either side of x = 0, and has a section on its way.
+TEST(TouchedSection, orbits_with_events_go_on_without_it) {
+    const Model model = model_from(R"toml(
+[initial]
+mode = "right"
+[parameters]
+mu = 1
+[states]
+x = 1
+y = 0
+[definitions]
+g = "mu - x^2 - y^2"
+[events.in]
+function = "x"
+kind = "section"
+[events.out]
+function = "-x"
+kind = "section"
+[modes.right]
+rates = { x = "g*x - 2*y", y = "2*x + g*y" }
+watch = ["in"]
+[modes.left]
+rates = { x = "g*x - y", y = "x + g*y" }
+watch = ["out"]
+[[transitions]]
+mode = "right"
+event = "in"
+next = "left"
+label = "in"
+[[transitions]]
+mode = "left"
+event = "out"
+next = "right"
+label = "out"
+[sections.level]
+function = "x - 0.5"
+direction = "falling"
+)toml");
+    const double y = std::sqrt(0.75), angle = std::atan2(y, 0.5);
+    Orbit orbit{parse_signature(model, "in out level"),
+                {1.0},
+                {{0.5, y}, {0, 1}, {0, -1}},
+                {0.5 * (pi / 2 - angle), pi, 0.5 * (pi / 2 + angle)},
+                std::nullopt};
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter("mu");
+    settings.least = 0.04;
+    settings.greatest = 2;
+    settings.direction = -1;
+    Branch branch = follow_branch(model, orbit, settings);
+    EXPECT_EQ(names(branch), "BD") << branch.detail;
+    EXPECT_EQ(branch.points.back().parameter, 0.04);
+    EXPECT_EQ(to_string(model, branch.points.back().solution.orbit.signature), "in out");
+    for (const BranchPoint& point : branch.points) {
+        EXPECT_NEAR(radius_of(point), std::sqrt(point.parameter), 1e-9);
+        EXPECT_NEAR(point.solution.orbit.period(), 1.5 * pi, 1e-9);
+        EXPECT_NEAR(point.solution.multipliers.at(0).real(), std::exp(-3 * pi * point.parameter), 1e-8);
+    }
+    // What is told of the passage of the section has no value beyond: the branch ends there, and says so.
+    settings.monitors = {{"speed", "", Monitor::Kind::value, model.symbol("y"), "level", false, {}, {}, {}, {}}};
+    branch = follow_branch(model, orbit, settings);
+    EXPECT_EQ(branch.outcome, BranchOutcome::undefined);
+    EXPECT_EQ(names(branch), "");
+    EXPECT_NE(branch.detail.find("section 'level'"), std::string::npos) << branch.detail;
+    EXPECT_GE(branch.points.back().parameter, 0.25);
+    EXPECT_LT(branch.points.back().parameter, 0.26);
+}
+
+} // namespace
+} // namespace graze

@@ -1,0 +1,90 @@
+#include "identify/impact_proportion.hpp"
+
+#include "graze/identify/restitution.hpp"
+#include "identify/noise.hpp"
+
+#include <algorithm>
+
+namespace graze::testing {
+
+namespace {
+
+/// Impacts of a ball that bounces, at speeds that fall by the restitution.
+std::vector<RecordedImpact> bounces(Noise& noise, double offset, double by_speed, double deviation) {
+    std::vector<RecordedImpact> impacts;
+    double speed = 1;
+    for (int k = 0; k < 8; ++k) {
+        const double e = 0.85 - by_speed * (speed - 0.6), after = -e * speed;
+        RecordedImpact& one = impacts.emplace_back();
+        one.before = speed + offset + deviation * noise.normal();
+        one.after = after + offset + 1.5 * deviation * noise.normal();
+        one.before_error = deviation;
+        one.after_error = 1.5 * deviation;
+        speed = -after;
+    }
+    return impacts;
+}
+
+ImpactProportion tested(const std::vector<RecordedImpact>& impacts) {
+    std::vector<ImpactSpeeds> speeds;
+    for (const RecordedImpact& one : impacts)
+        speeds.push_back({one.before, one.after, one.before_error, one.after_error});
+    return test_proportion(impacts, restitution(speeds).coefficient.value);
+}
+
+} // namespace
+
+/// The level is what it says: of honest impacts no more than this share is told to be none, and no fewer than a fifth
+/// of it (of several terms that are tested the chances are added, as if they were independent).
+TEST(ImpactProportion, ErrsAsOftenAsItsLevelSays) {
+    constexpr std::size_t records = 4000;
+    constexpr double level = 0.05;
+    std::size_t offsets = 0, changes = 0, rare = 0;
+    for (std::size_t seed = 0; seed < records; ++seed) {
+        Noise noise(seed);
+        const ImpactProportion test = tested(bounces(noise, 0, 0, 0.004));
+        offsets += test.offset < level ? 1 : 0;
+        changes += test.change < level ? 1 : 0;
+        rare += std::min(test.offset, test.change) < 1e-3 ? 1 : 0;
+    }
+    constexpr double four_deviations = 55; // of a number with a mean of 200
+    EXPECT_LT(static_cast<double>(offsets), level * records + four_deviations);
+    EXPECT_LT(static_cast<double>(changes), level * records + four_deviations);
+    EXPECT_GT(static_cast<double>(offsets), level * records / 5);
+    EXPECT_GT(static_cast<double>(changes), level * records / 5);
+    EXPECT_LE(rare, 8U + 12U); // twice a thousandth of them, and four deviations
+}
+
+/// An offset of ten times the error of a velocity hides in the scatter that it makes itself, and not in the errors.
+TEST(ImpactProportion, SeesAnOffsetAndAChangeWithSpeed) {
+    for (std::size_t seed = 0; seed < 50; ++seed) {
+        Noise noise(seed);
+        const ImpactProportion shifted = tested(bounces(noise, 0.05, 0, 0.005));
+        EXPECT_LT(shifted.offset, 1e-3) << seed;
+        EXPECT_GT(shifted.scatter, 3) << seed;
+        EXPECT_LT(tested(bounces(noise, 0, 0.2, 0.005)).change, 1e-3) << seed;
+    }
+}
+
+/// A restitution that differs from impact to impact leaves more than errors with any term: the scatter is its error.
+TEST(ImpactProportion, SaysNothingWhereImpactsDifferByMoreThanTheirErrors) {
+    std::size_t told = 0;
+    for (std::size_t seed = 0; seed < 200; ++seed) {
+        Noise noise(seed);
+        std::vector<RecordedImpact> impacts = bounces(noise, 0, 0, 0.001);
+        for (RecordedImpact& one : impacts)
+            one.after *= 1 + 0.05 * noise.normal();
+        const ImpactProportion test = tested(impacts);
+        told += std::min(test.offset, test.change) < 1e-3 ? 1 : 0;
+    }
+    EXPECT_LE(told, 4U);
+}
+
+TEST(ImpactProportion, CountsImpactsThatAreNone) {
+    const RecordedImpact good{0, 0, 1, 0.1, -0.8, 0.1, 0}, weak{0, 0, 0.1, 0.1, -0.8, 0.1, 0},
+        through{0, 0, 1, 0.1, 0.8, 0.1, 0}, plastic{0, 0, 1, 0.1, 0.15, 0.1, 0};
+    EXPECT_EQ(doubtful_impacts(std::vector{good, weak, through, good, plastic}), 2U);
+    EXPECT_EQ(doubtful_impacts({}), 0U);
+}
+
+} // namespace graze::testing

@@ -1,0 +1,297 @@
+// Records, what is made of them, and experiments.
+
+#include "misuse/wrong_use.hpp"
+
+#include "graze/acquire/instrument_line.hpp"
+#include "graze/acquire/settling.hpp"
+#include "graze/identify/coupling.hpp"
+#include "graze/identify/decrement.hpp"
+#include "graze/identify/estimate.hpp"
+#include "graze/identify/impedance.hpp"
+#include "graze/identify/residual_test.hpp"
+#include "graze/identify/restitution.hpp"
+#include "graze/record/calibrated.hpp"
+#include "graze/record/derivative.hpp"
+#include "graze/record/extremes.hpp"
+#include "graze/record/harmonic.hpp"
+#include "graze/record/impacts.hpp"
+#include "graze/record/interpolate.hpp"
+#include "graze/record/low_pass.hpp"
+#include "graze/record/record_file.hpp"
+#include "graze/record/record_writer.hpp"
+#include "graze/record/section.hpp"
+#include "graze/record/spectrum.hpp"
+#include "symbolic/temporary_folder.hpp"
+
+#include <cmath>
+
+namespace graze {
+namespace {
+
+using namespace graze::testing;
+
+RecordHeader header() {
+    return {{"t", "s"}, {{"x", "mm"}, {"v", "mm/s"}}};
+}
+
+Samples wave(int rows = 400) {
+    Samples samples;
+    samples.values.resize(2);
+    for (int i = 0; i < rows; ++i) {
+        samples.times.push_back(i * 0.05);
+        samples.values[0].push_back(std::sin(i * 0.05));
+        samples.values[1].push_back(std::cos(i * 0.05));
+    }
+    return samples;
+}
+
+Period period() {
+    StoredSamples source(header(), wave());
+    PeriodSplitter splitter(source, {});
+    Period one;
+    splitter.next(one);
+    return one;
+}
+
+void samples(WrongUses& wrong) {
+    for (const auto& [name, last] : wrong_indices(401))
+        wrong("append_last_" + name, [last = last] { Samples().append(wave(), 0, last); });
+    wrong("append_reversed", [] { Samples().append(wave(), 5, 4); });
+    wrong("append_other_channels", [] {
+        Samples all = wave(), other = wave();
+        other.values.pop_back();
+        all.append(other);
+    });
+    wrong("append_ragged", [] {
+        Samples other = wave();
+        other.values[1].pop_back();
+        Samples().append(other);
+    });
+    wrong("drop_front_too_many", [] { wave().drop_front(401); });
+    wrong("drop_front_ragged", [] {
+        Samples ragged = wave();
+        ragged.values[1].clear();
+        ragged.drop_front(5);
+    });
+    const auto stored = [&](const std::string& name, const std::function<void(Samples&)>& change) {
+        wrong("stored_" + name, [change] {
+            Samples changed = wave();
+            change(changed);
+            StoredSamples(header(), changed);
+        });
+    };
+    stored("other_channels", [](Samples& s) { s.values.pop_back(); });
+    stored("ragged", [](Samples& s) { s.values[0].pop_back(); });
+    stored("times_fall", [](Samples& s) { s.times[3] = s.times[2]; });
+    for (const auto& [name, value] : not_finite()) {
+        stored("time_" + name, [value = value](Samples& s) { s.times[3] = value; });
+        stored("value_" + name, [value = value](Samples& s) { s.values[1][3] = value; });
+    }
+    wrong("channel_unknown", [] { keep(header().channel("y", "me")); });
+    wrong("channel_time", [] { keep(header().channel("t", "me")); });
+    wrong("read_all_too_many", [] {
+        StoredSamples source(header(), wave());
+        read_all(source, 10);
+    });
+}
+
+void writers(WrongUses& wrong) {
+    for (const std::string ending : {"h5", "csv"}) {
+        const auto writer = [&](const std::string& name, const std::function<void(RecordWriter&)>& use) {
+            wrong("writer_" + ending + "_" + name, [use, ending] {
+                const TemporaryFolder folder;
+                RecordWriter writer(folder / ("r." + ending), header());
+                use(writer);
+            });
+        };
+        const auto written = [&](const std::string& name, const std::function<void(Samples&)>& change) {
+            writer(name, [change](RecordWriter& w) {
+                Samples changed = wave();
+                change(changed);
+                w.write(changed);
+            });
+        };
+        written("other_channels", [](Samples& s) { s.values.pop_back(); });
+        written("more_channels", [](Samples& s) { s.values.push_back(s.times); });
+        written("ragged", [](Samples& s) { s.values[1].pop_back(); });
+        for (const auto& [name, value] : not_finite()) {
+            written("time_" + name, [value = value](Samples& s) { s.times[1] = value; });
+            written("value_" + name, [value = value](Samples& s) { s.values[0][1] = value; });
+        }
+        writer("write_after_close", [](RecordWriter& w) {
+            w.close();
+            w.write(wave());
+        });
+        writer("close_twice", [](RecordWriter& w) {
+            w.close();
+            w.close();
+        });
+        wrong("writer_" + ending + "_no_folder", [ending] { RecordWriter("/nowhere/at/all/r." + ending, header()); });
+        wrong("writer_" + ending + "_no_name", [ending] {
+            const TemporaryFolder folder;
+            RecordHeader nameless = header();
+            nameless.channels[0].name.clear();
+            RecordWriter(folder / ("r." + ending), nameless);
+        });
+        wrong("writer_" + ending + "_name_twice", [ending] {
+            const TemporaryFolder folder;
+            RecordHeader twice = header();
+            twice.channels[1].name = twice.channels[0].name;
+            RecordWriter(folder / ("r." + ending), twice);
+        });
+        wrong("open_missing_" + ending, [ending] { open_record("/nowhere/at/all/r." + ending); });
+    }
+    wrong("open_folder", [] { open_record("/"); });
+    wrong("header_empty", [] { parse_record_header("", {}); });
+    wrong("header_name_twice", [] { parse_record_header("t, x, x", {}); });
+}
+
+void stages(WrongUses& wrong) {
+    const auto on_record = [&](const std::string& name, const std::function<void(SampleSource&)>& use) {
+        wrong(name, [use] {
+            StoredSamples source(header(), wave());
+            use(source);
+        });
+    };
+    for (const auto& [name, index] : wrong_indices(2)) {
+        on_record("calibrated_channel_" + name,
+                  [index = index](SampleSource& s) { Calibrated(s, {.calibrations = {{index}}}); });
+        on_record("derivative_channel_" + name,
+                  [index = index](SampleSource& s) { WithDerivative(s, {.channel = index, .name = {}}); });
+        on_record("splitter_channel_" + name,
+                  [index = index](SampleSource& s) { PeriodSplitter(s, {.reference = index}); });
+        on_record("impacts_channel_" + name,
+                  [index = index](SampleSource& s) { ImpactFinder(s, {.velocity = index}); });
+        on_record("impacts_displacement_" + name,
+                  [index = index](SampleSource& s) { ImpactFinder(s, {.displacement = index}); });
+        on_record("spectrum_channel_" + name, [index = index](SampleSource& s) { averaged_spectrum(s, index, 16); });
+        wrong("extremes_channel_" + name, [index = index] { extremes(period(), index); });
+        wrong("amplitude_channel_" + name, [index = index] { keep(amplitude(period(), index)); });
+        wrong("image_channel_" + name, [index = index] { image_of(section(period(), 0), {.negated = {index}}); });
+    }
+    for (const auto& [name, value] : not_finite()) {
+        on_record("calibrated_factor_" + name, [value = value](SampleSource& s) {
+            Calibrated(s, {.calibrations = {{0, value}}});
+        });
+        on_record("splitter_level_" + name, [value = value](SampleSource& s) { PeriodSplitter(s, {.level = value}); });
+        on_record("splitter_hysteresis_" + name,
+                  [value = value](SampleSource& s) { PeriodSplitter(s, {.hysteresis = value}); });
+        wrong("section_phase_" + name, [value = value] { section(period(), value); });
+        wrong("image_shift_" + name,
+              [value = value] { image_of(section(period(), 0), {.negated = {}, .shift = value}); });
+        wrong("interpolate_" + name, [value = value] { keep(interpolate(wave(), value)); });
+        wrong("harmonic_" + name, [value = value] { fit_harmonic(wave().times, wave().values[0], value); });
+        wrong("spectrum_of_" + name, [value = value] { spectrum(std::vector<double>{1, value, 3, 4}, 1); });
+    }
+    on_record("calibrated_between_nothing", [](SampleSource& s) { Calibrated(s, {.begin = 1, .end = 0}); });
+    on_record("calibrated_begin_nan", [](SampleSource& s) { Calibrated(s, {.begin = not_a_number}); });
+    on_record("low_pass_of_nothing", [](SampleSource& s) { LowPass(s, {}); });
+    on_record("low_pass_keeps_none", [](SampleSource& s) { LowPass(s, {.pass = 1, .every = 0}); });
+    for (const auto& [name, value] : not_positive())
+        if (value != 0) { // which asks for the usual one
+            on_record("low_pass_pass_" + name, [value = value](SampleSource& s) { LowPass(s, {.pass = value}); });
+            on_record("low_pass_stop_" + name,
+                      [value = value](SampleSource& s) { LowPass(s, {.pass = 1, .stop = value}); });
+            on_record("impacts_significance_" + name,
+                      [value = value](SampleSource& s) { ImpactFinder(s, {.significance = value}); });
+        }
+    on_record("impacts_window", [](SampleSource& s) { ImpactFinder(s, {.window = 4}); });
+    on_record("derivative_width", [](SampleSource& s) { WithDerivative(s, {.half_width = 3, .name = {}}); });
+    on_record("derivative_width_huge", [](SampleSource& s) {
+        WithDerivative with(s, {.half_width = huge, .name = {}});
+        Samples part;
+        with.read(part);
+    });
+    on_record("spectrum_part", [](SampleSource& s) { averaged_spectrum(s, 0, 7); });
+    on_record("spectrum_part_huge", [](SampleSource& s) { averaged_spectrum(s, 0, huge); });
+    wrong("sampling_frequency_of_one", [] { keep(sampling_frequency(std::vector<double>{1})); });
+    wrong("fit_period_of_one", [] { fit_period(std::vector<double>{1}); });
+    wrong("fit_period_nan", [] { fit_period(std::vector<double>{1, not_a_number, 3}); });
+}
+
+void estimates(WrongUses& wrong) {
+    wrong("residuals_of_other_readings",
+          [] { test_residuals(std::vector<double>(20, 1), std::vector<double>(19, 1)); });
+    wrong("combine_nothing", [] { combine({}); });
+    wrong("decrement_of_nothing", [] { logarithmic_decrement({}); });
+    wrong("oscillation_of_nothing", [] { damped_oscillation({}); });
+    wrong("restitution_of_nothing", [] { restitution({}); });
+    wrong("coupling_of_nothing", [] { coupling({}, {.gap = 1, .stiffness = 1}); });
+    wrong("impedance_of_nothing", [] { impedance({}, {}, {}); });
+    wrong("impedance_ragged", [] { impedance(wave().times, wave().values[0], std::vector<double>(3, 1)); });
+    for (const auto& [name, value] : not_finite()) {
+        wrong("residuals_" + name, [value = value] { test_residuals(std::vector<double>{1, value, 3}); });
+        wrong("restitution_" + name, [value = value] {
+            restitution(std::vector<ImpactSpeeds>{{-1, 1}, {value, 1}, {-2, 2}});
+        });
+        wrong("coupling_" + name, [value = value] {
+            coupling(std::vector<StaticLoad>{{1, 1}, {2, value}, {3, 3}, {4, 5}}, {.gap = 10, .stiffness = 1});
+        });
+        wrong("impedance_" + name, [value = value] {
+            std::vector<double> voltage = wave().values[0];
+            voltage[7] = value;
+            impedance(wave().times, voltage, wave().values[1]);
+        });
+    }
+    for (const auto& [name, value] : not_positive()) {
+        wrong("coupling_gap_" + name, [value = value] {
+            coupling(std::vector<StaticLoad>{{0.1, 1}, {0.2, 2}, {0.3, 3}}, {.gap = value, .stiffness = 1});
+        });
+        wrong("coupling_stiffness_" + name, [value = value] {
+            coupling(std::vector<StaticLoad>{{0.1, 1}, {0.2, 2}, {0.3, 3}}, {.gap = 1, .stiffness = value});
+        });
+    }
+}
+
+/// An instrument that never says anything.
+class SilentLine : public InstrumentLine {
+public:
+    void send(std::string_view /*line*/) override {}
+    std::optional<std::string> receive(double /*wait*/) override { return std::nullopt; }
+    void discard() override {}
+    void reopen() override {}
+};
+
+void experiments(WrongUses& wrong) {
+    for (const auto& [name, value] : not_finite()) {
+        wrong("awaited_line_" + name, [value = value] {
+            SilentLine line;
+            awaited_line(line, value, {}, "the generator");
+        });
+        wrong("watch_tolerance_" + name, [value = value] { RepeatWatch({0.1, value}, 1, 1); });
+        wrong("watch_section_" + name, [value = value] { RepeatWatch({0.1, 0.1}, 1, 1).add({value, 1}); });
+    }
+    wrong("watch_tolerance_negative", [] { RepeatWatch({-0.1}, 1, 1); });
+    for (const auto& [name, length] : wrong_lengths(2))
+        wrong("watch_section_" + name, [length = length] {
+            RepeatWatch({0.1, 0.1}, 1, 1).add(std::vector<double>(length, 1));
+        });
+    wrong("watch_no_repeats", [] { RepeatWatch({0.1}, 0, 1); });
+    wrong("watch_no_period", [] { RepeatWatch({0.1}, 1, 0); });
+    wrong("watch_period_huge", [] { RepeatWatch({0.1}, 1, huge); });
+}
+
+std::vector<WrongUse> wrong_uses() {
+    WrongUses wrong;
+    samples(wrong);
+    writers(wrong);
+    stages(wrong);
+    estimates(wrong);
+    experiments(wrong);
+    return wrong.list();
+}
+
+TEST(WrongRecordUse, IsRefused) {
+    each_of(wrong_uses(), expect_refusal);
+}
+
+/// However many times it has to repeat.
+TEST(WrongRecordUse, RepeatsBeyondAllCountsDoNotWrap) {
+    RepeatWatch watch({0.1}, huge, 2);
+    for (int i = 0; i < 10; ++i)
+        watch.add({1});
+    EXPECT_EQ(watch.period(), 0U);
+}
+
+} // namespace
+} // namespace graze

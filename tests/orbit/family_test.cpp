@@ -1,0 +1,126 @@
+// Orbits of models that conserve something: one of many at the same parameters is found, and told to be one.
+
+#include "graze/model/model_file.hpp"
+#include "graze/orbit/solve.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <tuple>
+#include <utility>
+
+namespace graze {
+namespace {
+
+using std::numbers::pi;
+
+/// x'' = -x on the right, x'' = -k x on the left, without damping: half a period of each.
+constexpr const char* bilinear = R"toml(
+[initial]
+mode = "right"
+[parameters]
+k = 4
+damping = 0
+[states]
+x = 1
+v = 0
+[events.in]
+function = "x"
+kind = "section"
+[events.out]
+function = "-x"
+kind = "section"
+[modes.right]
+rates = { x = "v", v = "-x - damping*v" }
+watch = ["in"]
+[modes.left]
+rates = { x = "v", v = "-k*x - damping*v" }
+watch = ["out"]
+[[transitions]]
+mode = "right"
+event = "in"
+next = "left"
+label = "in"
+[[transitions]]
+mode = "left"
+event = "out"
+next = "right"
+label = "out"
+)toml";
+
+Orbit bilinear_orbit(const Model& model, double speed, double k) {
+    return {parse_signature(model, "in out"),
+            model.parameter_values(),
+            {{0, speed}, {0, -speed}},
+            {pi, pi / std::sqrt(k)},
+            std::nullopt};
+}
+
+TEST(Family, orbit_of_a_bilinear_oscillator_is_found_and_stays_where_it_was) {
+    const Model model = parse_model(bilinear, "test.toml");
+    for (const double speed : {1.0, 0.3, 77.0}) {
+        const OrbitSolution solution = solve_orbit(model, bilinear_orbit(model, speed, 4));
+        ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
+        EXPECT_NE(solution.detail.find("one of a family"), std::string::npos) << solution.detail;
+        EXPECT_LT(solution.residual, 1e-13);
+        EXPECT_NEAR(solution.orbit.starts[0][1], speed, 1e-12 * speed);
+        EXPECT_NEAR(solution.orbit.period(), 1.5 * pi, 1e-12);
+        ASSERT_EQ(solution.multipliers.size(), 1U);
+        EXPECT_NEAR(std::abs(solution.multipliers[0] - 1.0), 0, 1e-10);
+    }
+}
+
+/// With damping there is one orbit at rest only, and with a fold two that meet: neither is one of a family.
+TEST(Family, orbits_alone_are_none) {
+    const Model model = parse_model(R"toml(
+[parameters]
+mu = 1
+[states]
+x = 1
+theta = { initial = 0, period = "2*pi" }
+[modes.only]
+rates = { x = "mu - x^2", theta = 1 }
+[sections.start]
+state = "theta"
+value = 0
+)toml",
+                                    "test.toml");
+    for (const double mu : {1.0, 1e-4, 0.0}) {
+        Orbit orbit{parse_signature(model, "start"), {mu}, {{std::sqrt(mu), 0}}, {2 * pi}, std::nullopt};
+        const OrbitSolution solution = solve_orbit(model, orbit);
+        ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
+        EXPECT_EQ(solution.detail, "") << mu;
+        EXPECT_NEAR(solution.orbit.starts[0][0], std::sqrt(mu), 1e-12);
+    }
+}
+
+/// Far from a solution of the family Newton's method still finds the nearest members.
+TEST(Family, pendulum_swings_as_far_as_its_candidate_about) {
+    const Model model = parse_model(R"toml(
+[parameters]
+g = 1
+[states]
+phi = 1
+w = 0
+[modes.swing]
+rates = { phi = "w", w = "-g*sin(phi)" }
+[sections.turn]
+function = "w"
+direction = "falling"
+)toml",
+                                    "test.toml");
+    const Orbit orbit{parse_signature(model, "turn"), {1.0}, {{1.0, 0}}, {6.7}, std::nullopt};
+    const OrbitSolution solution = solve_orbit(model, orbit);
+    ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
+    EXPECT_NE(solution.detail.find("one of a family"), std::string::npos) << solution.detail;
+    EXPECT_NEAR(solution.orbit.starts[0][0], 1, 0.01);
+    // The arithmetic-geometric mean of 1 and cos(amplitude / 2) (C. F. Gauss).
+    double a = 1, b = std::cos(solution.orbit.starts[0][0] / 2);
+    for (int i = 0; i < 8; ++i)
+        std::tie(a, b) = std::pair(0.5 * (a + b), std::sqrt(a * b));
+    EXPECT_NEAR(solution.orbit.period(), 2 * pi / a, 1e-10);
+}
+
+} // namespace
+} // namespace graze

@@ -1,0 +1,200 @@
+#include "program/kept_inputs.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "places.hpp"
+#include "program/arguments.hpp"
+#include "program/output_file.hpp"
+#include "run_graze.hpp"
+
+#include <CLI/App.hpp>
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <functional>
+#include <map>
+
+namespace graze::testing {
+
+using ::testing::HasSubstr;
+
+namespace {
+
+/// Calls `work` with every declared option, and the command that it belongs to.
+void for_each_option(const std::function<void(const CLI::App&, const CLI::Option&)>& work) {
+    Arguments arguments;
+    CLI::App app("", "graze");
+    declare_arguments(app, arguments);
+    for (const CLI::App* command : app.get_subcommands({}))
+        for (const CLI::Option* option : command->get_options())
+            if (!option->get_positional() && !option->get_lnames().empty())
+                work(*command, *option);
+}
+
+/// `input` in the place of all that a command is told to read, and an output of that option at `output`.
+std::vector<std::string> command_line(const CLI::App& command, const CLI::Option& option, const std::string& input,
+                                      const std::string& output) {
+    std::vector<std::string> words{command.get_name()};
+    for (const CLI::Option* one : command.get_options())
+        if (one->get_positional())
+            words.push_back(one->get_name() == "WHAT" ? "fit" : input);
+    const std::string name = option.get_lnames().front();
+    words.insert(words.end(), {"--" + name, output});
+    if (name == "data") // which is part of a picture
+        for (const CLI::Option* one : command.get_options())
+            if (one->check_lname("plot"))
+                words.insert(words.end(), {"--plot", input + "-other.svg"});
+    return words;
+}
+
+} // namespace
+
+TEST(KeptInputs, NoOutputOfAnyCommandReplacesWhatItReads) {
+    const Folder folder;
+    const std::string input = folder / "input.csv", link = folder / "link.csv", hard = folder / "hard.csv";
+    write_file(input, "t [s], x [m]\n0, 1\n1, 2\n");
+    std::filesystem::create_symlink("input.csv", link);
+    std::filesystem::create_hard_link(input, hard);
+    const std::string roundabout = folder / "./input.csv";
+    int tried = 0;
+    for_each_option([&](const CLI::App& command, const CLI::Option& option) {
+        if (option.get_type_name() != "FILE" || command.get_name() == "help")
+            return;
+        for (const std::string& output : {input, link, hard, roundabout}) {
+            const std::vector<std::string> words = command_line(command, option, input, output);
+            const Printed printed = run_graze(words);
+            EXPECT_EQ(printed.code, 2) << ::testing::PrintToString(words);
+            EXPECT_THAT(printed.err, HasSubstr(" is the file of ")) << ::testing::PrintToString(words);
+            EXPECT_EQ(contents(input), "t [s], x [m]\n0, 1\n1, 2\n");
+            ++tried;
+        }
+    });
+    EXPECT_GE(tried, 4 * 25);
+}
+
+/// What an option writes has the word FILE or FOLDER for its type; nothing else may be called so. A new option that
+/// writes has to be declared so, for its file to be compared with what is read.
+TEST(KeptInputs, OptionsThatWriteAreDeclaredSo) {
+    const std::vector<std::string> writing{"output",  "plot",   "data",    "plot-data",  "write",
+                                           "graph",   "save",   "live",    "parameters", "recipe",
+                                           "picture", "folder", "markers", "verilog-a"};
+    for_each_option([&](const CLI::App& command, const CLI::Option& option) {
+        const std::string name = option.get_lnames().front();
+        const bool writes = std::find(writing.begin(), writing.end(), name) != writing.end();
+        EXPECT_EQ(writes, option.get_type_name() == "FILE" || option.get_type_name() == "FOLDER")
+            << command.get_name() << " --" << name;
+    });
+}
+
+namespace {
+
+/// An input that lies in the folder of the outputs, under the name of one of them.
+struct InputInFolder {
+    std::string name, text;
+    std::vector<std::string> after{}; ///< words behind its path
+};
+
+const char* const small_study = "name = \"s\"\nmodel = \"bouncing-ball\"\n[runs.r]\nkind = \"simulate\"\ntime = 1\n"
+                                "sample = { a = { maxima = \"x\" } }\n[pictures.p]\nkind = \"history\"\nrun = \"r\"\n"
+                                "format = \"svg\"\n[tables.t]\nrun = \"r\"\ncolumns = [\"time\"]\n";
+
+/// For each command that writes into a folder; none where it reads nothing.
+std::map<std::string, std::vector<InputInFolder>> inputs_in_folders() {
+    const std::string source = source_folder;
+    const std::string design = contents(source + "/designs/mems-switch-device.toml"),
+                      experiment = contents(source + "/fuzz/corpus/fuzz_experiment/sweep.toml");
+    return {
+        {"run", {{"p.svg", small_study, {"--quiet"}}, {"t.csv", small_study, {"--quiet"}}}},
+        {"design", {{"device.toml", design}, {"report.json", design}, {"page.svg", design}}},
+        {"layout", {{"wafers.csv", design, {"--yield", "1"}}, {"report.json", design, {"--yield", "1"}}}},
+        {"acquire",
+         {{"manifest.txt", experiment, {"--port", "nowhere", "--device", "tcp:127.0.0.1:1"}},
+          {"settings.txt", experiment, {"--port", "nowhere", "--device", "tcp:127.0.0.1:1"}}}},
+        {"help", {}},
+    };
+}
+
+} // namespace
+
+/// A command that begins to write into a folder has to be added to the list.
+TEST(KeptInputs, NoOutputInAFolderReplacesWhatIsRead) {
+    const auto listed = inputs_in_folders();
+    for_each_option([&](const CLI::App& command, const CLI::Option& option) {
+        if (option.get_type_name() != "FOLDER")
+            return;
+        const auto found = listed.find(command.get_name());
+        ASSERT_NE(found, listed.end()) << command.get_name();
+        for (const InputInFolder& input : found->second) {
+            const Folder folder;
+            const std::string path = folder.write(input.name, input.text);
+            std::vector<std::string> words{command.get_name(), path};
+            words.insert(words.end(), input.after.begin(), input.after.end());
+            words.insert(words.end(), {"--" + option.get_lnames().front(), folder.path()});
+            const Printed printed = run_graze(words);
+            EXPECT_EQ(contents(path), input.text) << ::testing::PrintToString(words);
+            EXPECT_NE(printed.code, 0) << ::testing::PrintToString(words);
+            EXPECT_NE(printed.err, "") << ::testing::PrintToString(words);
+        }
+    });
+}
+
+/// A folder of exports is named by an option for files.
+TEST(KeptInputs, ExportsOfRunsReplaceNoResults) {
+    const Folder folder;
+    const std::string study = folder.write("s.toml", small_study), results = folder / "r.csv";
+    ASSERT_EQ(run_graze({"run", study, "--output", folder / "out", "--quiet", "--no-pictures"}).code, 0);
+    std::filesystem::copy_file(folder / "out/results.sqlite", results);
+    const std::string before = contents(results);
+    EXPECT_EQ(run_graze({"export", results, "--format", "csv", "--output", folder.path()}).code, 2);
+    EXPECT_EQ(contents(results), before);
+}
+
+TEST(KeptInputs, TwoOutputsAreTwoFiles) {
+    const Folder folder;
+    const std::string path = folder / "one.svg";
+    const Printed printed = run_graze({"simulate", "bouncing-ball", "--time", "1", "--plot", path, "--data", path});
+    EXPECT_EQ(printed.code, 2);
+    EXPECT_THAT(printed.err, HasSubstr("is the file of --"));
+    EXPECT_EQ(folder.files(), 0U);
+}
+
+TEST(KeptInputs, FilesBehindOptionsAreInputs) {
+    const Folder folder;
+    const std::string values = folder / "values.toml";
+    write_file(values, "[set]\ne = 0.5\n");
+    for (const char* option : {"--set", "--from"}) {
+        const Printed printed =
+            run_graze({"simulate", "bouncing-ball", option, "@" + values, "--time", "1", "--output", values});
+        EXPECT_EQ(printed.code, 2);
+        EXPECT_THAT(printed.err, HasSubstr("is the file of " + std::string(option) + " too"));
+    }
+    EXPECT_EQ(contents(values), "[set]\ne = 0.5\n");
+}
+
+TEST(KeptInputs, ThePictureForLatexHasAFileOfLines) {
+    const Folder folder;
+    const std::string input = folder / "picture.pdf";
+    write_file(input, "x");
+    EXPECT_THAT(run_graze({"simulate", input, "--time", "1", "--plot", folder / "picture.tex"}).err,
+                HasSubstr("is the file of the model too"));
+}
+
+TEST(KeptInputs, LastsAsLongAsTheList) {
+    const Folder folder;
+    const std::string path = folder / "input.csv";
+    write_file(path, "1");
+    {
+        const KeptInputs kept;
+        KeptInputs::add("the record", path);
+        EXPECT_THROW(write_file(path, "2"), InputError);
+        EXPECT_THROW(require_writable(path), InputError);
+        EXPECT_NO_THROW(write_file(folder / "other.csv", "2"));
+        EXPECT_THROW(KeptInputs::expect_output("--output", path), InputError);
+        KeptInputs::expect_output("--plot", folder / "other.csv");
+        EXPECT_THROW(KeptInputs::add("the model", folder / "other.csv"), InputError);
+    }
+    EXPECT_EQ(contents(path), "1");
+    write_file(path, "2");
+    EXPECT_EQ(contents(path), "2");
+}
+
+} // namespace graze::testing

@@ -1,0 +1,170 @@
+#include "settle.hpp"
+
+#include "graze/model/catalogue.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+namespace {
+
+/// Contacts of a motion in each of so many periods.
+std::vector<std::size_t> contacts_of(const Model& model, const std::vector<double>& state, std::size_t periods,
+                                     std::vector<double>* end = nullptr) {
+    TransientOptions options;
+    options.section = model.sections.front().name;
+    options.periods = periods;
+    Sampling contacts, returns;
+    contacts.at = Sampling::At::contact;
+    for (std::size_t event = 0; event < model.events.size(); ++event)
+        contacts.events.push_back(event);
+    returns.section = options.section;
+    const auto factory = transient_searches(model, options, {contacts, returns}, model.state_symbols(), {});
+    const auto search = factory->make();
+    search->begin(model.parameter_values(), state, model.initial_mode);
+    JetSet jets(factory->simulation(), LaneKind::single);
+    do
+        run(search->trajectory(), jets);
+    while (search->proceed());
+    std::vector<std::size_t> counts(1);
+    for (const std::size_t sampling : search->result().samples.samplings)
+        if (sampling == 0)
+            ++counts.back();
+        else
+            counts.push_back(0);
+    if (end)
+        *end = search->result().state;
+    return counts;
+}
+
+TEST(AttractorEvidence, a_motion_that_passes_by_an_orbit_is_not_called_periodic) {
+    // At 7 Hz, below the voltage at which impacts set in, a stable orbit without them lies beside chaos, so close that
+    // the motion comes by every few periods.
+    Model model = load_model("electromagnetic-testbed");
+    model.set_parameter("f", 7);
+    model.set_parameter("V0", 3.68);
+    AttractorOptions options;
+    options.section = "phase0";
+    options.chaos_cycles = 0;
+    std::vector<double> state = model.initial_state();
+    contacts_of(model, state, 637, &state);
+    for (const double voltage : {3.675, 3.674}) {
+        model.set_parameter("V0", voltage);
+        const PointResult result = settle(model, options, state);
+        EXPECT_EQ(result.label, Label::chaotic) << voltage;
+        // A simulation of the same motion goes on having contacts.
+        const std::vector<std::size_t> contacts = contacts_of(model, state, 600);
+        EXPECT_GT(std::count_if(contacts.end() - 100, contacts.end(), [](std::size_t n) { return n > 0; }), 10);
+        state = result.state;
+    }
+}
+
+TEST(AttractorEvidence, periodic_labels_hold_for_thousands_of_periods) {
+    // Impact oscillators close to where contacts begin, with little damping: what is called periodic repeats its
+    // contacts.
+    Model model = load_model("impact-oscillator");
+    std::size_t periodic = 0;
+    for (int k = 0; k < 24; ++k) {
+        const double omega = 1.7 + 0.061 * k, zeta = 0.01 + 0.004 * (k % 5);
+        model.set_parameter("zeta", zeta);
+        model.set_parameter("omega", omega);
+        model.set_parameter("e", 0.6 + 0.05 * (k % 6));
+        model.set_parameter("sigma", 1.001 / std::abs(1 - omega * omega)); // beyond the free motion's amplitude
+        AttractorOptions options;
+        options.section = "phase0";
+        const PointResult result = settle(model, options);
+        if (result.label != Label::periodic)
+            continue;
+        ++periodic;
+        std::vector<std::size_t> contacts = contacts_of(model, result.state, 2000);
+        contacts.pop_back(); // the one that is not over
+        for (std::size_t c = result.period; c < contacts.size(); ++c)
+            ASSERT_EQ(contacts[c], contacts[c - result.period]) << omega << " " << c;
+    }
+    EXPECT_GE(periodic, 6u);
+}
+
+/// A tent that motions leave at a rate of log(slope / 2).
+Model leaky_tent(double slope, double start) {
+    return in_two_pieces(fmt::format("{}*z", slope), fmt::format("{}*(1 - z)", slope), 0.5, start);
+}
+
+TEST(AttractorEvidence, chaos_that_does_not_last_is_told_apart) {
+    const double slope = 2.002, rate = std::log(slope / 2);
+    AttractorOptions options;
+    options.bounds = {{0, 0, 1}};
+    std::size_t begun = 0, chaotic = 0;
+    for (int k = 0; k < 60; ++k) {
+        const double start = std::fmod(0.137 + k * 0.6180339887498949, 1);
+        options.stay_in_transients = false;
+        const PointResult left = settle(leaky_tent(slope, start), options);
+        options.stay_in_transients = true;
+        const PointResult stayed = settle(leaky_tent(slope, start), options);
+        EXPECT_TRUE(left.label == Label::escaped || left.label == Label::chaotic) << start;
+        EXPECT_EQ(left.cycles, stayed.cycles);
+        if (left.cycles < options.cycles)
+            continue;
+        ++begun;
+        chaotic += left.label == Label::chaotic ? 1 : 0;
+        EXPECT_EQ(stayed.label, left.label == Label::chaotic ? Label::chaotic : Label::transient);
+        // What is kept is chaotic still, and lies within the tent.
+        EXPECT_EQ(stayed.samples.size(), options.keep);
+        EXPECT_GT(stayed.state[0], 0);
+        EXPECT_LT(stayed.state[0], 1);
+        ASSERT_TRUE(stayed.lyapunov);
+        EXPECT_NEAR(*stayed.lyapunov, std::log(slope), 2 * *stayed.lyapunov_error + 1e-6);
+    }
+    // A share exp(-rate returns) is left of those that were there after the first cycles; three standard errors.
+    const double share = std::exp(-rate * static_cast<double>(options.chaos_cycles));
+    const auto all = static_cast<double>(begun);
+    EXPECT_NEAR(static_cast<double>(chaotic), share * all, 3 * std::sqrt(all * share * (1 - share)));
+}
+
+/// A spiral map of that multiplier, with something that happens in every return.
+Model spiral(double radius) {
+    return parse_model(fmt::format(R"toml(
+name = "spiral"
+[states]
+z = 1
+w = 0
+theta = {{ initial = 0, period = 1 }}
+[events]
+tick = {{ function = "cos(2*pi*theta)", kind = "section" }}
+[modes.only]
+rates = {{ z = 0, w = 0, theta = 1 }}
+watch = ["tick"]
+[jumps.map]
+z = "{0}*(z*cos(2.4) - w*sin(2.4))"
+w = "{0}*(z*sin(2.4) + w*cos(2.4))"
+[[transitions]]
+mode = "only"
+event = "tick"
+jump = "map"
+next = "only"
+[sections.half]
+state = "theta"
+value = 0.5
+[initial]
+mode = "only"
+)toml",
+                                   radius),
+                       "spiral");
+}
+
+TEST(AttractorEvidence, a_motion_that_shrinks_as_a_whole_stays_with_its_orbit) {
+    // Extents of the returns shrink with the deviation, which must not be measured by them.
+    for (const double radius : {0.9, 0.98, 0.99}) {
+        const PointResult result = settle(spiral(radius));
+        EXPECT_EQ(result.label, Label::periodic) << radius << name_of(result.label);
+        ASSERT_FALSE(result.multipliers.empty());
+        EXPECT_NEAR(std::abs(result.multipliers.front()), radius, 1e-9);
+    }
+    EXPECT_EQ(settle(spiral(1)).label, Label::quasi_periodic);
+    EXPECT_NE(settle(spiral(1.001)).label, Label::periodic);
+    EXPECT_EQ(settle(spiral(1.5)).label, Label::unbounded);
+}
+
+} // namespace
+} // namespace graze

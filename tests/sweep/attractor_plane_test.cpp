@@ -1,0 +1,215 @@
+#include "settle.hpp"
+
+#include "graze/model/catalogue.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+namespace graze {
+namespace {
+
+constexpr double golden = 1.618033988749895;
+
+/// States with these lines, rates likewise, beside a clock of rate q whose phase zero is the section.
+Model beside_a_clock(const std::string& states, const std::string& rates, double q = 1) {
+    return parse_model(fmt::format(R"toml(
+name = "m"
+[states]
+{}
+th = {{ initial = 0, period = "2*pi" }}
+[modes.o]
+rates = {{ {}, th = {:.17g} }}
+[sections.a]
+state = "th"
+value = 0
+)toml",
+                                   states, rates, q),
+                       "m");
+}
+
+/// Jumps once in every unit of time.
+Model jumping(const std::string& states, const std::string& rates, const std::string& jumps) {
+    return parse_model(fmt::format(R"toml(
+name = "m"
+[states]
+{}
+s = 0
+[events]
+tick = "1 - s"
+[jumps.j]
+{}
+s = 0
+[modes.o]
+rates = {{ {}, s = 1 }}
+watch = ["tick"]
+[[transitions]]
+mode = "o"
+event = "tick"
+jump = "j"
+next = "o"
+[sections.a]
+function = "s - 0.5"
+direction = "rising"
+)toml",
+                                   states, jumps, rates),
+                       "m");
+}
+
+TEST(AttractorPlane, a_second_clock_that_does_not_return_has_no_period) {
+    // x is the sum of two sines, in closed form.
+    for (const double w : {0.98, 1.02, 1.001, 1.0001, 1.00001, 2.02}) {
+        const PointResult result =
+            settle(beside_a_clock("x = 0\nph = { initial = 0, period = \"2*pi\" }",
+                                  fmt::format("x = \"-0.1*x + cos(th) + sin(ph)\", ph = {:.17g}", w)));
+        EXPECT_NE(result.label, Label::periodic) << w;
+        EXPECT_GE(result.state[1], 0) << w;
+        EXPECT_LT(result.state[1], 2 * std::numbers::pi) << w;
+    }
+    for (const auto& [w, period] : {std::pair{1.0, 1}, std::pair{2.0, 1}, std::pair{1.5, 2}, std::pair{0.25, 4}}) {
+        const PointResult result =
+            settle(beside_a_clock("x = 0\nph = { initial = 0, period = \"2*pi\" }",
+                                  fmt::format("x = \"-0.1*x + cos(th) + sin(ph)\", ph = {:.17g}", w)));
+        EXPECT_EQ(result.label, Label::periodic) << w;
+        EXPECT_EQ(result.period, static_cast<std::size_t>(period)) << w;
+        EXPECT_NEAR(std::abs(result.multipliers.front()), std::exp(-0.1 * 2 * std::numbers::pi * period), 1e-9) << w;
+    }
+}
+
+TEST(AttractorPlane, a_linear_mode_that_grows_is_no_chaos_however_fast_the_clock) {
+    for (const double q : {1.0, 3.0, 7.0, 20.0, 100.0, 1000.0}) {
+        for (const auto& [states, rates] :
+             {std::pair{"x = 1", "x = \"0.3*x\""}, std::pair{"x = 1\nv = 0", "x = \"v\", v = \"0.2*v - x\""},
+              std::pair{"x = 0\nv = 1", "x = \"0.3*x\", v = \"-v\""},
+              std::pair{"x = 1\nv = 1", "x = \"0.3*x\", v = \"0.3*v\""},
+              std::pair{"x = 1\nv = 1", "x = \"0.3*x + 0.1*v\", v = \"0.2*v\""},
+              std::pair{"x = 0\nv = 0", "x = \"1 + 0.05*x\", v = \"-v + sin(th)\""}}) {
+            const PointResult result = settle(beside_a_clock(states, rates, q));
+            EXPECT_TRUE(result.label == Label::unbounded || result.label == Label::unsettled)
+                << rates << " " << q << " " << name_of(result.label);
+        }
+        EXPECT_EQ(settle(beside_a_clock("x = 1", "x = \"0.3*x\"", q)).label, Label::unbounded) << q;
+    }
+}
+
+TEST(AttractorPlane, a_torus_on_an_unstable_plane_is_left_and_not_called_chaotic) {
+    // x is a sum of two sines; y goes to 1 from wherever it is above 0.
+    for (const double y : {0.0, 1e-30, 1e-9}) {
+        const PointResult result = settle(
+            beside_a_clock(fmt::format("x = 0\ny = {:.17g}\nph = {{ initial = 0, period = \"2*pi\" }}", y),
+                           fmt::format("x = \"-x + cos(th) + sin(ph)\", y = \"y - y^3\", ph = {:.17g}", golden)));
+        // The search may end before averages are even enough, but never in chaos.
+        EXPECT_TRUE(result.label == Label::quasi_periodic || result.label == Label::unsettled)
+            << y << " " << name_of(result.label);
+        EXPECT_NEAR(result.state[1], 1, 1e-9) << y;
+    }
+    // Where nothing is to be disturbed it is not known.
+    AttractorOptions still;
+    still.disturbance = 0;
+    const PointResult result =
+        settle(beside_a_clock("x = 0\ny = 0\nph = { initial = 0, period = \"2*pi\" }",
+                              fmt::format("x = \"-x + cos(th) + sin(ph)\", y = \"y - y^3\", ph = {:.17g}", golden)),
+               still);
+    EXPECT_EQ(result.label, Label::unsettled);
+    EXPECT_NE(result.outcome.detail.find("plane"), std::string::npos);
+}
+
+TEST(AttractorPlane, chaos_on_an_unstable_plane_is_left) {
+    // Two coupled logistic maps in step, of which neighbours are not: the exponent across is 0.35 + log(1 - 2c) > 0.
+    const auto coupled = [](double c) {
+        return jumping("x = 0.3\ny = 0.3", "x = 0, y = 0",
+                       fmt::format("x = \"(1-{0})*3.7*x*(1-x) + {0}*3.7*y*(1-y)\"\n"
+                                   "y = \"(1-{0})*3.7*y*(1-y) + {0}*3.7*x*(1-x)\"",
+                                   c));
+    };
+    const PointResult apart = settle(coupled(0.1));
+    EXPECT_EQ(apart.label, Label::periodic);
+    EXPECT_EQ(apart.period, 4u);
+    // Across it is negative: they come back into step, and are chaotic.
+    const PointResult together = settle(coupled(0.3));
+    EXPECT_EQ(together.label, Label::chaotic);
+    EXPECT_NEAR(together.state[0], together.state[1], 1e-9);
+    EXPECT_NEAR(*together.lyapunov, 0.35, 0.03);
+    // y = 0 is left for y^2 = 0.5, where x has period 2.
+    for (const double y : {0.0, 1e-118}) {
+        // As in a sweep that carries on what has decayed from 0.1.
+        const PointResult left = settle(
+            jumping("x = 0.3\ny = 0.1", "x = 0, y = 0", "x = \"(3.9 - 1.6*y^2)*x*(1-x)\"\ny = \"y*(1.5 - y^2)\""), {},
+            {0.3, y, 0});
+        // From so close to the plane it may take longer than the search.
+        EXPECT_NE(left.label, Label::chaotic) << y;
+        if (y == 0) {
+            EXPECT_EQ(left.label, Label::periodic);
+            EXPECT_EQ(left.period, 2u);
+        }
+    }
+}
+
+/// A focus of one rate of growth where x > 0, of another where x < 0: all motions look alike on all scales.
+Model two_zones(double left) {
+    return parse_model(fmt::format(R"toml(
+name = "m"
+[parameters]
+a = {}
+[states]
+x = 1
+v = 0
+[events]
+toL = {{ function = "x", kind = "section" }}
+toR = {{ function = "-x", kind = "section" }}
+[modes.R]
+rates = {{ x = "v", v = "0.2*v - 1.01*x" }}
+watch = ["toL"]
+[modes.L]
+rates = {{ x = "v", v = "2*a*v - (a^2 + 4)*x" }}
+watch = ["toR"]
+[[transitions]]
+mode = "R"
+event = "toL"
+next = "L"
+[[transitions]]
+mode = "L"
+event = "toR"
+next = "R"
+[sections.a]
+function = "v"
+direction = "falling"
+[initial]
+mode = "R"
+)toml",
+                                   left),
+                       "m");
+}
+
+TEST(AttractorPlane, a_motion_that_shrinks_into_a_corner_is_not_called_periodic) {
+    for (const double left : {-0.6, -0.3, -0.21}) { // the amplitude falls by pi (0.1 + left/2) in each turn
+        const PointResult result = settle(two_zones(left));
+        EXPECT_TRUE(result.label == Label::equilibrium || result.label == Label::unsettled)
+            << left << " " << name_of(result.label);
+        EXPECT_NEAR(result.state[0], 0, left == -0.6 ? 1e-9 : 1) << left;
+    }
+    EXPECT_EQ(settle(two_zones(-0.6)).label, Label::equilibrium);
+}
+
+TEST(AttractorPlane, a_ball_that_rides_for_good_is_periodic) {
+    Model model = load_model("bouncing-ball");
+    model.set_parameter("f", 3);
+    AttractorOptions options;
+    options.section = "phase0";
+    for (const double a : {0.001, 0.005, 0.02}) { // its acceleration is below g: a omega^2 < 7.2
+        model.set_parameter("a", a);
+        const PointResult result = settle(model, options);
+        ASSERT_EQ(result.label, Label::periodic) << a << " " << name_of(result.label);
+        EXPECT_EQ(result.period, 1u);
+        EXPECT_NEAR(result.duration, 1.0 / 3, 1e-12);
+        EXPECT_EQ(result.signature, "");
+        ASSERT_FALSE(result.multipliers.empty());
+        EXPECT_EQ(result.multipliers.front(), 1.0); // of the height that is carried along
+        EXPECT_NEAR(result.state[0], 0, 1e-9 * a);
+    }
+}
+
+} // namespace
+} // namespace graze

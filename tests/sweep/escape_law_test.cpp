@@ -1,0 +1,98 @@
+#include "graze/sweep/escape_law.hpp"
+
+#include "settle.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace graze {
+namespace {
+
+/// Numbers between 0 and 1 that look random.
+class Draws {
+public:
+    double next() {
+        state_ = state_ * 6364136223846793005u + 1442695040888963407u;
+        return static_cast<double>(state_ >> 11) * 0x1p-53;
+    }
+
+private:
+    std::uint64_t state_ = 88172645463325252u;
+};
+
+/// Motions that leave at this rate, given up after so many returns.
+std::vector<Stay> stays_of(Draws& draws, std::size_t motions, double rate, std::size_t most, std::size_t later = 0) {
+    std::vector<Stay> stays;
+    for (std::size_t k = 0; k < motions; ++k) {
+        const auto cycles = later + 1 + static_cast<std::size_t>(-std::log(draws.next()) / rate);
+        stays.push_back({std::min(cycles, most), cycles <= most});
+    }
+    return stays;
+}
+
+TEST(EscapeLaw, rate_of_a_known_law_lies_within_its_error) {
+    Draws draws;
+    int all = 0, within = 0;
+    for (const double rate : {0.0005, 0.01, 0.4, 1.5})
+        for (const std::size_t most : {400u, 100000u})
+            for (int k = 0; k < 25; ++k)
+                if (const auto law = escape_law(stays_of(draws, 200, rate, most))) {
+                    ++all;
+                    within += std::abs(law->rate - rate) <= law->error ? 1 : 0;
+                    EXPECT_NEAR(law->rate, rate, 3 * law->error);
+                }
+    EXPECT_GE(all, 190); // constancy is doubted once in ten cases, and then found later
+    EXPECT_GE(within, 0.9 * all);
+}
+
+TEST(EscapeLaw, what_comes_before_the_law_is_left_out) {
+    Draws draws;
+    // Half of the motions settle at once; the others begin to leave after 30 returns.
+    std::vector<Stay> stays = stays_of(draws, 300, 0.002, 5000, 30);
+    const std::vector<Stay> others = stays_of(draws, 300, 0.2, 5000);
+    stays.insert(stays.end(), others.begin(), others.end());
+    const auto law = escape_law(stays);
+    ASSERT_TRUE(law);
+    EXPECT_GT(law->from, 0u);
+    EXPECT_NEAR(law->rate, 0.002, 2 * law->error);
+}
+
+TEST(EscapeLaw, there_is_none_where_some_never_leave_or_few_do) {
+    Draws draws;
+    for (int k = 0; k < 20; ++k) {
+        std::vector<Stay> stays = stays_of(draws, 200, 0.02, 2000);
+        for (int staying = 0; staying < 50; ++staying)
+            stays.push_back({2000, false});
+        EXPECT_FALSE(escape_law(stays)) << k;
+    }
+    EXPECT_FALSE(escape_law(stays_of(draws, 9, 0.02, 2000)));
+    EXPECT_FALSE(escape_law({}));
+    EXPECT_FALSE(escape_law(std::vector<Stay>(50, {2000, false})));
+}
+
+TEST(EscapeLaw, tent_map_is_left_at_the_rate_of_its_closed_form) {
+    // Of all that is spread evenly over [0, 1] a share 2/s is there still after each application of a tent of slope s.
+    for (const double slope : {2.1, 2.5, 3.0}) {
+        std::vector<Stay> stays;
+        AttractorOptions options;
+        options.bounds = {{0, 0, 1}};
+        options.cycles = 3000;
+        for (int k = 0; k < 300; ++k) {
+            const double start = std::fmod(0.137 + k * 0.6180339887498949, 1);
+            const PointResult result = settle(
+                in_two_pieces(fmt::format("{}*z", slope), fmt::format("{}*(1 - z)", slope), 0.5, start), options);
+            EXPECT_EQ(result.label, Label::escaped) << slope << " " << start;
+            stays.push_back({result.cycles + 1, true}); // it leaves between two returns
+        }
+        const auto law = escape_law(stays);
+        ASSERT_TRUE(law) << slope;
+        EXPECT_NEAR(law->rate, std::log(slope / 2), 1.5 * law->error) << slope;
+        EXPECT_LT(law->error, 0.25 * law->rate) << slope;
+    }
+}
+
+} // namespace
+} // namespace graze

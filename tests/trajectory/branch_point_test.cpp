@@ -1,0 +1,118 @@
+// Contacts with a law of Hertz, whose force is a power of the indentation: series end where contacts begin and end.
+
+#include "closed_form.hpp"
+#include "simulate.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace graze;
+using namespace graze::testing;
+
+namespace {
+
+/// A body between two soft walls, free from 0 to `width`. The force is stiffness times the power p of the indentation.
+/// @param loss function of the event that ends a contact with the right wall
+Model between_walls(double stiffness, double width, double p, const char* loss = "x - width") {
+    return model_from(fmt::format(R"toml(
+name = "walls"
+[parameters]
+k = {0:.17g}
+width = {1:.17g}
+p = {2:.17g}
+[states]
+x = {{ initial = "width/2" }}
+v = 1
+[modes.free]
+rates = {{ x = "v", v = 0 }}
+watch = ["right", "left"]
+[modes.right]
+rates = {{ x = "v", v = "-k*(x - width)^p" }}
+watch = ["off_right"]
+[modes.left]
+rates = {{ x = "v", v = "k*(-x)^p" }}
+watch = ["off_left"]
+[events]
+right = {{ function = "width - x", kind = "section" }}
+left = {{ function = "x", kind = "section" }}
+off_right = {{ function = "{3}", kind = "section" }}
+off_left = {{ function = "-x", kind = "section" }}
+[[transitions]]
+mode = "free"
+event = "right"
+next = "right"
+[[transitions]]
+mode = "free"
+event = "left"
+next = "left"
+[[transitions]]
+mode = "right"
+event = "off_right"
+next = "free"
+[[transitions]]
+mode = "left"
+event = "off_left"
+next = "free"
+[initial]
+mode = "free"
+)toml",
+                                  stiffness, width, p, loss));
+}
+
+/// How long a contact lasts: 2 (d/v) times the integral of (1 - u^(p + 1))^(-1/2), with the deepest indentation d.
+double contact_time(double stiffness, double p, double v) {
+    const double deepest = std::pow((p + 1) * v * v / (2 * stiffness), 1 / (p + 1)), a = 1 / (p + 1);
+    return 2 * deepest / v * a * std::sqrt(3.14159265358979323846) * std::exp(std::lgamma(a) - std::lgamma(a + 0.5));
+}
+
+} // namespace
+
+TEST(BranchPoint, ContactsOfHertzBeginAndEnd) {
+    Random random(3);
+    for (int i = 0; i < 40; ++i) {
+        const double p = i % 4 == 0 ? 1.5 : random.uniform(1.05, 3.9), v = random.log_uniform(1e-3, 1e3);
+        const double width = random.log_uniform(1e-3, 1e3), stiffness = random.log_uniform(1e-3, 1e6);
+        SCOPED_TRACE(fmt::format("p = {}, v = {}, width = {}, k = {}", p, v, width, stiffness));
+        Experiment experiment(between_walls(stiffness, width, p));
+        const double contact = contact_time(stiffness, p, v), round = 2 * (width / v + contact);
+        const double time = 0.5 * width / v + 5 * round;
+        const Outcome outcome = experiment.run_from({0.5 * width, v}, 0, time);
+        ASSERT_EQ(outcome.ending, Ending::end_time) << outcome.detail;
+        // In the fifth round the body is at the right wall again, or has just met it.
+        const std::size_t contacts = experiment.recorder.contacts().size();
+        EXPECT_TRUE(contacts == 20 || contacts == 21) << contacts;
+        // Up to a thousand steps, of which each is right to 1e-12.
+        const double error = 1e-9 * (width + v * contact);
+        EXPECT_NEAR(experiment.state()[0], width, error);
+        EXPECT_NEAR(experiment.state()[1], v, 1e-10 * v);
+        for (std::size_t c = 0; c + 1 < 20; c += 2)
+            EXPECT_NEAR(experiment.recorder.contacts()[c + 1].contact.time -
+                            experiment.recorder.contacts()[c].contact.time,
+                        contact, 1e-10 * (time + contact));
+    }
+}
+
+TEST(BranchPoint, AContactEndsWhereItsForceDoes) {
+    for (const char* loss : {"x - width", "k*(x - width)^p", "1e6*(x - width)"}) {
+        Experiment experiment(between_walls(20, 1, 1.5, loss));
+        const double contact = contact_time(20, 1.5, 1);
+        const Outcome outcome = experiment.run_from({1, 1}, 1, contact + 0.25);
+        ASSERT_EQ(outcome.ending, Ending::end_time) << loss << outcome.detail;
+        EXPECT_NEAR(experiment.state()[0], 0.75, 1e-11) << loss;
+        EXPECT_NEAR(experiment.state()[1], -1, 1e-11) << loss;
+    }
+}
+
+TEST(BranchPoint, DerivativesPassContactsOfHertz) {
+    // Where a body is at a time, by its speed at the start: the closed form by differences.
+    const double p = 1.5, k = 20, width = 1, time = 2.2;
+    const auto position = [&](double v) { return width - v * (time - 0.5 * width / v - contact_time(k, p, v)); };
+    const Simulation simulation(between_walls(k, width, p));
+    Observer nobody;
+    Trajectory trajectory(simulation, simulation.model().parameter_values(), nobody);
+    JetSet jets(simulation, LaneKind::single);
+    trajectory.start(std::vector<double>{0.5 * width, 0.6}, 0, 0, time);
+    trajectory.carry_derivatives(std::vector<std::string>{"v"});
+    run(trajectory, jets);
+    EXPECT_NEAR(trajectory.state()[0], position(0.6), 1e-11);
+    EXPECT_NEAR(trajectory.derivative(0, 0), (position(0.6 + 1e-5) - position(0.6 - 1e-5)) / 2e-5, 1e-8);
+}
