@@ -30,20 +30,29 @@ def own_names(source):
     return names
 
 
+def used_names(source):
+    """Names that a source calls or takes for types, wherever they are declared: an own name of another source before it
+    would hide them."""
+    text = pathlib.Path(source).read_text(encoding="utf-8")
+    text = re.sub(r'"(?:\\.|[^"\\])*"', '""', re.sub(r"//.*", "", text))
+    return set(re.findall(r"(?<![\w.:>])(\w+)(?=[(<{]|::)", text))
+
+
 def batches_of(sources, most):
-    """The sources, each in the first batch that has room and none of its names. Folders stay together as far as that
-    goes: they include the same."""
+    """The sources, each in the first batch that has room and in which no name hides another. Folders stay together as
+    far as that goes: they include the same."""
     batches = []
     for source in sources:
-        names = own_names(source)
-        for members, taken in batches:
-            if len(members) < most and not names & taken:
+        own, used = own_names(source), used_names(source)
+        for members, taken, needed in batches:
+            if len(members) < most and not own & (taken | needed) and not used & taken:
                 members.append(source)
-                taken |= names
+                taken |= own
+                needed |= used
                 break
         else:
-            batches.append(([source], names))
-    return [members for members, _ in batches]
+            batches.append(([source], own, used))
+    return [batch[0] for batch in batches]
 
 
 if __name__ == "__main__":

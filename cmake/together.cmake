@@ -3,6 +3,7 @@
 option(GRAZE_TOGETHER "Compile several sources at once; needs Python" OFF)
 if(GRAZE_TOGETHER)
     find_package(Python3 COMPONENTS Interpreter)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/batches.py)
     # A name of one source may well be a local one of the next; and g++ takes unnamed namespaces of what it compiles
     # together for those of a header.
     target_compile_options(graze_options INTERFACE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)

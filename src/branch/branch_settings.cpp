@@ -10,9 +10,30 @@
 
 namespace graze {
 
+void BranchSettings::validate_orbit(const Model& model) const {
+    orbit.validate();
+    for (const Monitor& monitor : monitors) {
+        if (monitor.held)
+            require_finite(*monitor.held, "the value at which a monitor is held");
+        require_finite(monitor.crossings, "a value of a monitor that is to be reported");
+        if (monitor.least && monitor.greatest && !(*monitor.least < *monitor.greatest))
+            throw InputError(fmt::format("the bounds of monitor '{}' leave no room", monitor.name),
+                             "give the smaller one first");
+        if (monitor.kind != Monitor::Kind::multiplier)
+            continue;
+        if (monitor.fixed)
+            throw InputError(fmt::format("monitor '{}' is a multiplier, which cannot be held", monitor.name),
+                             "report values of it, or give bounds at which the branch ends");
+        if (monitor.place < 1 || monitor.place >= model.states.size() + 1)
+            throw InputError(fmt::format("monitor '{}' is multiplier {}, and the model has {} states", monitor.name,
+                                         monitor.place, model.states.size()),
+                             "give 1 for the largest, 2 for the next, ...");
+    }
+}
+
 void BranchSettings::validate(const Model& model) const {
     continuation.validate();
-    orbit.validate();
+    validate_orbit(model);
     if (parameter.place() >= model.independent_parameters().size())
         throw InputError("the branch's parameter is not one of the model's", "choose an independent parameter");
     if (direction != 1 && direction != -1)
@@ -40,23 +61,6 @@ void BranchSettings::validate(const Model& model) const {
     if (!kept && held != free.size())
         throw InputError(fmt::format("{} monitors are fixed and {} further parameters are free", held, free.size()),
                          "free one parameter for each monitor that is fixed");
-    for (const Monitor& monitor : monitors) {
-        if (monitor.held)
-            require_finite(*monitor.held, "the value at which a monitor is held");
-        require_finite(monitor.crossings, "a value of a monitor that is to be reported");
-        if (monitor.least && monitor.greatest && !(*monitor.least < *monitor.greatest))
-            throw InputError(fmt::format("the bounds of monitor '{}' leave no room", monitor.name),
-                             "give the smaller one first");
-        if (monitor.kind != Monitor::Kind::multiplier)
-            continue;
-        if (monitor.fixed)
-            throw InputError(fmt::format("monitor '{}' is a multiplier, which cannot be held", monitor.name),
-                             "report values of it, or give bounds at which the branch ends");
-        if (monitor.place < 1 || monitor.place >= model.states.size() + 1)
-            throw InputError(fmt::format("monitor '{}' is multiplier {}, and the model has {} states", monitor.name,
-                                         monitor.place, model.states.size()),
-                             "give 1 for the largest, 2 for the next, ...");
-    }
     for (const ParameterId one : free)
         if (one.place() >= model.independent_parameters().size() || one == parameter ||
             std::count(free.begin(), free.end(), one) > 1)

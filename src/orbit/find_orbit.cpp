@@ -77,6 +77,8 @@ FollowedMotion follow_motion(const Simulation& simulation, std::span<const doubl
     trajectory.start(state, mode, 0, time);
     JetSet jets(simulation, LaneKind::single);
     run(trajectory, jets);
+    motion.final_state.assign(trajectory.state().begin(), trajectory.state().end());
+    motion.final_mode = trajectory.mode();
     const Outcome& outcome = trajectory.outcome();
     if (motion.problem.empty() && outcome.ending != Ending::end_time && outcome.ending != Ending::stopped)
         motion.problem = fmt::format("the motion ends at time {:.9g}: {}{}{}", outcome.time, name_of(outcome.ending),

@@ -1,5 +1,6 @@
 #include "record/separate_source.hpp"
 
+#include "base/sanitized.hpp"
 #include "graze/symbolic/input_error.hpp"
 
 #include <fmt/format.h>
@@ -24,14 +25,6 @@
 #include <utility>
 #include <vector>
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define GRAZE_WHOLE_ADDRESS_SPACE 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
-#define GRAZE_WHOLE_ADDRESS_SPACE 1
-#endif
-#endif
-
 namespace graze {
 
 namespace {
@@ -44,7 +37,7 @@ constexpr int pipe_size = 1 << 20; ///< bytes: parts of a few channels, so that 
 constexpr const char* damaged = "it is damaged, or has been cut off; make it again";
 
 /// Bytes of address space that this process has, 0 where the system does not say so.
-[[maybe_unused]] std::size_t address_space() { // not under sanitizers
+std::size_t address_space() {
     unsigned long pages = 0;
     std::FILE* file = std::fopen("/proc/self/statm", "re");
     if (file == nullptr)
@@ -120,10 +113,8 @@ private:
             limit.rlim_max = limit.rlim_cur;
             setrlimit(what, &limit);
         };
-#ifndef GRAZE_WHOLE_ADDRESS_SPACE
-        if (const std::size_t present = address_space(); present != 0)
+        if (const std::size_t present = sanitized ? 0 : address_space(); present != 0)
             restrict(RLIMIT_AS, present + limits_->memory);
-#endif
         restrict(RLIMIT_CORE, 0);
         restrict(RLIMIT_FSIZE, 0);
         restrict(RLIMIT_NOFILE, most_files);

@@ -30,6 +30,8 @@ std::size_t BranchRequest::kept_conditions() const {
 }
 
 void BranchRequest::validate(RunKind kind, const Model& model) const {
+    if (kind == RunKind::orbit)
+        return settings.validate_orbit(model);
     BranchSettings known = settings;
     if (kind == RunKind::curve && keeps_point()) {
         known.kept.emplace();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/sanitized.hpp"
 #include "program/interrupt.hpp"
 #include "run_graze.hpp"
 
@@ -37,10 +38,9 @@ namespace separate_run {
 /// What the other process does. Its output goes into files, which need no reader, and which no limit of sizes is for.
 [[noreturn]] inline void act(const std::vector<std::string>& words, const SeparateRunLimits& limits, std::FILE* out,
                              std::FILE* err) {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-    rlimit memory{limits.memory, limits.memory};
-    setrlimit(RLIMIT_AS, &memory);
-#endif
+    const rlimit memory{limits.memory, limits.memory};
+    if (!sanitized)
+        setrlimit(RLIMIT_AS, &memory);
     rlimit all_sizes{};
     getrlimit(RLIMIT_FSIZE, &all_sizes);
     if (limits.file_size > 0) {

@@ -54,7 +54,8 @@ std::vector<std::pair<std::string, FigureSeries::Style>> meanings(const ResultFi
     StudyPicture picture;
     picture.runs = runs;
     std::vector<std::pair<std::string, FigureSeries::Style>> found;
-    for (const FigureSeries& series : make_picture(picture, file).figure.panels.at(0).series)
+    const ResultPicture made = make_picture(picture, file);
+    for (const FigureSeries& series : made.figure.panels.at(0).series)
         if (series.only_in_legend && series.colour == FigureSeries::black &&
             series.style != FigureSeries::Style::symbols)
             found.emplace_back(series.title, series.style);

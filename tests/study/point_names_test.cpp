@@ -73,7 +73,8 @@ protected:
         StudyPicture picture;
         picture.runs = {run};
         std::vector<std::string> labels;
-        for (const FigureLabel& label : make_picture(picture, file).figure.panels.at(0).labels)
+        const ResultPicture made = make_picture(picture, file);
+        for (const FigureLabel& label : made.figure.panels.at(0).labels)
             labels.push_back(label.text);
         return labels;
     }

@@ -48,6 +48,8 @@ struct BranchSettings {
     bool reorder = true;
     /// @throws InputError naming what is out of range
     void validate(const Model& model) const;
+    /// The same of what one orbit needs alone, of a model that may have no parameters: `orbit` and `monitors`.
+    void validate_orbit(const Model& model) const;
 };
 
 struct BranchPoint {

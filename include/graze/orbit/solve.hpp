@@ -96,6 +96,8 @@ struct FollowedMotion {
     Signature segments;
     std::vector<std::vector<double>> starts; ///< of each segment, and of the one that was cut off
     std::vector<double> durations;
+    std::vector<double> final_state; ///< at the end of the time
+    std::size_t final_mode = 0;
     std::string problem; ///< why the motion could not be followed (chatter, singular end); empty when all is well
 };
 FollowedMotion follow_motion(const Simulation& simulation, std::span<const double> parameters,

@@ -1,0 +1,113 @@
+// Border collisions of maps (H. E. Nusse and J. A. Yorke, 1992) as orbits whose guard changes: the fixed points on both
+// sides of the border, and what becomes of them, are known in closed form.
+
+#include "follow.hpp"
+
+#include <cmath>
+#include <random>
+
+namespace graze {
+namespace {
+
+using namespace graze::testing;
+
+/// x -> trace x + y + mu, y -> -determinant x, with a trace and a determinant for each side of x = 0.
+struct Border {
+    double left_trace, left_determinant, right_trace, right_determinant;
+
+    double left_fixed_point(double mu) const { return mu / (1 - left_trace + left_determinant); }
+    double right_fixed_point(double mu) const { return mu / (1 - right_trace + right_determinant); }
+    bool is_nonsmooth_fold() const {
+        return (1 - left_trace + left_determinant) * (1 - right_trace + right_determinant) < 0;
+    }
+    /// Modulus of the larger multiplier of the fixed point on the left.
+    double left_multiplier() const {
+        const double discriminant = left_trace * left_trace / 4 - left_determinant;
+        return discriminant < 0 ? std::sqrt(left_determinant) : std::abs(left_trace / 2) + std::sqrt(discriminant);
+    }
+};
+
+Model model_of(const Border& border, double mu) {
+    return model_from(fmt::format(R"toml(
+[parameters]
+mu = {}
+[states]
+x = {}
+y = 0
+s = 0
+[initial]
+mode = "right"
+[modes.right]
+rates = {{ x = 0, y = 0, s = 1 }}
+watch = ["tick_right"]
+[modes.left]
+rates = {{ x = 0, y = 0, s = 1 }}
+watch = ["tick_left"]
+[events]
+tick_right = {{ function = "1 - s" }}
+tick_left = {{ function = "1 - s" }}
+[jumps.map_right]
+x = "{}*x + y + mu"
+y = "-({})*x"
+s = 0
+[jumps.map_left]
+x = "{}*x + y + mu"
+y = "-({})*x"
+s = 0
+[[transitions]]
+mode = "right"
+event = "tick_right"
+jump = "map_right"
+next = [{{ when = "x >= 0", mode = "right" }}, {{ mode = "left" }}]
+[[transitions]]
+mode = "left"
+event = "tick_left"
+jump = "map_left"
+next = [{{ when = "x >= 0", mode = "right" }}, {{ mode = "left" }}]
+)toml",
+                                  mu, border.right_fixed_point(mu), border.right_trace, border.right_determinant,
+                                  border.left_trace, border.left_determinant));
+}
+
+Branch branch_to_the_left(const Border& border) {
+    const double mu = border.right_fixed_point(1) > 0 ? 0.2 : -0.2;
+    const Model model = model_of(border, mu);
+    const double x = border.right_fixed_point(mu);
+    const Orbit orbit{parse_signature(model, "right:tick_right"),
+                      model.parameter_values(),
+                      {{x, -border.right_determinant * x, 0}},
+                      {1},
+                      {}};
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter("mu");
+    settings.direction = mu > 0 ? -1 : 1;
+    settings.least = -0.5;
+    settings.greatest = 0.5;
+    return follow_branch(model, orbit, settings);
+}
+
+TEST(BorderCollision, leads_to_the_fixed_point_beyond_or_back_on_the_other_one) {
+    std::mt19937 random(29);
+    std::uniform_real_distribution<double> trace(-2.5, 2.5), determinant(-0.9, 0.9);
+    int folds = 0;
+    for (int i = 0; i < 40; ++i) {
+        const Border border{trace(random), determinant(random), trace(random), determinant(random)};
+        SCOPED_TRACE(fmt::format("case {}", i));
+        const Branch branch = branch_to_the_left(border);
+        ASSERT_EQ(names(branch), "GU BD") << branch.special.front().detail;
+        EXPECT_NEAR(branch.special[0].parameter, 0, 1e-12);
+        const double from = branch.points.front().parameter, to = branch.points.back().parameter;
+        EXPECT_EQ(border.is_nonsmooth_fold(), from * to > 0);
+        folds += border.is_nonsmooth_fold() ? 1 : 0;
+        const OrbitSolution& last = branch.points.back().solution;
+        ASSERT_EQ(last.orbit.segments(), 1U);
+        EXPECT_NEAR(last.orbit.starts[0][0], border.left_fixed_point(to), 1e-11);
+        EXPECT_TRUE(last.certificate.admissible) << last.certificate.reason;
+        EXPECT_NEAR(std::abs(last.multipliers.front()), border.left_multiplier(), 1e-9);
+    }
+    EXPECT_GT(folds, 5);
+    EXPECT_LT(folds, 35);
+}
+
+} // namespace
+} // namespace graze
