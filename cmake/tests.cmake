@@ -3,6 +3,9 @@
 find_package(GTest REQUIRED)
 include(GoogleTest)
 
+# What is tested is fast enough already; tests are compiled more often than they are run.
+set(GRAZE_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
+
 # Where things are is compiled in one small source alone, so that a compiler cache serves clones in other folders.
 file(WRITE ${PROJECT_BINARY_DIR}/generated/places.cpp.in
      "#include \"places.hpp\"\n\nnamespace graze::testing {\n\n\
@@ -12,6 +15,20 @@ const char* const program_file = \"@PROJECT_BINARY_DIR@/bin/graze\";\n\n} // nam
 configure_file(${PROJECT_BINARY_DIR}/generated/places.cpp.in ${PROJECT_BINARY_DIR}/generated/places.cpp @ONLY)
 add_library(graze_places OBJECT ${PROJECT_BINARY_DIR}/generated/places.cpp)
 target_include_directories(graze_places PUBLIC tests)
+
+# What all tests include is compiled once, with what the libraries of any folder define.
+if(GRAZE_PRECOMPILED_HEADERS)
+    file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/generated/test_prefix.cpp CONTENT "// Carries a precompiled header.\n")
+    add_library(graze_test_prefix OBJECT ${PROJECT_BINARY_DIR}/generated/test_prefix.cpp)
+    target_link_libraries(graze_test_prefix PRIVATE GTest::gtest GTest::gmock graze_options graze_headers fmt::fmt)
+    foreach(folder IN LISTS GRAZE_FOLDERS)
+        target_link_libraries(graze_test_prefix PRIVATE ${GRAZE_NEEDS_${folder}})
+    endforeach()
+    target_compile_options(graze_test_prefix PRIVATE ${GRAZE_TEST_OPTIONS})
+    target_precompile_headers(
+        graze_test_prefix PRIVATE <gtest/gtest.h> <gmock/gmock.h> <fmt/format.h> <algorithm> <functional>
+    )
+endif()
 
 # Wrong uses of the library are tried on all of it.
 set(before_misuse ${GRAZE_FOLDERS})
@@ -37,23 +54,20 @@ foreach(folder IN LISTS test_folders)
     target_link_libraries(test_${folder} PRIVATE GTest::gtest_main GTest::gmock graze_options graze_headers fmt::fmt)
     if(folder STREQUAL program)
         target_link_libraries(test_${folder} PRIVATE graze_program)
-        if(TARGET graze_executable)
-            add_dependencies(test_${folder} graze_executable)
-            target_compile_definitions(test_${folder} PRIVATE GRAZE_PROGRAM_BUILT)
-        endif()
+        add_dependencies(test_${folder} graze_executable)
     else()
         foreach(part IN LISTS before_${folder})
             target_link_libraries(test_${folder} PRIVATE graze_${part})
         endforeach()
     endif()
     if(GRAZE_PRECOMPILED_HEADERS)
-        target_precompile_headers(test_${folder} PRIVATE <gtest/gtest.h> <fmt/format.h> <algorithm> <functional>)
+        target_precompile_headers(test_${folder} REUSE_FROM graze_test_prefix)
+        target_compile_definitions(test_${folder} PRIVATE $<TARGET_PROPERTY:graze_test_prefix,COMPILE_DEFINITIONS>)
     endif()
     target_link_libraries(test_${folder} PRIVATE graze_places)
     # Few at once: a test is changed, compiled and run again more often than anything else.
     compile_together(test_${folder} 5 ${sources})
-    # What is tested is fast enough already; tests are compiled more often than they are run.
-    target_compile_options(test_${folder} PRIVATE $<$<CONFIG:Release>:-O1>)
+    target_compile_options(test_${folder} PRIVATE ${GRAZE_TEST_OPTIONS})
     gtest_discover_tests(
         test_${folder} TEST_PREFIX ${folder}. TEST_FILTER "-*Slow.*" DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES
         PROPERTIES TIMEOUT 600

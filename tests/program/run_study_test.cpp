@@ -122,7 +122,6 @@ TEST_F(RunStudyTest, pictures_of_every_kind_are_drawn) {
     EXPECT_GT(drawn({"--run", "sweep", "--kind", "regression", "--y", "I"}), 2'000u);
 }
 
-#ifdef GRAZE_PROGRAM_BUILT
 /// Starts the program and kills it after a while. @return whether it had ended by itself
 bool run_and_kill(const std::vector<std::string>& words, std::chrono::microseconds after) {
     const pid_t child = fork();
@@ -166,7 +165,6 @@ TEST_F(RunStudySlow, killed_at_a_hundred_moments_it_ends_with_the_same_results) 
         ASSERT_LT(round, 200);
     }
 }
-#endif
 
 TEST_F(RunStudyTest, results_are_gone_on_with_and_done_again_from_their_file_alone) {
     ASSERT_EQ(study_run("a").code, 0);
