@@ -10,6 +10,16 @@ set(GRAZE_NEEDS_results SQLite::SQLite3 graze_hdf5)
 set(GRAZE_NEEDS_identify Ceres::ceres)
 set(GRAZE_NEEDS_design NLopt::nlopt)
 
+# What computes long enough for its time to compile to be worth it. What runs in several threads is tried with few and
+# short tests.
+set(computing base tape flow trajectory sweep)
+if(NOT GRAZE_SANITIZERS STREQUAL "thread")
+    list(APPEND computing symbolic identify orbit grazing branch design)
+endif()
+if(NOT GRAZE_SANITIZERS)
+    list(APPEND computing model record bench acquire layout)
+endif()
+
 add_library(graze)
 add_library(graze::graze ALIAS graze)
 set(earlier)
@@ -21,9 +31,8 @@ foreach(folder IN LISTS GRAZE_FOLDERS)
         target_include_directories(graze_${folder} PUBLIC include PRIVATE src)
         target_link_libraries(graze_${folder} PUBLIC fmt::fmt PRIVATE graze_options graze_headers)
         target_link_libraries(graze_${folder} PUBLIC ${GRAZE_NEEDS_${folder}})
-        # What does not compute long is compiled faster for the sanitizers.
-        if(GRAZE_SANITIZERS AND folder MATCHES "^(results|study)$")
-            target_compile_options(graze_${folder} PRIVATE -O0)
+        if(NOT folder IN_LIST computing)
+            target_compile_options(graze_${folder} PRIVATE ${GRAZE_COMPILED_FAST})
         endif()
         if(GRAZE_PRECOMPILED_HEADERS AND folder MATCHES "^(orbit|grazing|branch)$")
             target_precompile_headers(graze_${folder} PRIVATE <Eigen/Dense> <fmt/format.h>)

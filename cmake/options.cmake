@@ -61,3 +61,9 @@ target_include_directories(
     $<TARGET_PROPERTY:Eigen3::Eigen,INTERFACE_INCLUDE_DIRECTORIES>
     $<TARGET_PROPERTY:tomlplusplus::tomlplusplus,INTERFACE_INCLUDE_DIRECTORIES>
 )
+
+# Tests, and what does not compute long: compiled more often than it is run.
+set(GRAZE_COMPILED_FAST $<$<CONFIG:Release>:-O1>)
+if(GRAZE_SANITIZERS)
+    set(GRAZE_COMPILED_FAST -O0)
+endif()

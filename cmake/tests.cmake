@@ -3,9 +3,6 @@
 find_package(GTest REQUIRED)
 include(GoogleTest)
 
-# What is tested is fast enough already; tests are compiled more often than they are run.
-set(GRAZE_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
-
 # Where things are is compiled in one small source alone, so that a compiler cache serves clones in other folders.
 file(WRITE ${PROJECT_BINARY_DIR}/generated/places.cpp.in
      "#include \"places.hpp\"\n\nnamespace graze::testing {\n\n\
@@ -24,7 +21,7 @@ if(GRAZE_PRECOMPILED_HEADERS)
     foreach(folder IN LISTS GRAZE_FOLDERS)
         target_link_libraries(graze_test_prefix PRIVATE ${GRAZE_NEEDS_${folder}})
     endforeach()
-    target_compile_options(graze_test_prefix PRIVATE ${GRAZE_TEST_OPTIONS})
+    target_compile_options(graze_test_prefix PRIVATE ${GRAZE_COMPILED_FAST})
     target_precompile_headers(
         graze_test_prefix PRIVATE <gtest/gtest.h> <gmock/gmock.h> <fmt/format.h> <algorithm> <functional>
     )
@@ -67,7 +64,7 @@ foreach(folder IN LISTS test_folders)
     target_link_libraries(test_${folder} PRIVATE graze_places)
     # Few at once: a test is changed, compiled and run again more often than anything else.
     compile_together(test_${folder} 5 ${sources})
-    target_compile_options(test_${folder} PRIVATE ${GRAZE_TEST_OPTIONS})
+    target_compile_options(test_${folder} PRIVATE ${GRAZE_COMPILED_FAST})
     gtest_discover_tests(
         test_${folder} TEST_PREFIX ${folder}. TEST_FILTER "-*Slow.*" DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES
         PROPERTIES TIMEOUT 600
@@ -126,9 +123,10 @@ if(TARGET graze_executable)
                                                $<TARGET_FILE:graze_executable> ${PROJECT_BINARY_DIR}/drawings
     )
     set_tests_properties(layout.other_readers PROPERTIES SKIP_RETURN_CODE 77 LABELS slow TIMEOUT 600)
+    # The longest of all begins first.
     add_test(NAME demo COMMAND bash ${PROJECT_SOURCE_DIR}/examples/demo.sh ${PROJECT_BINARY_DIR}/demo)
     set_tests_properties(
-        demo PROPERTIES ENVIRONMENT "GRAZE=$<TARGET_FILE:graze_executable>" LABELS slow TIMEOUT 1200
+        demo PROPERTIES ENVIRONMENT "GRAZE=$<TARGET_FILE:graze_executable>" LABELS slow TIMEOUT 1200 COST 1000
     )
     include(tests/documentation/documentation.cmake)
 endif()

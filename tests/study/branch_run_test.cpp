@@ -453,6 +453,19 @@ TEST_F(BranchRun, keeps_what_fails) {
     EXPECT_EQ(reports[2].outcome, RunOutcome::complete) << "it does not depend on the others";
 }
 
+TEST_F(BranchRun, an_orbit_needs_no_parameter) {
+    std::ofstream(folder_ / "free.toml") << "name = \"free\"\n[states]\nx = 2\ny = 0\n[modes.only]\n"
+                                            "rates = { x = \"y\", y = \"(1 - x^2)*y - x\" }\n"
+                                            "[sections.top]\nfunction = \"y\"\ndirection = \"falling\"\n";
+    const std::string head = "name = \"s\"\nmodel = \"" + (folder_ / "free.toml").string() + "\"\n[runs.a]\n";
+    EXPECT_EQ(run(head + "kind = \"orbit\"\nsection = \"top\"\n").front().outcome, RunOutcome::complete);
+    const ResultFile file(path_, ResultFile::Access::read);
+    const auto record = file.orbit("a", std::size_t{0});
+    ASSERT_TRUE(record);
+    EXPECT_NEAR(record->point.solution.orbit.period(), 6.6632868593, 1e-9); // van der Pol, mu = 1
+    EXPECT_THROW(run(head + "kind = \"continue\"\nalong = \"mu\"\n"), InputError);
+}
+
 /// A branch that has one orbit only, because it cannot go on from that, is no result to be content with.
 TEST_F(BranchRun, that_does_not_leave_its_first_orbit_has_failed) {
     const std::string rest = "name = \"s\"\nmodel = \"impact-oscillator\"\n[runs.rest]\nkind = \"orbit\"\n"
