@@ -9,6 +9,7 @@ together; where that was not seen, a batch is looked at in halves. Options go to
 import concurrent.futures
 import json
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -46,7 +47,9 @@ def look_at(batch, build, output, options):
         path = folder / source.name
         path.write_text(batch_text([c["file"] for c in batch]), encoding="utf-8")
         # All that any of them is given, and the headers that lie beside them.
-        words = dict.fromkeys(word for c in batch for word in c["command"].split() if word.startswith("-D"))
+        words = dict.fromkeys(
+            word for c in batch for word in re.findall(r"(?<=\s)(?:-D\S+|-I\S+|-isystem \S+)", c["command"])
+        )
         words.update(dict.fromkeys(f"-iquote{pathlib.Path(c['file']).parent}" for c in batch))
         command = " ".join([first["command"].replace(first["file"], str(path)), *words])
         (folder / "compile_commands.json").write_text(json.dumps([dict(first, file=str(path), command=command)]))
