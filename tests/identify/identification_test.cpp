@@ -167,7 +167,7 @@ TEST(Identification, RestitutionsThatChangeFromImpactToImpactAreTold) {
         const Identification found = identify_restitution(each({one}), {});
         if (other == 0.8) {
             EXPECT_THAT(found.warnings, ::testing::IsEmpty());
-            // Half a sample beside an impact the velocity is 0.017 of another: a fifth of that, of 0.85, is e less 1.
+            // Within half a sample velocities change by 0.017; both do so alike, which is a fifth of that over 0.85.
             EXPECT_NEAR(value_of(found, "restitution").estimate.value, 0.8, 5e-3);
         } else {
             EXPECT_THAT(found.warnings, ::testing::Contains(HasSubstr("changes from impact to impact")));
