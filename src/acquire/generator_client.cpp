@@ -289,8 +289,12 @@ void GeneratorClient::check(const Setting& setting, double value) {
                                           setting.unit, value, setting.unit));
 }
 
-void GeneratorClient::require_offset() {
+/// All that makes up what stands at the output, but for the amplitude: before a level and after it. The offset comes
+/// first: a level may have changed it, and it adds to the voltages.
+void GeneratorClient::require_beside_amplitude() {
     attempt([&] { check({"an offset", "VOLT:OFFS", "V"}, offset_); }, patient);
+    require_plain();
+    attempt([&] { check({"a frequency", "FREQ", "Hz"}, frequency_); }, patient);
 }
 
 /// Nothing comes out of it from now on, or as little as before the first level. It is asked for by `make_safe`.
@@ -402,11 +406,10 @@ void GeneratorClient::begin(double frequency, double amplitude, double offset) {
 
 double GeneratorClient::set_amplitude(double amplitude) {
     require_within(amplitude, 0, options_.limits.amplitude, "an amplitude");
-    require_plain();
-    require_offset();
+    require_beside_amplitude();
     amplitude_ = amplitude;
     const double told = set({"an amplitude", "VOLT", "V"}, amplitude);
-    require_plain();
+    require_beside_amplitude();
     return told;
 }
 
@@ -417,8 +420,7 @@ double GeneratorClient::set_frequency(double frequency) {
 }
 
 double GeneratorClient::amplitude() {
-    require_plain();
-    require_offset();
+    require_beside_amplitude();
     double told = 0;
     attempt([&] { told = asked_number("VOLT?"); }, patient);
     return told;

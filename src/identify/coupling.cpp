@@ -5,6 +5,7 @@
 #include "identify/load_balance.hpp"
 
 #include <Eigen/Dense>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -51,6 +52,15 @@ void require_loads(std::span<const StaticLoad> loads, const CouplingSettings& se
     }
     if (settings.gap == 0)
         throw InputError("there is no gap", "give the gap at rest");
+    constexpr double noisy = 5; // standard deviations: a mass that touches may be read further
+    for (const StaticLoad& load : loads)
+        if (load.displacement > settings.gap + noisy * settings.displacement_noise)
+            throw InputError(
+                fmt::format("a displacement of {:.4g} is larger than the gap at rest, {:.4g}, which none of "
+                            "the mass can be",
+                            load.displacement, settings.gap),
+                "give the gap, the stiffness and displacements in the same unit of length (--scale "
+                "NAME=FACTOR, or scale in the run that has the record)");
     constexpr std::size_t fewest = 3;
     if (loads.size() < fewest || !(settings.stiffness > 0))
         throw InputError("there are too few equilibria, or no stiffness", "give three or more, and m w0^2");

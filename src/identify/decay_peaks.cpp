@@ -7,6 +7,7 @@
 #include "identify/damped_sine.hpp"
 #include "record/local_polynomial.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,17 +29,39 @@ double level_of(const std::vector<double>& values) {
     return values[first] + sum;
 }
 
-/// Standard deviation of the noise, by second differences: of a wave with many samples a period they are small.
-double noise_of(const std::vector<double>& values) {
+/// Of a wave with many samples a period second differences are small. Their median passes over jumps.
+double noise_by_differences(const std::vector<double>& values) {
     std::vector<double> differences;
     for (std::size_t i = 1; i + 1 < values.size(); ++i)
         differences.push_back(std::abs(values[i + 1] - 2 * values[i] + values[i - 1]));
-    if (differences.empty())
-        return 0;
     const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
     std::nth_element(differences.begin(), middle, differences.end());
     constexpr double median_of_normal = 0.6745, squares = 6;
     return *middle / (median_of_normal * std::sqrt(squares));
+}
+
+/// Of a damped wave about any level some sum of three neighbours, each times a factor, is always the same, however few
+/// samples a period has: by the factors with which it changes least (V. F. Pisarenko, Geophys. J. R. astr. Soc. 33
+/// (1973) 347).
+double noise_by_recurrence(const std::vector<double>& values) {
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+    const auto three = [&](std::size_t i) { return Eigen::Vector3d(values[i - 1], values[i], values[i + 1]); };
+    const auto count = static_cast<double>(values.size() - 2);
+    for (std::size_t i = 1; i + 1 < values.size(); ++i)
+        mean += three(i) / count;
+    for (std::size_t i = 1; i + 1 < values.size(); ++i)
+        squares += (three(i) - mean) * (three(i) - mean).transpose() / count;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(squares, Eigen::EigenvaluesOnly);
+    return std::sqrt(std::max(0.0, solver.eigenvalues()[0]));
+}
+
+/// Standard deviation of the noise. Each of the ways takes what it does not know for noise, too.
+double noise_of(const std::vector<double>& values) {
+    constexpr std::size_t fewest = 10;
+    if (values.size() < fewest)
+        return 0;
+    return std::min(noise_by_differences(values), noise_by_recurrence(values));
 }
 
 /// Means over a quarter of the period of the largest wave, so that noise makes no periods.
@@ -181,10 +204,11 @@ bool fit_peak(const Period& period, std::size_t channel, const Rest& rest, const
     while (last + 1 < values.size() && values[last + 1] > nearly)
         ++last;
     constexpr double wider = 0.25, fewest_within = 5;
-    const double spacing = rest.distance / static_cast<double>(std::max<std::size_t>(1, times.size()));
+    const double spacing =
+        (times.back() - times.front()) / static_cast<double>(std::max<std::size_t>(2, times.size()) - 1);
     const bool wide = shape.noisy || 2 * reach * rest.distance < fewest_within * spacing;
     const double middle = shape.noisy ? rest.peak_in(period) : 0.5 * (times[first] + times[last]);
-    const double width = (wide ? wider : reach) * rest.distance;
+    const double width = std::max((wide ? wider : reach) * rest.distance, 0.5 * fewest_within * spacing);
     std::vector<double> places, heights;
     for (std::size_t i = 0; i < times.size(); ++i)
         if (std::abs(times[i] - middle) <= width) {
@@ -270,6 +294,24 @@ std::vector<PeakFit> fits_of(const std::vector<Period>& periods, std::size_t cha
     return fits_by(count, [&](std::size_t) { return shape; });
 }
 
+/// Where rows are missing for so long that a period may be hidden, periods are counted wrongly.
+void require_no_gap(const std::vector<Period>& periods, const Samples& samples, const std::string& name) {
+    std::vector<double> durations;
+    for (const Period& one : periods)
+        durations.push_back(one.end - one.begin);
+    const auto middle = durations.begin() + static_cast<std::ptrdiff_t>(durations.size() / 2);
+    std::nth_element(durations.begin(), middle, durations.end());
+    constexpr double much = 0.5;
+    for (std::size_t i = 1; i < samples.rows(); ++i)
+        if (const double from = samples.times[i - 1], to = samples.times[i];
+            to - from > much * *middle && to > periods.front().begin && from < periods.back().end)
+            throw InputError(fmt::format("'{}' has no rows from {:.6g} to {:.6g}, for {:.2g} of its periods", name,
+                                         from, to, (to - from) / *middle),
+                             fmt::format("give a part without gaps (graze identify ... --from T --to T), as all from "
+                                         "{:.6g} on",
+                                         to));
+}
+
 } // namespace
 
 DecayPeaks decay_peaks(SampleSource& source, std::size_t channel, std::size_t most) {
@@ -288,11 +330,16 @@ DecayPeaks decay_peaks(SampleSource& source, std::size_t channel, std::size_t mo
                 "that stand out from noise; two are needed",
                 name, periods.size() == 1 ? "one period" : "no period", level),
             "give the record of an oscillation that dies out, and all of it; damping may be too strong for this");
+    require_no_gap(periods, samples, name);
     const std::optional<Rest> found = DampedSine(periods, samples, channel, level).fit();
     if (!found)
         throw InputError(fmt::format("'{}' is no oscillation that dies out", name),
                          "give the record of a single one, from its release on (graze identify ... --from T --to T)");
     const std::vector<PeakFit> fits = fits_of(periods, channel, *found);
+    if (fits.size() < 2 && !found->wave.left.is_noise())
+        throw InputError(fmt::format("'{}' is not a damped sine: {}", name, found->wave.left.text()),
+                         "look at the record there, and give a part of it that is free of that (graze identify ... "
+                         "--from T --to T)");
     if (fits.size() < 2)
         throw InputError(fmt::format("of the peaks of '{}' {} of {} stand out from the noise, of {:.2g} a sample", name,
                                      fits.size(), periods.size(), found->noise),

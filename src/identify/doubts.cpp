@@ -41,7 +41,7 @@ void doubt_impacts(Identification& found, const std::string& name, const std::st
         order.push_back(weight * impacts[k].before * static_cast<double>(k));
     }
     // By the scatter about the line, and by the velocities' own errors, which a line that is shifted does not enlarge.
-    constexpr double hardly = 1e-5, hardly_by_errors = 1e-3;
+    constexpr double hardly = 1e-5, hardly_by_errors = 1e-3, hardly_unlike = 1e-6;
     const ImpactProportion proportion = test_proportion(impacts, one.coefficient.value);
     if (chance_of_fit(left, {speeds}, {constant}) < hardly ||
         (proportion.offset < hardly_by_errors && proportion.offset <= proportion.change))
@@ -49,6 +49,10 @@ void doubt_impacts(Identification& found, const std::string& name, const std::st
                          channel));
     else if (chance_of_fit(left, {speeds}, {squares, order}) < hardly || proportion.change < hardly_by_errors)
         warn("the restitution changes with the speed, or in the course of the record");
+    else if (proportion.unlike < hardly_unlike)
+        found.warnings.push_back(fmt::format("{}: the restitution changes from impact to impact: they differ by {:.2g} "
+                                             "times the errors of their velocities; the interval is that of its mean",
+                                             name, std::sqrt(proportion.scatter)));
     const ResidualTest test = test_residuals(left);
     if (!test.is_noise())
         warn("what is left of velocities after impacts is no noise: " + test.text());
@@ -74,12 +78,17 @@ void doubt_loads(Identification& found, const std::vector<StaticLoad>& loads, co
     double furthest = 0;
     for (const StaticLoad& load : loads)
         furthest = std::max(furthest, load.displacement);
-    if (!(constants.beta1.value > 0) || !(space > furthest)) {
-        const std::string why = "no magnet has such a force; look at which channel is which, and at their units";
+    const auto refuse = [&](const char* why) {
         refuse_value(found, "beta1", why);
         refuse_value(found, "beta2", why);
-        return;
-    }
+    };
+    if (!(constants.beta1.value > 0) || !(space > furthest))
+        return refuse("no magnet has such a force; look at which channel is which, and at their units");
+    constexpr double roundoff = 1e-9; // of the gap
+    if (constants.beta2.value + constants.beta2.half_width() < -roundoff * known.gap)
+        return refuse(
+            "beta2, which the way through the iron adds to the gap, comes out below zero; look at the gap, and "
+            "at units and offset of the displacement");
     for (const char* what : {"displacements", "currents"}) {
         std::vector<double> values;
         for (const StaticLoad& load : loads)

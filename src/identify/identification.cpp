@@ -9,6 +9,7 @@
 #include "graze/symbolic/input_error.hpp"
 #include "identify/doubts.hpp"
 #include "identify/impact_proportion.hpp"
+#include "identify/row_gap.hpp"
 
 #include <fmt/format.h>
 
@@ -88,6 +89,10 @@ void require_three_peaks(const std::vector<DecayPeaks>& releases, const std::vec
     if (names.empty() ||
         std::any_of(releases.begin(), releases.end(), [](const DecayPeaks& one) { return one.times.size() >= fewest; }))
         return;
+    for (std::size_t r = 0; r < releases.size(); ++r)
+        if (const ResidualTest& left = releases[r].wave.left; !left.is_noise())
+            throw InputError(fmt::format("{}: this is not a damped sine: {}", names[r], left.text()),
+                             "look at the record there, and give a part of it that is free of that (--from T --to T)");
     throw InputError(fmt::format("{}{}: there are too few peaks to tell their errors: two stand out from the noise, "
                                  "three are needed",
                                  names.front(), names.size() > 1 ? " and others" : ""),
@@ -349,6 +354,11 @@ Identification identify_impedance(const EachRecord& records, const Identificatio
         inductances.push_back(one.inductance);
         doubt(found, name, header.channels[v].name, one.voltage_left, "a sine");
         doubt(found, name, header.channels[c].name, one.current_left, "a sine");
+        if (const auto gap = longest_gap(all.times); gap && !settings.frequency && !one.voltage_left.is_noise())
+            found.warnings.push_back(
+                fmt::format("{}: there are no rows from {:.6g} to {:.6g}, and the frequency may have "
+                            "been missed: {}frequency says about where it is",
+                            name, gap->from, gap->to, asked));
         if (settings.beta1)
             leakages.push_back(
                 leakage_inductance(one.inductance, *settings.beta1, *settings.beta2, *settings.gap, settings.clamped));

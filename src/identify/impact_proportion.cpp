@@ -105,6 +105,8 @@ ImpactProportion test_proportion(std::span<const RecordedImpact> impacts, double
     const auto square = [](double v, double) { return v * std::abs(v); };
     const auto order = [](double v, double k) { return v * k; };
     result.scatter = weighed.squares() / static_cast<double>(weighed.count() - 1);
+    constexpr double inexact = 2;
+    result.unlike = chi_square_tail(weighed.squares() / inexact, weighed.count() - 1);
     // Each of so many terms may be the one by chance.
     result.offset = std::min(1.0, 2 * std::min(weighed.chance(one), weighed.chance(one, row)));
     result.change =

@@ -12,8 +12,11 @@ namespace graze {
 /// velocities' own errors, where with that term nothing but these is left. Where more is left (as where restitution
 /// differs from impact to impact) the own errors say nothing about a term, and neither does this.
 struct ImpactProportion {
-    double offset = 1;  ///< the chance that errors make up an offset of the velocity, or its drift, as large
-    double change = 1;  ///< that they make up as large a change of the restitution with speed or from impact to impact
+    double offset = 1; ///< the chance that errors make up an offset of the velocity, or its drift, as large
+    double change = 1; ///< that they make up as large a change of the restitution with speed or from impact to impact
+    /// That errors twice as large in the square make impacts as unlike one another about the line through nought: what
+    /// an impact's own samples tell of its errors is itself not exact.
+    double unlike = 1;
     double scatter = 0; ///< mean square of what is left about the line, over that of the own errors
 };
 

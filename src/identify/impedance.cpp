@@ -5,6 +5,7 @@
 #include "graze/record/spectrum.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/require.hpp"
+#include "identify/row_gap.hpp"
 
 #include <algorithm>
 #include <array>
@@ -36,9 +37,22 @@ double frequency_of_crossings(std::span<const double> times, std::span<const dou
     return 2 * std::numbers::pi / fit_period(crossings).period;
 }
 
+/// The longest part in which no row is missing: first and number of its samples.
+std::pair<std::size_t, std::size_t> longest_part(std::span<const double> times) {
+    const double most = longer_than_usual * usual_step(times);
+    std::pair<std::size_t, std::size_t> longest{0, 0};
+    for (std::size_t first = 0, i = 1; i <= times.size(); ++i)
+        if (i == times.size() || times[i] - times[i - 1] > most) {
+            if (i - first > longest.second)
+                longest = {first, i - first};
+            first = i;
+        }
+    return longest;
+}
+
 /// Where the largest wave of equally distant samples has the largest amplitude, to a tenth of what tells two waves
 /// apart.
-double guessed_frequency(std::span<const double> times, std::span<const double> voltage) {
+double frequency_of_waves(std::span<const double> times, std::span<const double> voltage) {
     constexpr int parts = 10;
     double by_time = 0;
     try {
@@ -61,6 +75,16 @@ double guessed_frequency(std::span<const double> times, std::span<const double> 
         }
     }
     return best;
+}
+
+/// Of a record with gaps from the part without them that tells most: in each gap a wave of another frequency may hide.
+double guessed_frequency(std::span<const double> times, std::span<const double> voltage) {
+    const auto [first, count] = longest_part(times);
+    constexpr std::size_t parts = 4; // of the record: of shorter ones the whole tells more
+    if (count == times.size() || parts * count < times.size())
+        return frequency_of_waves(times, voltage);
+    const std::span<const double> part = times.subspan(first, count), seen = voltage.subspan(first, count);
+    return fit_frequency(part, std::array{seen}, frequency_of_waves(part, seen));
 }
 
 ResidualTest test_sine(std::span<const double> times, std::span<const double> values, const Harmonic& sine) {

@@ -4,6 +4,7 @@
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/printable.hpp"
 #include "graze/symbolic/trimmed.hpp"
+#include "symbolic/character.hpp"
 
 #include <fmt/format.h>
 
@@ -34,6 +35,19 @@ std::string_view without_brackets(std::string_view text) {
 
 Place column_of(const Place& line, std::size_t begin) {
     return {line.file, line.line, line.line > 0 ? static_cast<int>(begin) + 1 : 0};
+}
+
+void require_utf8(const NameField& field, const Place& line) {
+    for (std::size_t at = 0; at < field.text.size();) {
+        const Character character = character_at(field.text, at);
+        if (!character.valid)
+            throw InputError(column_of(line, field.begin + at),
+                             fmt::format("'{}' is no text in UTF-8: another encoding has been used, as Latin-1",
+                                         printable_line(shortened(field.text, 100))),
+                             "save the file as UTF-8, as by iconv -f latin1 -t utf-8, or write us and ohm for the "
+                             "Greek letters");
+        at += character.bytes;
+    }
 }
 
 } // namespace
@@ -91,6 +105,7 @@ Channel named_channel(const NameField& field, const Place& line) {
     double number = 0;
     const char* const end = text.data() + text.size();
     const bool is_number = std::from_chars(text.data(), end, number).ptr == end; // "nan" too
+    require_utf8(field, line);
     if (text.empty() || is_number || text.size() > longest_channel_name || channel.unit.size() > longest_channel_name ||
         !is_plain_line(channel.name) || !is_plain_line(channel.unit))
         throw InputError(column_of(line, field.begin),

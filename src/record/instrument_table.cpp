@@ -1,6 +1,7 @@
 #include "record/instrument_table.hpp"
 
 #include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/physical_unit.hpp"
 #include "graze/symbolic/printable.hpp"
 #include "graze/symbolic/trimmed.hpp"
 #include "record/column_names.hpp"
@@ -60,6 +61,12 @@ std::string first_of(const LabviewHeading& heading, std::string_view key) {
     return found == heading.end() || found->second.empty() ? std::string() : found->second.front();
 }
 
+[[noreturn]] void fail_common(const TextLines& lines, const char* key) {
+    throw InputError(Place{lines.path(), lines.number(), 1},
+                     fmt::format("the channels have no common {}, and rows have no time", key),
+                     "write the file with one column of times (X_Columns One)");
+}
+
 /// X0 or Delta_X, which are there for each channel.
 double common_number(const TextLines& lines, const LabviewHeading& heading, const char* key, std::size_t channels,
                      char decimal) {
@@ -74,10 +81,22 @@ double common_number(const TextLines& lines, const LabviewHeading& heading, cons
         common = one;
     }
     if (!common)
-        throw InputError(Place{lines.path(), lines.number(), 1},
-                         fmt::format("the channels have no common {}, and rows have no time", key),
-                         "write the file with one column of times (X_Columns One)");
+        fail_common(lines, key);
     return *common;
+}
+
+/// That of X0 and Delta_X or of a column of times: X_Unit_Label where it is there.
+std::string unit_of_times(const TextLines& lines, const LabviewHeading& heading, std::size_t channels) {
+    constexpr const char* key = "X_Unit_Label";
+    std::string unit = first_of(heading, "X_Dimension") == "Time" ? "s" : "";
+    const auto found = heading.find(key);
+    for (std::size_t c = 0; found != heading.end() && c < channels && c < found->second.size(); ++c) {
+        if (found->second[c] != found->second.front())
+            fail_common(lines, key);
+        if (const std::string word = unit_of_word(found->second[c]); !word.empty())
+            unit = word;
+    }
+    return unit;
 }
 
 } // namespace
@@ -105,7 +124,7 @@ TextTable labview_table(TextLines& lines) {
     if (names.size() > 1 && trimmed(names.back().text) == "Comment")
         names.pop_back();
     table.header = header_of(names, place);
-    table.header.time.unit = first_of(segment, "X_Dimension") == "Time" ? "s" : "";
+    table.header.time.unit = unit_of_times(lines, segment, table.header.channels.size());
     if (const auto units = segment.find("Y_Unit_Label"); units != segment.end())
         for (std::size_t c = 0; c < std::min(units->second.size(), table.header.channels.size()); ++c)
             table.header.channels[c].unit = unit_of_word(units->second[c]);
@@ -160,26 +179,42 @@ bool has_time_in_names(std::string_view names) {
 
 namespace {
 
-/// The number in a field such as "t0 =-5.0e-04s".
-std::optional<double> number_behind_sign(std::string_view field) {
-    const std::size_t equals = field.find('=');
-    if (equals == std::string_view::npos)
-        return std::nullopt;
-    const std::string_view text = trimmed(field.substr(equals + 1));
+/// A time such as "-5.0e-04s" or "3ms". @return seconds, which it is in without a unit; nothing where there is no
+/// number
+std::optional<double> seconds_of(std::string_view text, const Place& place) {
+    text = trimmed(text);
     double value = 0;
-    if (NumberReader::read_beginning(text.data(), text.data() + text.size(), value) == nullptr)
+    const char* const end = text.data() + text.size();
+    const char* const behind = NumberReader::read_beginning(text.data(), end, value);
+    if (behind == nullptr)
         return std::nullopt;
-    return value;
+    const std::string unit = unit_of_word(std::string_view(behind, static_cast<std::size_t>(end - behind)));
+    if (unit.empty())
+        return value;
+    try {
+        return converted(value, physical_unit(unit), physical_unit("s"));
+    } catch (const InputError&) {
+        throw InputError(place, fmt::format("'{}' is no time", printable_line(shortened(text, 100))),
+                         "write it in s, ms, us or ns, or pass over lines (--skip N) and say what the columns are "
+                         "(--columns)");
+    }
 }
 
-/// "CH1V" is channel CH1 in V.
+/// The time in a field such as "t0 =-5.0e-04s".
+std::optional<double> seconds_behind_sign(std::string_view field, const Place& place) {
+    const std::size_t equals = field.find('=');
+    return equals == std::string_view::npos ? std::nullopt : seconds_of(field.substr(equals + 1), place);
+}
+
+/// "CH1V" is channel CH1 in V, "CH2mV" is CH2 in mV.
 Channel rigol_channel(const NameField& field, const Place& place) {
     Channel channel = named_channel(field, place);
-    const std::size_t size = channel.name.size();
-    if (channel.unit.empty() && size > 3 && channel.name.starts_with("CH") &&
-        (channel.name.back() == 'V' || channel.name.back() == 'A')) {
-        channel.unit = channel.name.substr(size - 1);
-        channel.name.resize(size - 1);
+    constexpr std::string_view letters = "CH";
+    const std::size_t behind = channel.name.find_first_not_of("0123456789", letters.size());
+    if (channel.unit.empty() && channel.name.starts_with(letters) && behind != std::string::npos &&
+        behind > letters.size() && is_unit_word(channel.name.substr(behind))) {
+        channel.unit = channel.name.substr(behind);
+        channel.name.resize(behind);
     }
     return channel;
 }
@@ -194,11 +229,12 @@ std::optional<TextTable> rigol_named_time(const KeptLine& names, const std::stri
                step = std::find_if(fields.begin(), fields.end(), begins("tInc"));
     if (start == fields.end() || step <= start || step == fields.end())
         return std::nullopt;
-    const std::optional<double> first = number_behind_sign(start->text), apart = number_behind_sign(step->text);
+    const Place place{path, names.number, 1};
+    const std::optional<double> first = seconds_behind_sign(start->text, place),
+                                apart = seconds_behind_sign(step->text, place);
     if (!first || !apart)
         return std::nullopt;
     TextTable table;
-    const Place place{path, names.number, 1};
     fields.erase(start, fields.end());
     const bool has_time = !fields.empty() && trimmed(fields.front().text).starts_with("Time");
     table.header.time = {"t", "s"};
@@ -230,8 +266,9 @@ std::optional<TextTable> rigol_table(const std::vector<KeptLine>& heading, const
     const auto place = static_cast<std::size_t>(start - fields.begin());
     if (place < 2 || place + 1 >= fields.size() || trimmed(fields[place + 1].text) != "Increment")
         return std::nullopt;
-    const std::optional<double> first = number_of(field_at(below, place), '.'),
-                                apart = number_of(field_at(below, place + 1), '.');
+    const Place at{path, units.number, 1};
+    const std::optional<double> first = seconds_of(field_at(below, place), at),
+                                apart = seconds_of(field_at(below, place + 1), at);
     if (!first || !apart)
         return std::nullopt;
     fields.erase(start, fields.end());

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstring>
 #include <limits>
 
@@ -64,15 +65,23 @@ void TextRecord::refuse_field(std::string_view line, std::string_view field) con
     if (behind && *behind == ',' && numbers_.decimal() == '.')
         refuse(line, behind, fmt::format("'{}' has a comma, and numbers before it have decimal points", text),
                "write all numbers with the same decimal sign, and none between thousands");
+    if (behind && behind + 1 != end && std::string_view(":/-").find(*behind) != std::string_view::npos &&
+        std::isdigit(static_cast<unsigned char>(behind[1])))
+        refuse(line, begin, fmt::format("'{}' is a time of day or a date", text),
+               "write times as numbers, as seconds from the first row on");
+    if (field.size() > 2 && field.front() == '"' && field.back() == '"')
+        refuse(line, begin, fmt::format("'{}' stands in quotes", text), "write numbers without quotes");
     if (behind && numbers_.decimal() != ',')
         refuse(line, behind, fmt::format("'{}' stands behind a number", printable_line(std::string_view(behind, 1))),
                table_.separator == ' '
                    ? std::string("separate columns by blanks, as in the first line, and write decimal points")
                    : fmt::format("separate columns by '{}', as in the first line", table_.separator));
     refuse(line, field.data(), fmt::format("'{}' is no finite number", text),
-           line_ == 1 ? "give names of columns, as in 't [s], V [V]', or numbers"
-                      : "write numbers, and nothing where a value is missing; lines before the names of columns are "
-                        "passed over by --skip N");
+           line_ == 1  ? "give names of columns, as in 't [s], V [V]', or numbers"
+           : rows_ > 0 ? "write numbers, and nothing where a value is missing; lines that are no rows are passed over "
+                         "where they begin with #"
+                       : "write numbers, and nothing where a value is missing; lines before the names of columns are "
+                         "passed over by --skip N");
 }
 
 bool TextRecord::next_line(std::string_view& line) {

@@ -62,6 +62,15 @@ bool is_row(std::string_view line, std::size_t least) {
     });
 }
 
+/// Whether a line is a row, if only of one number, with as many fields as a row below it.
+bool is_row_like(std::string_view line, std::string_view row) {
+    return std::any_of(std::begin(separators), std::end(separators), [&](char separator) {
+        const std::size_t fields = row_fields(row, separator).size();
+        return fields > 1 && row_fields(line, separator).size() == fields && look_at(row, separator).is_row &&
+               look_at(line, separator).is_row;
+    });
+}
+
 /// Whether a row has a comma within a number, beside what separates columns.
 bool has_decimal_commas(std::string_view line) {
     const auto is_digit = [](char letter) { return letter >= '0' && letter <= '9'; };
@@ -172,12 +181,18 @@ private:
                          "the columns are (--columns)");
     }
 
-    /// This is the first row.
+    /// This is the first row with two numbers. Those directly above it that have one, and are missing the others, are
+    /// rows too, and no names.
     TextTable before(std::string_view line) {
+        while (!heading_.empty() && is_row_like(heading_.back().text, line)) {
+            rows_.insert(rows_.begin(), std::move(heading_.back()));
+            heading_.pop_back();
+        }
+        rows_.push_back(kept(line));
         if (heading_.empty())
             return plain(line);
         if (auto table = rigol_table(heading_, lines_->path())) {
-            table->first.push_back(kept(line));
+            table->first = rows_;
             return *std::move(table);
         }
         const KeptLine* names = &heading_.back();
@@ -195,7 +210,7 @@ private:
         if (separator == 0 && heading_.size() > 1)
             mismatch(heading_.back(), heading_.back().text, line);
         TextTable table;
-        table.first.push_back(kept(line));
+        table.first = rows_;
         if (separator == 0) { // what is wrong is told of the row
             require_closed_brackets(names->text, place(names->number));
             separator = separator_of_names(names->text);
@@ -251,12 +266,12 @@ private:
     /// Rows alone.
     TextTable plain(std::string_view line) {
         TextTable table;
-        table.first.push_back(kept(line));
+        table.first = rows_;
         table.separator = separator_of_row(line);
         constexpr std::size_t columns_of_dissertation = 5;
         const std::size_t columns = row_fields(trimmed(line), table.separator).size();
         if (columns != columns_of_dissertation)
-            throw InputError(place(lines_->number()),
+            throw InputError(place(rows_.front().number),
                              fmt::format("nothing says what the {} columns of the record are", columns),
                              "begin the file with a line such as 't [s], V [V], q [mm]', or say it by --columns");
         table.header = {{"t", "s"}, {{"V", ""}, {"I", ""}, {"q", ""}, {"v", ""}}};
@@ -273,8 +288,10 @@ private:
         const std::string_view text = trimmed(heading_.front().text);
         const bool begins_with_number =
             NumberReader::read_beginning(text.data(), text.data() + text.size(), value) != nullptr;
-        if (begins_with_number && row_fields(text, separator_of_row(text)).size() > 1)
+        if (begins_with_number && row_fields(text, separator_of_row(text)).size() > 1) {
+            rows_ = {heading_.front()};
             return plain(heading_.front().text);
+        }
         table.separator = separator_of_names(text);
         table.header = parse_record_header(heading_.front().text, place(heading_.front().number));
         table.first.assign(heading_.begin() + 1, heading_.end());
@@ -285,6 +302,7 @@ private:
     const RecordLayout* layout_;
     KeptLine names_, units_;
     std::vector<KeptLine> heading_;
+    std::vector<KeptLine> rows_; ///< the first ones, where nothing has told where they begin
 };
 
 } // namespace

@@ -42,14 +42,28 @@ std::vector<std::string> units_alike(const Model& model, const PhysicalUnit& uni
     return found;
 }
 
+/// A parameter without a unit is a number where others of the model have units; where none has, nothing is known.
+std::optional<PhysicalUnit> unit_in_model(const Model& model, const std::string& text) {
+    if (!text.empty())
+        return known_unit(text);
+    const bool has_units =
+        !model.time_unit.empty() || std::any_of(model.parameters.begin(), model.parameters.end(),
+                                                [](const Parameter& one) { return !one.unit.empty(); });
+    return has_units ? std::optional(PhysicalUnit()) : std::nullopt;
+}
+
+const Channel& displacement_of(const IdentifyRequest& request, const KeptRecord& record) {
+    return record.header
+        .channels[record.header.channel(request.displacement.empty() ? "q" : request.displacement, "records")];
+}
+
 /// @param wanted units, of which each would do
 bool agrees(const PhysicalUnit& unit, const std::vector<std::string>& wanted) {
     return wanted.empty() ||
            std::any_of(wanted.begin(), wanted.end(), [&](const std::string& text) { return known_unit(text) == unit; });
 }
 
-void check_channel(const StudyRun& run, const KeptRecord& record, const std::string& name) {
-    const Channel& channel = record.header.channels[record.header.channel(name, "records")];
+void check_channel(const StudyRun& run, const KeptRecord& record, const Channel& channel) {
     const auto unit = known_unit(channel.unit);
     if (!unit)
         return;
@@ -58,10 +72,10 @@ void check_channel(const StudyRun& run, const KeptRecord& record, const std::str
         return;
     throw InputError(run.place,
                      fmt::format("{}: channel '{}' is in {}, and what the model has of that kind in {}", record.name,
-                                 name, channel.unit, fmt::join(wanted, " and ")),
+                                 channel.name, channel.unit, fmt::join(wanted, " and ")),
                      fmt::format("convert it in the run that has the record: scale = {{ {} = {{ factor = {:g}, "
                                  "unit = \"{}\" }} }}",
-                                 name, converted(1, *unit, *known_unit(wanted.front())), wanted.front()));
+                                 channel.name, converted(1, *unit, *known_unit(wanted.front())), wanted.front()));
 }
 
 void check_time(const StudyRun& run, const KeptRecord& record) {
@@ -71,6 +85,45 @@ void check_time(const StudyRun& run, const KeptRecord& record) {
                          fmt::format("{}: its time is in {}, and that of the model in {}", record.name,
                                      record.header.time.unit, run.model.time_unit),
                          "convert the times of the record");
+}
+
+/// Of a number that is known beforehand: a parameter that is named alone has a unit, what is computed of several none
+/// that is known.
+void check_known(const StudyRun& run, const char* key, const std::string& text, const std::string& kind) {
+    const auto parameter = run.model.find_parameter(text);
+    const auto wanted = known_unit(kind);
+    if (!parameter || !wanted)
+        return;
+    const std::string& unit = run.model.parameters[*parameter].unit;
+    const auto one = unit_in_model(run.model, unit);
+    if (one && one->dimension != wanted->dimension)
+        throw InputError(run.place,
+                         fmt::format("{} = \"{}\" is {}, and {} is wanted", key, text,
+                                     unit.empty() ? "a number without a unit" : "in " + unit, kind),
+                         "name another parameter, or write what is meant in parameters");
+}
+
+/// Of displacements in a length, unless the record says that they are something else.
+void check_known_numbers(const StudyRun& run, const std::vector<KeptRecord>& records) {
+    const IdentifyRequest& request = run.identify;
+    std::string length = "m";
+    for (const KeptRecord& record : records)
+        if (request.what == What::coupling)
+            if (const Channel& q = displacement_of(request, record); known_unit(q.unit))
+                length = q.unit;
+    check_known(run, "gap", request.gap, length);
+    check_known(run, "clamped", request.clamped, length);
+    check_known(run, "beta2", request.beta2, length);
+    check_known(run, "frequency", request.frequency, "Hz");
+    if (length == "m") {
+        check_known(run, "stiffness", request.stiffness, "N/m");
+        check_known(run, "beta1", request.beta1, "H m");
+    }
+}
+
+/// Whether what is found under a name has no unit by its nature.
+bool is_ratio(const std::string& name) {
+    return name.starts_with("damping_ratio") || name.starts_with("restitution") || name == "correlation";
 }
 
 /// By what a number is multiplied to be in another unit. Where cycles and radians are told apart, they are here, too.
@@ -88,15 +141,16 @@ void check_record_units(const StudyRun& run, const std::vector<KeptRecord>& reco
     const IdentifyRequest& request = run.identify;
     for (const KeptRecord& record : records) {
         if (request.what == What::coupling)
-            check_channel(run, record, request.displacement.empty() ? "q" : request.displacement);
+            check_channel(run, record, displacement_of(request, record));
         if (request.what != What::impedance)
             continue;
         if (!request.frequency.empty() || !request.beta1.empty())
             check_time(run, record);
         if (!request.beta1.empty())
             for (const std::string& name : {request.voltage, request.current})
-                check_channel(run, record, name);
+                check_channel(run, record, record.header.channels[record.header.channel(name, "records")]);
     }
+    check_known_numbers(run, records);
 }
 
 void convert_to_model(EstimateRecords& estimates, const StudyRun& run) {
@@ -107,14 +161,21 @@ void convert_to_model(EstimateRecords& estimates, const StudyRun& run) {
         if (!parameter)
             continue;
         const std::string& unit = run.model.parameters[*run.model.find_parameter(number.name)].unit;
-        const auto from = known_unit(number.unit), to = known_unit(unit);
+        const auto& gives = run.identify.gives;
+        const bool ratio = std::any_of(gives.begin(), gives.end(), [&](const auto& one) {
+            return one.second == number.name && is_ratio(one.first);
+        });
+        const auto from = ratio ? PhysicalUnit() : known_unit(number.unit), to = unit_in_model(run.model, unit);
         if (!from || !to)
             continue;
+        const auto in = [](const std::string& text) { return text.empty() ? "without a unit" : "in " + text; };
         if (from->dimension != to->dimension)
-            throw InputError(
-                run.place,
-                fmt::format("what is found for '{}' is in {}, and the parameter in {}", number.name, number.unit, unit),
-                "name another parameter in `gives`, or correct the units of the record by `scale`");
+            throw InputError(run.place,
+                             fmt::format("what is found for '{}' is {}, and the parameter {}", number.name,
+                                         in(number.unit), in(unit)),
+                             "name another parameter in `gives`, or correct the units of the record by `scale`");
+        if (number.unit.empty() || unit.empty())
+            continue;
         const double factor = factor_between(number.unit, unit);
         number.unit = unit;
         number.estimate.value *= factor;

@@ -1,5 +1,7 @@
 #include "symbolic/lexer.hpp"
 
+#include "graze/symbolic/physical_unit.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -50,7 +52,23 @@ std::string_view plain_form(std::string_view character) {
     return found == std::end(forms) ? std::string_view() : found->plain;
 }
 
+bool is_unit(std::string_view word) {
+    try {
+        physical_unit(word);
+        return true;
+    } catch (const InputError&) {
+        return false;
+    }
+}
+
 } // namespace
+
+std::string remedy_behind_number(std::string_view number, std::string_view word) {
+    if (is_unit(word))
+        return fmt::format("write {} alone, in the unit that is meant there, or {}*{} for a product", number, number,
+                           word);
+    return fmt::format("write {}*{} for a product", number, word);
+}
 
 Place Source::at(std::size_t offset) const {
     Place place{begin.file, std::max(begin.line, 1), std::max(begin.column, 1)};
@@ -131,8 +149,7 @@ Token Lexer::number() {
     if (!complete || length > number_length) {
         std::string remedy = "write numbers as 12, 0.5 or 1e-3";
         if (complete && is_name_start(text[number_length]) && !text.starts_with("0x") && text.size() <= 40)
-            remedy =
-                fmt::format("write {}*{} for a product", text.substr(0, number_length), text.substr(number_length));
+            remedy = remedy_behind_number(text.substr(0, number_length), text.substr(number_length));
         source_.fail(offset_, "malformed number " + quoted(text), remedy);
     }
     double value = 0;

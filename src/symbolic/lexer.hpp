@@ -18,6 +18,9 @@ struct Source {
     [[noreturn]] void fail(std::size_t offset, const std::string& problem, const std::string& remedy) const;
 };
 
+/// For a name directly behind a number, which may be meant as a factor, or as a unit, which expressions have none of.
+std::string remedy_behind_number(std::string_view number, std::string_view word);
+
 struct Token {
     enum class Kind {
         number,

@@ -263,8 +263,10 @@ void Parser::refuse_missing_operator() const {
     if (token_.kind == Kind::name)
         if (token_.text == "or" || token_.text == "not")
             refuse_name(token_, false);
+    const bool behind_number = previous_ && previous_->kind == Kind::number && token_.kind == Kind::name;
     source_.fail(token_.offset, fmt::format("an operator is missing before {}", quoted(token_.text)),
-                 "write * for a product, or remove what does not belong here");
+                 behind_number ? remedy_behind_number(previous_->text, token_.text)
+                               : "write * for a product, or remove what does not belong here");
 }
 
 void Parser::refuse_comma() const {

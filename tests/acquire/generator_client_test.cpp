@@ -332,6 +332,30 @@ TEST(GeneratorClient, AsksForTheAmplitudeAgainAfterTheFrequency) {
     }
 }
 
+/// Whose offset or frequency is another one since its level was set: no record is waited for.
+TEST(GeneratorClient, AsksForAllElseAfterALevel) {
+    for (const bool of_offset : {true, false}) {
+        Stranger stranger{StrangerGenerator(5, 13U, 50)};
+        ScriptedLine line{[&](const std::string& said) {
+            const std::string answer = stranger.generator.execute(said);
+            if (!of_offset && said == "VOLT 2")
+                stranger.generator.execute("FREQ 9");
+            return answer;
+        }};
+        GeneratorClient client(line, options());
+        client.begin(6, 0.1, 0);
+        if (of_offset)
+            stranger.generator.take(StrangerGenerator::amplitude_shifts);
+        std::string what, problem;
+        EXPECT_EQ(ending_of([&] { client.set_amplitude(2); }, what), AcquisitionEnding::clipped);
+        EXPECT_THAT(what, HasSubstr(of_offset ? "gives an offset of 1 V instead of 0 V"
+                                              : "gives a frequency of 9 Hz instead of 6 Hz"));
+        EXPECT_TRUE(client.make_safe(0.1, problem)) << problem;
+        EXPECT_EQ(stranger.generator.offset(), 0);
+        EXPECT_NEAR(stranger.generator.peaks(), 0.1, 1e-6);
+    }
+}
+
 /// Whose switch lets out what was set at another time: nothing but the question stands between the switch and its end.
 TEST(GeneratorClient, SwitchesOffAtOnceWhatTheSwitchItselfHasChanged) {
     Stranger stranger{StrangerGenerator(5, StrangerGenerator::switch_recalls | 13U, 50)};

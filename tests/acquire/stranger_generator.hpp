@@ -26,6 +26,7 @@ public:
         modulation_is_stuck = 128, ///< likewise
         frequency_resets = 256,    ///< its amplitude is 10 V after each FREQ
         switch_recalls = 512,      ///< and 7 V after each OUTP ON
+        amplitude_shifts = 1024,   ///< its offset is 1 V after each VOLT
     };
 
     StrangerGenerator(unsigned seed, unsigned habits, double real_load) : habits_(habits), real_load_(real_load) {
@@ -181,6 +182,8 @@ private:
         *value = std::stod(argument);
         if (name == "FREQ" && has(frequency_resets))
             number_ = 10;
+        if (name == "VOLT" && has(amplitude_shifts))
+            offset_ = 1;
         return "";
     }
 

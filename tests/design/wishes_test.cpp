@@ -5,6 +5,8 @@
 #include "graze/symbolic/input_error.hpp"
 #include "switches.hpp"
 
+#include <algorithm>
+
 namespace graze::testing {
 
 TEST(Wishes, OfAnOscillatorAreMetByTheNearestDevice) {
@@ -92,6 +94,24 @@ TEST(Wishes, ForAYieldAreMetByTheDevicesThatAreMade) {
     EXPECT_FALSE(all.found.wants[1].met);
     EXPECT_GT(*all.found.wants[1].value, 0.93);
     EXPECT_NE(all.found.reason.find("the yield"), std::string::npos) << all.found.reason;
+}
+
+/// A search that ends early by what derivatives say of the yield says nothing else than the devices that are made.
+TEST(Wishes, ForAYieldThatTheDevicesHaveAreMetHoweverTheSearchEnded) {
+    for (const std::size_t evaluations : {1, 3, 8})
+        for (const double share : {0.85, 0.9, 0.92, 0.94}) {
+            Design design = parse_design(oscillator_text("[wanted]\nvalue = [0.198, 0.206]\nyield = 0.9\n"), "d.toml");
+            design.wanted.least_yield = share;
+            WishesOptions options;
+            options.evaluations = evaluations;
+            const MetWishes one = meet_wishes(design, trip_of(design), options);
+            if (one.found.outcome == WishOutcome::nowhere)
+                continue;
+            const bool all = std::all_of(one.found.wants.begin(), one.found.wants.end(),
+                                         [](const FoundWant& want) { return want.met; });
+            EXPECT_EQ(one.found.outcome == WishOutcome::met, all) << one.found.reason;
+            EXPECT_EQ(one.found.reason.empty(), all) << one.found.reason;
+        }
 }
 
 TEST(Wishes, ForAYieldThatIsFarAwayLeadToIt) {

@@ -82,6 +82,91 @@ TEST(Decrement, IntervalsCoverTheTruth) {
     EXPECT_LT(scatter, pairs) << "means of pairs waste what was measured";
 }
 
+// However few samples a period has, and wherever in it they lie.
+TEST(Decrement, OfFewSamplesAPeriodIsFound) {
+    const double damped = frequency * std::sqrt(1 - damping * damping);
+    for (const double in_a_period : {6.3, 8.0, 9.3, 11.0, 12.0, 13.0})
+        for (const double relative : {0.0, 1e-3, 1e-2}) {
+            std::size_t frequencies = 0, dampings = 0;
+            constexpr std::size_t phases = 40;
+            for (std::size_t k = 0; k < phases; ++k) {
+                Noise noise(k);
+                Samples samples;
+                samples.clear(1);
+                for (int i = 0; i < 12.5 * in_a_period; ++i) {
+                    const double t = i * 2 * std::numbers::pi / (damped * in_a_period);
+                    samples.times.push_back(t);
+                    samples.values[0].push_back(0.05 +
+                                                std::exp(-damping * frequency * t) *
+                                                    std::cos(damped * t + 0.157 * static_cast<double>(k)) +
+                                                relative * noise.normal());
+                }
+                StoredSamples source({{"t", "s"}, {{"v", "m/s"}}}, std::move(samples));
+                const DecayPeaks peaks = decay_peaks(source, 0, 10);
+                EXPECT_GE(peaks.times.size(), 3U) << in_a_period << ' ' << k;
+                EXPECT_TRUE(peaks.wave.left.is_noise()) << peaks.wave.left.text();
+                const DampedOscillation found = damped_oscillation({&peaks.wave, 1});
+                const double roundoff = 1e-10;
+                frequencies +=
+                    std::abs(found.frequency.value - frequency) < found.frequency.half_width() + roundoff * frequency
+                        ? 1
+                        : 0;
+                dampings += std::abs(found.damping.value - damping) < found.damping.half_width() + roundoff ? 1 : 0;
+            }
+            EXPECT_GE(frequencies, 34U) << in_a_period << ' ' << relative; // 38 +- 1.4 where there is noise
+            EXPECT_GE(dampings, 33U) << in_a_period << ' ' << relative;
+        }
+}
+
+// A reading that is far off makes all peaks small beside what is left: it is that reading which is told of.
+TEST(Decrement, TellsOfAReadingThatIsFarOff) {
+    Noise noise(3);
+    Samples samples;
+    samples.clear(1);
+    for (int i = 0; i < 500; ++i) {
+        samples.times.push_back(0.001 * i);
+        samples.values[0].push_back(velocity(0.001 * i, 0.762e-3) + 1e-4 * noise.normal());
+    }
+    samples.values[0][150] += 30;
+    StoredSamples source({{"t", "s"}, {{"v", "m/s"}}}, std::move(samples));
+    try {
+        decay_peaks(source, 0, 10);
+        ADD_FAILURE() << "nothing is told";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("1 of "), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("standard deviations off"), std::string::npos) << error.what();
+    }
+}
+
+// Of a record in which one period is missing no periods can be counted; of one with a few rows less they can.
+TEST(Decrement, TellsOfAGap) {
+    for (const double length : {0.005, 0.07}) {
+        Noise noise(3);
+        Samples samples;
+        samples.clear(1);
+        for (int i = 0; i < 800; ++i) {
+            const double t = 0.001 * i;
+            if (t > 0.2 && t < 0.2 + length)
+                continue;
+            samples.times.push_back(t);
+            samples.values[0].push_back(velocity(t, 0.762e-3) + 1e-4 * noise.normal());
+        }
+        StoredSamples source({{"t", "s"}, {{"v", "m/s"}}}, std::move(samples));
+        std::string told;
+        try {
+            const DecayPeaks peaks = decay_peaks(source, 0, 10);
+            const DampedOscillation found = damped_oscillation({&peaks.wave, 1});
+            EXPECT_NEAR(found.frequency.value, frequency, 4 * found.frequency.error);
+        } catch (const InputError& error) {
+            told = error.what();
+        }
+        EXPECT_EQ(told.find("'v' has no rows from 0.2 to 0.27, for 1.1 of its periods; give a part without gaps") ==
+                      std::string::npos,
+                  length < 0.01)
+            << told;
+    }
+}
+
 // A channel that comes to rest elsewhere than at nought: where that is belongs to what is found, and to the errors.
 TEST(Decrement, FindsWhereAChannelComesToRest) {
     constexpr double rest = 0.3; // four times the first peak

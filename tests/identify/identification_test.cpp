@@ -149,6 +149,55 @@ TEST(Identification, OffsetsOfVelocitiesAreTold) {
                 ::testing::Contains(::testing::HasSubstr("may have an offset")));
 }
 
+/// Between impacts the velocity goes straight from one to the next, so that each is known to its noise.
+TEST(Identification, RestitutionsThatChangeFromImpactToImpactAreTold) {
+    for (const double other : {0.8, 0.6}) {
+        Noise noise(7);
+        NamedRecord one{"a", {{"t", "s"}, {{"v", "m/s"}}}, {}};
+        one.samples.clear(1);
+        double first = 0.8, last = 0.9;
+        for (int k = 0; k < 20; ++k) {
+            for (int i = 0; i < 50; ++i) {
+                one.samples.times.push_back(0.01 * (50 * k + i));
+                one.samples.values[0].push_back(first - (first + last) * i / 49 + 0.001 * noise.normal());
+            }
+            first = (k % 2 == 0 ? 0.8 : other) * last;
+            last = 0.7 + 0.3 * noise.uniform();
+        }
+        const Identification found = identify_restitution(each({one}), {});
+        if (other == 0.8) {
+            EXPECT_THAT(found.warnings, ::testing::IsEmpty());
+            // Within half a sample velocities change by 0.017; both do so alike, which is a fifth of that over 0.85.
+            EXPECT_NEAR(value_of(found, "restitution").estimate.value, 0.8, 5e-3);
+        } else {
+            EXPECT_THAT(found.warnings, ::testing::Contains(HasSubstr("changes from impact to impact")));
+        }
+    }
+}
+
+/// Of exact loads in m: what is in mm, and what has another gap, is no magnet's.
+TEST(Identification, CouplingsOfNoMagnetAreNotTold) {
+    constexpr double beta1 = 1.902e-5, beta2 = 1.631e-3, gap = 0.00479102312304, stiffness = 0.6462 * 95.94 * 95.94;
+    const auto loads = [&](double unit) {
+        return record("loads", {{"q", ""}, {"I", "A"}}, 1, 12,
+                      {[&](double t) { return unit * 1e-4 * (1 + t); },
+                       [&](double t) {
+                           const double q = 1e-4 * (1 + t);
+                           return (gap + beta2 - q) * std::sqrt(2 * stiffness * q / beta1);
+                       }});
+    };
+    IdentificationSettings settings;
+    settings.gap = gap;
+    settings.stiffness = stiffness;
+    EXPECT_THAT(message_of([&] { identify_coupling(each({loads(1e3)}), settings); }),
+                HasSubstr("a displacement of 0.1 is larger than the gap at rest, 0.004791"));
+    settings.gap = 0.05; // beta2 would have to be gap + beta2 less 50 mm
+    const Identification found = identify_coupling(each({loads(1)}), settings);
+    EXPECT_THAT(found.warnings, ::testing::Contains(HasSubstr("beta2 is not told: beta2, which the way through")));
+    for (const Identification::Value& value : found.values)
+        EXPECT_TRUE(value.name != "beta1" && value.name != "beta2");
+}
+
 TEST(Identification, CouplingsAreOfRowsOrOfRecords) {
     // Eq. (5.13) with the constants of Appendix C.
     constexpr double beta1 = 1.902e-5, beta2 = 1.631e-3, gap = 0.00479102312304, stiffness = 0.6462 * 95.94 * 95.94;

@@ -76,8 +76,16 @@ TEST(ImpactProportion, SaysNothingWhereImpactsDifferByMoreThanTheirErrors) {
             one.after *= 1 + 0.05 * noise.normal();
         const ImpactProportion test = tested(impacts);
         told += std::min(test.offset, test.change) < 1e-3 ? 1 : 0;
+        EXPECT_LT(test.unlike, 1e-6) << seed << ": a scatter of some 40 errors";
     }
     EXPECT_LE(told, 4U);
+}
+
+TEST(ImpactProportion, SaysNotThatImpactsWithErrorsAloneAreUnlike) {
+    for (std::size_t seed = 0; seed < 4000; ++seed) {
+        Noise noise(seed);
+        EXPECT_GT(tested(bounces(noise, 0, 0, 0.004)).unlike, 1e-5) << seed;
+    }
 }
 
 TEST(ImpactProportion, CountsImpactsThatAreNone) {

@@ -3,6 +3,7 @@
 #include "graze/symbolic/input_error.hpp"
 #include "identify/noise.hpp"
 
+#include <algorithm>
 #include <vector>
 
 namespace graze::testing {
@@ -41,6 +42,26 @@ TEST(Impedance, OfExactSinesIsExact) {
         EXPECT_NEAR(found.resistance.value, resistance, 1e-9 * resistance);
         const Estimate leak = leakage_inductance(found.inductance, {beta1, 0, 0}, {beta2, 0, 0}, gap, q);
         EXPECT_NEAR(leak.value, leakage, 1e-9 * leakage);
+    }
+}
+
+/// In gaps periods may hide: the part without them says about how long one is.
+TEST(Impedance, OfARecordWithGapsIsFound) {
+    Noise noise(4);
+    const Recorded whole = recorded(noise, 0.01, 0.01);
+    for (const std::vector<std::size_t>& gaps : {std::vector<std::size_t>{500}, {300, 1500}}) {
+        Recorded record;
+        for (std::size_t i = 0; i < whole.times.size(); ++i) {
+            if (std::any_of(gaps.begin(), gaps.end(), [&](std::size_t first) { return i >= first && i < first + 300; }))
+                continue;
+            record.times.push_back(whole.times[i]);
+            record.voltage.push_back(whole.voltage[i]);
+            record.current.push_back(whole.current[i]);
+        }
+        const Impedance found = impedance(record.times, record.voltage, record.current);
+        EXPECT_NEAR(found.frequency, omega, 1e-3 * omega);
+        EXPECT_TRUE(found.voltage_left.is_noise()) << found.voltage_left.text();
+        EXPECT_NEAR(found.resistance.value, resistance, 4 * found.resistance.error);
     }
 }
 

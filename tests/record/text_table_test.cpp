@@ -12,8 +12,10 @@
 
 namespace graze::testing {
 
+using ::testing::DoubleEq;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 namespace {
 
@@ -168,6 +170,30 @@ TEST(TextTable, OscilloscopesOfRigol) {
     EXPECT_THAT(read_file("CH1V,t0 =0s, tInc = 0.5,\n0.25,,\n0.50,,\n").rows.times, ElementsAre(0, 0.5));
 }
 
+/// Times in headings have units: what begins at -30 ms begins at -0.03 s.
+TEST(TextTable, TimesInHeadingsHaveUnits) {
+    for (const char* times : {"t0 =-30ms, tInc = 1ms", "t0 =-0.03s, tInc = 1000us", "t0 =-3e-2, tInc = 1e6 ns"}) {
+        const ReadFile file = read_file("CH1V,CH2mV," + std::string(times) + ",\n0.1,1,,\n0.2,2,,\n0.1,3,,\n");
+        EXPECT_THAT(file.names(), ElementsAre("t|s", "CH1|V", "CH2|mV"));
+        EXPECT_THAT(file.rows.times, ElementsAre(-0.03, DoubleEq(-0.029), DoubleEq(-0.028))) << times;
+    }
+    const ReadFile counted = read_file("X,CH1,Start,Increment,\nSequence,Volt,-30ms,1ms\n0,0.1,\n1,0.2,\n2,0.1,\n");
+    EXPECT_THAT(counted.rows.times, ElementsAre(-0.03, DoubleEq(-0.029), DoubleEq(-0.028)));
+    EXPECT_THAT(refusal_of("CH1V,t0 =-30V, tInc = 1ms,\n0.1,,\n0.2,,\n"), HasSubstr("'-30V' is no time"));
+
+    const std::string heading = replaced(labview_heading, "X_Columns\tOne", "X_Columns\tNo");
+    for (const char* unit : {"ms", "\"ms\""}) {
+        const std::string segment =
+            replaced(labview_segment, "X0\t", "X_Unit_Label\t" + std::string(unit) + "\t" + unit + "\t\nX0\t");
+        const ReadFile file = read_file(heading + segment + "\t1.25\t-2\n\t1.5\t-3\n");
+        EXPECT_THAT(file.names(), ElementsAre("X_Value|ms", "Voltage|V", "Current|A"));
+        EXPECT_THAT(file.rows.times, ElementsAre(0.5, 0.501));
+        EXPECT_EQ(read_file(labview_heading + segment + "0.5\t1\t2\n").header.time.unit, "ms");
+    }
+    EXPECT_THAT(refusal_of(heading + replaced(labview_segment, "X0\t", "X_Unit_Label\ts\tms\t\nX0\t") + "\t1\t2\n"),
+                HasSubstr("the channels have no common X_Unit_Label"));
+}
+
 TEST(TextTable, DecimalCommas) {
     for (const char* text : {"t [s];v [V]\n0,5;-1,25e0\n1;2\n", "t [s]\tv [V]\n0,5\t-1,25\n1\t2\n",
                              "Zeit [s] v [V]\n0,5 -1,25\n1,0 2,0\n", "Zeit (s), Uhr\tv\n0,5\t-1,25\n1,0\t2,0\n"}) {
@@ -195,6 +221,35 @@ TEST(TextTable, MissingValuesAreLeftOutAndCounted) {
                 HasSubstr("6 of 8 rows are left out, of which a value is missing (the first in line 3)"));
     EXPECT_THAT(read_file("t\tv\tw\n0\t\t2\n1\t1\t2\n").rows.times, ElementsAre(1));
     EXPECT_THAT(refusal_of("t,v\n0,1\n1,x\n"), HasSubstr("r.csv:3:3: 'x' is no finite number"));
+}
+
+/// They are no names, though the file has those.
+TEST(TextTable, FirstRowsMayMissValues) {
+    for (const char* missing : {"", "nan", "9.9E37", "---", "OVLD"}) {
+        const std::string none(missing);
+        const ReadFile named = read_file("t [s],v [V]\n0," + none + "\n1," + none + "\n2,3\n3,4\n");
+        EXPECT_THAT(named.names(), ElementsAre("t|s", "v|V")) << none;
+        EXPECT_THAT(named.rows.times, ElementsAre(2, 3)) << none;
+        ASSERT_EQ(named.remarks.size(), 1U);
+        EXPECT_THAT(named.remarks[0],
+                    HasSubstr("2 of 4 rows are left out, of which a value is missing (the first in line 2)"));
+        EXPECT_THAT(read_file("Logger 5\n\nTime;Force\ns;N\n0;" + none + "\n1;2\n").names(),
+                    ElementsAre("Time|s", "Force|N"));
+        if (!none.empty()) {
+            const std::string row = "0," + none + "," + none + "," + none + "," + none + "\n";
+            EXPECT_THAT(read_file(row + "1,2,3,4,5\n").rows.times, ElementsAre(1)) << none;
+        }
+    }
+}
+
+TEST(TextTable, TellsWhyAFieldIsNoNumber) {
+    EXPECT_THAT(refusal_of("t [s],v [V]\n12:00:00.001,1\n12:00:00.002,2\n"),
+                HasSubstr("r.csv:2:1: '12:00:00.001' is a time of day or a date; write times as numbers"));
+    EXPECT_THAT(refusal_of("t;v\n2020-05-14;1\n"), HasSubstr("is a time of day or a date"));
+    EXPECT_THAT(refusal_of("t,v\n0,\"0.1\"\n"), HasSubstr("r.csv:2:3: '\"0.1\"' stands in quotes"));
+    EXPECT_THAT(refusal_of("t,v\n0,1\n1,2\nend of data,3\n"), Not(HasSubstr("--skip")));
+    EXPECT_THAT(refusal_of("t [\xb5s],v [V]\n0,1\n1,2\n"),
+                HasSubstr("r.csv:1:4: 't [\xef\xbf\xbds]' is no text in UTF-8"));
 }
 
 /// Of every number at which a file may end none that was cut off is taken for another.

@@ -206,6 +206,25 @@ TEST_F(IdentifyRunTest, units_that_do_not_agree_are_refused) {
     EXPECT_THAT(refusal(other), HasSubstr("what is found for 'm' is in rad/s, and the parameter in kg"));
 }
 
+// A ratio has no unit, and no frequency is one; a length is given by a parameter that is one.
+TEST_F(IdentifyRunTest, parameters_of_another_kind_are_refused) {
+    write_release("r1.csv");
+    std::string swapped = head;
+    swapped.replace(swapped.find("natural_frequency = \"w0\", damping_ratio = \"zeta\""), 48, "damping_ratio = \"w0\"");
+    EXPECT_THAT(refusal(swapped), HasSubstr("what is found for 'w0' is without a unit, and the parameter in rad/s"));
+    swapped.replace(swapped.find("damping_ratio = \"w0\""), 20, "natural_frequency = \"zeta\"");
+    EXPECT_THAT(refusal(swapped), HasSubstr("what is found for 'zeta' is in rad/s, and the parameter without a unit"));
+    write_loads("loads.csv");
+    const auto with_gap = [&](const std::string& gap_text) {
+        std::string text = std::string(head) + loads_text;
+        text.replace(text.find("gap = 4.8e-3"), 12, "gap = \"" + gap_text + "\"");
+        return refusal(text);
+    };
+    EXPECT_THAT(with_gap("w0"), HasSubstr("gap = \"w0\" is in rad/s, and m is wanted; name another parameter"));
+    EXPECT_THAT(with_gap("zeta"), HasSubstr("gap = \"zeta\" is a number without a unit, and m is wanted"));
+    EXPECT_EQ(with_gap("d"), "");
+}
+
 TEST_F(IdentifyRunTest, other_runs_take_what_was_found) {
     write_release("r1.csv");
     const std::string later = R"([runs.motion]

@@ -173,6 +173,14 @@ TEST_F(ParserTest, MissingAndSuperfluousParts) {
     expect_error_at("(x > y)", 3, "'>' stands inside parentheses", "");
 }
 
+/// A unit behind a number is no factor: the product would be refused, too.
+TEST_F(ParserTest, UnitsBehindNumbers) {
+    expect_error_at("0.5um", 0, "malformed number '0.5um'", "write 0.5 alone, in the unit that is meant there");
+    expect_error_at("169e9 Pa", 6, "an operator is missing before 'Pa'", "write 169e9 alone");
+    expect_error_at("2foo", 0, "malformed number '2foo'", "write 2*foo for a product");
+    expect_error_at("2 foo", 2, "an operator is missing before 'foo'", "write 2*foo for a product");
+}
+
 TEST_F(ParserTest, OtherSpellings) {
     expect_error_at("x**2", 1, "'**' is not an operator", "a^b");
     expect_error_at("x = 2", 2, "unexpected '='", "right-hand side");

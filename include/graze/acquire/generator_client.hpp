@@ -48,11 +48,12 @@ public:
     /// @throws InstrumentError, here and below, when it does not answer, refuses, or gives something else;
     ///         InputError for what is beyond the limits, of which nothing is sent
     void begin(double frequency, double amplitude, double offset);
+    /// Before it and after it all else that makes up the level is asked for, too.
     /// @return what the generator says that it gives
     double set_amplitude(double amplitude);
     /// Asks for the amplitude, too, before anything else: a larger one than was told silences the output at once.
     double set_frequency(double frequency);
-    /// What it gives now. Unit, shape, load and modulations are asked for, too.
+    /// What it gives now. Unit, shape, load, modulations, offset and frequency are asked for, too.
     double amplitude();
     double frequency();
     /// What it answers to *IDN?.
@@ -91,7 +92,7 @@ private:
     void lower(double safe);
     void require_quiet(double number);
     void require_plain();
-    void require_offset();
+    void require_beside_amplitude();
     void silence();
     void check_no_more();
     void check_level();
