@@ -42,8 +42,12 @@ void Trajectory::make_contact(std::size_t w, double s) {
     std::copy(before_.begin(), before_.end(), inputs_.begin());
     values_.resize(mode.events.outputs());
     mode.events.evaluate(inputs_, values_, work_);
+    // What is still due was on its surface when that was found. Jumps made since may have taken it away from there.
+    const bool first_at_this_time = served_ == no_event && !stuck_;
+    std::erase(together_, event);
     for (std::size_t other = 0; other < mode.watched.size(); ++other)
-        surface_values_[mode.watched[other]] = values_[other];
+        if (first_at_this_time || other == w)
+            surface_values_[mode.watched[other]] = values_[other];
     Contact contact;
     contact.kind = ContactKind::crossing;
     contact.event = event;

@@ -160,3 +160,75 @@ TEST(SharedSurface, PressedAgainstTwoBarriersItSticksOnce) {
         EXPECT_LE(experiment.recorder.contacts().size(), 3U);
     }
 }
+
+namespace {
+
+/// A converter with peak-current control: the current i rises in `on` until it reaches its peak, and falls in `off`
+/// until the clock c ticks. What follows the first tick has modes of its own, if they are wanted.
+Model converter(double rise, double fall, bool ends_at_second_tick) {
+    const std::string then = ends_at_second_tick ? "later_" : "";
+    std::string text =
+        fmt::format("name = \"converter\"\nstates = {{ i = 0, c = 0 }}\n[events]\npeak = \"1 - i\"\ntick = \"1 - c\"\n"
+                    "[jumps]\nreset = {{ c = 0 }}\n[initial]\nmode = \"on\"\n[modes]\n");
+    for (const char* prefix : {"", "later_"})
+        text += fmt::format("{0}on = {{ rates = {{ i = {1:.17g}, c = 1 }}, watch = [\"peak\", \"tick\"] }}\n"
+                            "{0}off = {{ rates = {{ i = {2:.17g}, c = 1 }}, watch = [\"tick\"] }}\n",
+                            prefix, rise, -fall);
+    return model_from(text + transition("on", "peak", "off") + transition("on", "tick", "on", "reset") +
+                      transition("off", "tick", then + "on", "reset") + transition("later_on", "peak", "later_off") +
+                      transition("later_on", "tick", "later_on", "reset") +
+                      transition("later_off", "tick", "end", "reset"));
+}
+
+const std::vector<std::pair<double, double>> peaks_at_ticks{{0.5, 0.5}, {0.25, 0.75}, {0.125, 0.875},  {0.3, 0.7},
+                                                            {0.1, 0.9}, {0.7, 0.3},   {0.0625, 0.9375}};
+
+} // namespace
+
+TEST(SharedSurface, AnEventThatWasResetAtItsTimeIsDueOnlyAtTheNextZero) {
+    // The peak and the tick fall together at time 1. The tick is served once, the peak in both modes; the clock then
+    // runs for its whole period.
+    for (const auto& [rise, start] : peaks_at_ticks) {
+        Experiment experiment(converter(rise, 1.3, true));
+        const Outcome outcome = experiment.run_from({start, 0}, 0, 3.5);
+        EXPECT_EQ(outcome.ending, Ending::terminal) << rise << " " << outcome.detail;
+        EXPECT_NEAR(outcome.time, 2, 1e-14) << rise;
+        ASSERT_EQ(experiment.recorder.contacts().size(), 4U) << rise;
+        for (const auto& recorded : experiment.recorder.contacts())
+            EXPECT_NEAR(recorded.contact.value, 0, 1e-13) << rise;
+    }
+}
+
+TEST(SharedSurface, AConverterWhosePeakFallsOnATickGoesOn) {
+    // In each period the current rises from i to the peak in (1 - i) / rise, then falls for the rest.
+    for (const auto& [rise, start] : peaks_at_ticks) {
+        const double fall = 0.6 * rise;
+        Experiment experiment(converter(rise, fall, false));
+        constexpr int periods = 12;
+        const Outcome outcome = experiment.run_from({start, 0}, 0, periods);
+        ASSERT_EQ(outcome.ending, Ending::end_time) << rise << " " << outcome.detail;
+        double current = 1;
+        for (int k = 1; k < periods; ++k)
+            current = 1 - fall * (1 - (1 - current) / rise);
+        EXPECT_NEAR(experiment.state()[0], current, 1e-12) << rise;
+    }
+}
+
+TEST(SharedSurface, WhatAJumpHasTakenOffItsSurfaceIsNotDueAfterAThirdEvent) {
+    // Three clocks strike together. The jump of the first sets back itself and the second; the third then hands over
+    // to a mode that watches the second alone.
+    const Model model = model_from(
+        "name = \"clocks\"\nstates = { a = 0, b = 0, c = 0 }\n[events]\nfirst = \"1 - a\"\nsecond = \"1 - b\"\n"
+        "third = \"1 - c\"\n[jumps]\nback = { a = 0, b = 0.25 }\n[modes]\n"
+        "one = { rates = { a = 1, b = 1, c = 1 }, watch = [\"first\", \"second\", \"third\"] }\n"
+        "two = { rates = { a = 1, b = 1, c = 1 }, watch = [\"third\", \"second\"] }\n"
+        "three = { rates = { a = 1, b = 1, c = 1 }, watch = [\"second\"] }\n[initial]\nmode = \"one\"\n" +
+        transition("one", "first", "two", "back") + transition("one", "second", "end") +
+        transition("one", "third", "end") + transition("two", "third", "three") + transition("two", "second", "end") +
+        transition("three", "second", "end"));
+    Experiment experiment(model);
+    const Outcome outcome = experiment.run(3);
+    EXPECT_EQ(outcome.ending, Ending::terminal);
+    EXPECT_NEAR(outcome.time, 1.75, 1e-14);
+    EXPECT_EQ(experiment.recorder.contacts().size(), 3U);
+}

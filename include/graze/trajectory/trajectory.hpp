@@ -228,7 +228,7 @@ private:
     std::vector<Touch> touches_;
     std::vector<Root> found_touches_;
     std::vector<EventSize> event_sizes_; ///< of each event's function, by which touches are judged
-    std::vector<double> surface_values_; ///< of each event's function at the last contact, whichever event's it was
+    std::vector<double> surface_values_; ///< of each event's function at the contact that found it on its surface
     std::vector<Hold> holds_;            ///< for each event
     std::vector<double> uncertain_;      ///< errors of the inputs of functions
     std::vector<std::size_t> together_;  ///< events at the time of the last contact, still to be served
