@@ -95,9 +95,9 @@ TEST(OptionValues, ClosedSetsAndNumbersRefuseEverythingElse) {
 
 /// Of all commands alike.
 TEST(OptionValues, NoFileIsCalledByADash) {
-    for (const Words& words : {Words{"models", "impact-oscillator", "--write", "-"}, Words{"models", "--output", "-"},
-                               Words{"simulate", "bouncing-ball", "--output=-"}, Words{"run", "x", "--output", "-"},
-                               Words{"completion", "bash", "--output", "-"}}) {
+    for (const Words& words : {Words{"models", "impact-oscillator", "--write", "-"},
+                               Words{"info", "x", "--output", "-"}, Words{"simulate", "bouncing-ball", "--output=-"},
+                               Words{"run", "x", "--output", "-"}, Words{"completion", "bash", "--output", "-"}}) {
         const Printed run = run_graze(words);
         EXPECT_EQ(run.code, 2) << words.front();
         EXPECT_THAT(run.err, HasSubstr("'-' is no name of a file or folder; with")) << words.front();
