@@ -58,6 +58,15 @@ bool is_settled(const std::vector<double>& noise, const std::vector<double>& bef
     return true;
 }
 
+/// In which a wrong unit of the times shows, where nothing could be compared.
+std::string extent_of(const FitTask& task) {
+    double length = 0;
+    for (const FitRecord& record : task.records)
+        if (!record.times.empty())
+            length = std::max(length, record.times.back() - record.times.front());
+    return fmt::format("a record lasts {:.4g} of the model's time; look at the unit of its times", length);
+}
+
 class Fitter {
 public:
     Fitter(const System& system, const FitTask& task, const FitSettings& settings)
@@ -77,6 +86,10 @@ public:
         }
         if (fit.ending != FitEnding::converged && !mismatch_.empty())
             fit.detail += "; " + mismatch_;
+        else if (fit.ending == FitEnding::interrupted)
+            fit.detail += compared_
+                              ? "; what was compared by then matches"
+                              : "; no motion was known by then that could be compared: " + extent_of(rows_.task());
         return fit;
     }
 
@@ -271,6 +284,7 @@ private:
     }
     void note_mismatch(const std::vector<PieceRows>& known) {
         const std::vector<FitMismatch> found = mismatches_of(rows_, known);
+        compared_ = unreadable(rows_, known).empty();
         mismatch_ = text_of(found, rows_.task());
         greatest_mismatch_ = found.empty() ? 0 : found.front().size;
     }
@@ -392,6 +406,7 @@ private:
     const FitSettings* settings_;
     FitRows rows_;
     FitPoint point_;
+    bool compared_ = false;        ///< all of them could be
     std::string mismatch_;         ///< what did not match when all pieces were last looked at
     double greatest_mismatch_ = 0; ///< relative to the range of the readings
 };
@@ -425,7 +440,7 @@ Fit fit_model(const System& system, const FitTask& task, const FitSettings& sett
     } catch (const FitInterruption&) { // before there was a point
         Fit fit;
         fit.ending = FitEnding::interrupted;
-        fit.detail = "the fit was ended before the first motions were known";
+        fit.detail = "the fit was ended before the first motions were known: " + extent_of(task);
         return fit;
     }
 }

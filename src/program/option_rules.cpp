@@ -200,11 +200,26 @@ std::string value_of(const CLI::App& command, const std::string& option) {
     throw InputError(Place{}, fmt::format("{} has no effect {} {}", option, why, other), remedy);
 }
 
+/// Other programs take the name - for standard output: a file that is called so would not be looked for.
+void refuse_dashes(const CLI::App& command) {
+    for (const CLI::Option* option : command.get_options()) {
+        const std::string type = option->get_type_name();
+        if ((type != "FILE" && type != "FOLDER") || option->empty() || option->results().front() != "-")
+            continue;
+        const std::string name = option->get_name();
+        const bool shows = name == "--write" && command.get_option_no_throw("--show") != nullptr;
+        throw InputError(Place{fmt::format("{} -", name), 0, 0}, "'-' is no name of a file or folder",
+                         fmt::format("{} text goes to standard output; ./- is a file that is called so",
+                                     shows ? "with --show instead" : "without the option"));
+    }
+}
+
 } // namespace
 
 void refuse_useless_options(const CLI::App& app) {
     for (const CLI::App* command : app.get_subcommands()) {
         const std::string name = command->get_name();
+        refuse_dashes(*command);
         for (const Excludes& rule : exclusions()) {
             if (name != rule.command || !given(*command, rule.option) ||
                 (rule.value && value_of(*command, rule.option) != rule.value))

@@ -148,6 +148,8 @@ rates = { T = "-T/tau" }
     const Fit fit = fit_model(motion.model, motion.task, settings);
     EXPECT_EQ(name_of(fit.ending), "interrupted");
     EXPECT_EQ(asked, 1001) << "no motion begins any more";
+    EXPECT_THAT(fit.detail,
+                ::testing::HasSubstr("a record lasts 4.9 of the model's time; look at the unit of its times"));
 }
 
 /// Of a channel with the wrong sign or unit no parameters make a fit: it ends soon, and says which one.

@@ -4,6 +4,7 @@
 #include <CLI/App.hpp>
 #include <gmock/gmock.h>
 
+#include <filesystem>
 #include <map>
 #include <set>
 
@@ -90,6 +91,18 @@ TEST(OptionValues, ClosedSetsAndNumbersRefuseEverythingElse) {
             }
         }
     EXPECT_GT(tried, 400);
+}
+
+/// Of all commands alike.
+TEST(OptionValues, NoFileIsCalledByADash) {
+    for (const Words& words : {Words{"models", "impact-oscillator", "--write", "-"},
+                               Words{"info", "x", "--output", "-"}, Words{"simulate", "bouncing-ball", "--output=-"},
+                               Words{"run", "x", "--output", "-"}, Words{"completion", "bash", "--output", "-"}}) {
+        const Printed run = run_graze(words);
+        EXPECT_EQ(run.code, 2) << words.front();
+        EXPECT_THAT(run.err, HasSubstr("'-' is no name of a file or folder; with")) << words.front();
+        EXPECT_FALSE(std::filesystem::exists("-"));
+    }
 }
 
 /// Values that a command judges itself.
