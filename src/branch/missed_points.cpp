@@ -76,6 +76,23 @@ public:
         look(middle, high);
     }
 
+    /// The same where numbers at both ends are alike and a point is known between: another is before it or behind.
+    void look_beside_known(const StepSample& low, const StepSample& high) {
+        constexpr double beside = 1e-4; // fraction of the step
+        StepSample from = low, here;
+        BranchPoint there;
+        for (const SpecialPoint& one : known_) {
+            const double at = state_.last_step().fraction(one.arclength);
+            if (crossing_at(one.type) == 0)
+                continue;
+            if (at - beside > from.fraction && sample(at - beside, here, there))
+                look(from, here);
+            if (!(at + beside < high.fraction) || !sample(at + beside, from, there))
+                return;
+        }
+        look(from, high);
+    }
+
     std::vector<SpecialPoint> result;
 
 private:
@@ -237,7 +254,10 @@ std::vector<SpecialPoint> missed_points(BranchState& state, const StepSample& lo
         may_explain(unstable(low.multipliers, certain), unstable(high.multipliers, certain), singles, pairs))
         return {};
     Search search(state, locate, found, low.multipliers.size());
-    search.look(low, high);
+    if (may_explain(unstable(low.multipliers, certain), unstable(high.multipliers, certain), 0, 0))
+        search.look_beside_known(low, high);
+    else
+        search.look(low, high);
     return std::move(search.result);
 }
 

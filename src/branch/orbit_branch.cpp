@@ -670,6 +670,29 @@ private:
         point.monitors = found[i].monitors;
         point.stable = is_stable(point.solution);
     }
+    /// Why orbits beyond what was found are none that the model follows, at the end of the step or, where something
+    /// else that may change it comes before, half-way to that: of two touches the second takes back what the first did.
+    /// Empty where they are followed.
+    std::string unphysical_beyond(std::size_t i) {
+        constexpr double apart = 1e-6; // fraction of the step
+        const LastStep step = state_.last_step();
+        const double at = step.fraction(found[i].arclength);
+        for (std::size_t j = i + 1; j < found.size() && !state_.settings().kept; ++j) {
+            const double next = step.fraction(found[j].arclength);
+            if (rank(found[j]) < 0 || next - at < apart)
+                continue;
+            ContinuationPoint between;
+            BranchPoint there;
+            std::vector<BranchTest> tests;
+            const bool known =
+                state_.continuation().between(0.5 * (at + next), between) && state_.describe(between, there, tests);
+            state_.problem().evaluate(state_.continuation().point().u);
+            if (!known)
+                break;
+            return there.solution.certificate.admissible ? "" : there.solution.certificate.reason;
+        }
+        return point.solution.certificate.admissible ? "" : point.solution.certificate.reason;
+    }
     /// Ends the branch where what was found says so.
     void judge(bool was_admissible) {
         for (std::size_t i = 0; i < found.size(); ++i) {
@@ -690,10 +713,9 @@ private:
                 cut_after(i);
                 return finish(BranchOutcome::stopped, std::string(name_of(found[i].type)));
             }
-            const bool may_end = rank(found[i]) >= 0;
-            if (state_.settings().stop_when_unphysical && may_end && was_admissible &&
-                !point.solution.certificate.admissible) {
-                const std::string reason = point.solution.certificate.reason;
+            const bool may_end = state_.settings().stop_when_unphysical && was_admissible && rank(found[i]) >= 0;
+            const std::string reason = may_end ? unphysical_beyond(i) : "";
+            if (!reason.empty()) {
                 cut_after(i);
                 // What is kept in a segment is not looked for among those of another signature, but for a touch.
                 const auto& kept = state_.settings().kept;
