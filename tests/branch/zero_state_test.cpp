@@ -53,5 +53,31 @@ INSTANTIATE_TEST_SUITE_P(Maps, ZeroState,
                                            Case{"x + 0.5*x*(p - (x/unit)^2)", PointType::branch_point, 2, 1},
                                            Case{"-(1 + 0.5*p)*x + 0.5*x*(x/unit)^2", PointType::flip, 2, -1}));
 
+TEST(ZeroStateOfSettledOrbit, does_not_hide_that_the_orbit_is_its_own_image) {
+    const Model model = model_from(R"toml(
+[parameters]
+p = -0.3
+[states]
+x = 1
+y = 0
+z = 0.01
+[definitions]
+R = "1 - x^2 - y^2"
+[modes.only]
+rates = { x = "x*R - 1.3*y", y = "y*R + 1.3*x", z = "p*z - z^3" }
+[sections.start]
+function = "y"
+direction = "rising"
+[symmetries.turned]
+map = { x = "-x", y = "-y", z = "-z" }
+)toml");
+    const OrbitSolution solution = settled(model, "start");
+    EXPECT_TRUE(solution.orbit.symmetry.has_value());
+    const Branch branch = follow_branch(model, solution.orbit, in_parameter(model, "p", -0.5, 0.5));
+    ASSERT_EQ(names(branch), "SB BD");
+    EXPECT_NEAR(branch.special[0].parameter, 0, 1e-9);
+    EXPECT_NEAR(branch.points.back().parameter, 0.5, 1e-12);
+}
+
 } // namespace
 } // namespace graze
