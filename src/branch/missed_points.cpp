@@ -187,7 +187,7 @@ private:
 
     /// @param rank of the multiplier that crosses, in the order of their sizes
     void note(const StepSample& low, const StepSample& high, std::size_t rank, PointType type, std::string detail) {
-        constexpr double close = 1e-6;
+        constexpr double close = 1e-6, not_there = 1e-3;
         constexpr int most = 60;
         BranchPoint there, best;
         const auto growth = [&](const StepSample& here) { return std::abs(by_modulus(here.multipliers)[rank]) - 1; };
@@ -213,6 +213,8 @@ private:
             (value * first > 0 ? begin : end) = here;
         }
         if (!any && !sample(at, here, best))
+            return;
+        if (!(off < not_there)) // the step has lost its branch
             return;
         SpecialPoint special = special_of_type(type, best);
         special.located = off < close;

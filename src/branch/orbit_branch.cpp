@@ -136,6 +136,8 @@ public:
             return end_at_equilibrium();
         }
         found = locator_.locate_all(before, tests_before);
+        if (has_jumped() && attempts_ < most_attempts)
+            return step_again(here, before, tests_before);
         if (!came_back_)
             locator_.add_missed(found, before, tests_before);
         if (locator_.misses_bound(found, tests_before))
@@ -161,6 +163,8 @@ public:
     std::string detail;
 
 private:
+    /// How often a step is made again.
+    static constexpr int most_attempts = 8;
     /// Share of the way to an equilibrium that a step goes: from what is left of it the branch is known to end there.
     static constexpr double close = 0.75;
 
@@ -403,13 +407,29 @@ private:
     /// The same where a bound was gone beyond that could not be located: shorter steps come to it; or the branch ends
     /// before it.
     bool step_to_bound(const Continuation& before, const BranchPoint& from, const std::vector<BranchTest>& tests) {
-        constexpr int most_attempts = 8;
-        constexpr double shorter = 0.25;
-        const double length = state_.continuation().point().arclength - state_.continuation().previous().arclength;
+        if (attempts_ < most_attempts)
+            return step_again(before, from, tests);
         found.clear();
         point = from;
-        if (++attempts_ > most_attempts)
-            return end(BranchOutcome::bound, "no orbit was found on the bound itself");
+        return end(BranchOutcome::bound, "no orbit was found on the bound itself");
+    }
+    /// Whether the last step has gone over to another branch that comes near without crossing this one: the determinant
+    /// changes its sign as at a branch point, and none is there, nor anything else that it may vanish for.
+    bool has_jumped() {
+        const Continuation& continuation = state_.continuation();
+        return !state_.settings().kept && !came_back_ &&
+               continuation.previous().determinant * continuation.point().determinant < 0 &&
+               std::none_of(found.begin(), found.end(), [](const SpecialPoint& one) {
+                   return one.type == PointType::branch_point || kind_of(one.type).limits;
+               });
+    }
+    /// Makes the last step again from where it began, shorter.
+    bool step_again(const Continuation& before, const BranchPoint& from, const std::vector<BranchTest>& tests) {
+        constexpr double shorter = 0.25;
+        const double length = state_.continuation().point().arclength - state_.continuation().previous().arclength;
+        ++attempts_;
+        found.clear();
+        point = from;
         tests_ = tests;
         locator_.forget();
         state_.continuation() = before;
@@ -745,7 +765,7 @@ private:
     bool is_kept_point_;                      ///< a curve is to begin at the point itself, not at other parameters
     bool came_back_ = false;                  ///< to more regular orbits, with the last step
     bool is_regular_ = false;                 ///< an orbit several times over, or symmetric but not given by its half
-    int attempts_ = 0;                        ///< to make a step that ends before a bound, or on it
+    int attempts_ = 0;                        ///< to make a step that ends before a bound, on it, or on this branch
     std::optional<SpecialPoint> equilibrium_; ///< to which its orbits shrink, once that is known to lie ahead
     std::optional<HopfPoint> hopf_;           ///< that may lie within the step that has just been tried
     std::optional<HopfPoint> approached_;     ///< towards which the next step is to lead

@@ -288,6 +288,7 @@ std::optional<SpecialPoint> PointLocator::locate_zero(std::size_t test, const Te
 std::optional<SpecialPoint> PointLocator::locate_by_crossing(std::size_t test, const TestValue& low,
                                                              const TestValue& high) {
     constexpr double shortened = 0.25, shortest = 1e-3;
+    constexpr double solved = 1e-8; // in units of the scales
     BranchPoint there;
     std::vector<BranchTest> tests;
     const PointTest value = [&](const ContinuationPoint& sample) {
@@ -301,6 +302,9 @@ std::optional<SpecialPoint> PointLocator::locate_by_crossing(std::size_t test, c
     for (double reach = shortened; is_part && !at && reach > shortest; reach *= shortened)
         at = locate_crossing(state_->continuation(), value, low, high, reach);
     if (!at || !state_->describe(*at, there, tests))
+        return std::nullopt;
+    // Samples of two branches that come near without crossing are on no polynomial that solves anything.
+    if ((*tests_)[test].singular && !(state_->problem().evaluation().residual < solved))
         return std::nullopt;
     return special_at(there, tests[test], std::max(std::abs(low.value), std::abs(high.value)));
 }

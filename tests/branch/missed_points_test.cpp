@@ -142,5 +142,28 @@ TEST(MissedPoints, two_touches_within_one_step_are_seen_and_the_first_ends_the_b
     EXPECT_NEAR(followed.points.back().parameter, 0.3, 1e-9);
 }
 
+/// The branch of a map towards smaller p.
+Branch of_map_from(const std::string& image, double p, double x, double least) {
+    const Model model = map_model(fmt::format("p = {}", p), {image});
+    BranchSettings settings = in_parameter(model, "p", least, p + 0.1);
+    settings.direction = -1;
+    return follow_branch(model, fixed_point(model, {x}), settings);
+}
+
+TEST(MissedPoints, a_branch_that_comes_near_is_not_gone_over_to) {
+    for (const double broken : {1e-6, 1e-7, 1e-8}) {
+        SCOPED_TRACE(broken);
+        const Branch pitchfork =
+            of_map_from(fmt::format("x + 0.3*((p - 0.3)*x - x^3 + {})", broken), 0.7, std::sqrt(0.4), 0.1);
+        EXPECT_EQ(names(pitchfork), "BD");
+        EXPECT_NEAR(pitchfork.points.back().parameter, 0.1, 1e-12);
+        for (const BranchPoint& point : pitchfork.points)
+            EXPECT_GT(point.solution.orbit.starts[0][0], 0);
+    }
+    const Branch transcritical = of_map_from("x + 0.3*((p - 0.3)^2 + 1e-9 - x^2)", 0.6, 0.3, -0.1);
+    EXPECT_EQ(names(transcritical), "BD");
+    EXPECT_NEAR(transcritical.points.back().solution.orbit.starts[0][0], 0.4, 1e-8);
+}
+
 } // namespace
 } // namespace graze
