@@ -14,6 +14,8 @@ constexpr double usual_offsets[] = {-0.12, -0.09, -0.06, -0.03, 0.03, 0.06, 0.09
 constexpr std::size_t fewest = 6;
 constexpr int most_rounds = 8;
 constexpr double settled = 0.015;
+/// By how much a zero that is found may lie beyond the ends between which it is.
+constexpr double uncertain = 1e-3;
 
 struct Sample {
     double fraction;
@@ -69,13 +71,13 @@ ContinuationPoint point_at(const std::vector<Sample>& samples, double fraction) 
 } // namespace
 
 std::optional<ContinuationPoint> locate_crossing(Continuation& continuation, const PointTest& test,
-                                                 const TestValue& begin, const TestValue& end) {
-    return locate_crossing(continuation, test, begin, end, usual_offsets);
+                                                 const TestValue& begin, const TestValue& end, double reach) {
+    return locate_crossing(continuation, test, begin, end, usual_offsets, reach);
 }
 
 std::optional<ContinuationPoint> locate_crossing(Continuation& continuation, const PointTest& test,
                                                  const TestValue& begin, const TestValue& end,
-                                                 std::span<const double> offsets) {
+                                                 std::span<const double> offsets, double reach) {
     double low = begin.fraction, high = end.fraction;
     double guess = low + (high - low) * begin.value / (begin.value - end.value);
     if (!std::isfinite(guess)) // a test may be infinite, as multipliers are beside a touch
@@ -83,7 +85,7 @@ std::optional<ContinuationPoint> locate_crossing(Continuation& continuation, con
     for (int round = 0; round < most_rounds; ++round) {
         std::vector<Sample> samples;
         for (const double offset : offsets) {
-            Sample sample{guess + offset, {}};
+            Sample sample{guess + reach * offset, {}};
             if (!continuation.between(sample.fraction, sample.point))
                 continue;
             sample.value = test(sample.point);
@@ -94,8 +96,11 @@ std::optional<ContinuationPoint> locate_crossing(Continuation& continuation, con
             return std::nullopt;
         if (samples.front().value * samples.back().value < 0) {
             const double zero = zero_of(samples);
-            if (std::abs(zero - guess) < settled)
-                return point_at(samples, zero);
+            if (std::abs(zero - guess) < reach * settled) {
+                const bool inside =
+                    zero > begin.fraction - reach * uncertain && zero < end.fraction + reach * uncertain;
+                return inside ? std::optional(point_at(samples, zero)) : std::nullopt;
+            }
             guess = zero;
             continue;
         }
@@ -107,20 +112,65 @@ std::optional<ContinuationPoint> locate_crossing(Continuation& continuation, con
     return std::nullopt;
 }
 
-std::optional<double> possible_dip(const TestValue& before, const TestValue& low, const TestValue& high) {
+namespace {
+
+/// The vertex of the parabola through three points, and its value there.
+TestValue vertex_of(const TestValue& before, const TestValue& low, const TestValue& high) {
     const double first = (low.value - before.value) / (low.fraction - before.fraction),
                  second = (high.value - low.value) / (high.fraction - low.fraction),
                  curvature = (second - first) / (high.fraction - before.fraction);
     // p(s) = low + second (s - low) + curvature (s - low) (s - high)
     const double vertex = 0.5 * (low.fraction + high.fraction) - 0.5 * second / curvature;
+    return {vertex, low.value + second * (vertex - low.fraction) +
+                        curvature * (vertex - low.fraction) * (vertex - high.fraction)};
+}
+
+/// A point with the sign of one that is far from the vertex of a parabola, but not far from the zero between.
+TestValue nearer(const TestValue& end, const TestValue& vertex, const std::function<double(double)>& value_at) {
+    constexpr double behind = 2, far = 0.5; // of the zero's distance; of the end's
+    const double share = behind * std::sqrt(vertex.value / (vertex.value - end.value));
+    if (!(share < far))
+        return end;
+    TestValue result{vertex.fraction + share * (end.fraction - vertex.fraction), 0};
+    result.value = value_at(result.fraction);
+    return result.value * end.value > 0 ? result : end;
+}
+
+} // namespace
+
+std::optional<double> possible_dip(const TestValue& before, const TestValue& low, const TestValue& high) {
+    const auto [vertex, least] = vertex_of(before, low, high);
     if (!(vertex > low.fraction && vertex < high.fraction))
         return std::nullopt;
-    const double least =
-        low.value + second * (vertex - low.fraction) + curvature * (vertex - low.fraction) * (vertex - high.fraction);
     constexpr double near = 0.25;
     const double sign = low.value < 0 ? -1 : 1;
     const bool close = sign * least < near * std::min(std::abs(low.value), std::abs(high.value));
     return close ? std::optional(vertex) : std::nullopt;
+}
+
+std::optional<Dip> dip_between(TestValue low, TestValue high, double within,
+                               const std::function<double(double)>& value_at) {
+    constexpr int most = 8;
+    constexpr double deep = 1e-10; // of the values at the ends: less is round-off, as where a test only touches zero
+    const double sign = low.value < 0 ? -1 : 1, size = std::min(std::abs(low.value), std::abs(high.value));
+    TestValue middle{within, value_at(within)};
+    for (int i = 0; i < most; ++i) {
+        if (sign * middle.value < -deep * size)
+            return Dip{nearer(low, middle, value_at), middle, nearer(high, middle, value_at)};
+        const auto [vertex, least] = vertex_of(low, middle, high);
+        const bool inside = vertex > low.fraction && vertex < high.fraction && vertex != middle.fraction;
+        if (!inside || !(sign * middle.value < size) || !(sign * least < 0.5 * sign * middle.value))
+            return std::nullopt;
+        const TestValue next{vertex, value_at(vertex)};
+        const bool before = next.fraction < middle.fraction;
+        if (sign * next.value < sign * middle.value) {
+            (before ? high : low) = middle;
+            middle = next;
+        } else {
+            (before ? low : high) = next;
+        }
+    }
+    return std::nullopt;
 }
 
 } // namespace graze

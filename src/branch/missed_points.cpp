@@ -76,6 +76,23 @@ public:
         look(middle, high);
     }
 
+    /// The same where numbers at both ends are alike and a point is known between: another is before it or behind.
+    void look_beside_known(const StepSample& low, const StepSample& high) {
+        constexpr double beside = 1e-4; // fraction of the step
+        StepSample from = low, here;
+        BranchPoint there;
+        for (const SpecialPoint& one : known_) {
+            const double at = state_.last_step().fraction(one.arclength);
+            if (crossing_at(one.type) == 0)
+                continue;
+            if (at - beside > from.fraction && sample(at - beside, here, there))
+                look(from, here);
+            if (!(at + beside < high.fraction) || !sample(at + beside, from, there))
+                return;
+        }
+        look(from, high);
+    }
+
     std::vector<SpecialPoint> result;
 
 private:
@@ -170,7 +187,7 @@ private:
 
     /// @param rank of the multiplier that crosses, in the order of their sizes
     void note(const StepSample& low, const StepSample& high, std::size_t rank, PointType type, std::string detail) {
-        constexpr double close = 1e-6;
+        constexpr double close = 1e-6, not_there = 1e-3;
         constexpr int most = 60;
         BranchPoint there, best;
         const auto growth = [&](const StepSample& here) { return std::abs(by_modulus(here.multipliers)[rank]) - 1; };
@@ -196,6 +213,8 @@ private:
             (value * first > 0 ? begin : end) = here;
         }
         if (!any && !sample(at, here, best))
+            return;
+        if (!(off < not_there)) // the step has lost its branch
             return;
         SpecialPoint special = special_of_type(type, best);
         special.located = off < close;
@@ -237,7 +256,10 @@ std::vector<SpecialPoint> missed_points(BranchState& state, const StepSample& lo
         may_explain(unstable(low.multipliers, certain), unstable(high.multipliers, certain), singles, pairs))
         return {};
     Search search(state, locate, found, low.multipliers.size());
-    search.look(low, high);
+    if (may_explain(unstable(low.multipliers, certain), unstable(high.multipliers, certain), 0, 0))
+        search.look_beside_known(low, high);
+    else
+        search.look(low, high);
     return std::move(search.result);
 }
 

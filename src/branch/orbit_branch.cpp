@@ -24,6 +24,9 @@ namespace {
 /// Differences that a solution and its repetition, or its image, may have by round-off, in units of the scales.
 constexpr double same_orbit = 1e-6;
 
+/// By how many orders of magnitude a state that is zero may be larger or smaller than the others.
+constexpr int most_decades = 15;
+
 const char* const back_on_regular = "back on the branch of more regular orbits";
 
 bool is_among(PointType type, const std::vector<PointType>& types) {
@@ -133,6 +136,8 @@ public:
             return end_at_equilibrium();
         }
         found = locator_.locate_all(before, tests_before);
+        if (has_jumped() && attempts_ < most_attempts)
+            return step_again(here, before, tests_before);
         if (!came_back_)
             locator_.add_missed(found, before, tests_before);
         if (locator_.misses_bound(found, tests_before))
@@ -158,6 +163,8 @@ public:
     std::string detail;
 
 private:
+    /// How often a step is made again.
+    static constexpr int most_attempts = 8;
     /// Share of the way to an equilibrium that a step goes: from what is left of it the branch is known to end there.
     static constexpr double close = 0.75;
 
@@ -251,24 +258,64 @@ private:
         }
     }
 
+    /// Whether an orbit on another branch is as far away as the equations ask for, where the states that leave zero do
+    /// not tell: so far that it is seen in the others and in the parameter that it bends, and no farther.
+    bool is_of_right_size(std::vector<double> u, const std::vector<bool>& sized) {
+        constexpr double least = 1e-2, most = 10; // in units of the scales
+        for (std::size_t i = 0; i < u.size(); ++i)
+            u[i] -= state_.continuation().point().u[i];
+        const double bent = size_of(u, sized);
+        return bent > least && bent < most;
+    }
+    /// Which unknowns have scales that tell their sizes.
+    std::vector<bool> sized_unknowns() {
+        const OrbitEquations& equations = state_.problem().equations();
+        const OrbitLayout& layout = equations.layout();
+        std::vector<bool> result(layout.unknowns(), true);
+        for (std::size_t i = 0; i < layout.states(); ++i) {
+            for (std::size_t k = 0; k < layout.pieces(); ++k)
+                result[layout.start_of(k) + i] = equations.has_size(i);
+            for (std::size_t j = i; j < layout.pieces() * layout.inner(); j += layout.states())
+                result[layout.inner_of(0) + j] = equations.has_size(i);
+        }
+        return result;
+    }
+    /// Length of some unknowns, or of all, in units of the scales.
+    double size_of(const std::vector<double>& unknowns, const std::vector<bool>& chosen) {
+        double sum = 0;
+        for (std::size_t i = 0; i < unknowns.size(); ++i) {
+            const double one = unknowns[i] / state_.problem().scales()[i];
+            sum += chosen.empty() || chosen[i] ? one * one : 0;
+        }
+        return std::sqrt(sum);
+    }
+    /// What Newton's method finds at a distance from the branch that is left.
+    enum class Found { nothing, left_branch, other_branch };
+    Found look_for_other(const std::vector<double>& u, const std::vector<double>& direction, double distance,
+                         bool was_regular) {
+        if (!state_.continuation().start_along(u, direction, distance))
+            return Found::nothing;
+        // From a flip or a loss of symmetry away from regular orbits; or onto them, from such as have come back.
+        const double resolved = 0.01 * std::abs(distance);
+        const bool from_regular = was_regular && !is_degenerate(state_, displaced(u, direction, distance), resolved);
+        const bool is_old =
+            from_regular ? is_degenerate(state_, orbit_here(), resolved) : bends_back(u, direction, distance);
+        return is_old ? Found::left_branch : Found::other_branch;
+    }
     /// Newton's method may come back to the branch that is to be left: then it is asked again, nearer and farther off.
     bool start_on_other(const std::vector<double>& u, const std::vector<double>& direction, double distance) {
         constexpr double factors[] = {1, 0.1, 4, 0.01};
+        const std::vector<bool> sized = sized_unknowns();
+        if (size_of(direction, sized) < 0.5 * size_of(direction, {}))
+            return start_off_zero(u, direction, distance, sized);
         const bool was_regular = is_degenerate(state_, candidate_, same_orbit);
         bool came_back = false, beyond = false;
         for (const double factor : factors) {
-            if (!state_.continuation().start_along(u, direction, factor * distance))
-                continue;
-            // From a flip or a loss of symmetry away from regular orbits; or onto them, from such as have come back.
-            const double resolved = 0.01 * std::abs(factor * distance);
-            const bool from_regular =
-                was_regular && !is_degenerate(state_, displaced(u, direction, factor * distance), resolved);
-            const bool is_old = from_regular ? is_degenerate(state_, orbit_here(), resolved)
-                                             : bends_back(u, direction, factor * distance);
-            if (!is_old && begin(true))
+            const Found here = look_for_other(u, direction, factor * distance, was_regular);
+            if (here == Found::other_branch && begin(true))
                 return true;
-            beyond = beyond || !is_old;
-            came_back = came_back || is_old;
+            beyond = beyond || here == Found::other_branch;
+            came_back = came_back || here == Found::left_branch;
         }
         if (beyond)
             return false;
@@ -277,21 +324,45 @@ private:
             detail = "Newton's method comes back to the branch that was to be left";
         return false;
     }
-    Orbit displaced(std::vector<double> u, const std::vector<double>& direction, double distance) {
+    /// The same where states leave zero that are so on all of the branch that is left: they have no size yet, and may
+    /// have any. Each is tried, and measured by itself.
+    bool start_off_zero(const std::vector<double>& u, const std::vector<double>& direction, double distance,
+                        const std::vector<bool>& sized) {
+        OrbitProblem& problem = state_.problem();
+        const bool was_regular = is_degenerate(state_, candidate_, same_orbit);
+        const double length = length_of(direction);
+        for (int half_decades = -2 * most_decades; half_decades <= 2 * most_decades; ++half_decades) {
+            std::vector<double> move = direction, there = u;
+            for (std::size_t i = 0; i < u.size(); ++i) {
+                move[i] *= std::pow(10, 0.5 * half_decades) * distance / length;
+                there[i] += move[i];
+            }
+            problem.equations().set_scales(OrbitProblem::vector_of(there));
+            if (look_for_other(u, move, length_of(move), was_regular) == Found::other_branch &&
+                is_of_right_size(u, sized) && begin(true))
+                return true;
+        }
+        problem.equations().set_scales(OrbitProblem::vector_of(u));
+        begin(false);
+        detail = "at no distance from the branch that was to be left an orbit is found on another one";
+        return false;
+    }
+    /// Length of a direction as the continuation measures it.
+    double length_of(const std::vector<double>& direction) {
         const std::vector<double> row = state_.problem().row_of(direction);
-        const double length = std::sqrt(std::inner_product(row.begin(), row.end(), direction.begin(), 0.0));
+        return std::sqrt(std::inner_product(row.begin(), row.end(), direction.begin(), 0.0));
+    }
+    Orbit displaced(std::vector<double> u, const std::vector<double>& direction, double distance) {
+        const double length = length_of(direction);
         for (std::size_t i = 0; i < u.size(); ++i)
             u[i] += distance * direction[i] / length;
         return state_.problem().orbit_of(u);
     }
     Orbit orbit_here() { return state_.problem().orbit_of(state_.continuation().point().u); }
-    double distance_from(const std::vector<double>& u) {
-        double sum = 0;
-        for (std::size_t i = 0; i < u.size(); ++i) {
-            const double one = (state_.continuation().point().u[i] - u[i]) / state_.problem().scales()[i];
-            sum += one * one;
-        }
-        return std::sqrt(sum);
+    double distance_from(std::vector<double> u) {
+        for (std::size_t i = 0; i < u.size(); ++i)
+            u[i] -= state_.continuation().point().u[i];
+        return size_of(u, {});
     }
     /// Whether the point that has been found lies on the branch that is left, which bends towards the other one's
     /// direction: going there it is far off, by the root of the distance. What crosses is far off in proportion.
@@ -336,13 +407,29 @@ private:
     /// The same where a bound was gone beyond that could not be located: shorter steps come to it; or the branch ends
     /// before it.
     bool step_to_bound(const Continuation& before, const BranchPoint& from, const std::vector<BranchTest>& tests) {
-        constexpr int most_attempts = 8;
-        constexpr double shorter = 0.25;
-        const double length = state_.continuation().point().arclength - state_.continuation().previous().arclength;
+        if (attempts_ < most_attempts)
+            return step_again(before, from, tests);
         found.clear();
         point = from;
-        if (++attempts_ > most_attempts)
-            return end(BranchOutcome::bound, "no orbit was found on the bound itself");
+        return end(BranchOutcome::bound, "no orbit was found on the bound itself");
+    }
+    /// Whether the last step has gone over to another branch that comes near without crossing this one: the determinant
+    /// changes its sign as at a branch point, and none is there, nor anything else that it may vanish for.
+    bool has_jumped() {
+        const Continuation& continuation = state_.continuation();
+        return !state_.settings().kept && !came_back_ &&
+               continuation.previous().determinant * continuation.point().determinant < 0 &&
+               std::none_of(found.begin(), found.end(), [](const SpecialPoint& one) {
+                   return one.type == PointType::branch_point || kind_of(one.type).limits;
+               });
+    }
+    /// Makes the last step again from where it began, shorter.
+    bool step_again(const Continuation& before, const BranchPoint& from, const std::vector<BranchTest>& tests) {
+        constexpr double shorter = 0.25;
+        const double length = state_.continuation().point().arclength - state_.continuation().previous().arclength;
+        ++attempts_;
+        found.clear();
+        point = from;
         tests_ = tests;
         locator_.forget();
         state_.continuation() = before;
@@ -603,6 +690,29 @@ private:
         point.monitors = found[i].monitors;
         point.stable = is_stable(point.solution);
     }
+    /// Why orbits beyond what was found are none that the model follows, at the end of the step or, where something
+    /// else that may change it comes before, half-way to that: of two touches the second takes back what the first did.
+    /// Empty where they are followed.
+    std::string unphysical_beyond(std::size_t i) {
+        constexpr double apart = 1e-6; // fraction of the step
+        const LastStep step = state_.last_step();
+        const double at = step.fraction(found[i].arclength);
+        for (std::size_t j = i + 1; j < found.size() && !state_.settings().kept; ++j) {
+            const double next = step.fraction(found[j].arclength);
+            if (rank(found[j]) < 0 || next - at < apart)
+                continue;
+            ContinuationPoint between;
+            BranchPoint there;
+            std::vector<BranchTest> tests;
+            const bool known =
+                state_.continuation().between(0.5 * (at + next), between) && state_.describe(between, there, tests);
+            state_.problem().evaluate(state_.continuation().point().u);
+            if (!known)
+                break;
+            return there.solution.certificate.admissible ? "" : there.solution.certificate.reason;
+        }
+        return point.solution.certificate.admissible ? "" : point.solution.certificate.reason;
+    }
     /// Ends the branch where what was found says so.
     void judge(bool was_admissible) {
         for (std::size_t i = 0; i < found.size(); ++i) {
@@ -623,10 +733,9 @@ private:
                 cut_after(i);
                 return finish(BranchOutcome::stopped, std::string(name_of(found[i].type)));
             }
-            const bool may_end = rank(found[i]) >= 0;
-            if (state_.settings().stop_when_unphysical && may_end && was_admissible &&
-                !point.solution.certificate.admissible) {
-                const std::string reason = point.solution.certificate.reason;
+            const bool may_end = state_.settings().stop_when_unphysical && was_admissible && rank(found[i]) >= 0;
+            const std::string reason = may_end ? unphysical_beyond(i) : "";
+            if (!reason.empty()) {
                 cut_after(i);
                 // What is kept in a segment is not looked for among those of another signature, but for a touch.
                 const auto& kept = state_.settings().kept;
@@ -656,7 +765,7 @@ private:
     bool is_kept_point_;                      ///< a curve is to begin at the point itself, not at other parameters
     bool came_back_ = false;                  ///< to more regular orbits, with the last step
     bool is_regular_ = false;                 ///< an orbit several times over, or symmetric but not given by its half
-    int attempts_ = 0;                        ///< to make a step that ends before a bound, or on it
+    int attempts_ = 0;                        ///< to make a step that ends before a bound, on it, or on this branch
     std::optional<SpecialPoint> equilibrium_; ///< to which its orbits shrink, once that is known to lie ahead
     std::optional<HopfPoint> hopf_;           ///< that may lie within the step that has just been tried
     std::optional<HopfPoint> approached_;     ///< towards which the next step is to lead

@@ -208,17 +208,19 @@ std::vector<std::pair<TestValue, TestValue>> PointLocator::brackets_of(std::size
     if (older_.size() != tests_->size() || !(low.value * high.value > 0))
         return {};
     const auto dip = possible_dip({state_->last_step().fraction(older_arclength_), older_[test].value}, low, high);
-    ContinuationPoint at;
-    if (!dip || !state_->continuation().between(*dip, at))
+    if (!dip)
         return {};
-    BranchPoint there;
-    std::vector<BranchTest> tests;
-    if (!state_->describe(at, there, tests))
+    const auto value_at = [&](double fraction) {
+        ContinuationPoint at;
+        BranchPoint there;
+        std::vector<BranchTest> sampled;
+        const bool known = state_->continuation().between(fraction, at) && state_->describe(at, there, sampled);
+        return known ? sampled[test].value : std::numeric_limits<double>::quiet_NaN();
+    };
+    const auto zeros = dip_between(low, high, *dip, value_at);
+    if (!zeros || std::abs(zeros->within.value) <= noise)
         return {};
-    const TestValue middle{*dip, tests[test].value};
-    if (!(middle.value * low.value < 0))
-        return {};
-    return {{low, middle}, {middle, high}};
+    return {{zeros->before, zeros->within}, {zeros->within, zeros->behind}};
 }
 
 std::optional<SpecialPoint> PointLocator::locate(std::size_t test, const TestValue& low, const TestValue& high) {
@@ -285,6 +287,8 @@ std::optional<SpecialPoint> PointLocator::locate_zero(std::size_t test, const Te
 /// Where another branch crosses, at which determinants are zero, or beside that.
 std::optional<SpecialPoint> PointLocator::locate_by_crossing(std::size_t test, const TestValue& low,
                                                              const TestValue& high) {
+    constexpr double shortened = 0.25, shortest = 1e-3;
+    constexpr double solved = 1e-8; // in units of the scales
     BranchPoint there;
     std::vector<BranchTest> tests;
     const PointTest value = [&](const ContinuationPoint& sample) {
@@ -292,8 +296,15 @@ std::optional<SpecialPoint> PointLocator::locate_by_crossing(std::size_t test, c
             return sample.determinant;
         return state_->describe(sample, there, tests) ? tests[test].value : std::numeric_limits<double>::quiet_NaN();
     };
-    const std::optional<ContinuationPoint> at = locate_crossing(state_->continuation(), value, low, high);
+    std::optional<ContinuationPoint> at = locate_crossing(state_->continuation(), value, low, high);
+    // Within a part of the step another crossing may be near.
+    const bool is_part = high.fraction - low.fraction < 1;
+    for (double reach = shortened; is_part && !at && reach > shortest; reach *= shortened)
+        at = locate_crossing(state_->continuation(), value, low, high, reach);
     if (!at || !state_->describe(*at, there, tests))
+        return std::nullopt;
+    // Samples of two branches that come near without crossing are on no polynomial that solves anything.
+    if ((*tests_)[test].singular && !(state_->problem().evaluation().residual < solved))
         return std::nullopt;
     return special_at(there, tests[test], std::max(std::abs(low.value), std::abs(high.value)));
 }

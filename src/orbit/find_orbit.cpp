@@ -129,8 +129,11 @@ std::optional<OrbitSolution> find_orbit(const System& system, const AttractorOpt
         cut_out(motion, result.duration, orbit);
     }
     if (const auto half = half_orbit(system, orbit))
-        orbit = *half;
-    return solve_orbit(system, orbit, options);
+        return solve_orbit(system, *half, options);
+    OrbitSolution solution = solve_orbit(system, orbit, options);
+    // What has not decayed yet hides that the orbit itself is its own image.
+    const auto half = solution.outcome == OrbitOutcome::converged ? half_orbit(system, solution.orbit) : std::nullopt;
+    return half ? solve_orbit(system, *half, options) : solution;
 }
 
 } // namespace graze

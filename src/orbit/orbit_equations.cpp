@@ -258,7 +258,7 @@ bool OrbitEquations::evaluate_piece(std::size_t k, const Eigen::VectorXd& unknow
 }
 
 /// Fills the linear system, in units of the scales.
-void OrbitEquations::assemble(const Eigen::VectorXd& unknowns, OrbitEvaluation& at) const {
+void OrbitEquations::assemble(const Eigen::VectorXd& unknowns, OrbitEvaluation& at) {
     std::vector<bool> neutral(layout_.states(), true);
     at.effects.setZero(index(layout_.free()));
     for (std::size_t k = 0; k < layout_.pieces(); ++k) {
@@ -281,7 +281,42 @@ void OrbitEquations::assemble(const Eigen::VectorXd& unknowns, OrbitEvaluation& 
             reversed += at.system.block(k).own(1 + index(i), index(i)) > 0 ? 1 : 0;
             neutral[i] = k + 1 < layout_.pieces() || reversed % 2 == 0;
         }
+    drop_neutral_by_chance(at, neutral);
     pin(unknowns, neutral, at);
+}
+
+/// At a branch point a state that is zero all along the orbit may be left exactly as it is, and not so beside that
+/// point: it is neutral only where it stays so at other parameters, at which a small change of it is left as it is too.
+void OrbitEquations::drop_neutral_by_chance(const OrbitEvaluation& at, std::vector<bool>& neutral) {
+    constexpr double aside = 1e-2, small = 1e-9, as_it_is = 1e-6; // of the scales, twice; of the change
+    const std::size_t n = layout_.states();
+    if (free().empty() || std::find(neutral.begin(), neutral.end(), true) == neutral.end())
+        return;
+    std::vector<double> parameters = at.parameters;
+    for (std::size_t f = 0; f < free().size(); ++f)
+        parameters[free()[f].place()] += aside * scales_[index(layout_.parameter(f))];
+    ends_.set_parameters(parameters);
+    Eigen::VectorXd rates;
+    for (std::size_t k = 0; k < layout_.pieces(); ++k) {
+        const std::size_t segment = layout_.segment_of(k);
+        const auto state_scales = scales_.segment(index(layout_.start_of(k)), index(n));
+        std::vector<double> state = at.pieces[k].end;
+        for (std::size_t i = 0; i < n; ++i)
+            state[i] += neutral[i] ? small * state_scales[index(i)] : 0;
+        ends_.field(segment, state, rates);
+        std::vector<double> after = state;
+        double condition = 0;
+        const bool jumps = layout_.is_last(k) && ends_.pass(segment, after, condition);
+        for (std::size_t i = 0; i < n; ++i) {
+            const double most = as_it_is * small * state_scales[index(i)],
+                         same = without_turns(after[i] - state[i], at.periods[i]),
+                         reversed = without_turns(after[i] + state[i], at.periods[i]);
+            const bool moves = std::abs(rates[index(i)]) * scales_[index(layout_.duration_of(k))] > most;
+            if (moves || (jumps && std::min(std::abs(same), std::abs(reversed)) > most))
+                neutral[i] = false;
+        }
+    }
+    ends_.set_parameters(at.parameters);
 }
 
 /// The condition that ends a segment. Event functions have units of their own: measured by how much they change along

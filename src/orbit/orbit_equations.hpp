@@ -54,6 +54,8 @@ public:
     Eigen::VectorXd unknowns_of(const OrbitDirection& direction, const OrbitEvaluation& at) const;
 
     const Eigen::VectorXd& scales() const { return scales_; }
+    /// Whether a state's scale tells its size; not that of one which is zero all along the orbit.
+    bool has_size(std::size_t state) const { return orbit_scales_.has_size(state); }
     /// Chooses them anew. Evaluations keep those by which they were made.
     void set_scales(const Eigen::VectorXd& unknowns);
 
@@ -134,10 +136,11 @@ private:
     double usual_change(const OrbitEvaluation& at, const Eigen::VectorXd& gradient) const;
     void set_parameters(const Eigen::VectorXd& unknowns, std::vector<double>& parameters);
     bool evaluate_piece(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEvaluation& at);
-    void assemble(const Eigen::VectorXd& unknowns, OrbitEvaluation& at) const;
+    void assemble(const Eigen::VectorXd& unknowns, OrbitEvaluation& at);
     void assemble_end(std::size_t k, OrbitEvaluation& at) const;
     void assemble_closure(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEvaluation& at,
                           std::vector<bool>& neutral) const;
+    void drop_neutral_by_chance(const OrbitEvaluation& at, std::vector<bool>& neutral);
     void pin(const Eigen::VectorXd& unknowns, const std::vector<bool>& neutral, OrbitEvaluation& at) const;
     bool set_right(std::size_t k, const Eigen::VectorXd& unknowns, const OrbitEvaluation& at, Eigen::VectorXd& right);
     Eigen::MatrixXd condensed(const OrbitEvaluation& at, const Eigen::MatrixXd& borders, Eigen::VectorXd& lack) const;

@@ -38,6 +38,8 @@ public:
     Eigen::VectorXd choose(const OrbitLayout& layout, const Eigen::VectorXd& unknowns,
                            std::span<const std::size_t> modes, ModeFlow& flow, std::span<const double> periods);
 
+    bool has_size(std::size_t state) const { return states_.has_size(state); }
+
 private:
     double parameter_scale(std::size_t f, double value);
 

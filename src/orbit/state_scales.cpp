@@ -73,7 +73,8 @@ std::vector<double> StateScales::choose(std::span<const double> periods, const E
             smallest = std::min(smallest, own[i]);
     std::vector<double> scales = own;
     for (std::size_t i = 0; i < n; ++i) {
-        if (!(own[i] > negligible * largest))
+        has_size_[i] = own[i] > negligible * largest;
+        if (!has_size_[i])
             scales[i] = std::isfinite(smallest) ? smallest : 1;
         // Round-off of the states that act on it is not an extent.
         for (std::size_t j = 0; j < n; ++j)
@@ -81,7 +82,8 @@ std::vector<double> StateScales::choose(std::span<const double> periods, const E
                 std::max(scales[i], round_off_share *
                                         coupling(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) * own[j]);
         scales[i] = std::max(scales[i], scale_by_effect(i, own, periods, arcs));
-        largest_[i] = std::max(largest_[i], scales[i]);
+        // That of another state is taken for want of better, and not remembered.
+        largest_[i] = std::max(largest_[i], has_size_[i] ? scales[i] : own[i]);
         scales[i] = std::max(scales[i], smallest_scale * largest_[i]);
     }
     return scales;

@@ -69,5 +69,101 @@ TEST(MissedPoints, coefficients_that_are_round_off_decide_nothing) {
         << of_type(torus, PointType::torus)[0].detail;
 }
 
+TEST(MissedPoints, a_multiplier_that_leaves_and_comes_back_within_one_step_is_seen) {
+    for (const double apart : {1e-3, 3e-4}) {
+        SCOPED_TRACE(apart);
+        const std::string depth = fmt::format("(p - 0.3)*(p - {:.17g})", 0.3 + apart);
+        const Branch flips = of_map("p = 0.25", {"(-1 + 40*" + depth + ")*x - 0.5*x^3"}, 0.2, 0.4);
+        ASSERT_EQ(names(flips), "PD PD BD");
+        EXPECT_NEAR(flips.special[0].parameter, 0.3, 1e-8);
+        EXPECT_NEAR(flips.special[1].parameter, 0.3 + apart, 1e-8);
+        const std::string growth = "(1 - 40*" + depth + " - x^2 - y^2)";
+        const Branch tori = of_map("p = 0.25", {growth + "*(0.6*x - 0.8*y)", growth + "*(0.8*x + 0.6*y)"}, 0.2, 0.4);
+        ASSERT_EQ(names(tori), "NS NS BD");
+        EXPECT_NEAR(tori.special[0].parameter, 0.3, 1e-8);
+        EXPECT_NEAR(tori.special[1].parameter, 0.3 + apart, 1e-8);
+    }
+    for (const double apart : {3e-3, 1e-3}) {
+        SCOPED_TRACE(apart);
+        const Branch crossings =
+            of_map("p = 0.25", {fmt::format("x - 100*(p - 0.3)*(p - {:.17g})*x - x^3", 0.3 + apart)}, 0.2, 0.4);
+        ASSERT_EQ(names(crossings), "BP BP BD");
+        EXPECT_NEAR(crossings.special[0].parameter, 0.3, 1e-7);
+        EXPECT_NEAR(crossings.special[1].parameter, 0.3 + apart, 1e-7);
+    }
+}
+
+/// Orbits of a clock that pass a wall at a distance which is negative between two values of p.
+Branch beside_wall(bool stop) {
+    const Model model = model_from(R"toml(
+[parameters]
+p = 0
+[states]
+x = 0
+clock = 0
+[definitions]
+clearance = "40*(p - 0.3)*(p - 0.3001)"
+[modes.rest]
+rates = { x = "-x", clock = 1 }
+watch = ["tick", "wall"]
+[events]
+tick = { function = "1 - clock" }
+wall = { function = "1 + clearance - sin(2*pi*clock)" }
+[jumps.again]
+x = "0.5*x + 1"
+clock = 0
+[jumps.hit]
+x = "-x"
+[[transitions]]
+mode = "rest"
+event = "tick"
+jump = "again"
+next = "rest"
+label = "map"
+[[transitions]]
+mode = "rest"
+event = "wall"
+jump = "hit"
+next = "rest"
+)toml");
+    BranchSettings settings = in_parameter(model, "p", -0.1, 0.7);
+    settings.stop_when_unphysical = stop;
+    return follow_branch(model, fixed_point(model, {1}), settings);
+}
+
+TEST(MissedPoints, two_touches_within_one_step_are_seen_and_the_first_ends_the_branch) {
+    const Branch all = beside_wall(false);
+    ASSERT_EQ(names(all), "GR GR BD");
+    EXPECT_NEAR(all.special[0].parameter, 0.3, 1e-9);
+    EXPECT_NEAR(all.special[1].parameter, 0.3001, 1e-9);
+    const Branch followed = beside_wall(true);
+    ASSERT_EQ(names(followed), "GR");
+    EXPECT_EQ(followed.outcome, BranchOutcome::unphysical);
+    EXPECT_NEAR(followed.points.back().parameter, 0.3, 1e-9);
+}
+
+/// The branch of a map towards smaller p.
+Branch of_map_from(const std::string& image, double p, double x, double least) {
+    const Model model = map_model(fmt::format("p = {}", p), {image});
+    BranchSettings settings = in_parameter(model, "p", least, p + 0.1);
+    settings.direction = -1;
+    return follow_branch(model, fixed_point(model, {x}), settings);
+}
+
+TEST(MissedPoints, a_branch_that_comes_near_is_not_gone_over_to) {
+    for (const double broken : {1e-6, 1e-7, 1e-8}) {
+        SCOPED_TRACE(broken);
+        const Branch pitchfork =
+            of_map_from(fmt::format("x + 0.3*((p - 0.3)*x - x^3 + {})", broken), 0.7, std::sqrt(0.4), 0.1);
+        EXPECT_EQ(names(pitchfork), "BD");
+        EXPECT_NEAR(pitchfork.points.back().parameter, 0.1, 1e-12);
+        for (const BranchPoint& point : pitchfork.points)
+            EXPECT_GT(point.solution.orbit.starts[0][0], 0);
+    }
+    const Branch transcritical = of_map_from("x + 0.3*((p - 0.3)^2 + 1e-9 - x^2)", 0.6, 0.3, -0.1);
+    EXPECT_EQ(names(transcritical), "BD");
+    EXPECT_NEAR(transcritical.points.back().solution.orbit.starts[0][0], 0.4, 1e-8);
+}
+
 } // namespace
 } // namespace graze

@@ -1,0 +1,83 @@
+// Branches that leave orbits along which a state is zero, in whatever units: maps whose other orbits are closed forms.
+
+#include "follow.hpp"
+#include "maps.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+namespace graze {
+namespace {
+
+using namespace graze::testing;
+
+constexpr double units[] = {1, 1e-9, 1e6};
+
+struct Case {
+    std::string image; ///< with x in its unit
+    PointType type;
+    double power;      ///< of x in its unit, which is p on the other branch
+    double multiplier; ///< at the point
+};
+
+class ZeroState : public ::testing::TestWithParam<Case> {};
+
+TEST_P(ZeroState, is_left_by_the_other_branch_in_any_unit) {
+    for (const double unit : units) {
+        SCOPED_TRACE(unit);
+        const Model model = map_model(fmt::format("p = -0.2\nunit = {}", unit), {GetParam().image});
+        const BranchSettings settings = in_parameter(model, "p", -0.4, 0.6);
+        const Branch branch = follow_branch(model, fixed_point(model, {0}), settings);
+        const auto points = of_type(branch, GetParam().type);
+        ASSERT_EQ(points.size(), 1U) << names(branch);
+        EXPECT_NEAR(points[0].parameter, 0, 1e-9);
+        ASSERT_EQ(points[0].solution.multipliers.size(), 1U);
+        EXPECT_NEAR(points[0].solution.multipliers[0].real(), GetParam().multiplier, 1e-6);
+        for (const BranchStart& start : branches_at(model, points[0], settings)) {
+            const Branch other = follow(model, start, settings);
+            ASSERT_GT(other.points.size(), 3U) << other.detail;
+            for (const BranchPoint& point : other.points) {
+                const double x = point.solution.orbit.starts[0][0] / unit;
+                EXPECT_NEAR(std::pow(x, GetParam().power), point.parameter, 1e-8);
+                EXPECT_GT(std::abs(x), 1e-8);
+            }
+            EXPECT_NEAR(std::abs(other.points.back().parameter), 0.5, 0.11); // one bound or the other
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Maps, ZeroState,
+                         ::testing::Values(Case{"x + 0.5*x*(p - x/unit)", PointType::branch_point, 1, 1},
+                                           Case{"x + 0.5*x*(p - (x/unit)^2)", PointType::branch_point, 2, 1},
+                                           Case{"-(1 + 0.5*p)*x + 0.5*x*(x/unit)^2", PointType::flip, 2, -1}));
+
+TEST(ZeroStateOfSettledOrbit, does_not_hide_that_the_orbit_is_its_own_image) {
+    const Model model = model_from(R"toml(
+[parameters]
+p = -0.3
+[states]
+x = 1
+y = 0
+z = 0.01
+[definitions]
+R = "1 - x^2 - y^2"
+[modes.only]
+rates = { x = "x*R - 1.3*y", y = "y*R + 1.3*x", z = "p*z - z^3" }
+[sections.start]
+function = "y"
+direction = "rising"
+[symmetries.turned]
+map = { x = "-x", y = "-y", z = "-z" }
+)toml");
+    const OrbitSolution solution = settled(model, "start");
+    EXPECT_TRUE(solution.orbit.symmetry.has_value());
+    const Branch branch = follow_branch(model, solution.orbit, in_parameter(model, "p", -0.5, 0.5));
+    ASSERT_EQ(names(branch), "SB BD");
+    EXPECT_NEAR(branch.special[0].parameter, 0, 1e-9);
+    EXPECT_NEAR(branch.points.back().parameter, 0.5, 1e-12);
+}
+
+} // namespace
+} // namespace graze
