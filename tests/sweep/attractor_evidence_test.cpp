@@ -166,5 +166,28 @@ TEST(AttractorEvidence, a_motion_that_shrinks_as_a_whole_stays_with_its_orbit) {
     EXPECT_EQ(settle(spiral(1.5)).label, Label::unbounded);
 }
 
+/// The section's function is exp(-t), and in the end less than any number.
+TEST(AttractorEvidence, what_dies_away_does_not_return_by_its_round_off) {
+    for (const char* rate : {"1", "0.1*x", "v"}) {
+        const Model model = parse_model(fmt::format(R"toml(
+[states]
+x = 0.5
+v = 1
+[modes.only]
+rates = {{ x = "{}", v = "-v" }}
+[sections.s]
+function = "v"
+[initial]
+mode = "only"
+)toml",
+                                                    rate),
+                                        "decay");
+        const PointResult result = settle(model);
+        EXPECT_EQ(result.cycles, 0U) << rate;
+        EXPECT_NE(result.label, Label::periodic) << rate;
+        EXPECT_NE(result.label, Label::chaotic) << rate;
+    }
+}
+
 } // namespace
 } // namespace graze
