@@ -40,6 +40,9 @@ Certificate certify(OrbitEquations& equations, const OrbitEvaluation& at,
 /// Whether the model would follow an orbit, all of whose segments take time. @param why not, if it is known
 bool is_admissible(const Simulation& simulation, const Orbit& orbit, std::string& why);
 
+/// How many states the orbit brings back to whatever they were although they change along it: each tells one of many
+/// orbits side by side. What rests all along the orbit is no more than a parameter of it.
+std::size_t moving_neutral_states(const OrbitEquations& equations, const OrbitEvaluation& at);
 /// Floquet multipliers of the section map at the start of the first segment, largest first: of the half orbit for one
 /// that is given by its half. Without those that drifting or unchanged states, and shifts along the flow, would add.
 /// Empty where an event is reached without speed.

@@ -1,3 +1,4 @@
+#include "base/neutral_multipliers.hpp"
 #include "orbit/certify.hpp"
 #include "orbit/eigen_index.hpp"
 #include "orbit/product_eigenvalues.hpp"
@@ -195,15 +196,41 @@ std::vector<Eigen::MatrixXd> SectionMapFactors::without_shifts() const {
 
 } // namespace
 
+std::size_t moving_neutral_states(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    constexpr double same = 1e-7;
+    const OrbitLayout& layout = equations.layout();
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < layout.states(); ++i) {
+        if (equations.model().states[i].drifting || at.periods[i] > 0 ||
+            std::find(at.active.begin(), at.active.end(), i) != at.active.end())
+            continue;
+        double least = at.unknowns[index(i)], greatest = least;
+        for (std::size_t k = 0; k < layout.pieces(); ++k)
+            for (const double value : {at.pieces[k].end[i], at.pieces[k].after[i]}) {
+                least = std::min(least, value);
+                greatest = std::max(greatest, value);
+            }
+        count += greatest - least > same * std::abs(at.unknowns[index(i)]) ? 1 : 0;
+    }
+    return count;
+}
+
 std::vector<std::complex<double>> floquet_multipliers(const OrbitEquations& equations, const OrbitEvaluation& at) {
     SectionMapFactors factors(equations, at);
     for (std::size_t k = 0; k < equations.layout().pieces(); ++k)
         if (!factors.add(k))
             return {};
+    const std::size_t neutral = moving_neutral_states(equations, at);
+    const std::vector<Eigen::MatrixXd> map = factors.without_shifts();
     // Of a single state nothing is left but the shift along the flow: the map of its section forgets all.
-    if (at.active.size() == 1 && factors.without_shifts().front().size() == 0)
-        return {0.0};
-    return product_eigenvalues(factors.without_shifts());
+    const bool forgets = at.active.size() == 1 && map.front().size() == 0;
+    std::vector<std::complex<double>> result;
+    if (!forgets)
+        result = product_eigenvalues(map);
+    else if (neutral == 0)
+        result = {0.0};
+    add_neutral_multipliers(result, neutral);
+    return result;
 }
 
 } // namespace graze

@@ -173,7 +173,7 @@ OrbitSolution solve_orbit(const System& system, const Orbit& candidate, const Or
     if (solution.outcome != OrbitOutcome::converged)
         return solution;
     describe_orbit(shooting, at, solution);
-    if (is_in_family(shooting, at))
+    if (moving_neutral_states(shooting, at) > 0 || is_in_family(shooting, at))
         solution.detail = "one of a family of orbits at the same parameters: a multiplier is 1";
     if (options.error_estimate) {
         const Simulation tighter(system, {}, {}, integration(0.01 * options.tolerance));

@@ -115,6 +115,21 @@ bool AttractorSearch::does_not_move() {
     return true;
 }
 
+/// Whether this state of the orbit that was found, along which nothing happens, lies beyond the surface of an event
+/// that the motion has still before it: something happens on the way.
+bool AttractorSearch::is_behind_event(std::span<const double> state) {
+    if (!finder_.contacts().empty())
+        return false;
+    FieldMap::Workspace workspace = setting_->field.workspace(parameters_);
+    setting_->field.evaluate_events(workspace, finder_.mode(), watcher_.recent(0).state);
+    const std::vector<double> here = workspace.events;
+    setting_->field.evaluate_events(workspace, finder_.mode(), state);
+    for (std::size_t w = 0; w < setting_->simulation.system().mode(finder_.mode()).watched.size(); ++w)
+        if (here[w] > 0 && workspace.events[w] < 0)
+            return true;
+    return false;
+}
+
 /// Whether the orbit that was found is a point: Newton's method has gone to where modes meet and nothing moves in any
 /// of them. Motions about such a corner look alike on all scales, so that no return map has derivatives there.
 bool AttractorSearch::has_no_size() {

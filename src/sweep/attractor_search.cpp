@@ -249,7 +249,8 @@ bool AttractorSearch::consider_orbit() {
             return false;
     } else if (finder_.found()) {
         const std::optional<Equilibrium> equilibrium = equilibrium_of_orbit();
-        if (approaches(finder_, watcher_, periods_, setting_->simulation.options().tolerance))
+        if (approaches(finder_, watcher_, periods_, setting_->simulation.options().tolerance) &&
+            !is_behind_event(equilibrium ? equilibrium->state : finder_.point()))
             return equilibrium ? finish_equilibrium(*equilibrium) : begin_stay();
         if (const auto next = leave_unstable_orbit(equilibrium ? &*equilibrium : nullptr))
             return *next;

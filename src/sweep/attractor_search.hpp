@@ -62,6 +62,7 @@ private:
     std::optional<std::vector<double>> displaced_by(const std::vector<std::size_t>& states,
                                                     const Eigen::VectorXd& change);
     std::optional<bool> consider_growth();
+    bool is_behind_event(std::span<const double> state);
     bool has_no_size();
     bool shrinks_to_a_corner();
     bool repeats_exactly();

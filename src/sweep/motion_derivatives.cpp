@@ -141,6 +141,7 @@ void MotionDerivatives::take(const Item& item) {
 }
 
 void MotionDerivatives::pass_step(std::size_t number) {
+    valid_ = valid_ && maps_->is_known(number);
     const std::span<const double> map = maps_->map(number);
     const std::vector<std::size_t>& directions = modes_->directions();
     const std::size_t count = directions.size();

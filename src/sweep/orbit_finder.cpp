@@ -1,5 +1,6 @@
 #include "sweep/orbit_finder.hpp"
 
+#include "base/neutral_multipliers.hpp"
 #include "flow/cyclic.hpp"
 
 #include <algorithm>
@@ -65,7 +66,7 @@ void OrbitFinder::begin(std::span<const double> parameters, std::span<const doub
     watcher_.allow_any_steps(true);
     guard_ = 3 * duration;
     returns_to_section_ = is_on_section();
-    start_iteration();
+    start_run(Stage::iterating);
 }
 
 /// Whether returns end on the section: where it is the surface of an event whose jump leads elsewhere, as one that sets
@@ -80,11 +81,18 @@ bool OrbitFinder::is_on_section() {
     return true;
 }
 
-void OrbitFinder::start_iteration() {
-    stage_ = Stage::iterating;
+/// Runs the orbit from the point, with derivatives. Those of the run in which it is recorded are the orbit's own: from
+/// where Newton's method made its last step, products of many factors are not theirs to many digits.
+void OrbitFinder::start_run(Stage stage) {
+    stage_ = stage;
+    SampleRecorder* const recorder = stage == Stage::recording ? &recorder_ : nullptr;
     if (returns_to_section_)
         map_->settle_on_section(workspace_, point_);
-    watcher_.begin(parameters_, periods_, nullptr);
+    if (recorder) {
+        recorder->begin(parameters_);
+        recorder->set_origin(0);
+    }
+    watcher_.begin(parameters_, periods_, recorder);
     watcher_.stop_after(period_);
     watcher_.start_leg(0, soonest * duration_ / static_cast<double>(period_));
     trajectory_->start(point_, mode_, 0, guard_);
@@ -123,31 +131,35 @@ bool OrbitFinder::is_active(std::size_t state) const {
 }
 
 bool OrbitFinder::proceed() {
-    if (stage_ == Stage::iterating) {
-        returns_ += watcher_.returns();
-        if (!carries() && derivatives_->broken()) {
-            sticks_ = true;
-            start_iteration();
-            return true;
-        }
-        return arrived() ? iterate() : fail();
+    if (stage_ == Stage::comparing)
+        return compare();
+    returns_ += watcher_.returns();
+    if (!carries() && derivatives_->broken()) {
+        sticks_ = true;
+        start_run(stage_);
+        return true;
     }
-    if (stage_ == Stage::recording) {
-        returns_ += watcher_.returns();
-        return arrived() ? record() : fail();
-    }
-    return compare();
+    if (!arrived() || !linearise())
+        return fail();
+    return stage_ == Stage::iterating ? iterate() : record();
+}
+
+/// The return map's derivatives and what follows from them, at the point from which the motion has arrived.
+bool OrbitFinder::linearise() {
+    Eigen::MatrixXd tangents;
+    if (!find_tangents(tangents) || !map_->project(workspace_, mode_, watcher_.recent(0).state, tangents))
+        return false;
+    jacobian_ = return_jacobian(*map_, tangents);
+    auto spectrum = return_spectrum(*map_, jacobian_, scale_);
+    if (!spectrum)
+        return false;
+    spectrum_ = std::move(*spectrum);
+    return true;
 }
 
 bool OrbitFinder::iterate() {
-    Eigen::MatrixXd tangents;
-    if (!find_tangents(tangents))
-        return fail();
     const auto states = static_cast<Eigen::Index>(map_->states());
     const std::span<const double> image = watcher_.recent(0).state;
-    if (!map_->project(workspace_, mode_, image, tangents))
-        return fail();
-    jacobian_ = return_jacobian(*map_, tangents);
     Eigen::VectorXd defect(states);
     subtract_states(image, point_, periods_, {defect.data(), map_->states()});
     const Eigen::VectorXd correction = newton_correction(jacobian_, defect, scale_);
@@ -160,10 +172,6 @@ bool OrbitFinder::iterate() {
     if (stalls && !closes)
         return fail();
     correction_ = size;
-    auto spectrum = return_spectrum(*map_, jacobian_, scale_);
-    if (!spectrum)
-        return fail();
-    spectrum_ = std::move(*spectrum);
     for (std::size_t i = 0; i < point_.size(); ++i) {
         const double before = point_[i], change = correction[static_cast<Eigen::Index>(i)];
         if (change != 0)
@@ -175,19 +183,7 @@ bool OrbitFinder::iterate() {
     clearly_unstable_ = !multipliers().empty() && std::abs(multipliers().front()) > most_unstable && size > sits;
     if (clearly_unstable_)
         return fail();
-    if (size > small_correction && !stalls) {
-        start_iteration();
-        return true;
-    }
-    stage_ = Stage::recording;
-    if (returns_to_section_)
-        map_->settle_on_section(workspace_, point_);
-    recorder_.begin(parameters_);
-    recorder_.set_origin(0);
-    watcher_.begin(parameters_, periods_, &recorder_);
-    watcher_.stop_after(period_);
-    watcher_.start_leg(0, soonest * duration_ / static_cast<double>(period_));
-    trajectory_->start(point_, mode_, 0, guard_);
+    start_run(size > small_correction && !stalls ? Stage::iterating : Stage::recording);
     return true;
 }
 
@@ -221,7 +217,7 @@ bool OrbitFinder::record() {
             duration_ *= static_cast<double>(d) / static_cast<double>(period_);
             period_ = d;
             iterations_ = 0;
-            start_iteration();
+            start_run(Stage::iterating);
             return true;
         }
     if (image_->outputs() == 0) {
@@ -250,6 +246,7 @@ void OrbitFinder::keep_orbit() {
     contacts_ = watcher_.contacts(period_);
     recorded_.clear();
     extents_.assign(map_->states(), 0);
+    std::size_t neutral = 0;
     for (std::size_t i = 0; i < extents_.size(); ++i) {
         double least = point_[i], greatest = point_[i];
         for (std::size_t k = 0; k < period_; ++k) {
@@ -259,10 +256,13 @@ void OrbitFinder::keep_orbit() {
         extents_[i] = greatest - least;
         // What comes back to exactly where it was, from wherever it starts, is at rest; or, if it moves, on one of many
         // orbits side by side, as the height of a ball that loses nothing.
-        if (map_->takes_part(i) && !(periods_[i] > 0) && !is_active(i) && extents_[i] > same * std::abs(point_[i]) &&
-            (multipliers().empty() || std::abs(multipliers().front()) < 1))
-            spectrum_.multipliers.insert(spectrum_.multipliers.begin(), 1.0);
+        if (map_->takes_part(i) && !(periods_[i] > 0) && !is_active(i) && extents_[i] > same * std::abs(point_[i]))
+            ++neutral;
     }
+    // That of a single active state stands for a section's map that forgets everything, which this one does not.
+    if (neutral > 0 && !map_->is_phase() && jacobian_.active.size() == 1)
+        spectrum_.multipliers.clear();
+    add_neutral_multipliers(spectrum_.multipliers, neutral);
     for (std::size_t k = period_; k-- > 0;)
         recorded_.push_back(watcher_.recent(k).state);
 }

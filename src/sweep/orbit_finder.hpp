@@ -61,9 +61,10 @@ public:
 private:
     enum class Stage { iterating, recording, comparing, found, failed };
     bool is_on_section();
-    void start_iteration();
+    void start_run(Stage stage);
     bool find_tangents(Eigen::MatrixXd& tangents);
     bool carries() const { return !derivatives_ || sticks_; }
+    bool linearise();
     bool iterate();
     bool record();
     bool others_return(std::span<const double> image) const;

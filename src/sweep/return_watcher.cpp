@@ -66,14 +66,21 @@ void ReturnWatcher::check_bounds(std::span<const double> state) {
     stop_ = stop_ || escaped_;
 }
 
+void ReturnWatcher::include(std::size_t state, double value) {
+    least_[state] = std::min(least_[state], value);
+    greatest_[state] = std::max(greatest_[state], value);
+}
+
+void ReturnWatcher::include(std::span<const double> state) {
+    for (std::size_t i = 0; i < state.size(); ++i)
+        include(i, state[i]);
+}
+
 void ReturnWatcher::step(const Step& step) {
     if (derivatives_)
         derivatives_->step(step);
-    for (std::size_t i = 0; i < least_.size(); ++i) {
-        const double value = step.states[i][0];
-        least_[i] = std::min(least_[i], value);
-        greatest_[i] = std::max(greatest_[i], value);
-    }
+    for (std::size_t i = 0; i < least_.size(); ++i)
+        include(i, step.states[i][0]);
     for (const StateBounds& bounds : bounds_)
         escaped_ = escaped_ || !bounds.contain(step.state(bounds.state, step.length));
     stuck_ = ++steps_ > most_steps && !any_steps_;
@@ -92,6 +99,9 @@ void ReturnWatcher::contact(const Contact& contact) {
         derivatives_->contact(contact);
     if (contact.kind == ContactKind::touch)
         return;
+    // The step behind it is told of when the return to which it leads is over already.
+    include(contact.before);
+    include(contact.after);
     current_.contacts.push_back(
         static_cast<std::uint32_t>(2 * contact.transition + (contact.kind == ContactKind::sticking ? 1 : 0)));
     // Where the section is the surface of an event, a return is over when its jump is made.
@@ -128,10 +138,7 @@ void ReturnWatcher::arrive(double time, std::size_t mode, std::span<const double
     place.time = time;
     place.mode = mode;
     place.state.assign(state.begin(), state.end());
-    for (std::size_t i = 0; i < state.size(); ++i) {
-        least_[i] = std::min(least_[i], state[i]);
-        greatest_[i] = std::max(greatest_[i], state[i]);
-    }
+    include(state);
     widen();
     place.least = least_;
     place.greatest = greatest_;

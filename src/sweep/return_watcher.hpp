@@ -92,6 +92,8 @@ public:
     bool stop() override;
 
 private:
+    void include(std::size_t state, double value);
+    void include(std::span<const double> state);
     void arrive(double time, std::size_t mode, std::span<const double> state);
     void compare_contacts();
     void update_scale();

@@ -16,6 +16,12 @@ namespace {
 
 /// Directions up to which all of them in lanes are cheaper than one or more that a trajectory carries.
 constexpr std::size_t most_directions = 6;
+/// Parts in which a step is followed. Where more are needed, derivatives run away from a motion that nothing is known
+/// of any more, as of what has died away to the smallest numbers.
+constexpr std::size_t most_parts = 16384;
+/// Parts that have been followed, after which the memory of them is given back.
+constexpr std::size_t most_done = 1024;
+
 /// Whether the rate of a state is the same whatever the states and the mode, and no jump changes it.
 bool is_clock(const System& system, Model& model, std::size_t state) {
     Expression rate;
@@ -126,6 +132,8 @@ StepMaps::Flow& StepMaps::flow(std::size_t mode) {
 void StepMaps::clear() {
     numbers_.clear();
     maps_.clear();
+    known_.clear();
+    given_up_ = false;
 }
 
 std::size_t StepMaps::add(std::size_t mode, std::span<const double> state, double length) {
@@ -133,20 +141,26 @@ std::size_t StepMaps::add(std::size_t mode, std::span<const double> state, doubl
     queues_[mode].push_back({.step = step, .state = numbers_.size(), .length = length, .attempt = length});
     numbers_.insert(numbers_.end(), state.begin(), state.end());
     maps_.resize(maps_.size() + map_size_);
+    known_.push_back(true);
     return step;
 }
 
 void StepMaps::compute() {
     for (std::size_t mode = 0; mode < queues_.size(); ++mode) {
         std::vector<Part>& queue = queues_[mode];
-        // What is left of a step after a part of it comes last.
-        for (std::size_t done = 0; done < queue.size();) {
+        for (std::size_t done = 0; done < queue.size() && !given_up_;) {
             const std::size_t count = std::min(lanes_, queue.size() - done);
             batch_.assign(queue.begin() + static_cast<std::ptrdiff_t>(done),
                           queue.begin() + static_cast<std::ptrdiff_t>(done + count));
             compute(mode, batch_);
             done += count;
+            if (done >= most_done) {
+                queue.erase(queue.begin(), queue.begin() + static_cast<std::ptrdiff_t>(done));
+                done = 0;
+            }
         }
+        for (const Part& part : queue)
+            known_[part.step] = known_[part.step] && !given_up_;
         queue.clear();
     }
 }
@@ -182,21 +196,30 @@ void StepMaps::compute(std::size_t mode, std::span<Part> parts) {
             continue;
         }
         apply(part, lane);
-        const double left = part.length - part.attempt;
-        if (!(left > 0))
-            continue;
-        const std::size_t state = numbers_.size();
-        for (std::size_t i = 0; i < states_; ++i)
-            numbers_.push_back(states_there_[i * lanes_ + lane]);
-        queues_[mode].push_back({.step = part.step,
-                                 .state = state,
-                                 .length = left,
-                                 .attempt = left,
-                                 .first_misfit = 0,
-                                 .halvings = 0,
-                                 .accepted = false,
-                                 .first = false});
+        go_on_behind(mode, part, lane);
     }
+}
+
+/// What is left of a step behind a part of it comes last.
+void StepMaps::go_on_behind(std::size_t mode, const Part& part, std::size_t lane) {
+    const double left = part.length - part.attempt;
+    if (!(left > 0))
+        return;
+    if (part.before + 1 >= most_parts) {
+        given_up_ = true;
+        known_[part.step] = false;
+        return;
+    }
+    for (std::size_t i = 0; i < states_; ++i)
+        numbers_[part.state + i] = states_there_[i * lanes_ + lane];
+    queues_[mode].push_back({.step = part.step,
+                             .state = part.state,
+                             .length = left,
+                             .attempt = left,
+                             .first_misfit = 0,
+                             .halvings = 0,
+                             .before = part.before + 1,
+                             .accepted = false});
 }
 
 /// How far each part can be followed at once.
@@ -243,7 +266,7 @@ bool StepMaps::believe(Part& part, double misfit) const {
 /// What the step has been followed for so far, and this part of it behind.
 void StepMaps::apply(const Part& part, std::size_t lane) {
     double* map = &maps_[part.step * map_size_];
-    if (part.first) {
+    if (part.before == 0) {
         for (std::size_t i = 0; i < directions_ * directions_; ++i)
             map[i] = sums_[i * lanes_ + lane];
         return;

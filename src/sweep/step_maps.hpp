@@ -61,6 +61,9 @@ public:
     std::size_t steps() const { return maps_.size() / map_size_; }
     /// Derivatives of the states at a step's end by those at its start: directions x directions, column by column.
     std::span<const double> map(std::size_t step) const { return {&maps_[step * map_size_], map_size_}; }
+    /// Whether the step's derivatives could be followed to its end: only then is its map one. Behind a step where they
+    /// could not, nothing is asked of others.
+    bool is_known(std::size_t step) const { return known_[step]; }
 
 private:
     /// What is left to do of a step.
@@ -70,8 +73,8 @@ private:
         double attempt = 0; ///< length to be followed now
         double first_misfit = 0;
         int halvings = 0;
-        bool accepted = false; ///< whatever comes out: what differs is round-off
-        bool first = true;     ///< nothing of the step has been followed before
+        std::size_t before = 0; ///< parts of the step that have been followed
+        bool accepted = false;  ///< whatever comes out: what differs is round-off
     };
     /// Series of the states and of W, in lanes: where steps begin, and where they end.
     struct Flow {
@@ -83,6 +86,7 @@ private:
     void load(std::span<const Part> parts);
     void find_reaches(const ColumnSeries& columns, std::span<Part> parts);
     void compute(std::size_t mode, std::span<Part> parts);
+    void go_on_behind(std::size_t mode, const Part& part, std::size_t lane);
     bool believe(Part& part, double misfit) const;
     void apply(const Part& part, std::size_t lane);
 
@@ -94,6 +98,8 @@ private:
     std::vector<std::unique_ptr<Flow>> flows_; ///< of modes, made when first needed
     std::vector<double> scale_, numbers_;      ///< of steps' first states
     std::vector<double> maps_, product_;
+    std::vector<bool> known_;               ///< of the maps
+    bool given_up_ = false;                 ///< since a step took too many parts
     std::vector<std::vector<Part>> queues_; ///< of each mode
     std::vector<Part> batch_;               ///< what is in lanes now
     // In lanes: of the parts that are followed now ...

@@ -3,6 +3,7 @@
 // How far series may be followed, for all lanes at once. To be included only by the translation unit of an instruction
 // set.
 
+#include "tape/smallest_size.hpp"
 #include "tape/sum_kernels.hpp"
 
 #include "graze/tape/series.hpp"
@@ -115,9 +116,6 @@ struct LargestShares {
     }
 };
 inline constexpr LargestShares largest_share;
-
-/// What is smaller is rounded to few digits, or to none: nothing can be asked of its relative accuracy.
-inline constexpr double smallest_size = 1e-290;
 
 /// Shortens the step of one lane until no terms grow at the end of the series.
 inline double shortened(const Series* series, std::size_t count, std::size_t order, int lane, double step) {

@@ -2,6 +2,7 @@
 
 #include "flow/kept_sign.hpp"
 #include "flow/lone_crossing.hpp"
+#include "tape/smallest_size.hpp"
 #include "trajectory/series.hpp"
 
 #include <algorithm>
@@ -229,6 +230,9 @@ void ProbeTracker::begin_on(int side, std::size_t probe) {
 
 /// @param clear what a glance has shown
 void ProbeTracker::search_series(std::size_t probe, std::span<const double> c, double length, roots::ClearSign clear) {
+    // Nothing is known of the sign of what has died away like exp(-t); it is what it was.
+    if (clear.size < smallest_size)
+        return;
     if (clear.sign != 0)
         return begin_on(clear.sign, probe);
     const int now = c[0] > 0 ? 1 : -1;

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -120,6 +121,55 @@ direction = "falling"
     for (int i = 0; i < 8; ++i)
         std::tie(a, b) = std::pair(0.5 * (a + b), std::sqrt(a * b));
     EXPECT_NEAR(solution.orbit.period(), 2 * pi / a, 1e-10);
+}
+
+/// What a map that is made at each tick of a clock brings back after two of them, whatever it was.
+TEST(Family, a_state_that_ticks_reverse_tells_one_of_many_orbits) {
+    struct Case {
+        const char* map; ///< of x, y, z
+        std::size_t moving;
+        double rest; ///< the other multiplier, of two periods
+    };
+    // Of x and y that change places nothing rests; where x alone is reversed y does, and is no more than a parameter.
+    for (const Case& one :
+         {Case{"x = \"1 - x\"\nz = \"0.5*z + x\"", 1, 0.25}, Case{"x = \"-x\"\nz = \"0.3*z + x\"", 1, 0.09},
+          Case{"x = \"y\"\ny = \"x\"\nz = \"0.5*z + x\"", 2, 0.25}}) {
+        const Model model = parse_model(std::string(R"toml(
+[states]
+x = 0.25
+y = 0.5
+z = 0
+c = 0
+[events]
+tick = "1 - c"
+[modes.only]
+rates = { x = 0, y = 0, z = 0, c = 1 }
+watch = ["tick"]
+[[transitions]]
+mode = "only"
+event = "tick"
+jump = "map"
+next = "only"
+[sections.half]
+function = "c - 0.5"
+direction = "rising"
+[initial]
+mode = "only"
+[jumps.map]
+c = 0
+)toml") + one.map + "\n",
+                                        "test.toml");
+        AttractorOptions settle;
+        settle.section = "half";
+        const OrbitSolution solution = find_orbit(model, settle);
+        ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << one.map << solution.detail;
+        ASSERT_EQ(solution.multipliers.size(), one.moving + 1) << one.map;
+        for (std::size_t m = 0; m < one.moving; ++m)
+            EXPECT_NEAR(std::abs(solution.multipliers[m] - 1.0), 0, 1e-12) << one.map;
+        EXPECT_NEAR(std::abs(solution.multipliers.back() - one.rest), 0, 1e-12) << one.map;
+        EXPECT_FALSE(is_stable(solution));
+        EXPECT_NE(solution.detail.find("one of a family"), std::string::npos) << solution.detail;
+    }
 }
 
 } // namespace

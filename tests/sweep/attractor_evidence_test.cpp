@@ -166,5 +166,58 @@ TEST(AttractorEvidence, a_motion_that_shrinks_as_a_whole_stays_with_its_orbit) {
     EXPECT_EQ(settle(spiral(1.5)).label, Label::unbounded);
 }
 
+/// x' = -x falls to `least` after -log(least), where all ends; before, little else than the clock moves.
+TEST(AttractorEvidence, a_motion_that_seems_to_rest_has_its_event_all_the_same) {
+    for (const double least : {1e-3, 1e-12, 1e-20, 1e-60, 1e-100, 1e-160}) {
+        const Model model = parse_model(fmt::format(R"toml(
+[states]
+x = 1
+theta = {{ initial = 0, period = 1 }}
+[events]
+low = "x - {:.17g}"
+[modes.only]
+rates = {{ x = "-x", theta = 1 }}
+watch = ["low"]
+[[transitions]]
+mode = "only"
+event = "low"
+next = "end"
+[sections.s]
+state = "theta"
+value = 0.5
+[initial]
+mode = "only"
+)toml",
+                                                    least),
+                                        "end");
+        const PointResult result = settle(model);
+        EXPECT_EQ(result.label, Label::ended) << least << ": " << name_of(result.label) << result.outcome.detail;
+        EXPECT_NEAR(result.time / -std::log(least), 1, 1e-9) << least;
+    }
+}
+
+/// The section's function is exp(-t), and in the end less than any number.
+TEST(AttractorEvidence, what_dies_away_does_not_return_by_its_round_off) {
+    for (const char* rate : {"1", "0.1*x", "v"}) {
+        const Model model = parse_model(fmt::format(R"toml(
+[states]
+x = 0.5
+v = 1
+[modes.only]
+rates = {{ x = "{}", v = "-v" }}
+[sections.s]
+function = "v"
+[initial]
+mode = "only"
+)toml",
+                                                    rate),
+                                        "decay");
+        const PointResult result = settle(model);
+        EXPECT_EQ(result.cycles, 0U) << rate;
+        EXPECT_NE(result.label, Label::periodic) << rate;
+        EXPECT_NE(result.label, Label::chaotic) << rate;
+    }
+}
+
 } // namespace
 } // namespace graze

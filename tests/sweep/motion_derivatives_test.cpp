@@ -139,6 +139,14 @@ TEST(MotionDerivatives, are_followed_in_parts_where_they_change_faster_than_the_
     }
 }
 
+TEST(MotionDerivatives, that_would_take_parts_without_end_are_not_valid) {
+    // Neighbours come back within a millionth of a millionth of the time of a step.
+    const Model resting = first_order("-1e12*x", SectionOf::clock, 0);
+    Followed rest(resting, "s");
+    rest.run(resting.initial_state(), 0, 3.5, {1, 1});
+    EXPECT_FALSE(rest.derivatives.valid());
+}
+
 TEST(MotionDerivatives, of_a_step_do_not_depend_on_those_computed_beside_it) {
     const Model model = load_model("electromagnetic-testbed");
     const Simulation simulation(model, {section_probe(model, "phase0")});

@@ -1,0 +1,125 @@
+// Multipliers of orbits that motions settle on, against closed forms.
+
+#include "settle.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+namespace graze {
+namespace {
+
+/// States that rest but for what a map makes of them at each tick of a clock, which is set back; the section is crossed
+/// halfway between.
+Model ticking(const std::string& states, const std::string& rates, const std::string& map) {
+    return parse_model(fmt::format(R"toml(
+[states]
+{}
+c = 0
+[events]
+tick = "1 - c"
+[modes.only]
+rates = {{ {}, c = 1 }}
+watch = ["tick"]
+[jumps.map]
+{}
+c = 0
+[[transitions]]
+mode = "only"
+event = "tick"
+jump = "map"
+next = "only"
+[sections.half]
+function = "c - 0.5"
+direction = "rising"
+[initial]
+mode = "only"
+)toml",
+                                   states, rates, map),
+                       "ticking");
+}
+
+/// A ball that loses nothing, from rest at x = 1 with g = 2: it is back after 2 units of time.
+Model elastic_ball(const std::string& state, const std::string& rate) {
+    return parse_model(fmt::format(R"toml(
+[states]
+x = 1
+v = 0
+{}
+[events]
+floor = "x"
+[modes.flight]
+rates = {{ x = "v", v = -2{} }}
+watch = ["floor"]
+[jumps.hit]
+v = "-v"
+[[transitions]]
+mode = "flight"
+event = "floor"
+jump = "hit"
+next = "flight"
+[sections.top]
+function = "v"
+direction = "falling"
+[initial]
+mode = "flight"
+)toml",
+                                   state, rate),
+                       "ball");
+}
+
+void expect_multipliers(const PointResult& result, const std::vector<double>& known, double error = 1e-10) {
+    ASSERT_EQ(result.label, Label::periodic) << result.outcome.detail;
+    ASSERT_EQ(result.multipliers.size(), known.size());
+    for (std::size_t m = 0; m < known.size(); ++m)
+        EXPECT_NEAR(std::abs(result.multipliers[m] - known[m]), 0, error) << m << ": " << result.multipliers[m];
+    EXPECT_EQ(result.outcome.detail.find("multiplier is 1") != std::string::npos, known.front() == 1);
+}
+
+TEST(OrbitFinder, multipliers_are_those_of_the_orbit_and_not_of_what_led_to_it) {
+    // The product of r (1 - 2z) along the orbit, which is as sensitive as it is long.
+    AttractorOptions options;
+    options.largest_period = 12;
+    struct Case {
+        double r;
+        std::size_t period;
+    };
+    for (const Case& one : {Case{3.8494, 48}, Case{3.632987341772152, 36}, Case{3.845586440677966, 6}, Case{3.2, 2}})
+        for (const double z : {0.3, 0.41, 0.77}) {
+            const PointResult result = settle(iterated(fmt::format("{:.17g}*z*(1 - z)", one.r), z), options);
+            ASSERT_EQ(result.label, Label::periodic) << one.r << " " << z << " " << result.outcome.detail;
+            ASSERT_EQ(result.period, one.period);
+            double known = 1, at = result.state[0];
+            for (std::size_t k = 0; k < one.period; ++k) {
+                known *= one.r * (1 - 2 * at);
+                at = one.r * at * (1 - at);
+            }
+            ASSERT_EQ(result.multipliers.size(), 1U);
+            EXPECT_NEAR(result.multipliers[0].real(), known, 1e-7) << one.r << " " << z;
+        }
+}
+
+TEST(OrbitFinder, a_ball_that_loses_nothing_has_the_multiplier_1) {
+    expect_multipliers(settle(elastic_ball("", "")), {1});
+    // y shrinks by a factor e for each unit of time, whether it follows the ball or not.
+    expect_multipliers(settle(elastic_ball("y = 0.5", ", y = \"x - y\"")), {1, std::exp(-2)});
+    expect_multipliers(settle(elastic_ball("y = 0.5", ", y = \"cos(v) - 0.1*y\"")), {1, std::exp(-0.2)});
+}
+
+TEST(OrbitFinder, each_state_that_is_what_it_was_after_two_ticks_has_a_multiplier_1) {
+    expect_multipliers(settle(ticking("x = 0.25", "x = 0", "x = \"1 - x\"")), {1});
+    expect_multipliers(settle(ticking("x = 0.25\ny = 0.5", "x = 0, y = 0", "x = \"y\"\ny = \"x\"")), {1, 1});
+    expect_multipliers(settle(ticking("x = 0.25\ny = 0.5", "x = 0, y = 0", "x = \"y\"\ny = \"-x\"")), {1, 1});
+    expect_multipliers(
+        settle(ticking("x = 0.25\ny = 0.5\nz = 0", "x = 0, y = 0, z = 0", "x = \"y\"\ny = \"x\"\nz = \"0.5*z + x\"")),
+        {1, 1, 0.25});
+}
+
+TEST(OrbitFinder, what_rests_whatever_it_is_has_no_multiplier) {
+    expect_multipliers(settle(ticking("x = 0.25\nz = 0", "x = 0, z = 0", "z = \"0.5*z + x\"")), {0.5});
+}
+
+} // namespace
+} // namespace graze
