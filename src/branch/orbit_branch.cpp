@@ -242,7 +242,6 @@ private:
     /// Steps on. One that ends on the branch of more regular orbits, which the present one left or comes back to, has
     /// gone past that crossing, and is made again with shorter steps.
     bool step_off_regular() {
-        constexpr int most_attempts = 8;
         constexpr double shorter = 0.25;
         Continuation& continuation = state_.continuation();
         const Continuation before = continuation;
