@@ -13,29 +13,39 @@ import sys
 DECLARED = re.compile(r"^(?:\[\[\w+\]\] )?(?:(?:struct|class|enum class) (\w+)|using (\w+) =|(?!using |namespace )[A-Za-z][^=;(){]*?\b(\w+)(?=[({=;]| =|\[))")
 
 
-def own_names(source):
-    """Names that no other source may have beside this one: those of its unnamed namespaces."""
-    names = set()
-    inside = False
-    for line in pathlib.Path(source).read_text(encoding="utf-8").splitlines():
-        if line == "namespace {":
-            inside = True
-        elif line.startswith("}") and line.endswith("// namespace"):
-            inside = False
-        elif inside and (found := DECLARED.match(line)):
-            names.add(found[1] or found[2] or found[3])
-            # `constexpr double one = 1, other = 2;`
-            if line.startswith("const"):
-                names.update(re.findall(r", (\w+) = ", line))
-    return names
+class Names:
+    """Names of one source, or of several that go together."""
 
+    def __init__(self, source):
+        text = pathlib.Path(source).read_text(encoding="utf-8")
+        self.own = set()  # of its unnamed namespaces
+        self.constants = set()  # among them
+        inside = False
+        for line in text.splitlines():
+            if line == "namespace {":
+                inside = True
+            elif line.startswith("}") and line.endswith("// namespace"):
+                inside = False
+            elif inside and (found := DECLARED.match(line)):
+                self.own.add(found[1] or found[2] or found[3])
+                if line.startswith("const"):  # `constexpr double one = 1, other = 2;`
+                    self.constants.update([found[3], *re.findall(r", (\w+) = ", line)])
+        self.own |= self.constants
+        text = re.sub(r'"(?:\\.|[^"\\])*"', '""', re.sub(r"//.*", "", text))
+        # What is called or taken for a type, and all that may be a constant, wherever these are declared.
+        self.called = set(re.findall(r"(?<![\w.:>])(\w+)(?=[(<{]|::)", text))
+        self.mentioned = set(re.findall(r"(?<![\w.:>])(\w+)", text))
 
-def used_names(source):
-    """Names that a source calls or takes for types, wherever they are declared: an own name of another source before it
-    would hide them."""
-    text = pathlib.Path(source).read_text(encoding="utf-8")
-    text = re.sub(r'"(?:\\.|[^"\\])*"', '""', re.sub(r"//.*", "", text))
-    return set(re.findall(r"(?<![\w.:>])(\w+)(?=[(<{]|::)", text))
+    def hide(self, other):
+        """Whether a name of the one would stand in the way of the other."""
+        return any(
+            (one.own & (two.own | two.called)) or (one.constants & two.mentioned)
+            for one, two in ((self, other), (other, self))
+        )
+
+    def add(self, other):
+        for kind in ("own", "constants", "called", "mentioned"):
+            getattr(self, kind).update(getattr(other, kind))
 
 
 def batches_of(sources, most):
@@ -43,16 +53,15 @@ def batches_of(sources, most):
     far as that goes: they include the same."""
     batches = []
     for source in sources:
-        own, used = own_names(source), used_names(source)
-        for members, taken, needed in batches:
-            if len(members) < most and not own & (taken | needed) and not used & taken:
+        names = Names(source)
+        for members, taken in batches:
+            if len(members) < most and not taken.hide(names):
                 members.append(source)
-                taken |= own
-                needed |= used
+                taken.add(names)
                 break
         else:
-            batches.append(([source], own, used))
-    return [batch[0] for batch in batches]
+            batches.append(([source], names))
+    return [members for members, _ in batches]
 
 
 if __name__ == "__main__":

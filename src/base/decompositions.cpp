@@ -71,6 +71,13 @@ std::optional<Eigen::VectorXcd> eigenvalues(const Eigen::MatrixXd& matrix) {
     return solver.eigenvalues();
 }
 
+std::optional<Eigen::VectorXd> symmetric_eigenvalues(const Eigen::MatrixXd& matrix) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix, Eigen::EigenvaluesOnly);
+    if (solver.info() != Eigen::Success)
+        return std::nullopt;
+    return solver.eigenvalues();
+}
+
 std::optional<GeneralizedEigenvalues> generalized_eigenvalues(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
     const Eigen::GeneralizedEigenSolver<Eigen::MatrixXd> solver(a, b, false);
     if (solver.info() != Eigen::Success)

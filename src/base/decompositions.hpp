@@ -41,6 +41,8 @@ struct Eigensystem {
 /// Both throw nothing. @return none where the method does not converge
 std::optional<Eigensystem> eigensystem(const Eigen::MatrixXd& matrix);
 std::optional<Eigen::VectorXcd> eigenvalues(const Eigen::MatrixXd& matrix);
+/// Of a symmetric matrix, in rising order.
+std::optional<Eigen::VectorXd> symmetric_eigenvalues(const Eigen::MatrixXd& matrix);
 /// Numbers mu with det(a - mu b) = 0, as numerators and denominators: mu is infinite where the latter is zero.
 struct GeneralizedEigenvalues {
     Eigen::VectorXcd numerators;

@@ -1,5 +1,7 @@
 #include "graze/identify/decay_peaks.hpp"
 
+#include "base/decompositions.hpp"
+#include "base/median.hpp"
 #include "graze/record/period.hpp"
 #include "graze/record/spectrum.hpp"
 #include "graze/symbolic/input_error.hpp"
@@ -7,11 +9,11 @@
 #include "identify/damped_sine.hpp"
 #include "record/local_polynomial.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace graze {
@@ -34,10 +36,8 @@ double noise_by_differences(const std::vector<double>& values) {
     std::vector<double> differences;
     for (std::size_t i = 1; i + 1 < values.size(); ++i)
         differences.push_back(std::abs(values[i + 1] - 2 * values[i] + values[i - 1]));
-    const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
-    std::nth_element(differences.begin(), middle, differences.end());
     constexpr double median_of_normal = 0.6745, squares = 6;
-    return *middle / (median_of_normal * std::sqrt(squares));
+    return median(std::move(differences)) / (median_of_normal * std::sqrt(squares));
 }
 
 /// Of a damped wave about any level some sum of three neighbours, each times a factor, is always the same, however few
@@ -52,8 +52,8 @@ double noise_by_recurrence(const std::vector<double>& values) {
         mean += three(i) / count;
     for (std::size_t i = 1; i + 1 < values.size(); ++i)
         squares += (three(i) - mean) * (three(i) - mean).transpose() / count;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(squares, Eigen::EigenvaluesOnly);
-    return std::sqrt(std::max(0.0, solver.eigenvalues()[0]));
+    const auto variances = symmetric_eigenvalues(squares);
+    return variances ? std::sqrt(std::max(0.0, (*variances)[0])) : std::numeric_limits<double>::infinity();
 }
 
 /// Standard deviation of the noise. Each of the ways takes what it does not know for noise, too.
@@ -299,14 +299,13 @@ void require_no_gap(const std::vector<Period>& periods, const Samples& samples, 
     std::vector<double> durations;
     for (const Period& one : periods)
         durations.push_back(one.end - one.begin);
-    const auto middle = durations.begin() + static_cast<std::ptrdiff_t>(durations.size() / 2);
-    std::nth_element(durations.begin(), middle, durations.end());
+    const double usual = median(std::move(durations));
     constexpr double much = 0.5;
     for (std::size_t i = 1; i < samples.rows(); ++i)
         if (const double from = samples.times[i - 1], to = samples.times[i];
-            to - from > much * *middle && to > periods.front().begin && from < periods.back().end)
+            to - from > much * usual && to > periods.front().begin && from < periods.back().end)
             throw InputError(fmt::format("'{}' has no rows from {:.6g} to {:.6g}, for {:.2g} of its periods", name,
-                                         from, to, (to - from) / *middle),
+                                         from, to, (to - from) / usual),
                              fmt::format("give a part without gaps (graze identify ... --from T --to T), as all from "
                                          "{:.6g} on",
                                          to));

@@ -1,5 +1,6 @@
 #include "graze/identify/fit.hpp"
 
+#include "base/median.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "identify/fit_beginning.hpp"
 #include "identify/fit_findings.hpp"
@@ -293,9 +294,7 @@ private:
         std::vector<double> lengths;
         for (const FitPiece& piece : pieces())
             lengths.push_back(piece.end - piece.begin);
-        const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-        std::nth_element(lengths.begin(), middle, lengths.end());
-        return *middle;
+        return median(std::move(lengths));
     }
 
     /// Pieces whose ends are elsewhere: a contact near one may have been missed.

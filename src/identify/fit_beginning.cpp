@@ -1,5 +1,6 @@
 #include "identify/fit_beginning.hpp"
 
+#include "base/median.hpp"
 #include "identify/fit_start.hpp"
 #include "identify/other_openings.hpp"
 
@@ -114,9 +115,7 @@ StageReport FitBeginning::begin_piece(std::size_t& piece) {
 
 /// By reading, of half of the pieces.
 double FitBeginning::usual_cost() {
-    const auto middle = usual_costs_.begin() + static_cast<std::ptrdiff_t>(usual_costs_.size() / 2);
-    std::nth_element(usual_costs_.begin(), middle, usual_costs_.end());
-    return *middle;
+    return median(usual_costs_);
 }
 
 /// From each of the states in which a piece might begin: the one that meets its readings best.

@@ -1,5 +1,7 @@
 #include "identify/fit_findings.hpp"
 
+#include "base/median.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -218,9 +220,7 @@ double noise_of(const FitRows& rows, std::size_t output, std::vector<double> res
         constexpr double of_normal = 1.4826;
         for (double& rest : rests)
             rest = std::abs(rest);
-        const auto middle = rests.begin() + static_cast<std::ptrdiff_t>(rests.size() / 2);
-        std::nth_element(rests.begin(), middle, rests.end());
-        noise = of_normal * *middle / std::sqrt(freed);
+        noise = of_normal * median(std::move(rests)) / std::sqrt(freed);
     }
     return std::max(noise, round_off * rows.range(output));
 }

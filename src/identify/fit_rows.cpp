@@ -1,5 +1,6 @@
 #include "identify/fit_rows.hpp"
 
+#include "base/median.hpp"
 #include "graze/symbolic/input_error.hpp"
 
 #include <Eigen/QR>
@@ -47,9 +48,7 @@ double rough_noise(const FitTask& task, std::size_t output, double range) {
             }
     if (sizes.empty())
         return greatest * range;
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    return std::clamp(of_normal * *middle / spread, least * range, greatest * range);
+    return std::clamp(of_normal * median(std::move(sizes)) / spread, least * range, greatest * range);
 }
 
 double usual_distance(const FitTask& task) {
@@ -59,9 +58,7 @@ double usual_distance(const FitTask& task) {
             distances.push_back(record.times[i] - record.times[i - 1]);
     if (distances.empty())
         return 0;
-    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-    std::nth_element(distances.begin(), middle, distances.end());
-    return *middle;
+    return median(std::move(distances));
 }
 
 std::vector<std::size_t> places_of(const FitTask& task) {

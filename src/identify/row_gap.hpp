@@ -1,8 +1,10 @@
 #pragma once
 
-#include <algorithm>
+#include "base/median.hpp"
+
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace graze {
@@ -17,11 +19,7 @@ inline double usual_step(std::span<const double> times) {
     std::vector<double> steps;
     for (std::size_t i = 1; i < times.size(); ++i)
         steps.push_back(times[i] - times[i - 1]);
-    if (steps.empty())
-        return 0;
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::nth_element(steps.begin(), middle, steps.end());
-    return *middle;
+    return steps.empty() ? 0 : median(std::move(steps));
 }
 
 constexpr double longer_than_usual = 1.5; ///< a step over which a row is missing

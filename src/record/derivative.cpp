@@ -1,5 +1,6 @@
 #include "graze/record/derivative.hpp"
 
+#include "base/median.hpp"
 #include "graze/record/spectrum.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/require.hpp"
@@ -80,12 +81,6 @@ private:
     std::vector<double> rest_;
 };
 
-double median(std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 /// The variance that most windows have.
 double usual_variance(const std::vector<Slope>& slopes, double freedom) {
     std::vector<double> squares;
@@ -93,7 +88,7 @@ double usual_variance(const std::vector<Slope>& slopes, double freedom) {
         squares.push_back(slope.squares);
     // The median of chi squared (Wilson and Hilferty).
     const double share = std::pow(1 - 2 / (9 * freedom), 3);
-    return median(squares) / (freedom * share);
+    return median(std::move(squares)) / (freedom * share);
 }
 
 /// A jump beside makes the variance of a window large.

@@ -1,5 +1,6 @@
 #include "graze/record/impacts.hpp"
 
+#include "base/median.hpp"
 #include "graze/record/spectrum.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/require.hpp"
@@ -28,8 +29,6 @@ double noise_of(const std::vector<double>& values) {
         differences.push_back(std::abs(values[i] - 3 * values[i - 1] + 3 * values[i - 2] - values[i - 3]));
     if (differences.empty())
         return 0;
-    const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
-    std::nth_element(differences.begin(), middle, differences.end());
     constexpr double median_of_normal = 0.6744897501960817, third_differences = 20; // 1 + 9 + 9 + 1
     double largest = 0, step = std::numeric_limits<double>::infinity();
     std::size_t still = 0;
@@ -42,7 +41,7 @@ double noise_of(const std::vector<double>& values) {
     constexpr std::size_t often = 10; // one of so many
     // Numbers of few digits stand still and then jump by one: that is noise, too.
     const double digits = often * still > values.size() && std::isfinite(step) ? step / std::sqrt(12.0) : 0;
-    return std::max({*middle / (median_of_normal * std::sqrt(third_differences)), digits,
+    return std::max({median(std::move(differences)) / (median_of_normal * std::sqrt(third_differences)), digits,
                      4 * std::numeric_limits<double>::epsilon() * largest});
 }
 

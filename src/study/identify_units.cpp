@@ -16,21 +16,15 @@ namespace {
 using What = IdentifyRequest::What;
 
 /// Nothing for what says none, or is none that is known.
-std::optional<PhysicalUnit> known_unit(const std::string& text) {
-    if (text.empty())
-        return std::nullopt;
-    try {
-        return physical_unit(text);
-    } catch (const InputError&) {
-        return std::nullopt;
-    }
+std::optional<PhysicalUnit> told_unit(const std::string& text) {
+    return text.empty() ? std::nullopt : known_unit(text);
 }
 
 /// Units of the model's parameters and states, and of its time, that measure what this one does.
 std::vector<std::string> units_alike(const Model& model, const PhysicalUnit& unit) {
     std::vector<std::string> found;
     const auto add = [&](const std::string& text) {
-        const auto one = known_unit(text);
+        const auto one = told_unit(text);
         if (one && one->dimension == unit.dimension && std::find(found.begin(), found.end(), text) == found.end())
             found.push_back(text);
     };
@@ -45,7 +39,7 @@ std::vector<std::string> units_alike(const Model& model, const PhysicalUnit& uni
 /// A parameter without a unit is a number where others of the model have units; where none has, nothing is known.
 std::optional<PhysicalUnit> unit_in_model(const Model& model, const std::string& text) {
     if (!text.empty())
-        return known_unit(text);
+        return told_unit(text);
     const bool has_units =
         !model.time_unit.empty() || std::any_of(model.parameters.begin(), model.parameters.end(),
                                                 [](const Parameter& one) { return !one.unit.empty(); });
@@ -60,11 +54,11 @@ const Channel& displacement_of(const IdentifyRequest& request, const KeptRecord&
 /// @param wanted units, of which each would do
 bool agrees(const PhysicalUnit& unit, const std::vector<std::string>& wanted) {
     return wanted.empty() ||
-           std::any_of(wanted.begin(), wanted.end(), [&](const std::string& text) { return known_unit(text) == unit; });
+           std::any_of(wanted.begin(), wanted.end(), [&](const std::string& text) { return told_unit(text) == unit; });
 }
 
 void check_channel(const StudyRun& run, const KeptRecord& record, const Channel& channel) {
-    const auto unit = known_unit(channel.unit);
+    const auto unit = told_unit(channel.unit);
     if (!unit)
         return;
     const std::vector<std::string> wanted = units_alike(run.model, *unit);
@@ -75,11 +69,11 @@ void check_channel(const StudyRun& run, const KeptRecord& record, const Channel&
                                  channel.name, channel.unit, fmt::join(wanted, " and ")),
                      fmt::format("convert it in the run that has the record: scale = {{ {} = {{ factor = {:g}, "
                                  "unit = \"{}\" }} }}",
-                                 channel.name, converted(1, *unit, *known_unit(wanted.front())), wanted.front()));
+                                 channel.name, converted(1, *unit, *told_unit(wanted.front())), wanted.front()));
 }
 
 void check_time(const StudyRun& run, const KeptRecord& record) {
-    const auto unit = known_unit(record.header.time.unit), wanted = known_unit(run.model.time_unit);
+    const auto unit = told_unit(record.header.time.unit), wanted = told_unit(run.model.time_unit);
     if (unit && wanted && *unit != *wanted)
         throw InputError(run.place,
                          fmt::format("{}: its time is in {}, and that of the model in {}", record.name,
@@ -91,7 +85,7 @@ void check_time(const StudyRun& run, const KeptRecord& record) {
 /// that is known.
 void check_known(const StudyRun& run, const char* key, const std::string& text, const std::string& kind) {
     const auto parameter = run.model.find_parameter(text);
-    const auto wanted = known_unit(kind);
+    const auto wanted = told_unit(kind);
     if (!parameter || !wanted)
         return;
     const std::string& unit = run.model.parameters[*parameter].unit;
@@ -109,7 +103,7 @@ void check_known_numbers(const StudyRun& run, const std::vector<KeptRecord>& rec
     std::string length = "m";
     for (const KeptRecord& record : records)
         if (request.what == What::coupling)
-            if (const Channel& q = displacement_of(request, record); known_unit(q.unit))
+            if (const Channel& q = displacement_of(request, record); told_unit(q.unit))
                 length = q.unit;
     check_known(run, "gap", request.gap, length);
     check_known(run, "clamped", request.clamped, length);
@@ -129,7 +123,7 @@ bool is_ratio(const std::string& name) {
 /// By what a number is multiplied to be in another unit. Where cycles and radians are told apart, they are here, too.
 double factor_between(const std::string& from, const std::string& to) {
     const auto is = [](const std::string& text, const char* part) { return text.find(part) != std::string::npos; };
-    const double factor = converted(1, *known_unit(from), *known_unit(to));
+    const double factor = converted(1, *told_unit(from), *told_unit(to));
     if (is(from, "Hz") && is(to, "rad"))
         return factor * 2 * std::numbers::pi;
     return is(from, "rad") && is(to, "Hz") ? factor / (2 * std::numbers::pi) : factor;
@@ -165,7 +159,7 @@ void convert_to_model(EstimateRecords& estimates, const StudyRun& run) {
         const bool ratio = std::any_of(gives.begin(), gives.end(), [&](const auto& one) {
             return one.second == number.name && is_ratio(one.first);
         });
-        const auto from = ratio ? PhysicalUnit() : known_unit(number.unit), to = unit_in_model(run.model, unit);
+        const auto from = ratio ? PhysicalUnit() : told_unit(number.unit), to = unit_in_model(run.model, unit);
         if (!from || !to)
             continue;
         const auto in = [](const std::string& text) { return text.empty() ? "without a unit" : "in " + text; };

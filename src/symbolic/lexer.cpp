@@ -52,19 +52,10 @@ std::string_view plain_form(std::string_view character) {
     return found == std::end(forms) ? std::string_view() : found->plain;
 }
 
-bool is_unit(std::string_view word) {
-    try {
-        physical_unit(word);
-        return true;
-    } catch (const InputError&) {
-        return false;
-    }
-}
-
 } // namespace
 
 std::string remedy_behind_number(std::string_view number, std::string_view word) {
-    if (is_unit(word))
+    if (known_unit(word))
         return fmt::format("write {} alone, in the unit that is meant there, or {}*{} for a product", number, number,
                            word);
     return fmt::format("write {}*{} for a product", number, word);

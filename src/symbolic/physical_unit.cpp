@@ -94,6 +94,14 @@ PhysicalUnit physical_unit(std::string_view text) {
     return result;
 }
 
+std::optional<PhysicalUnit> known_unit(std::string_view text) {
+    try {
+        return physical_unit(text);
+    } catch (const InputError&) {
+        return std::nullopt;
+    }
+}
+
 double converted(double value, const PhysicalUnit& from, const PhysicalUnit& to) {
     if (from.dimension != to.dimension)
         throw InputError("the units measure different things", "give a unit of the same kind");

@@ -88,6 +88,15 @@ TEST(Decompositions, eigenvalues_are_zeros_of_the_characteristic_polynomial) {
     }
 }
 
+TEST(Decompositions, eigenvalues_of_symmetric_matrices_rise_and_are_squares_of_singular_values) {
+    for (const Eigen::MatrixXd& matrix : matrices(6, 3)) {
+        const auto found = symmetric_eigenvalues(matrix.transpose() * matrix);
+        ASSERT_TRUE(found);
+        const Eigen::VectorXd sizes = singular_values(matrix, SingularVectors::none).values;
+        EXPECT_LE((found->reverse() - sizes.cwiseAbs2()).norm(), 50 * eps * matrix.squaredNorm());
+    }
+}
+
 TEST(Decompositions, generalized_eigenvalues_may_be_infinite) {
     const Eigen::Matrix2d a{{3, 0}, {0, 1}}, b{{1, 0}, {0, 0}};
     const auto found = generalized_eigenvalues(a, b);

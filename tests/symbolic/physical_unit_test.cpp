@@ -28,8 +28,11 @@ TEST(PhysicalUnit, ConvertsWithOneRounding) {
 }
 
 TEST(PhysicalUnit, RefusesOthers) {
-    for (const char* wrong : {"inch", "um^", "um^x", "um^99", "xm", "um^1.5", "kk", "(m)"})
+    for (const char* wrong : {"inch", "um^", "um^x", "um^99", "xm", "um^1.5", "kk", "(m)"}) {
         EXPECT_THROW(physical_unit(wrong), InputError) << wrong;
+        EXPECT_FALSE(known_unit(wrong)) << wrong;
+    }
+    EXPECT_EQ(known_unit("um"), physical_unit("um"));
     EXPECT_THROW(in(1, "um", "um^2"), InputError);
     EXPECT_THROW(in(1, "deg", "rad"), InputError); // no power of ten
 }

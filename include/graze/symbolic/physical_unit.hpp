@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string_view>
 
 namespace graze {
@@ -18,6 +19,8 @@ struct PhysicalUnit {
 /// follow divide.
 /// @throws InputError (without a place) for anything else
 PhysicalUnit physical_unit(std::string_view text);
+/// The same, and nothing for what is no unit.
+std::optional<PhysicalUnit> known_unit(std::string_view text);
 
 /// A value in another unit, rounded once. @throws InputError where the units measure different things
 double converted(double value, const PhysicalUnit& from, const PhysicalUnit& to);
