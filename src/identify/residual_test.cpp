@@ -1,5 +1,6 @@
 #include "graze/identify/residual_test.hpp"
 
+#include "base/median.hpp"
 #include "graze/identify/estimate.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/require.hpp"
@@ -83,11 +84,9 @@ std::size_t count_far_off(std::span<const double> left) {
     std::vector<double> sizes(left.begin(), left.end());
     for (double& size : sizes)
         size = std::abs(size);
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
     constexpr double of_normal = 1.4826;
     // Of few readings the median itself is uncertain.
-    const double limit = far_off * (1 + 2 / std::sqrt(static_cast<double>(left.size()))) * of_normal * *middle;
+    const double limit = far_off * (1 + 2 / std::sqrt(static_cast<double>(left.size()))) * of_normal * median(sizes);
     return limit > 0 ? static_cast<std::size_t>(
                            std::count_if(sizes.begin(), sizes.end(), [&](double size) { return size > limit; }))
                      : 0;
@@ -104,6 +103,14 @@ double step_of(std::vector<double> readings) {
             step = std::min(step, readings[i] - readings[i - 1]);
         }
     return 2 * distinct < readings.size() && std::isfinite(step) ? step : 0;
+}
+
+/// How many readings differ from the one before. Errors of rounding of those that do not are not independent.
+double changes_of(std::span<const double> readings) {
+    double changes = 1;
+    for (std::size_t i = 1; i < readings.size(); ++i)
+        changes += readings[i] != readings[i - 1] ? 1 : 0;
+    return changes;
 }
 
 double deviation_of(std::span<const double> readings) {
@@ -182,11 +189,13 @@ ResidualTest test_residuals(std::span<const double> left, std::span<const double
     test.correlation = neighbours_correlation(left);
     test.reasons = reasons_of(left, test.correlation);
     constexpr double of_step = 0.6; // of independent errors of rounding 0.29
-    const bool small = !readings.empty() && (test.deviation <= nothing * deviation_of(readings) ||
-                                             test.deviation <= of_step * step_of({readings.begin(), readings.end()}));
+    const bool rounded = !readings.empty() && test.deviation <= of_step * step_of({readings.begin(), readings.end()});
+    const bool small = rounded || (!readings.empty() && test.deviation <= nothing * deviation_of(readings));
     if (small && !test.reasons.empty()) {
         test.reasons.clear();
         test.widening = std::sqrt(count);
+    } else if (rounded) {
+        test.widening = std::sqrt(count / changes_of(readings));
     }
     if (const std::size_t clipped = clipped_readings(readings); clipped > 0)
         test.reasons.push_back(

@@ -8,7 +8,9 @@
 #include "identify/noise.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <numbers>
 
 namespace graze::testing {
 
@@ -78,6 +80,47 @@ TEST(ResidualTest, ChanceOfFitIsUniformWhereNothingIsLeft) {
                 : 0;
     }
     EXPECT_NEAR(static_cast<double>(below), 100, 38); // four standard deviations of a binomial count
+}
+
+TEST(ResidualTest, ReadingsThatRepeatAreNotIndependent) {
+    const auto rounded = [](double step) {
+        const auto exact = series(400, [](double i) { return std::exp(-0.003 * i) * std::cos(0.21 * i + 0.3); });
+        std::vector<double> readings, left;
+        for (const double value : exact) {
+            readings.push_back(std::round(value / step) * step);
+            left.push_back(readings.back() - value);
+        }
+        return test_residuals(left, readings).widening;
+    };
+    EXPECT_GT(rounded(0.2), 1.3);
+    EXPECT_NEAR(rounded(0.001), 1, 0.05);
+}
+
+// Rounded to steps of 0.2 with no noise that would blur them: intervals as of independent errors covered 85 %.
+TEST(DampedOscillationSlow, IntervalsCoverTheTruthOfCoarselyRoundedReadings) {
+    constexpr double w0 = 20, zeta = 0.015, step = 0.2, pi = std::numbers::pi;
+    std::size_t frequencies = 0, dampings = 0, answers = 0;
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+        Noise noise(7000 + seed);
+        const double phase = 1000 * noise.normal();
+        Samples samples;
+        samples.clear(1);
+        for (int i = 0; i < 400; ++i) {
+            const double t = i * 2 * pi / w0 / 30;
+            samples.times.push_back(t);
+            samples.values[0].push_back(
+                step *
+                std::round(std::exp(-zeta * w0 * t) * std::cos(w0 * std::sqrt(1 - zeta * zeta) * t + phase) / step));
+        }
+        StoredSamples source({{"t", "s"}, {{"v", "m/s"}}}, std::move(samples));
+        const std::vector<DecayWave> waves{decay_peaks(source, 0, 10).wave};
+        const DampedOscillation found = damped_oscillation(waves);
+        ++answers;
+        frequencies += std::abs(found.frequency.value - w0) < found.frequency.half_width() ? 1 : 0;
+        dampings += std::abs(found.damping.value - zeta) < found.damping.half_width() ? 1 : 0;
+    }
+    EXPECT_GE(frequencies, 270U) << "285 +- 4 of " << answers;
+    EXPECT_GE(dampings, 270U);
 }
 
 // Amplitude 0.35 in steps of 0.2 ms: at a noise of 0.005 peaks alone said 0.0175 where 0.017 is true.
