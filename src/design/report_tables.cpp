@@ -289,7 +289,7 @@ Table facts_of(const Design& design, const TripPoint& trip, const DesignReport& 
     if (report.found.map && report.found.map->exists()) {
         facts.add("next_contact", static_cast<double>(report.found.verdict.next_contact), "",
                   "cycles from one contact to the next; 0 where they do not grow");
-        facts.add("speed_factor", report.found.verdict.first_speed, "",
+        facts.add("speed_factor", report.found.verdict.speed_factor, "",
                   "speed of the first contact by overshoot^(1/2)");
     }
     facts.add("cycle", orbit.period(), model.time_unit, "time of one");

@@ -148,7 +148,7 @@ void judge_rigid(const CycleMap& map, Verdict& verdict) {
     const Scaled scaled(map);
     const Modes modes = modes_of(scaled, map.projections(std::max<std::size_t>(8, 2 * map.active.size())));
     if (map.clearance_rate)
-        verdict.first_speed = std::sqrt(2 * map.contact.acceleration * std::abs(*map.clearance_rate));
+        verdict.speed_factor = std::sqrt(2 * map.contact.acceleration * std::abs(*map.clearance_rate));
     if (!modes.known) {
         verdict.reason = "multipliers are too close to one another to tell how contacts act on late passes";
         return;
@@ -254,7 +254,7 @@ void judge_sliding(const CycleMap& map, Verdict& verdict) {
     const Eigen::VectorXcd multipliers =
         Eigen::MatrixXd(scaled.matrix * (identity - scaled.impact * scaled.gradient.transpose())).eigenvalues();
     if (map.clearance_rate)
-        verdict.first_speed = std::sqrt(2 * map.contact.acceleration * std::abs(*map.clearance_rate));
+        verdict.speed_factor = std::sqrt(2 * map.contact.acceleration * std::abs(*map.clearance_rate));
     const double leading = multipliers.cwiseAbs().maxCoeff();
     verdict.leading = leading;
     if ((multipliers.cwiseAbs().array() - 1).abs().minCoeff() <= vanishing) {

@@ -28,15 +28,7 @@ constexpr std::array wafer_table{
     Wafer{"label_height", &WaferPlan::label_height, "of the letters on the wafer; 0: none", true},
 };
 
-/// @return micrometres in a unit; 0 for what is none
-double unit_of(std::string_view word) {
-    constexpr std::pair<std::string_view, double> units[] = {{"nm", 1e-3}, {"um", 1},   {"µm", 1}, {"μm", 1},
-                                                             {"mm", 1e3},  {"cm", 1e4}, {"m", 1e6}};
-    for (const auto& [name, size] : units)
-        if (word == name)
-            return size;
-    return 0;
-}
+constexpr const char* length_units = "nm, um, mm, cm or m";
 
 template <class Section>
 std::vector<std::string> names_of_fields(std::span<const LengthField<Section>> fields) {
@@ -69,17 +61,17 @@ std::vector<std::string> names_of_process() {
 
 } // namespace
 
+double dimension_of_text(const std::string& name, const std::string& text, const Place& place) {
+    for (const QuantityField<ProcessConditions>& field : condition_fields())
+        if (name == field.name)
+            return quantity_of_text(text, name, field.unit, place, place);
+    const bool is_length = field_named(device_fields(), name) || field_named(process_fields(), name);
+    return is_length ? quantity_of_text(text, name, "um", place, place, length_units)
+                     : value_of_text(Model(), text, place);
+}
+
 double DeviceFileReader::length(const TomlEntry& entry, bool may_be_zero) {
-    double value = 0;
-    std::string text = entry.node->is_string() ? reader_.toml().line(entry) : "";
-    const std::size_t blank = text.find_last_of(' ');
-    const double unit = blank == std::string::npos ? 0 : unit_of(std::string_view(text).substr(blank + 1));
-    if (unit > 0) {
-        value = value_of_text(Model(), text.substr(0, blank), reader_.inside(entry)) * unit;
-    } else {
-        require_no_unit(reader_, entry, text, "nm, um, mm, cm or m");
-        value = reader_.number(Model(), entry);
-    }
+    const double value = read_quantity(reader_, entry, "um", length_units);
     try {
         return length_on_grid(value, entry.path, may_be_zero);
     } catch (const InputError& error) {

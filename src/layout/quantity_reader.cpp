@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <optional>
 
@@ -13,17 +14,30 @@ namespace graze {
 
 namespace {
 
-std::optional<PhysicalUnit> unit_in(std::string_view text) {
-    try {
-        return physical_unit(text);
-    } catch (const InputError&) {
-        return std::nullopt;
-    }
+struct ValueAndUnit {
+    std::string value, name;
+    PhysicalUnit unit;
+};
+
+/// The unit begins behind a blank, and may have blanks itself (the longest one counts), or right behind a number.
+std::optional<ValueAndUnit> split_unit(const std::string& text) {
+    const auto split = [&](std::size_t end, std::size_t begin) -> std::optional<ValueAndUnit> {
+        const auto unit = known_unit(std::string_view(text).substr(begin));
+        return unit && text.find_first_not_of(" *1", end) != std::string::npos
+                   ? std::optional(ValueAndUnit{text.substr(0, end), text.substr(begin), *unit})
+                   : std::nullopt;
+    };
+    for (std::size_t blank = text.find(' '); blank != std::string::npos; blank = text.find(' ', blank + 1))
+        if (auto found = split(blank, blank + 1))
+            return found;
+    double number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    const auto length = static_cast<std::size_t>(end - text.data());
+    return error == std::errc() && length < text.size() ? split(length, length) : std::nullopt;
 }
 
-} // namespace
-
-void require_no_unit(const StudyReader& reader, const TomlEntry& entry, const std::string& text, const char* units) {
+/// @throws InputError with the place, for a text that ends in a word behind a value
+void require_no_unit(const std::string& text, const std::string& name, const char* units, const Place& place) {
     const std::size_t blank = text.find_last_of(' ');
     const std::size_t before = blank == std::string::npos ? blank : text.find_last_not_of(' ', blank);
     if (before == std::string::npos || blank + 1 == text.size())
@@ -35,29 +49,33 @@ void require_no_unit(const StudyReader& reader, const TomlEntry& entry, const st
     if (!is_word || std::string_view("+-*/^(,").find(text[before]) != std::string_view::npos ||
         word.find('(') != std::string::npos)
         return;
-    reader.fail(entry,
-                unit_in(word) ? fmt::format("{} is not measured in {}", entry.path, word)
-                              : fmt::format("{} has the unknown unit '{}'", entry.path, shortened(word, 100)),
-                *units ? fmt::format("give it in {}", units) : "give a number without a unit");
+    throw InputError(place,
+                     known_unit(word) ? fmt::format("{} is not measured in {}", name, word)
+                                      : fmt::format("{} has the unknown unit '{}'", name, shortened(word, 100)),
+                     *units ? fmt::format("give it in {}", units) : "give a number without a unit");
 }
 
-double read_quantity(const StudyReader& reader, const TomlEntry& entry, const char* unit) {
+} // namespace
+
+double quantity_of_text(const std::string& text, const std::string& name, const char* unit, const Place& place,
+                        const Place& inside, const char* units) {
+    const PhysicalUnit wanted = physical_unit(unit);
+    units = units == nullptr ? unit : units;
+    if (const auto split = split_unit(text)) {
+        if (split->unit.dimension != wanted.dimension)
+            throw InputError(place, fmt::format("{} is not measured in {}", name, split->name),
+                             fmt::format("give it in {}", units));
+        return converted(value_of_text(Model(), split->value, inside), split->unit, wanted);
+    }
+    require_no_unit(text, name, units, place);
+    return value_of_text(Model(), text, inside);
+}
+
+double read_quantity(const StudyReader& reader, const TomlEntry& entry, const char* unit, const char* units) {
     if (!entry.node->is_string())
         return reader.number(Model(), entry);
-    const PhysicalUnit wanted = physical_unit(unit);
-    const std::string text = reader.toml().line(entry);
-    // The unit begins behind a blank, and may have blanks itself: the longest one counts.
-    for (std::size_t blank = text.find(' '); blank != std::string::npos; blank = text.find(' ', blank + 1)) {
-        const auto given = unit_in(std::string_view(text).substr(blank + 1));
-        const bool is_unit = given && text.find_first_not_of(" *1", blank) != std::string::npos;
-        if (is_unit && given->dimension != wanted.dimension)
-            reader.fail(entry, fmt::format("{} is not measured in {}", entry.path, text.substr(blank + 1)),
-                        fmt::format("give it in {}", unit));
-        if (is_unit)
-            return converted(value_of_text(Model(), text.substr(0, blank), reader.inside(entry)), *given, wanted);
-    }
-    require_no_unit(reader, entry, text, unit);
-    return reader.number(Model(), entry);
+    return quantity_of_text(reader.toml().line(entry), entry.path, unit, reader.toml().place(*entry.node),
+                            reader.inside(entry), units);
 }
 
 void require_within(double value, const std::string& what, const char* unit, double least, double greatest) {

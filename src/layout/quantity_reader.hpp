@@ -7,13 +7,13 @@
 
 namespace graze {
 
-/// @throws InputError with the place, for a text that ends in a word behind a value: a unit that is none, or of another
-/// kind @param units for the remedy
-void require_no_unit(const StudyReader& reader, const TomlEntry& entry, const std::string& text, const char* units);
-
-/// A number, an expression, or either with a unit of the kind behind it. @return in the unit
-/// @throws InputError with the place
-double read_quantity(const StudyReader& reader, const TomlEntry& entry, const char* unit);
+/// The value in a unit of a text: a number or an expression, or either with a unit of the kind behind it.
+/// @param name what it is, for messages @param units for the remedy, where more than the unit helps
+/// @param inside where the text itself begins @throws InputError with the place
+double quantity_of_text(const std::string& text, const std::string& name, const char* unit, const Place& place,
+                        const Place& inside, const char* units = nullptr);
+/// The same of an entry, which may be a number. @throws InputError with the place
+double read_quantity(const StudyReader& reader, const TomlEntry& entry, const char* unit, const char* units = nullptr);
 
 /// @throws InputError (without a place) for a number that is not finite or out of range
 void require_within(double value, const std::string& what, const char* unit, double least, double greatest);

@@ -117,7 +117,7 @@ void add_cycle(Facts& facts, const Findings& found) {
     facts.add("parameter", found.stored.run.model.independent_parameters()[found.parameter->place()],
               "moves the orbit from the touch");
     facts.add("clearance_rate", map.clearance_rate, "of the least gap by the parameter");
-    facts.add("speed_factor", found.verdict.first_speed, "speed of the first contact by distance^(1/2)");
+    facts.add("speed_factor", found.verdict.speed_factor, "speed of the first contact by distance^(1/2)");
     if (found.verdict.side != 0)
         facts.add("contacts_when", found.verdict.side > 0 ? "above" : "below", "the side of it with contacts");
 }

@@ -15,7 +15,7 @@ etch. Nothing is written where a rule of [rules] is broken.)";
 constexpr const char* layout_examples = R"(Examples:
   graze layout mems-switch-device --output device.gds --picture device.svg
   graze layout mems-switch-device --wafer --output wafer.gds --picture wafer.png
-  graze layout mine.toml --set stop_gap=7.5 --set folds=2
+  graze layout mine.toml --set "stop_gap=7.5 um" --set folds=2
   graze layout mine.toml --wafer --mask 1 --output mask1.gds        one mask alone
   graze layout mine.toml --set bias=0.4 --parameters etched.toml
   graze simulate mems-switch-device --set @etched.toml --time 6     moves as it would

@@ -148,7 +148,9 @@ int layout_command(const LayoutArguments& arguments, const Console& console) {
     const auto [path, pictures] = asked_for(arguments);
     require_places(arguments);
     DeviceFile file;
-    with_places_of(arguments.set, [&] { file = load_device_file(arguments.design, parameter_values(arguments.set)); });
+    with_places_of(arguments.set, [&] {
+        file = load_device_file(arguments.design, parameter_values(arguments.set, dimension_of_text));
+    });
     std::optional<DesignedDevice> designed;
     if (!arguments.from_design.empty()) {
         designed = matched_device(file, arguments.design, arguments.from_design);

@@ -198,7 +198,7 @@ private:
         add_columns({"located", "low", "high"}, with_bracket_);
         add_columns({"touch_verdict", "touch_next_contact"}, with_verdict_);
         add_columns({"touch_map", "touch_verdict_reason", "touch_projection_1", "touch_growth", "touch_jump_growth",
-                     "touch_reach", "touch_clearance_rate", "touch_first_speed", "touch_fold_distance"},
+                     "touch_reach", "touch_clearance_rate", "touch_speed_factor", "touch_fold_distance"},
                     with_verdict_ && !for_people_);
         add_columns({"detail"}, with_detail_);
         add_monitors();
@@ -300,7 +300,7 @@ private:
         table_.add(touch.map);
         table_.add(touch.reason);
         for (const std::optional<double>& number : {touch.projection, touch.growth, touch.jump_growth, touch.reach,
-                                                    touch.clearance_rate, touch.first_speed, touch.fold_distance})
+                                                    touch.clearance_rate, touch.speed_factor, touch.fold_distance})
             table_.add(number.value_or(nothing));
     }
     std::string cut(std::string text) const {

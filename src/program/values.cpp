@@ -148,10 +148,12 @@ void set_parameters(Model& model, const std::vector<std::string>& assignments) {
     }
 }
 
-std::vector<std::pair<std::string, double>> parameter_values(const std::vector<std::string>& assignments) {
+std::vector<std::pair<std::string, double>> parameter_values(const std::vector<std::string>& assignments,
+                                                             const ValueReader& read) {
     std::vector<std::pair<std::string, double>> values;
-    for (const Assignment& assignment : all_assignments(assignments, "--set", nullptr))
-        values.emplace_back(assignment.name, value_of_text(Model(), assignment.text, assignment.place));
+    for (const Assignment& one : all_assignments(assignments, "--set", nullptr))
+        values.emplace_back(one.name,
+                            read ? read(one.name, one.text, one.place) : value_of_text(Model(), one.text, one.place));
     return values;
 }
 

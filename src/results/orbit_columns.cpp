@@ -268,9 +268,9 @@ const ColumnsOf<OrbitContext, OrbitRecord>& orbit_columns() {
              write_touch(r, cell, &TouchFindings::clearance_rate);
          },
          [](const Context&, Record& r, CellReader& cell) { read_touch(r, cell, &TouchFindings::clearance_rate); }},
-        {{"touch_first_speed", Type::real, Unit::none, true},
-         [](const Context&, const Record& r, CellWriter& cell) { write_touch(r, cell, &TouchFindings::first_speed); },
-         [](const Context&, Record& r, CellReader& cell) { read_touch(r, cell, &TouchFindings::first_speed); }},
+        {{"touch_speed_factor", Type::real, Unit::none, true},
+         [](const Context&, const Record& r, CellWriter& cell) { write_touch(r, cell, &TouchFindings::speed_factor); },
+         [](const Context&, Record& r, CellReader& cell) { read_touch(r, cell, &TouchFindings::speed_factor); }},
         {{"touch_fold_distance", Type::real, Unit::none, true},
          [](const Context&, const Record& r, CellWriter& cell) { write_touch(r, cell, &TouchFindings::fold_distance); },
          [](const Context&, Record& r, CellReader& cell) { read_touch(r, cell, &TouchFindings::fold_distance); }},

@@ -67,7 +67,7 @@ ResultFile::ResultFile(const std::string& path, Access access) {
         throw InputError(Place{path, 0, 0}, "there is no such result file",
                          "graze run STUDY makes one, in the folder that --output names");
     auto lock = writing ? std::make_unique<WriteLock>(path) : nullptr;
-    state_ = std::make_unique<State>(State{std::move(lock), Database(path, writing), false, {}, {}, result_format});
+    state_ = std::make_unique<State>(State{std::move(lock), Database(path, writing), false, {}, {}});
     const Database& database = state_->database;
     const std::int64_t application = database.value("PRAGMA application_id");
     const std::int64_t format = database.value("PRAGMA user_version");
@@ -77,11 +77,13 @@ ResultFile::ResultFile(const std::string& path, Access access) {
     if (!empty && application != result_application)
         throw InputError(Place{path, 0, 0}, "this is no result file of graze",
                          "give the results.sqlite of a study, or its folder");
-    if (!empty && format != result_format)
-        throw InputError(
-            Place{path, 0, 0},
-            fmt::format("the result file has format {}, this version of graze knows format {}", format, result_format),
-            "use the version of graze that wrote it, or run the study into another folder");
+    if (!empty && (format < oldest_result_format || format > result_format))
+        throw InputError(Place{path, 0, 0},
+                         fmt::format("the result file has format {}, this version of graze knows formats {} to {}",
+                                     format, oldest_result_format, result_format),
+                         "use the version of graze that wrote it, or run the study into another folder");
+    if (!empty)
+        state_->format = static_cast<int>(format);
     if (!writing) {
         database.execute("PRAGMA cache_size = -65536; PRAGMA query_only = 1; "
                          "PRAGMA cell_size_check = 1");

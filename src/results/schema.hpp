@@ -11,7 +11,10 @@
 namespace graze {
 
 /// Format of result files that this version writes: to be raised with every column that comes, goes or changes.
-constexpr int result_format = 6;
+constexpr int result_format = 7;
+/// The oldest that it reads, and goes on with. Of format 6 only the name of a column is different
+/// (`touch_first_speed`, now `touch_speed_factor`): columns are read by their places.
+constexpr int oldest_result_format = 6;
 constexpr int result_application = 0x67727a31; ///< "grz1", for tools that recognise files by it
 
 /// A table of all runs with several rows for each of their points; columns come behind run, point and position.

@@ -55,7 +55,7 @@ std::optional<TouchFindings> findings_at(const StudyRun& run, const SpecialPoint
     result.jump_growth = verdict.jump_growth;
     result.reach = verdict.reach;
     result.clearance_rate = map.clearance_rate;
-    result.first_speed = verdict.first_speed;
+    result.speed_factor = verdict.speed_factor;
     result.fold_distance = verdict.fold_distance;
     return result;
 }

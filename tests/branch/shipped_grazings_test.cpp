@@ -151,7 +151,7 @@ TEST(ShippedGrazings, mems_switch_trips) {
     for (const double distance : {1e-4, 1e-6, 1e-8}) {
         const auto speeds = speeds_beyond(model, one.map, settings.parameter, distance, 1.5);
         ASSERT_GE(speeds.size(), 2U);
-        const double first = std::abs(speeds[0] / (*one.verdict.first_speed * std::sqrt(distance)) - 1),
+        const double first = std::abs(speeds[0] / (*one.verdict.speed_factor * std::sqrt(distance)) - 1),
                      next = std::abs(speeds[1] / (*one.verdict.growth * std::sqrt(speeds[0])) - 1);
         if (before_first > 0) {
             EXPECT_LT(first, 0.15 * before_first);

@@ -333,7 +333,7 @@ TEST(Verdict, of_sliding_is_that_of_the_tent_map) {
         EXPECT_EQ(verdict.border, BorderCollision::fold);
         EXPECT_FALSE(verdict.doubles);
         EXPECT_EQ(verdict.side, 1);
-        EXPECT_DOUBLE_EQ(*verdict.first_speed, 2);
+        EXPECT_DOUBLE_EQ(*verdict.speed_factor, 2);
     }
     EXPECT_EQ(judged(0.4, 1).outcome, GrazingOutcome::undecided);
     EXPECT_EQ(judged(0.4, -1).outcome, GrazingOutcome::undecided);

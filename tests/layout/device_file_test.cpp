@@ -87,6 +87,7 @@ TEST(DeviceFile, SaysWhatIsWrongAndWhere) {
     };
     for (const auto& [text, said] : mistakes)
         EXPECT_THAT(message(text), HasSubstr(said));
+    EXPECT_THAT(message("gap = \"3inch\""), HasSubstr("one.toml:3:8: "));
     EXPECT_THAT(message("", {{"gap", -1}}), HasSubstr("--set gap: gap is -1 um, not positive"));
     EXPECT_THAT(message("", {{"gab", 1}}),
                 HasSubstr("--set gab: a device has no dimension 'gab'; did you mean 'gap'?"));
@@ -94,6 +95,31 @@ TEST(DeviceFile, SaysWhatIsWrongAndWhere) {
     EXPECT_THAT(message("", {{"folds", 1.5}}), HasSubstr("give a whole number"));
     EXPECT_THROW(parse_device_file("name = \"one\"\n", "one.toml"), InputError) << "nothing to be drawn";
     EXPECT_THROW(parse_device_file("[device]\n", "one.toml"), InputError) << "no name";
+}
+
+TEST(DeviceFile, ReadsDimensionsOfTheCommandLineInTheirUnits) {
+    const Place place{"--set", 1, 1};
+    const auto value = [&](const std::string& name, const std::string& text) {
+        return dimension_of_text(name, text, place);
+    };
+    EXPECT_DOUBLE_EQ(value("gap", "0.012 mm"), 12);
+    EXPECT_DOUBLE_EQ(value("gap", "500nm"), 0.5);
+    EXPECT_DOUBLE_EQ(value("gap", "2*6"), 12);
+    EXPECT_DOUBLE_EQ(value("chamber_depth", "5e-5 m"), 50);
+    EXPECT_DOUBLE_EQ(value("modulus", "169e9 Pa"), 169);
+    EXPECT_DOUBLE_EQ(value("pressure", "100 kPa"), 1e5);
+    EXPECT_EQ(value("folds", "3"), 3);
+    const auto said = [&](const std::string& name, const std::string& text) -> std::string {
+        try {
+            value(name, text);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_EQ(said("gap", "15 V"), "--set:1:1: gap is not measured in V; give it in nm, um, mm, cm or m");
+    EXPECT_EQ(said("modulus", "3 um"), "--set:1:1: modulus is not measured in um; give it in GPa");
+    EXPECT_EQ(said("gap", "3 inch"), "--set:1:1: gap has the unknown unit 'inch'; give it in nm, um, mm, cm or m");
 }
 
 TEST(DeviceFile, IsReadByTheDesignerToo) {

@@ -5,6 +5,7 @@
 #include "graze/results/stored_run.hpp"
 
 #include <gtest/gtest.h>
+#include <sqlite3.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -174,6 +175,35 @@ TEST_F(OrbitRows, findings_at_touches_are_those_that_were_written) {
     ASSERT_TRUE(view.next());
     EXPECT_EQ(view.integer(0), 0);
     EXPECT_FALSE(view.next());
+}
+
+// In format 6 a column had another name.
+TEST_F(OrbitRows, earlier_files_are_read_and_gone_on_with) {
+    const Model model = load_model("impact-oscillator");
+    OrbitRecord lost = Draw(model).record(0);
+    lost.touch = TouchFindings{"square-root", "lost", "", 2, -0.3, 8.25, 10.5, 68, -1, 42.5, std::nullopt};
+    {
+        ResultFile file(path_, ResultFile::Access::write);
+        file.begin_run(run_of(model));
+        file.add_orbit("b", lost);
+    }
+    sqlite3* database = nullptr;
+    ASSERT_EQ(sqlite3_open(path_.c_str(), &database), SQLITE_OK);
+    char* message = nullptr;
+    EXPECT_EQ(sqlite3_exec(database,
+                           "ALTER TABLE branch_b RENAME COLUMN touch_speed_factor TO touch_first_speed; "
+                           "PRAGMA user_version = 6",
+                           nullptr, nullptr, &message),
+              SQLITE_OK)
+        << message;
+    sqlite3_close(database);
+    EXPECT_EQ(ResultFile(path_, ResultFile::Access::read).orbit("b", std::size_t{0})->touch, lost.touch);
+    ResultFile file(path_, ResultFile::Access::write);
+    EXPECT_EQ(file.format(), 6);
+    OrbitRecord next = lost;
+    next.number = 1;
+    file.add_orbit("b", next);
+    EXPECT_EQ(file.orbit("b", std::size_t{1})->touch, lost.touch);
 }
 
 TEST_F(OrbitRows, what_earlier_files_have_as_missing_was_infinite) {

@@ -3,6 +3,7 @@
 #include "graze/symbolic/input_error.hpp"
 #include "results/schema.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sqlite3.h>
@@ -272,7 +273,8 @@ TEST_F(ResultFileTest, refuses_what_it_cannot_read) {
     sqlite3_close(database);
     for (const auto access : {ResultFile::Access::read, ResultFile::Access::write})
         EXPECT_THAT(refusal(path(), access),
-                    HasSubstr("format 99, this version of graze knows format " + std::to_string(result_format)));
+                    HasSubstr(fmt::format("format 99, this version of graze knows formats {} to {}",
+                                          oldest_result_format, result_format)));
 }
 
 TEST_F(ResultFileTest, only_one_process_writes_and_others_read) {

@@ -62,15 +62,15 @@ struct Verdict {
     std::vector<double> projections; ///< the first ones
 
     // Of a rigid contact.
-    std::size_t next_contact = 0;      ///< cycles after which the next one comes, where it is lost; 0: not
-    std::optional<double> growth;      ///< from one approach speed to the next: speed' = growth speed^(1/2)
-    std::optional<double> jump_growth; ///< the same of what contacts change of the rate: jumps are (1 + e) speed
-    std::optional<double> reach;       ///< speed at which that growth would end: up to there the map must hold
-    std::optional<double> first_speed; ///< of the first contact: speed = first_speed |parameter - touch|^(1/2)
+    std::size_t next_contact = 0;       ///< cycles after which the next one comes, where it is lost; 0: not
+    std::optional<double> growth;       ///< from one approach speed to the next: speed' = growth speed^(1/2)
+    std::optional<double> jump_growth;  ///< the same of what contacts change of the rate: jumps are (1 + e) speed
+    std::optional<double> reach;        ///< speed at which that growth would end: up to there the map must hold
+    std::optional<double> speed_factor; ///< of the first contact: speed = speed_factor |parameter - touch|^(1/2)
     AttractorKind attractor = AttractorKind::none;
     std::optional<double> leading; ///< multiplier that decides
 
-    // Of sliding; first_speed, attractor and leading, too: here that of the orbit that slides, its largest in modulus.
+    // Of sliding; speed_factor, attractor and leading, too: here that of the orbit that slides, its largest in modulus.
     BorderCollision border = BorderCollision::none;
     bool doubles = false;           ///< an orbit of twice the period begins at the touch, stable or not
     std::size_t slides = 0, in = 0; ///< times it slides in so many cycles, where an attractor repeats

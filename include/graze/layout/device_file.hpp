@@ -34,6 +34,10 @@ struct DeviceFile {
 /// Lengths in micrometres in the place of those of the file: of [device], of [process] as "process.NAME".
 using GivenLengths = std::vector<std::pair<std::string, double>>;
 
+/// The value of such a number from a text with or without a unit, "12 um" or "2*8 GPa", in its own unit.
+/// @throws InputError with the place
+double dimension_of_text(const std::string& name, const std::string& text, const Place& place);
+
 /// Reads the sections from a design's TOML text; docs/layout.md describes them. A length is a number in micrometres, an
 /// expression, or either with nm, um, mm, cm or m behind it, and is rounded to the grid. What is not given is as in a
 /// default-constructed DeviceDimensions.

@@ -15,7 +15,7 @@ struct TouchFindings {
     std::string verdict;          ///< GrazingOutcome
     std::string reason;           ///< why there is no map, or why the verdict is undecided
     std::size_t next_contact = 0; ///< 0: none
-    std::optional<double> projection, growth, jump_growth, reach, clearance_rate, first_speed, fold_distance;
+    std::optional<double> projection, growth, jump_growth, reach, clearance_rate, speed_factor, fold_distance;
     friend bool operator==(const TouchFindings&, const TouchFindings&) = default;
 };
 
