@@ -223,6 +223,22 @@ bool tell_failures(const std::vector<RunReport>& reports, const Console& console
     return any;
 }
 
+/// What shows these runs and no others.
+Study of_these_runs(const Study& study, const std::vector<RunReport>& reports) {
+    std::vector<std::string> done;
+    for (const RunReport& report : reports)
+        done.push_back(report.name);
+    const auto missing = [&](const std::string& run) { return std::find(done.begin(), done.end(), run) == done.end(); };
+    const auto shows_others = [&](const auto& shown) { return std::any_of(shown.begin(), shown.end(), missing); };
+    Study result = study;
+    std::erase_if(result.runs, [&](const StudyRun& run) { return missing(run.name); });
+    std::erase_if(result.tables, [&](const StudyTable& table) { return shows_others(table.runs); });
+    std::erase_if(result.pictures, [&](const StudyPicture& picture) {
+        return shows_others(picture.runs) || shows_others(picture.over);
+    });
+    return result;
+}
+
 void check_names(const Study& study, const std::vector<std::string>& only) {
     const std::vector<std::string> known = names_of(study.runs);
     for (const std::string& name : only)
@@ -364,9 +380,12 @@ int run_command(const RunArguments& arguments, const Console& console) {
         console.err << "graze: interrupted; what was computed is kept, and the same command goes on from there\n";
         return InterruptGuard::exit_code();
     }
-    if (!arguments.no_pictures && arguments.only.empty()) {
-        const WrittenTables tables = write_study_tables(study, file, folder, console);
-        const DrawnPictures drawn = draw_study_pictures(study, file, folder, console);
+    if (!arguments.no_pictures) {
+        const Study shown = of_these_runs(study, reports);
+        const WrittenTables tables = write_study_tables(shown, file, folder, console);
+        DrawnPictures drawn;
+        if (const bool asks = !study.pictures.empty() || !study.tables.empty(); !asks || !shown.pictures.empty())
+            drawn = draw_study_pictures(shown, file, folder, console);
         for (const auto* paths : {&tables.paths, &drawn.paths})
             for (const std::string& path : *paths)
                 if (!arguments.quiet && arguments.output.format == TableFormat::table)

@@ -70,7 +70,8 @@ void declare_run(CLI::App& app, RunArguments& arguments) {
     add(command, "--jobs", arguments.jobs, "N", "Threads (as many as there are cores); results do not depend on it")
         ->check(whole_number(1, 1024));
     add(command, "--set", arguments.set, "NAME=VALUE", "Values of parameters instead of those in the study");
-    add(command, "--only", arguments.only, "RUN", "Only these runs, with those that they start from");
+    add(command, "--only", arguments.only, "RUN",
+        "Only these runs, with those that they start from, and pictures of nothing else");
     command.add_flag("--list", arguments.list, "List the shipped studies");
     command.add_flag("--show", arguments.show, "Print the study instead of running it");
     command.add_flag("--steps", arguments.steps, "Print a line for each orbit of a branch as it is found");

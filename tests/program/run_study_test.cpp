@@ -148,6 +148,14 @@ bool run_and_kill(const std::vector<std::string>& words, std::chrono::microsecon
 
 using RunStudySlow = RunStudyTest;
 
+TEST_F(RunStudyTest, of_some_runs_alone_what_shows_no_others_is_drawn) {
+    const testing::Printed some = run_graze({"run", path("study.toml"), "--output", path("some"), "--only", "basin"});
+    EXPECT_EQ(some.code, 0) << some.err;
+    EXPECT_TRUE(std::filesystem::exists(path("some/basin.png")));
+    EXPECT_FALSE(std::filesystem::exists(path("some/sweep.png")));
+    EXPECT_THAT(some.err, Not(HasSubstr("picture")));
+}
+
 TEST_F(RunStudySlow, killed_at_a_hundred_moments_it_ends_with_the_same_results) {
     ASSERT_EQ(study_run("whole").code, 0);
     const std::string whole = everything("whole");

@@ -17,7 +17,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "cmake"))
 from batches import batches_of  # noqa: E402
 
-MOST = 16  # sources in a batch
+MOST = 48  # sources in a batch
 
 
 def batch_text(sources):
