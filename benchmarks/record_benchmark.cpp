@@ -1,8 +1,8 @@
 // Records are read part by part: how long that takes beside reading the same bytes,
 // from the disk and from memory.
+#include "graze/base/text_file.hpp"
 #include "graze/record/record_file.hpp"
 #include "graze/record/record_writer.hpp"
-#include "graze/symbolic/text_file.hpp"
 
 #include <benchmark/benchmark.h>
 

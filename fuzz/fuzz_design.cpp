@@ -1,7 +1,7 @@
 // Whatever the bytes, reading a design either works or throws an InputError.
 
+#include "graze/base/input_error.hpp"
 #include "graze/design/design.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -2,7 +2,7 @@
 // InputError.
 
 #include "graze/acquire/experiment.hpp"
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,9 +1,9 @@
 // Whatever the bytes, reading a model either works or throws an InputError; a model that was read can be written,
 // and what is written can be read.
 
+#include "graze/base/input_error.hpp"
 #include "graze/model/check.hpp"
 #include "graze/model/model_file.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <cstddef>
 #include <cstdint>

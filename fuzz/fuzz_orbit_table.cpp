@@ -1,10 +1,10 @@
 // Whatever the bytes, a table of an orbit is read or refused by an InputError, and so is a signature. The first line
 // may be a signature.
 
+#include "graze/base/input_error.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/orbit/orbit_file.hpp"
 #include "graze/orbit/signature.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,8 +1,8 @@
 // Whatever has been done to a result file, what reads it either works or throws an InputError. An input that begins
 // with S is a script in SQL that is carried out on a whole file; any other changes bytes of one, four to a change.
 
+#include "graze/base/input_error.hpp"
 #include "graze/results/result_file.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <sqlite3.h>
 #include <unistd.h>

@@ -1,9 +1,9 @@
 // Whatever the bytes, reading a study either works or throws an InputError; what was read can be told again.
 
+#include "graze/base/input_error.hpp"
 #include "graze/study/runner.hpp"
 #include "graze/study/stored_study.hpp"
 #include "graze/study/study.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <cstddef>
 #include <cstdint>

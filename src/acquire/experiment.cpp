@@ -1,7 +1,7 @@
 #include "graze/acquire/experiment.hpp"
 
 #include "acquire/experiment_reader.hpp"
-#include "graze/symbolic/text_file.hpp"
+#include "graze/base/text_file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,7 +1,7 @@
 #include "acquire/experiment_reader.hpp"
 
-#include "graze/symbolic/file_name.hpp"
-#include "graze/symbolic/trimmed.hpp"
+#include "graze/base/file_name.hpp"
+#include "graze/base/trimmed.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "graze/acquire/experiment.hpp"
-#include "graze/symbolic/input_errors.hpp"
+#include "graze/base/input_errors.hpp"
 #include "model/model_file_toml.hpp"
 
 #include <initializer_list>

@@ -1,7 +1,7 @@
 #include "acquire/generator_answer.hpp"
 
 #include "base/letter_case.hpp"
-#include "graze/symbolic/trimmed.hpp"
+#include "graze/base/trimmed.hpp"
 
 #include <charconv>
 #include <cmath>

@@ -1,9 +1,9 @@
 #include "graze/acquire/generator_client.hpp"
 
 #include "acquire/generator_answer.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/printable.hpp"
-#include "graze/symbolic/trimmed.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/printable.hpp"
+#include "graze/base/trimmed.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "graze/acquire/instrument_line.hpp"
 
-#include "graze/symbolic/require.hpp"
+#include "graze/base/require.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "graze/acquire/record_folder.hpp"
 
-#include "graze/symbolic/printable.hpp"
-#include "graze/symbolic/text_file.hpp"
+#include "graze/base/printable.hpp"
+#include "graze/base/text_file.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "graze/acquire/sample_device.hpp"
 
+#include "graze/base/printable.hpp"
 #include "graze/record/record_file.hpp"
-#include "graze/symbolic/printable.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #include "graze/acquire/settling.hpp"
 
+#include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
 #include "graze/record/section.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/require.hpp"
 
 #include <fmt/format.h>
 

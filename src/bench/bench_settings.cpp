@@ -1,7 +1,7 @@
 #include "graze/bench/bench_settings.hpp"
 
-#include "graze/symbolic/file_name.hpp"
-#include "graze/symbolic/require.hpp"
+#include "graze/base/file_name.hpp"
+#include "graze/base/require.hpp"
 
 #include <fmt/format.h>
 

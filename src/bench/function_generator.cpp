@@ -2,8 +2,8 @@
 
 #include "bench/generator_unit.hpp"
 #include "bench/scpi_text.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/trimmed.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/trimmed.hpp"
 
 #include <fmt/format.h>
 

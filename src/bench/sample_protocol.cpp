@@ -1,6 +1,6 @@
 #include "graze/bench/sample_protocol.hpp"
 
-#include "graze/symbolic/printable.hpp"
+#include "graze/base/printable.hpp"
 
 #include <fmt/format.h>
 

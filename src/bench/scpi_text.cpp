@@ -1,7 +1,7 @@
 #include "bench/scpi_text.hpp"
 
+#include "graze/base/trimmed.hpp"
 #include "graze/bench/function_generator.hpp"
-#include "graze/symbolic/trimmed.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #include "branch/point_kind.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
 #include "graze/branch/orbit_branch.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/require.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #include "branch/branch_point_problem.hpp"
 #include "branch/orbit_quantity.hpp"
 #include "branch/sensitivity_condition.hpp"
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "orbit/cut.hpp"
 #include "orbit/family.hpp"
 #include "orbit/newton.hpp"

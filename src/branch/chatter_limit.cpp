@@ -1,7 +1,7 @@
 #include "graze/branch/chatter_limit.hpp"
 
 #include "branch/accumulating_orbit.hpp"
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 
 #include <fmt/format.h>
 

@@ -5,8 +5,8 @@
 #include "branch/orbit_quantity.hpp"
 #include "branch/reordering.hpp"
 #include "flow/lie_derivative.hpp"
+#include "graze/base/input_error.hpp"
 #include "graze/grazing/cycle_map.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "grazing/return_map.hpp"
 #include "orbit/certify.hpp"
 

@@ -1,8 +1,8 @@
 #include "graze/branch/continuation.hpp"
 
 #include "branch/longest_step.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/require.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "graze/branch/curve_start.hpp"
 
 #include "branch/point_kind.hpp"
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,6 +1,6 @@
+#include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
 #include "graze/branch/continuation.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/require.hpp"
 
 #include <Eigen/Dense>
 #include <fmt/format.h>

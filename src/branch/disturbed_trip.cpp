@@ -1,7 +1,7 @@
 #include "graze/branch/disturbed_trip.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/model/driven_parameter.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "grazing/end_watch.hpp"
 
 #include <fmt/format.h>

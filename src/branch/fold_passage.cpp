@@ -2,8 +2,8 @@
 
 #include "branch/normal_form.hpp"
 #include "flow/cyclic.hpp"
+#include "graze/base/input_error.hpp"
 #include "graze/branch/curve_start.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "grazing/end_watch.hpp"
 #include "orbit/shooting.hpp"
 

@@ -5,7 +5,7 @@
 #include "branch/orbit_quantity.hpp"
 #include "flow/guard.hpp"
 #include "flow/lie_derivative.hpp"
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "orbit/certify.hpp"
 #include "orbit/close_at_section.hpp"
 #include "orbit/drift.hpp"

@@ -1,9 +1,9 @@
 #include "graze/branch/impacting_curve.hpp"
 
 #include "branch/grazing_switch.hpp"
+#include "graze/base/input_error.hpp"
 #include "graze/branch/curve_start.hpp"
 #include "graze/grazing/cycle_map.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <fmt/format.h>
 

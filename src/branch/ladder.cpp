@@ -1,7 +1,7 @@
 #include "graze/branch/ladder.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/grazing/cycle_map.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <fmt/format.h>
 

@@ -2,8 +2,8 @@
 
 #include "branch/point_kind.hpp"
 #include "branch/touched_once.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/require.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
 #include "orbit/certify.hpp"
 #include "orbit/eigen_index.hpp"
 #include "orbit/newton.hpp"

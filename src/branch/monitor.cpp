@@ -1,8 +1,8 @@
 #include "graze/branch/monitor.hpp"
 
+#include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
 #include "graze/flow/roots.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/require.hpp"
 #include "orbit/orbit_flow.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
+#include "graze/base/input_error.hpp"
 #include "graze/branch/disturbed_trip.hpp"
 #include "graze/model/driven_parameter.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "graze/trajectory/ensemble.hpp"
 #include "grazing/end_watch.hpp"
 #include "symbolic/random_number.hpp"

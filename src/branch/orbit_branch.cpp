@@ -5,9 +5,9 @@
 #include "branch/point_rules.hpp"
 #include "branch/reordering.hpp"
 #include "branch/shrinking_orbit.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
 #include "graze/branch/switching.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/require.hpp"
 #include "orbit/cut.hpp"
 
 #include <fmt/format.h>

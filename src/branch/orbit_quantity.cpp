@@ -1,8 +1,8 @@
 #include "branch/orbit_quantity.hpp"
 
 #include "flow/lie_derivative.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/require.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "orbit/eigen_index.hpp"
 

@@ -1,7 +1,7 @@
 #include "branch/other_branch.hpp"
 
 #include "branch/orbit_problem.hpp"
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "orbit/drift.hpp"
 #include "orbit/newton.hpp"
 

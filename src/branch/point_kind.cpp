@@ -4,8 +4,8 @@
 #include "branch/contact_points.hpp"
 #include "branch/multiplier_points.hpp"
 #include "branch/parameter_points.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/require.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
 
 #include <fmt/format.h>
 

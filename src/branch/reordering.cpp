@@ -2,7 +2,7 @@
 
 #include "branch/inserted_contact.hpp"
 #include "branch/orbit_problem.hpp"
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "orbit/certify.hpp"
 #include "orbit/close_at_section.hpp"
 #include "orbit/newton.hpp"

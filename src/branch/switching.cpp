@@ -1,8 +1,8 @@
 #include "graze/branch/switching.hpp"
 
 #include "branch/point_kind.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/require.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,7 +1,7 @@
 #include "graze/branch/disturbed_trip.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/flow/mode_flow.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "orbit/newton.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "graze/branch/yield.hpp"
 
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/require.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
 #include "symbolic/random_number.hpp"
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 #include "graze/design/design.hpp"
 
 #include "design/design_reader.hpp"
+#include "graze/base/text_file.hpp"
 #include "graze/model/catalogue.hpp"
-#include "graze/symbolic/text_file.hpp"
 #include "model/catalogue_data.hpp"
 
 #include <fmt/format.h>

@@ -2,9 +2,9 @@
 
 #include "design/design_keys.hpp"
 #include "design/wanted_reader.hpp"
+#include "graze/base/file_name.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/study/study_catalogue.hpp"
-#include "graze/symbolic/file_name.hpp"
 
 #include <fmt/format.h>
 

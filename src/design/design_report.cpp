@@ -1,8 +1,8 @@
 #include "graze/design/design_report.hpp"
 
 #include "design/design_yield.hpp"
+#include "graze/base/input_error.hpp"
 #include "graze/results/orbit_motion.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "graze/design/device_trial.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/branch/orbit_branch.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "graze/trajectory/trajectory.hpp"
 
 #include <fmt/format.h>

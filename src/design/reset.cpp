@@ -1,9 +1,9 @@
 #include "graze/design/reset.hpp"
 
 #include "design/reset_steps.hpp"
+#include "graze/base/input_error.hpp"
 #include "graze/branch/orbit_branch.hpp"
 #include "graze/results/orbit_motion.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <fmt/format.h>
 

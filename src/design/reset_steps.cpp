@@ -2,8 +2,8 @@
 
 #include "flow/guard.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/sweep/point_search.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "design/scaled_wishes.hpp"
 
-#include "graze/symbolic/require.hpp"
+#include "graze/base/require.hpp"
 #include "orbit/eigen_index.hpp"
 
 #include <fmt/format.h>

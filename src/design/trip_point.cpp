@@ -1,8 +1,8 @@
 #include "graze/design/trip_point.hpp"
 
+#include "graze/base/input_errors.hpp"
 #include "graze/results/stored_orbit.hpp"
 #include "graze/study/study_catalogue.hpp"
-#include "graze/symbolic/input_errors.hpp"
 #include "study/json.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "graze/design/trip_times.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/branch/fold_passage.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "grazing/end_watch.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "graze/design/value_map.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 
 #include <fmt/format.h>
 

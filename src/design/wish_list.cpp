@@ -1,7 +1,7 @@
 #include "graze/design/wish_list.hpp"
 
 #include "design/balance.hpp"
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "orbit/eigen_index.hpp"
 
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 #include "design/wish_maker.hpp"
 
 #include "design/yield_score.hpp"
+#include "graze/base/input_error.hpp"
 #include "graze/design/reset.hpp"
 #include "graze/design/trip_times.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <fmt/format.h>
 

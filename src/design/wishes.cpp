@@ -4,7 +4,7 @@
 #include "design/time_search.hpp"
 #include "design/wish_maker.hpp"
 #include "design/yield_score.hpp"
-#include "graze/symbolic/require.hpp"
+#include "graze/base/require.hpp"
 
 #include <fmt/format.h>
 

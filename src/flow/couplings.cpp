@@ -1,6 +1,6 @@
 #include "flow/couplings.hpp"
 
-#include "graze/symbolic/require.hpp"
+#include "graze/base/require.hpp"
 #include "tape/tape_analysis.hpp"
 
 #include <algorithm>

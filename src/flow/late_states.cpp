@@ -1,8 +1,8 @@
 #include "graze/flow/late_states.hpp"
 
 #include "flow/couplings.hpp"
+#include "graze/base/require.hpp"
 #include "graze/flow/step_check.hpp"
-#include "graze/symbolic/require.hpp"
 
 #include <algorithm>
 #include <cmath>

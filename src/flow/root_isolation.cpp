@@ -1,6 +1,6 @@
 #include "root_isolation.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 
 #include <algorithm>
 #include <cmath>

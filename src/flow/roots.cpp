@@ -3,7 +3,7 @@
 #include "flow/kept_sign.hpp"
 #include "flow/lone_crossing.hpp"
 #include "flow/number_pair.hpp"
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "root_isolation.hpp"
 
 #include <fmt/format.h>

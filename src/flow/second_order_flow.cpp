@@ -1,6 +1,6 @@
 #include "graze/flow/second_order_flow.hpp"
 
-#include "graze/symbolic/require.hpp"
+#include "graze/base/require.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,8 +1,8 @@
 #include "graze/flow/step_check.hpp"
 
+#include "graze/base/require.hpp"
 #include "graze/flow/roots.hpp"
 #include "graze/flow/step_size.hpp"
-#include "graze/symbolic/require.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "graze/flow/step_size.hpp"
 
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/require.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
 #include "tape/kernel_table.hpp"
 
 #include <fmt/format.h>

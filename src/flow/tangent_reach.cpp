@@ -1,7 +1,7 @@
 #include "flow/tangent_reach.hpp"
 
+#include "graze/base/require.hpp"
 #include "graze/flow/step_check.hpp"
-#include "graze/symbolic/require.hpp"
 
 #include <algorithm>
 #include <cmath>

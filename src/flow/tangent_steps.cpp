@@ -2,7 +2,7 @@
 
 #include "flow/couplings.hpp"
 #include "flow/tangent_reach.hpp"
-#include "graze/symbolic/require.hpp"
+#include "graze/base/require.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 
 #include "flow/modes_with_tangents.hpp"
 #include "flow/section_function.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/require.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
 #include "graze/symbolic/transform.hpp"
 
 #include <fmt/format.h>

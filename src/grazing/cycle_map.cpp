@@ -1,8 +1,8 @@
 #include "graze/grazing/cycle_map.hpp"
 
 #include "flow/cyclic.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/require.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
 #include "grazing/return_map.hpp"
 #include "grazing/second_return.hpp"
 #include "orbit/certify.hpp"

@@ -1,7 +1,7 @@
 #include "graze/grazing/discontinuity_map.hpp"
 
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/require.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
 #include "grazing/compliant_contact.hpp"
 #include "grazing/contact_chain.hpp"
 #include "grazing/local_map.hpp"

@@ -1,6 +1,6 @@
 #include "graze/grazing/map_motion.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "orbit/eigen_index.hpp"
 
 #include <Eigen/Core>

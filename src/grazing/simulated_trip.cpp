@@ -1,6 +1,6 @@
 #include "graze/grazing/trip_time.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "grazing/end_watch.hpp"
 #include "grazing/pass_times.hpp"
 #include "grazing/trip_start.hpp"

@@ -1,7 +1,7 @@
 #include "graze/grazing/trial.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/grazing/map_motion.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "graze/trajectory/trajectory.hpp"
 #include "grazing/pass_times.hpp"
 #include "orbit/newton.hpp"

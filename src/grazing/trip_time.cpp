@@ -1,7 +1,7 @@
 #include "graze/grazing/trip_time.hpp"
 
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/rounded.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/rounded.hpp"
 #include "grazing/trip_start.hpp"
 #include "orbit/eigen_index.hpp"
 

@@ -1,7 +1,7 @@
 #include "graze/identify/coupling.hpp"
 
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/require.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
 #include "identify/load_balance.hpp"
 
 #include <Eigen/Dense>

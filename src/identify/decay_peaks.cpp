@@ -2,10 +2,10 @@
 
 #include "base/decompositions.hpp"
 #include "base/median.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
 #include "graze/record/period.hpp"
 #include "graze/record/spectrum.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/require.hpp"
 #include "identify/damped_sine.hpp"
 #include "record/local_polynomial.hpp"
 

@@ -1,7 +1,7 @@
 #include "graze/identify/fit.hpp"
 
 #include "base/median.hpp"
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "identify/fit_beginning.hpp"
 #include "identify/fit_findings.hpp"
 #include "identify/fit_mismatch.hpp"

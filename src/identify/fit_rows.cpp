@@ -1,7 +1,7 @@
 #include "identify/fit_rows.hpp"
 
 #include "base/median.hpp"
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 
 #include <Eigen/QR>
 

@@ -1,6 +1,6 @@
 #include "identify/fit_solver.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 
 #include <ceres/cost_function.h>
 #include <ceres/iteration_callback.h>

@@ -1,6 +1,6 @@
 #include "identify/fit_twins.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 
 #include <fmt/format.h>
 

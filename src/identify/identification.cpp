@@ -1,12 +1,12 @@
 #include "graze/identify/identification.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/identify/coupling.hpp"
 #include "graze/identify/decrement.hpp"
 #include "graze/identify/impedance.hpp"
 #include "graze/identify/residual_test.hpp"
 #include "graze/identify/restitution.hpp"
 #include "graze/record/impacts.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "identify/doubts.hpp"
 #include "identify/impact_proportion.hpp"
 #include "identify/row_gap.hpp"

@@ -1,10 +1,10 @@
 #include "graze/identify/impedance.hpp"
 
+#include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
 #include "graze/record/harmonic.hpp"
 #include "graze/record/period.hpp"
 #include "graze/record/spectrum.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/require.hpp"
 #include "identify/row_gap.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "identify/joined_descent.hpp"
 
 #include "base/decompositions.hpp"
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "identify/fit_findings.hpp"
 #include "identify/fit_information.hpp"
 

@@ -1,9 +1,9 @@
 #include "graze/identify/residual_test.hpp"
 
 #include "base/median.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
 #include "graze/identify/estimate.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/require.hpp"
 #include "record/fourier.hpp"
 
 #include <Eigen/Dense>

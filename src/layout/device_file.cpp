@@ -1,8 +1,8 @@
 #include "graze/layout/device_file.hpp"
 
+#include "graze/base/text_file.hpp"
 #include "graze/design/design.hpp"
 #include "graze/model/catalogue.hpp"
-#include "graze/symbolic/text_file.hpp"
 #include "layout/device_file_reader.hpp"
 
 namespace graze {

@@ -1,8 +1,8 @@
 #include "layout/device_file_reader.hpp"
 
 #include "design/design_keys.hpp"
+#include "graze/base/file_name.hpp"
 #include "graze/model/catalogue.hpp"
-#include "graze/symbolic/file_name.hpp"
 #include "layout/quantity_reader.hpp"
 #include "layout/spread_reader.hpp"
 

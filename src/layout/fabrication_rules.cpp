@@ -1,6 +1,6 @@
 #include "graze/layout/fabrication_rules.hpp"
 
-#include "graze/symbolic/input_errors.hpp"
+#include "graze/base/input_errors.hpp"
 #include "layout/free_way.hpp"
 #include "layout/mask_edges.hpp"
 

@@ -1,11 +1,11 @@
 #include "graze/layout/lumped_model.hpp"
 
+#include "graze/base/input_error.hpp"
+#include "graze/base/physical_unit.hpp"
 #include "graze/layout/folded_spring.hpp"
 #include "graze/layout/plate_attraction.hpp"
 #include "graze/layout/squeeze_film.hpp"
 #include "graze/model/catalogue.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/physical_unit.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "graze/layout/matched_drawing.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/layout/lumped_model.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "graze/layout/process_spread.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "symbolic/random_number.hpp"
 
 #include <Eigen/Dense>

@@ -1,6 +1,6 @@
 #include "graze/layout/process_steps.hpp"
 
-#include "graze/symbolic/require.hpp"
+#include "graze/base/require.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "layout/quantity_reader.hpp"
 
-#include "graze/symbolic/physical_unit.hpp"
-#include "graze/symbolic/printable.hpp"
+#include "graze/base/physical_unit.hpp"
+#include "graze/base/printable.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "graze/base/input_error.hpp"
 #include "graze/layout/etched_wall.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <fmt/format.h>
 

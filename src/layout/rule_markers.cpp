@@ -1,6 +1,6 @@
 #include "graze/layout/rule_markers.hpp"
 
-#include "graze/symbolic/xml_text.hpp"
+#include "graze/base/xml_text.hpp"
 
 #include <fmt/format.h>
 

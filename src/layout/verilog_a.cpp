@@ -1,8 +1,8 @@
 #include "graze/layout/verilog_a.hpp"
 
+#include "graze/base/input_error.hpp"
+#include "graze/base/physical_unit.hpp"
 #include "graze/layout/lumped_model.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/physical_unit.hpp"
 
 #include <fmt/format.h>
 

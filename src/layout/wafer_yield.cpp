@@ -1,7 +1,7 @@
 #include "graze/layout/wafer_yield.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/design/trip_times.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #include "graze/model/catalogue.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/model/microbeam.hpp"
 #include "graze/model/model_file.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "model/catalogue_data.hpp"
 #include "model/model_file_toml.hpp"
 #include "model/model_validate.hpp"

@@ -1,6 +1,6 @@
 #include "model/microbeam_quadrature.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "graze/model/model.hpp"
 
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/require.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
 #include "model/model_expand.hpp"
 #include "model/model_expressions.hpp"
 #include "model/model_validate.hpp"

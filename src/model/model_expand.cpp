@@ -1,7 +1,7 @@
 #include "model/model_expand.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/symbolic/function.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "model/model_validate.hpp"
 

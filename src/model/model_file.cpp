@@ -1,8 +1,8 @@
 #include "graze/model/model_file.hpp"
 
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/printable.hpp"
-#include "graze/symbolic/text_file.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/printable.hpp"
+#include "graze/base/text_file.hpp"
 #include "model/model_file_parts.hpp"
 #include "model/model_validate.hpp"
 

@@ -1,6 +1,6 @@
 #include "model/model_file_guard.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 
 #include <fmt/format.h>
 

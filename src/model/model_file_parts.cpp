@@ -1,6 +1,6 @@
 #include "model/model_file_parts.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "model/model_validate.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "graze/base/input_errors.hpp"
 #include "graze/model/model.hpp"
-#include "graze/symbolic/input_errors.hpp"
 #include "graze/symbolic/parser.hpp"
 #include "model/model_file_toml.hpp"
 #include "model/model_places.hpp"

@@ -1,8 +1,8 @@
 #include "model/model_file_toml.hpp"
 
-#include "graze/symbolic/file_name.hpp"
-#include "graze/symbolic/input_errors.hpp"
-#include "graze/symbolic/printable.hpp"
+#include "graze/base/file_name.hpp"
+#include "graze/base/input_errors.hpp"
+#include "graze/base/printable.hpp"
 #include "model/model_file_guard.hpp"
 #include "model/model_validate.hpp"
 

@@ -1,8 +1,8 @@
 #include "model/model_validate.hpp"
 
-#include "graze/symbolic/file_name.hpp"
-#include "graze/symbolic/input_errors.hpp"
-#include "graze/symbolic/name_list.hpp"
+#include "graze/base/file_name.hpp"
+#include "graze/base/input_errors.hpp"
+#include "graze/base/name_list.hpp"
 #include "graze/symbolic/parser.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "model/model_expand.hpp"

@@ -1,6 +1,6 @@
 #include "graze/model/model_file.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "graze/symbolic/parser.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "model/model_expressions.hpp"

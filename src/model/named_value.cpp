@@ -1,9 +1,9 @@
 #include "graze/model/named_value.hpp"
 
 #include "base/letter_case.hpp"
+#include "graze/base/trimmed.hpp"
 #include "graze/symbolic/function.hpp"
 #include "graze/symbolic/parser.hpp"
-#include "graze/symbolic/trimmed.hpp"
 
 #include <fmt/format.h>
 

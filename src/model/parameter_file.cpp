@@ -1,7 +1,7 @@
 #include "graze/model/parameter_file.hpp"
 
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/text_file.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/text_file.hpp"
 #include "model/model_file_toml.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "graze/model/state_map.hpp"
 
-#include "graze/symbolic/require.hpp"
+#include "graze/base/require.hpp"
 
 #include <algorithm>
 #include <stdexcept>

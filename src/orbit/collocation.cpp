@@ -1,6 +1,6 @@
 #include "orbit/collocation.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "orbit/eigen_index.hpp"
 
 #include <Eigen/Dense>

@@ -1,8 +1,8 @@
 #include "orbit/half_orbit.hpp"
 
 #include "flow/cyclic.hpp"
+#include "graze/base/input_error.hpp"
 #include "graze/orbit/solve.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "orbit/shooting.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "graze/orbit/orbit.hpp"
 
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/require.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
 #include "orbit/close_at_section.hpp"
 
 #include <fmt/format.h>

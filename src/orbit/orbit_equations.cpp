@@ -1,7 +1,7 @@
 #include "orbit/orbit_equations.hpp"
 
 #include "flow/cyclic.hpp"
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "orbit/eigen_index.hpp"
 
 #include <Eigen/Dense>

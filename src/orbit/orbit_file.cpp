@@ -1,10 +1,11 @@
 #include "graze/orbit/orbit_file.hpp"
 
+#include "graze/base/input_error.hpp"
+#include "graze/base/name_list.hpp"
+#include "graze/base/text_file.hpp"
+#include "graze/base/trimmed.hpp"
 #include "graze/model/named_value.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/parser.hpp"
-#include "graze/symbolic/text_file.hpp"
-#include "graze/symbolic/trimmed.hpp"
 
 #include <fmt/format.h>
 

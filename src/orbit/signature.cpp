@@ -1,7 +1,8 @@
 #include "graze/orbit/signature.hpp"
 
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/require.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/name_list.hpp"
+#include "graze/base/require.hpp"
 
 #include <fmt/format.h>
 

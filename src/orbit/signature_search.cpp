@@ -1,5 +1,5 @@
+#include "graze/base/input_error.hpp"
 #include "graze/orbit/solve.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "graze/trajectory/trajectory.hpp"
 #include "orbit/certify.hpp"
 

@@ -1,6 +1,6 @@
 #include "graze/orbit/solve.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "orbit/certify.hpp"
 #include "orbit/family.hpp"
 #include "orbit/newton.hpp"

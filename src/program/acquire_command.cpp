@@ -1,5 +1,5 @@
 #include "graze/acquire/acquisition.hpp"
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "program/commands.hpp"
 #include "program/guardian.hpp"
 #include "program/interrupt.hpp"

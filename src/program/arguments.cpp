@@ -1,5 +1,6 @@
 #include "program/arguments.hpp"
 
+#include "graze/base/name_list.hpp"
 #include "graze/symbolic/parser.hpp"
 #include "program/branch_arguments.hpp"
 #include "program/declared_option.hpp"

@@ -1,6 +1,6 @@
+#include "graze/base/input_error.hpp"
 #include "graze/bench/bench_service.hpp"
 #include "graze/model/catalogue.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "program/commands.hpp"
 #include "program/interrupt.hpp"
 #include "program/values.hpp"

@@ -1,6 +1,6 @@
 #include "graze/model/check.hpp"
+#include "graze/base/input_error.hpp"
 #include "graze/model/catalogue.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "graze/trajectory/trajectory.hpp"
 #include "program/commands.hpp"
 #include "program/describe.hpp"

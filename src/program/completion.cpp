@@ -1,12 +1,12 @@
 #include "program/completion.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/branch/special_point.hpp"
 #include "graze/design/design.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/results/name_advice.hpp"
 #include "graze/results/result_table.hpp"
 #include "graze/study/study_catalogue.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "program/identify_arguments.hpp"
 #include "program/record_arguments.hpp"
 #include "program/table_recorder.hpp"

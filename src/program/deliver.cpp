@@ -1,5 +1,5 @@
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/name_list.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/name_list.hpp"
 #include "program/commands.hpp"
 #include "program/output_file.hpp"
 #include "program/table_fit.hpp"

@@ -1,7 +1,7 @@
+#include "graze/base/input_error.hpp"
 #include "graze/design/design_report.hpp"
 #include "graze/layout/verilog_a.hpp"
 #include "graze/model/model_file.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "program/commands.hpp"
 #include "program/design_page.hpp"
 #include "program/figure.hpp"

@@ -1,6 +1,6 @@
 #include "program/design_page.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "program/contour_lines.hpp"
 #include "program/trip_series.hpp"
 #include "program/yield_picture.hpp"

@@ -1,7 +1,7 @@
 #include "program/disturbed_trips.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/branch/disturbed_trip.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "program/commands.hpp"
 #include "program/figure.hpp"
 #include "program/interrupt.hpp"

@@ -1,12 +1,12 @@
 #include "program/drawn_design.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/design/trip_times.hpp"
 #include "graze/design/wishes.hpp"
 #include "graze/layout/lumped_model.hpp"
 #include "graze/layout/wafer_yield.hpp"
 #include "graze/model/model_file.hpp"
 #include "graze/model/parameter_file.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "program/commands.hpp"
 #include "program/interrupt.hpp"
 #include "program/kept_inputs.hpp"

@@ -1,6 +1,6 @@
 #include "program/figure.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "program/covered_lines.hpp"
 #include "program/curve.hpp"
 #include "program/dot_strokes.hpp"

@@ -1,8 +1,8 @@
 #include "program/fit_request.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/model/named_value.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "program/record_stages.hpp"
 #include "program/values.hpp"
 #include "program/with_file.hpp"

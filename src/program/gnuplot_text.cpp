@@ -1,7 +1,7 @@
 #include "program/gnuplot_text.hpp"
 
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/printable.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/printable.hpp"
 #include "program/rich_text.hpp"
 
 #include <fmt/format.h>

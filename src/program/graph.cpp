@@ -1,7 +1,7 @@
 #include "program/graph.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/model/check.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "program/output_file.hpp"
 #include "program/picture.hpp"
 #include "program/process.hpp"

@@ -1,6 +1,6 @@
+#include "graze/base/input_error.hpp"
 #include "graze/grazing/map_motion.hpp"
 #include "graze/grazing/trial.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "program/commands.hpp"
 #include "program/touching_orbit.hpp"
 

@@ -1,5 +1,5 @@
+#include "graze/base/input_error.hpp"
 #include "graze/study/residual_figure.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "program/commands.hpp"
 #include "program/figure.hpp"
 #include "program/identify_arguments.hpp"

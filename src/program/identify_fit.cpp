@@ -1,9 +1,9 @@
 #include "program/identify_fit.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/model/parameter_file.hpp"
 #include "graze/study/figure.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "program/commands.hpp"
 #include "program/figure.hpp"
 #include "program/fit_request.hpp"

@@ -1,6 +1,6 @@
 #include "program/identify_kinds.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "program/record_stages.hpp"
 #include "program/with_file.hpp"
 

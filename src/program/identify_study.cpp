@@ -1,9 +1,9 @@
 #include "program/identify_study.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/results/name_advice.hpp"
 #include "graze/study/study_catalogue.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "program/commands.hpp"
 #include "program/identify_arguments.hpp"
 #include "program/kept_inputs.hpp"

@@ -1,6 +1,6 @@
 #include "program/kept_inputs.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "program/output_file.hpp"
 #include "program/values.hpp"
 

@@ -1,7 +1,7 @@
+#include "graze/base/input_error.hpp"
 #include "graze/branch/ladder.hpp"
 #include "graze/results/stored_orbit.hpp"
 #include "graze/study/stored_study.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "program/commands.hpp"
 #include "program/interrupt.hpp"
 #include "program/status_line.hpp"

@@ -1,9 +1,9 @@
 #include "program/layout_model.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/layout/lumped_model.hpp"
 #include "graze/layout/rule_markers.hpp"
 #include "graze/layout/verilog_a.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "program/output_file.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "program/layout_picture.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "program/gnuplot_text.hpp"
 #include "program/layout_labels.hpp"
 #include "program/output_file.hpp"

@@ -1,7 +1,7 @@
 #include "program/layout_yield.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/design/design.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "program/commands.hpp"
 #include "program/interrupt.hpp"
 #include "program/json_rows.hpp"

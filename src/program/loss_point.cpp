@@ -1,8 +1,8 @@
 #include "program/loss_point.hpp"
 
+#include "graze/base/input_error.hpp"
+#include "graze/base/rounded.hpp"
 #include "graze/branch/curve_start.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/rounded.hpp"
 #include "program/quantity.hpp"
 #include "program/values.hpp"
 

@@ -1,8 +1,8 @@
 #include "program/manual.hpp"
 
 #include "base/letter_case.hpp"
+#include "graze/base/input_error.hpp"
 #include "graze/results/name_advice.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>

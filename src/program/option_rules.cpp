@@ -1,6 +1,6 @@
 #include "program/option_rules.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "program/identify_arguments.hpp"
 
 #include <fmt/format.h>

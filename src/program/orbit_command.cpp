@@ -1,7 +1,7 @@
+#include "graze/base/input_error.hpp"
 #include "graze/results/orbit_motion.hpp"
 #include "graze/results/stored_orbit.hpp"
 #include "graze/study/picture.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "program/commands.hpp"
 #include "program/figure.hpp"
 #include "program/picture.hpp"

@@ -1,6 +1,6 @@
 #include "program/output_file.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "program/kept_inputs.hpp"
 #include "program/temporary_files.hpp"
 

@@ -1,8 +1,8 @@
 #include "program/picture.hpp"
 
 #include "base/letter_case.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/xml_text.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/xml_text.hpp"
 #include "program/process.hpp"
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 #include "program/plot.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/study/plain_states.hpp"
 #include "graze/study/point_motion.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "program/gnuplot.hpp"
 #include "program/gnuplot_text.hpp"
 #include "program/output_file.hpp"

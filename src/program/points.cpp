@@ -1,10 +1,10 @@
 #include "graze/branch/special_point.hpp"
 
 #include "base/letter_case.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/rounded.hpp"
 #include "graze/results/stored_orbit.hpp"
 #include "graze/results/stored_run.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/rounded.hpp"
 #include "program/commands.hpp"
 #include "program/values.hpp"
 

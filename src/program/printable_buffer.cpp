@@ -1,6 +1,6 @@
 #include "program/printable_buffer.hpp"
 
-#include "graze/symbolic/printable.hpp"
+#include "graze/base/printable.hpp"
 
 #include <algorithm>
 

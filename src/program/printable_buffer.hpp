@@ -8,7 +8,7 @@
 namespace graze {
 
 /// Of a stream that passes on to another one what is written to it, with everything shown by its code that would act on
-/// a terminal (graze/symbolic/printable.hpp). Names and texts of files go through here, wherever they are printed.
+/// a terminal (graze/base/printable.hpp). Names and texts of files go through here, wherever they are printed.
 class PrintableBuffer : public std::streambuf {
 public:
     explicit PrintableBuffer(std::ostream& target) : target_(&target) {}

@@ -1,6 +1,6 @@
 #include "program/process.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 
 #include <cerrno>
 #include <cstdio>

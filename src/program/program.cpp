@@ -1,7 +1,7 @@
 #include "program/program.hpp"
 
-#include "graze/symbolic/input_errors.hpp"
-#include "graze/symbolic/printable.hpp"
+#include "graze/base/input_errors.hpp"
+#include "graze/base/printable.hpp"
 #include "program/arguments.hpp"
 #include "program/commands.hpp"
 #include "program/kept_inputs.hpp"

@@ -1,5 +1,5 @@
+#include "graze/base/input_error.hpp"
 #include "graze/record/record_writer.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "program/commands.hpp"
 #include "program/figure.hpp"
 #include "program/interrupt.hpp"

@@ -1,8 +1,8 @@
+#include "graze/base/input_error.hpp"
 #include "graze/record/extremes.hpp"
 #include "graze/record/harmonic.hpp"
 #include "graze/record/period.hpp"
 #include "graze/record/section.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "program/record_tables.hpp"
 #include "program/values.hpp"
 

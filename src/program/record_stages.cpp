@@ -1,6 +1,6 @@
 #include "program/record_stages.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "program/values.hpp"
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 #include "program/record_tables.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/record/impacts.hpp"
 #include "graze/record/spectrum.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <fmt/format.h>
 

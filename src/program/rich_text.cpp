@@ -1,6 +1,6 @@
 #include "program/rich_text.hpp"
 
-#include "graze/symbolic/printable.hpp"
+#include "graze/base/printable.hpp"
 #include "program/gnuplot_text.hpp"
 
 #include <fmt/format.h>

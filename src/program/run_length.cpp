@@ -1,7 +1,7 @@
 #include "program/run_length.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/symbolic/function.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "program/values.hpp"
 

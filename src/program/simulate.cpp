@@ -1,6 +1,6 @@
+#include "graze/base/input_error.hpp"
+#include "graze/base/name_list.hpp"
 #include "graze/model/catalogue.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/name_list.hpp"
 #include "graze/trajectory/recorder.hpp"
 #include "graze/trajectory/trajectory.hpp"
 #include "program/commands.hpp"

@@ -1,7 +1,7 @@
 #include "program/study_pictures.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/study/stored_study.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "program/figure.hpp"
 #include "program/interrupt.hpp"
 #include "program/kept_inputs.hpp"

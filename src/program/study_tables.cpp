@@ -1,7 +1,7 @@
 #include "program/study_tables.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/study/study_table.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "program/output_file.hpp"
 #include "program/table.hpp"
 

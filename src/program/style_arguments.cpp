@@ -1,7 +1,7 @@
 #include "program/style_arguments.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/study/study.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <fmt/format.h>
 

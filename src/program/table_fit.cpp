@@ -1,6 +1,6 @@
 #include "program/table_fit.hpp"
 
-#include "graze/symbolic/printable.hpp"
+#include "graze/base/printable.hpp"
 #include "program/table.hpp"
 #include "program/wrapped_text.hpp"
 

@@ -1,4 +1,4 @@
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "program/commands.hpp"
 #include "program/disturbed_trips.hpp"
 #include "program/figure.hpp"

@@ -1,11 +1,11 @@
 #include "program/values.hpp"
 
+#include "graze/base/input_error.hpp"
+#include "graze/base/name_list.hpp"
+#include "graze/base/trimmed.hpp"
 #include "graze/model/named_value.hpp"
 #include "graze/model/parameter_file.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/name_list.hpp"
 #include "graze/symbolic/parser.hpp"
-#include "graze/symbolic/trimmed.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,10 +1,10 @@
 #include "record/column_names.hpp"
 
+#include "base/character.hpp"
 #include "base/letter_case.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/printable.hpp"
-#include "graze/symbolic/trimmed.hpp"
-#include "symbolic/character.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/printable.hpp"
+#include "graze/base/trimmed.hpp"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
 #include "graze/record/derivative.hpp"
 
 #include "base/median.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
 #include "graze/record/spectrum.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/require.hpp"
 #include "record/local_polynomial.hpp"
 #include "record/resumed_source.hpp"
 #include "record/sliding_samples.hpp"

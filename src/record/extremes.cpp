@@ -1,7 +1,7 @@
 #include "graze/record/extremes.hpp"
 
+#include "graze/base/require.hpp"
 #include "graze/record/interpolate.hpp"
-#include "graze/symbolic/require.hpp"
 
 #include <algorithm>
 #include <cmath>

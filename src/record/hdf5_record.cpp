@@ -1,7 +1,7 @@
 #include "record/hdf5_record.hpp"
 
-#include "graze/symbolic/printable.hpp"
-#include "graze/symbolic/text_file.hpp"
+#include "graze/base/printable.hpp"
+#include "graze/base/text_file.hpp"
 #include "record/hdf5_handle.hpp"
 #include "record/separate_source.hpp"
 

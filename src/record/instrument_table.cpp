@@ -1,9 +1,9 @@
 #include "record/instrument_table.hpp"
 
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/physical_unit.hpp"
-#include "graze/symbolic/printable.hpp"
-#include "graze/symbolic/trimmed.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/physical_unit.hpp"
+#include "graze/base/printable.hpp"
+#include "graze/base/trimmed.hpp"
 #include "record/column_names.hpp"
 #include "record/text_number.hpp"
 

@@ -1,8 +1,8 @@
 #include "graze/record/low_pass.hpp"
 
+#include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
 #include "graze/record/spectrum.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/require.hpp"
 #include "record/resumed_source.hpp"
 #include "record/sliding_samples.hpp"
 

@@ -1,7 +1,7 @@
 #include "graze/record/period.hpp"
 
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/require.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
 #include "record/local_polynomial.hpp"
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 #include "graze/record/record_writer.hpp"
 
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/require.hpp"
-#include "graze/symbolic/trimmed.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
+#include "graze/base/trimmed.hpp"
 #include "record/hdf5_handle.hpp"
 
 #include <fmt/format.h>

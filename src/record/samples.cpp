@@ -1,9 +1,9 @@
 #include "graze/record/samples.hpp"
 
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/name_list.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/name_list.hpp"
+#include "graze/base/require.hpp"
 #include "graze/symbolic/parser.hpp"
-#include "graze/symbolic/require.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #include "graze/record/section.hpp"
 
+#include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
 #include "graze/record/interpolate.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/require.hpp"
 
 #include <fmt/format.h>
 

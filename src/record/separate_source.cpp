@@ -1,7 +1,7 @@
 #include "record/separate_source.hpp"
 
 #include "base/sanitized.hpp"
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "record/text_lines.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "graze/symbolic/text_file.hpp"
+#include "graze/base/text_file.hpp"
 
 #include <cstddef>
 #include <string>

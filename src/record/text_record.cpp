@@ -1,8 +1,8 @@
 #include "record/text_record.hpp"
 
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/printable.hpp"
-#include "graze/symbolic/trimmed.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/printable.hpp"
+#include "graze/base/trimmed.hpp"
 #include "record/column_names.hpp"
 
 #include <fmt/format.h>

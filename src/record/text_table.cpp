@@ -1,7 +1,7 @@
 #include "record/text_table.hpp"
 
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/trimmed.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/trimmed.hpp"
 #include "record/column_names.hpp"
 #include "record/instrument_table.hpp"
 #include "record/text_number.hpp"

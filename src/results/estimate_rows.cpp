@@ -1,7 +1,7 @@
+#include "graze/base/file_name.hpp"
+#include "graze/base/require.hpp"
 #include "graze/results/estimate_record.hpp"
 #include "graze/results/result_file.hpp"
-#include "graze/symbolic/file_name.hpp"
-#include "graze/symbolic/require.hpp"
 #include "results/point_columns.hpp"
 #include "results/result_file_state.hpp"
 

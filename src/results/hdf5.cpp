@@ -1,6 +1,6 @@
 #include "graze/results/hdf5.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "results/database.hpp"
 #include "results/point_columns.hpp"
 #include "results/run_query.hpp"

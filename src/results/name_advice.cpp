@@ -1,6 +1,6 @@
 #include "graze/results/name_advice.hpp"
 
-#include "graze/symbolic/name_list.hpp"
+#include "graze/base/name_list.hpp"
 #include "graze/symbolic/parser.hpp"
 
 #include <fmt/format.h>

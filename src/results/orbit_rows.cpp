@@ -1,4 +1,4 @@
-#include "graze/symbolic/require.hpp"
+#include "graze/base/require.hpp"
 #include "results/detail_rows.hpp"
 #include "results/orbit_columns.hpp"
 #include "results/point_columns.hpp"

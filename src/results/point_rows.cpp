@@ -1,7 +1,7 @@
 #include "results/point_columns.hpp"
 
+#include "graze/base/require.hpp"
 #include "graze/results/name_advice.hpp"
-#include "graze/symbolic/require.hpp"
 #include "results/detail_rows.hpp"
 #include "results/result_file_state.hpp"
 #include "results/run_query.hpp"

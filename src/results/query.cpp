@@ -1,4 +1,4 @@
-#include "graze/symbolic/require.hpp"
+#include "graze/base/require.hpp"
 #include "results/result_file_state.hpp"
 
 #include <stdexcept>

@@ -1,5 +1,5 @@
 #include "graze/results/regression.hpp"
-#include "graze/symbolic/require.hpp"
+#include "graze/base/require.hpp"
 
 #include <cmath>
 #include <numeric>

@@ -1,8 +1,8 @@
 #include "graze/results/result_file.hpp"
 
+#include "graze/base/file_name.hpp"
+#include "graze/base/printable.hpp"
 #include "graze/results/name_advice.hpp"
-#include "graze/symbolic/file_name.hpp"
-#include "graze/symbolic/printable.hpp"
 #include "results/point_columns.hpp"
 #include "results/result_file_state.hpp"
 #include "results/run_columns.hpp"

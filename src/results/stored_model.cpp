@@ -1,6 +1,6 @@
+#include "graze/base/input_error.hpp"
 #include "graze/model/model_file.hpp"
 #include "graze/results/result_file.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <fmt/format.h>
 

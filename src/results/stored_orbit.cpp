@@ -1,7 +1,7 @@
 #include "graze/results/stored_orbit.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/results/name_advice.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,6 +1,6 @@
 #include "results/write_lock.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>

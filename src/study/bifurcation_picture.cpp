@@ -1,8 +1,8 @@
 #include "study/drawn_labels.hpp"
 #include "study/picture_kinds.hpp"
 
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/name_list.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/name_list.hpp"
 
 #include <fmt/format.h>
 

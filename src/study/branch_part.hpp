@@ -1,8 +1,8 @@
 #pragma once
 
+#include "graze/base/input_error.hpp"
 #include "graze/branch/switching.hpp"
 #include "graze/study/runner.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "study/shared_file.hpp"
 
 #include <fmt/format.h>

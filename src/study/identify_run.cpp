@@ -1,9 +1,9 @@
 #include "study/identify_run.hpp"
 
+#include "graze/base/name_list.hpp"
 #include "graze/identify/identification.hpp"
 #include "graze/model/named_value.hpp"
 #include "graze/study/stored_study.hpp"
-#include "graze/symbolic/name_list.hpp"
 #include "study/identify_fit.hpp"
 #include "study/identify_units.hpp"
 

@@ -1,6 +1,6 @@
 #include "study/identify_units.hpp"
 
-#include "graze/symbolic/physical_unit.hpp"
+#include "graze/base/physical_unit.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,6 +1,6 @@
 #include "study/measured_run.hpp"
 
-#include "graze/symbolic/name_list.hpp"
+#include "graze/base/name_list.hpp"
 #include "study/identify_run.hpp"
 #include "study/identify_units.hpp"
 #include "study/record_run.hpp"

@@ -1,6 +1,6 @@
 #include "graze/study/picture.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "study/picture_kinds.hpp"
 
 #include <fmt/format.h>

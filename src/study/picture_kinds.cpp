@@ -1,8 +1,8 @@
 #include "study/picture_kinds.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/results/name_advice.hpp"
 #include "graze/study/stored_study.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "study/picture_style.hpp"
 
-#include "graze/symbolic/file_name.hpp"
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/file_name.hpp"
+#include "graze/base/input_error.hpp"
 
 #include <fmt/format.h>
 

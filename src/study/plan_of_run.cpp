@@ -1,6 +1,6 @@
+#include "graze/base/require.hpp"
 #include "graze/study/runner.hpp"
 #include "graze/symbolic/function.hpp"
-#include "graze/symbolic/require.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #include "study/record_inputs.hpp"
 
+#include "graze/base/file_name.hpp"
+#include "graze/base/printable.hpp"
 #include "graze/model/model_file.hpp"
-#include "graze/symbolic/file_name.hpp"
 #include "graze/symbolic/parser.hpp"
-#include "graze/symbolic/printable.hpp"
 #include "symbolic/random_number.hpp"
 
 #include <fmt/format.h>

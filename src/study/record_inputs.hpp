@@ -1,9 +1,9 @@
 #pragma once
 
+#include "graze/base/input_error.hpp"
 #include "graze/model/model.hpp"
 #include "graze/record/samples.hpp"
 #include "graze/study/record_request.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <string>
 #include <vector>

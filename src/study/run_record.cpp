@@ -1,9 +1,9 @@
 #include "study/run_record.hpp"
 
+#include "graze/base/require.hpp"
 #include "graze/model/model_file.hpp"
 #include "graze/results/name_advice.hpp"
 #include "graze/study/stored_study.hpp"
-#include "graze/symbolic/require.hpp"
 #include "study/branch_run.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "graze/study/run_times.hpp"
 
-#include "graze/symbolic/file_name.hpp"
+#include "graze/base/file_name.hpp"
 #include "study/settings_fields.hpp"
 
 #include <fmt/chrono.h>

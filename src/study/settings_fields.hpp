@@ -1,7 +1,7 @@
 #pragma once
 
+#include "graze/base/require.hpp"
 #include "graze/model/named_value.hpp"
-#include "graze/symbolic/require.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "study/json.hpp"
 

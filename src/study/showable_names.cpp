@@ -1,5 +1,6 @@
 #include "graze/study/showable_names.hpp"
 
+#include "graze/base/name_list.hpp"
 #include "graze/results/name_advice.hpp"
 #include "graze/symbolic/parser.hpp"
 #include "results/orbit_columns.hpp"

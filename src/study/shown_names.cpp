@@ -1,7 +1,7 @@
 #include "study/shown_names.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/study/stored_study.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "study/start_point.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "study/branch_run.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "study/start_state.hpp"
 
-#include "graze/symbolic/name_list.hpp"
+#include "graze/base/name_list.hpp"
 #include "graze/symbolic/parser.hpp"
 #include "graze/symbolic/transform.hpp"
 

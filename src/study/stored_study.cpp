@@ -1,7 +1,7 @@
 #include "graze/study/stored_study.hpp"
 
+#include "graze/base/file_name.hpp"
 #include "graze/model/model_file.hpp"
-#include "graze/symbolic/file_name.hpp"
 #include "study/asked_run.hpp"
 #include "study/picture_style.hpp"
 #include "study/settings_fields.hpp"

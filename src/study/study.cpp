@@ -1,8 +1,8 @@
 #include "graze/study/study.hpp"
 
-#include "graze/symbolic/file_name.hpp"
-#include "graze/symbolic/printable.hpp"
-#include "graze/symbolic/text_file.hpp"
+#include "graze/base/file_name.hpp"
+#include "graze/base/printable.hpp"
+#include "graze/base/text_file.hpp"
 #include "results/run_names.hpp"
 #include "study/start_point.hpp"
 #include "study/study_reader.hpp"

@@ -1,9 +1,9 @@
 #include "study/study_reader.hpp"
 #include "study/point_limits.hpp"
 
+#include "graze/base/printable.hpp"
+#include "graze/base/rounded.hpp"
 #include "graze/results/name_advice.hpp"
-#include "graze/symbolic/printable.hpp"
-#include "graze/symbolic/rounded.hpp"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "graze/base/input_errors.hpp"
 #include "graze/model/named_value.hpp"
 #include "graze/results/name_advice.hpp"
 #include "graze/study/study.hpp"
-#include "graze/symbolic/input_errors.hpp"
 #include "model/catalogue_data.hpp"
 #include "model/model_file_toml.hpp"
 

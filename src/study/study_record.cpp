@@ -1,5 +1,5 @@
+#include "graze/base/file_name.hpp"
 #include "graze/model/model_file.hpp"
-#include "graze/symbolic/file_name.hpp"
 #include "graze/symbolic/parser.hpp"
 #include "study/record_inputs.hpp"
 #include "study/study_bench.hpp"

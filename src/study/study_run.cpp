@@ -1,5 +1,5 @@
+#include "graze/base/file_name.hpp"
 #include "graze/model/catalogue.hpp"
-#include "graze/symbolic/file_name.hpp"
 #include "study/point_limits.hpp"
 #include "study/start_state.hpp"
 #include "study/study_reader.hpp"

@@ -1,6 +1,6 @@
 #include "study/study_sampling.hpp"
 
-#include "graze/symbolic/file_name.hpp"
+#include "graze/base/file_name.hpp"
 #include "graze/symbolic/parser.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "graze/study/study_table.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/results/stored_run.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <algorithm>
 #include <cctype>

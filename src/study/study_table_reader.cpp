@@ -1,6 +1,6 @@
+#include "graze/base/file_name.hpp"
+#include "graze/base/trimmed.hpp"
 #include "graze/branch/special_point.hpp"
-#include "graze/symbolic/file_name.hpp"
-#include "graze/symbolic/trimmed.hpp"
 #include "study/study_reader.hpp"
 
 #include <fmt/format.h>

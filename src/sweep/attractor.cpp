@@ -1,7 +1,7 @@
 #include "graze/sweep/attractor.hpp"
 
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/require.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
 
 namespace graze {
 

@@ -1,6 +1,6 @@
 #include "sweep/attractor_search.hpp"
 
-#include "graze/symbolic/require.hpp"
+#include "graze/base/require.hpp"
 #include "sweep/approach.hpp"
 #include "sweep/quasi_periodic.hpp"
 #include "sweep/transient_search.hpp"

@@ -1,6 +1,6 @@
 #include "sweep/sample_recorder.hpp"
 #include "flow/cyclic.hpp"
-#include "graze/symbolic/require.hpp"
+#include "graze/base/require.hpp"
 
 #include <algorithm>
 #include <cmath>

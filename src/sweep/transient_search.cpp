@@ -1,7 +1,7 @@
 #include "sweep/transient_search.hpp"
 
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/require.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "graze/symbolic/function.hpp"
 
-#include "graze/symbolic/require.hpp"
+#include "graze/base/require.hpp"
 #include "symbolic/evaluate.hpp"
 #include "symbolic/operation_error.hpp"
 #include "symbolic/subgraph.hpp"

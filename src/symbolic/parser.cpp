@@ -1,6 +1,6 @@
 #include "graze/symbolic/parser.hpp"
 
-#include "graze/symbolic/name_list.hpp"
+#include "graze/base/name_list.hpp"
 #include "symbolic/lexer.hpp"
 #include "symbolic/vocabulary.hpp"
 

@@ -1,6 +1,6 @@
 #include "tape/column_series.hpp"
 
-#include "graze/symbolic/require.hpp"
+#include "graze/base/require.hpp"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "graze/tape/jet.hpp"
 
-#include "graze/symbolic/require.hpp"
+#include "graze/base/require.hpp"
 #include "tape/aligned_numbers.hpp"
 #include "tape/kernel_program.hpp"
 #include "tape/tape_analysis.hpp"

@@ -1,6 +1,7 @@
 #include "graze/trajectory/probe.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/name_list.hpp"
 #include "graze/symbolic/parser.hpp"
 
 #include <fmt/format.h>

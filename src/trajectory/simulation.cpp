@@ -1,8 +1,8 @@
 #include "graze/trajectory/simulation.hpp"
 
+#include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
 #include "graze/flow/step_size.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/require.hpp"
 
 #include <fmt/format.h>
 

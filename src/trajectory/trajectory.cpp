@@ -1,8 +1,8 @@
 #include "graze/trajectory/trajectory.hpp"
 
 #include "flow/cyclic.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/require.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
 #include "trajectory/probe_tracker.hpp"
 #include "trajectory/series.hpp"
 #include "trajectory/tangents.hpp"

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "base/temporary_folder.hpp"
 #include "graze/acquire/experiment.hpp"
 #include "graze/bench/virtual_bench.hpp"
 #include "graze/model/catalogue.hpp"
-#include "symbolic/temporary_folder.hpp"
 
 #include <filesystem>
 #include <map>

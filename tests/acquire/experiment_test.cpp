@@ -1,7 +1,7 @@
 #include "graze/acquire/experiment.hpp"
 
 #include "acquire/bench_experiment.hpp"
-#include "graze/symbolic/input_errors.hpp"
+#include "graze/base/input_errors.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -2,8 +2,8 @@
 
 #include "acquire/scripted_line.hpp"
 #include "acquire/stranger_generator.hpp"
+#include "graze/base/input_error.hpp"
 #include "graze/bench/function_generator.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <algorithm>
 #include <gmock/gmock.h>

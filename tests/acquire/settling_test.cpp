@@ -1,6 +1,6 @@
 #include "graze/acquire/settling.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
+#include "graze/base/input_error.hpp"
 #include "graze/branch/continuation.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include "graze/branch/curve_start.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "graze/base/input_error.hpp"
 #include "graze/branch/switching.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/model/model_file.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include "graze/trajectory/trajectory.hpp"
 

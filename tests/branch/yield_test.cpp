@@ -1,7 +1,7 @@
 #include "graze/branch/yield.hpp"
 
 #include "driven_oscillator.hpp"
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 
 #include <gtest/gtest.h>
 

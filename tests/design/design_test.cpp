@@ -2,7 +2,7 @@
 
 #include "graze/design/design.hpp"
 
-#include "graze/symbolic/input_errors.hpp"
+#include "graze/base/input_errors.hpp"
 #include "switches.hpp"
 
 #include <gmock/gmock.h>

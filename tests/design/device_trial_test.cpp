@@ -2,7 +2,7 @@
 
 #include "graze/design/device_trial.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "switches.hpp"
 
 namespace graze::testing {

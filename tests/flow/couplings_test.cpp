@@ -1,7 +1,7 @@
 #include "flow/couplings.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/model/model_file.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 #include "graze/flow/mode_flow.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/model/microbeam.hpp"
 #include "graze/model/model_file.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 #include "graze/flow/tangent_steps.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/flow/mode_flow.hpp"
 #include "graze/flow/variational_system.hpp"
 #include "graze/model/model_file.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #include "graze/flow/variational_system.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/model/model_file.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <gtest/gtest.h>
 

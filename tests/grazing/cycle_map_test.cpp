@@ -1,11 +1,11 @@
 // Local maps of cycles that graze, against closed forms and published values.
 
+#include "graze/base/input_error.hpp"
 #include "graze/grazing/cycle_map.hpp"
 #include "graze/grazing/map_motion.hpp"
 #include "graze/grazing/trial.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/orbit/solve.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <gtest/gtest.h>
 

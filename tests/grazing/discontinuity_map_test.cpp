@@ -2,10 +2,10 @@
 
 #include "graze/grazing/discontinuity_map.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/flow/mode_flow.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/model/model_file.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "graze/trajectory/trajectory.hpp"
 
 #include <fmt/format.h>

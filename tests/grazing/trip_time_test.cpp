@@ -2,11 +2,11 @@
 
 #include "graze/grazing/trip_time.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/flow/mode_flow.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/model/named_value.hpp"
 #include "graze/orbit/solve.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "grazing/end_watch.hpp"
 #include "linear_oscillator.hpp"
 

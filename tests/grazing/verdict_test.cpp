@@ -2,9 +2,9 @@
 
 #include "graze/grazing/verdict.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/grazing/map_motion.hpp"
 #include "graze/grazing/trial.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "graze/trajectory/trajectory.hpp"
 #include "linear_oscillator.hpp"
 

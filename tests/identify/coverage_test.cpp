@@ -1,5 +1,5 @@
+#include "graze/base/input_error.hpp"
 #include "graze/identify/identification.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "identify/noise.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include "graze/identify/decrement.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "identify/noise.hpp"
 
 #include <numbers>

@@ -1,7 +1,7 @@
 #include "graze/identify/fit.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/model/model_file.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "identify/dropped_ball.hpp"
 #include "identify/recorded_motion.hpp"
 #include "identify/wall_model.hpp"

@@ -1,6 +1,6 @@
 #include "graze/identify/impedance.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "identify/noise.hpp"
 
 #include <algorithm>

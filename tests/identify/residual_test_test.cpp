@@ -1,10 +1,10 @@
 #include "graze/identify/residual_test.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/identify/decay_peaks.hpp"
 #include "graze/identify/decrement.hpp"
 #include "graze/identify/estimate.hpp"
 #include "graze/identify/identification.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "identify/noise.hpp"
 
 #include <algorithm>

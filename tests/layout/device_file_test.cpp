@@ -1,7 +1,7 @@
 #include "graze/layout/device_file.hpp"
 
+#include "graze/base/input_errors.hpp"
 #include "graze/design/design.hpp"
-#include "graze/symbolic/input_errors.hpp"
 
 #include <gmock/gmock.h>
 

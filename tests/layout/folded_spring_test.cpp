@@ -1,6 +1,6 @@
 #include "graze/layout/folded_spring.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "plane_frame.hpp"
 
 #include <gtest/gtest.h>

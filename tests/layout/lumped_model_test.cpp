@@ -1,8 +1,8 @@
 #include "graze/layout/lumped_model.hpp"
 
 #include "drawn_frame.hpp"
+#include "graze/base/input_error.hpp"
 #include "graze/model/catalogue.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,9 @@
 
 #include "graze/layout/matched_drawing.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/layout/lumped_model.hpp"
 #include "graze/model/catalogue.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <gtest/gtest.h>
 

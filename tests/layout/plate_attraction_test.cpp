@@ -1,6 +1,6 @@
 #include "graze/layout/plate_attraction.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 
 #include <gtest/gtest.h>
 

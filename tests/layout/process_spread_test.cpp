@@ -1,7 +1,7 @@
 #include "graze/layout/process_spread.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/layout/device_file.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <gmock/gmock.h>
 

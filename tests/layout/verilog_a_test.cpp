@@ -2,10 +2,10 @@
 
 #include "graze/layout/verilog_a.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/flow/system.hpp"
 #include "graze/layout/lumped_model.hpp"
 #include "graze/model/catalogue.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "verilog_a_reader.hpp"
 
 #include <gtest/gtest.h>

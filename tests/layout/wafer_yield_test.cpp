@@ -2,7 +2,7 @@
 
 #include "design/simulated_devices.hpp"
 #include "design/switches.hpp"
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 
 #include <gtest/gtest.h>
 

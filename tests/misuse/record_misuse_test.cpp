@@ -2,6 +2,7 @@
 
 #include "misuse/wrong_use.hpp"
 
+#include "base/temporary_folder.hpp"
 #include "graze/acquire/instrument_line.hpp"
 #include "graze/acquire/settling.hpp"
 #include "graze/identify/coupling.hpp"
@@ -21,7 +22,6 @@
 #include "graze/record/record_writer.hpp"
 #include "graze/record/section.hpp"
 #include "graze/record/spectrum.hpp"
-#include "symbolic/temporary_folder.hpp"
 
 #include <cmath>
 

@@ -2,11 +2,11 @@
 
 #include "misuse/wrong_use.hpp"
 
-#include "graze/symbolic/file_name.hpp"
+#include "graze/base/file_name.hpp"
+#include "graze/base/printable.hpp"
+#include "graze/base/text_file.hpp"
 #include "graze/symbolic/function.hpp"
 #include "graze/symbolic/parser.hpp"
-#include "graze/symbolic/printable.hpp"
-#include "graze/symbolic/text_file.hpp"
 #include "graze/symbolic/transform.hpp"
 
 namespace graze {

@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 
 namespace graze::testing {
 

@@ -1,8 +1,8 @@
 #include "graze/model/catalogue.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/model/check.hpp"
 #include "graze/model/model_file.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "places.hpp"
 
 #include <gtest/gtest.h>

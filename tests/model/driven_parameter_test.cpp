@@ -3,9 +3,9 @@
 #include "graze/model/driven_parameter.hpp"
 
 #include "evaluate_model.hpp"
+#include "graze/base/input_error.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/model/model_file.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <gtest/gtest.h>
 

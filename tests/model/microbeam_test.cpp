@@ -1,8 +1,8 @@
 #include "graze/model/microbeam.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/model/check.hpp"
 #include "graze/model/model_file.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "model/evaluate_model.hpp"
 #include "places.hpp"
 

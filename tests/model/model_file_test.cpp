@@ -1,7 +1,7 @@
 #include "graze/model/model_file.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/model/check.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "model/model_file_toml.hpp"
 #include "places.hpp"

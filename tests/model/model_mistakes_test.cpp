@@ -1,7 +1,7 @@
 // Several mistakes of a model file at once, and none that only follow from others.
 
+#include "graze/base/input_errors.hpp"
 #include "graze/model/model_file.hpp"
-#include "graze/symbolic/input_errors.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #include "graze/model/state_map.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/model/model.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include "orbit/newton.hpp"
 #include "orbit/shooting.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/model/catalogue.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 #include "graze/orbit/orbit_file.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/orbit/solve.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // Orbits that are asked for by their signature, and their symmetry.
 
+#include "graze/base/input_error.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/model/model_file.hpp"
 #include "graze/orbit/solve.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
+#include "graze/base/input_error.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/model/model_file.hpp"
 #include "graze/orbit/solve.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <gtest/gtest.h>
 

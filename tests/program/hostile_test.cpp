@@ -1,8 +1,8 @@
 // What a stranger may put into models, studies and result files, and where he may lead outputs.
 
 #include "branch_results.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/printable.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/base/printable.hpp"
 #include "program/gnuplot_text.hpp"
 #include "program/output_file.hpp"
 #include "run_graze.hpp"

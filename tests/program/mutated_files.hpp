@@ -1,6 +1,6 @@
 #pragma once
 
-#include "graze/symbolic/printable.hpp"
+#include "graze/base/printable.hpp"
 #include "mutated.hpp"
 #include "places.hpp"
 #include "run_graze.hpp"

@@ -1,6 +1,6 @@
 #include "program/output_file.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "run_graze.hpp"
 
 #include <gmock/gmock.h>

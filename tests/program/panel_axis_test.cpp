@@ -1,6 +1,6 @@
 #include "program/panel_axis.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 
 #include <gmock/gmock.h>
 

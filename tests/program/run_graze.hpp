@@ -1,7 +1,7 @@
 #pragma once
 
+#include "base/temporary_folder.hpp"
 #include "program/program.hpp"
-#include "symbolic/temporary_folder.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -1,6 +1,6 @@
 // Records and what is found from them, by the program: what it prints, draws and exports, and with which exit codes.
 
-#include "../symbolic/temporary_folder.hpp"
+#include "../base/temporary_folder.hpp"
 #include "run_graze.hpp"
 
 #include <gmock/gmock.h>

@@ -1,8 +1,8 @@
 #include "graze/record/extremes.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/record/harmonic.hpp"
 #include "graze/record/interpolate.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "record/recorded_model.hpp"
 #include "record/waves.hpp"
 

@@ -1,8 +1,8 @@
 // Records as a stranger may make them.
 
+#include "base/temporary_folder.hpp"
+#include "graze/base/input_error.hpp"
 #include "graze/record/record_file.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "symbolic/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <hdf5.h>

@@ -1,7 +1,7 @@
 #include "graze/record/low_pass.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/record/harmonic.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "record/waves.hpp"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "graze/record/period.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/record/section.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "record/recorded_model.hpp"
 #include "record/waves.hpp"
 

@@ -1,7 +1,7 @@
 #include "graze/record/record_file.hpp"
 
+#include "base/temporary_folder.hpp"
 #include "graze/record/record_writer.hpp"
-#include "symbolic/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,10 +1,10 @@
 #include "record/separate_source.hpp"
 
 #include "base/sanitized.hpp"
+#include "base/temporary_folder.hpp"
 #include "graze/record/record_file.hpp"
 #include "graze/record/record_writer.hpp"
 #include "mutated.hpp"
-#include "symbolic/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
 

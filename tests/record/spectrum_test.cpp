@@ -1,6 +1,6 @@
 #include "graze/record/spectrum.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "record/waves.hpp"
 
 #include <cmath>

@@ -1,8 +1,8 @@
 #include "record/text_table.hpp"
 
+#include "base/temporary_folder.hpp"
+#include "graze/base/input_error.hpp"
 #include "graze/record/record_file.hpp"
-#include "graze/symbolic/input_error.hpp"
-#include "symbolic/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
 

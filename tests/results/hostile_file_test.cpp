@@ -1,7 +1,7 @@
 // Result files as a stranger may make them, and queries as he may write them.
 
+#include "graze/base/input_error.hpp"
 #include "graze/results/result_file.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <gtest/gtest.h>
 #include <sqlite3.h>

@@ -1,6 +1,6 @@
 #include "graze/results/regression.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "graze/results/result_file.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "results/schema.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
+#include "graze/base/input_error.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/study/runner.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include "refusal.hpp"
 

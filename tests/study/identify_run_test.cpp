@@ -11,7 +11,7 @@
 #include "graze/study/stored_study.hpp"
 #include "graze/study/study.hpp"
 
-#include "../symbolic/temporary_folder.hpp"
+#include "../base/temporary_folder.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,7 +1,7 @@
 // Runs of kind "curve" that go on from a touch along the folds and flips of impacting orbits that end there.
 
+#include "graze/base/input_error.hpp"
 #include "graze/study/runner.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -9,7 +9,7 @@
 #include "graze/study/stored_study.hpp"
 #include "graze/study/study.hpp"
 
-#include "../symbolic/temporary_folder.hpp"
+#include "../base/temporary_folder.hpp"
 
 #include "refusal.hpp"
 

@@ -1,7 +1,7 @@
 #include "graze/study/run_times.hpp"
 #include "graze/study/runner.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

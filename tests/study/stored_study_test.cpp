@@ -1,10 +1,10 @@
 #include "graze/study/stored_study.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/study/picture.hpp"
 #include "graze/study/runner.hpp"
 #include "graze/study/study_catalogue.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

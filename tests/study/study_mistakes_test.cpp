@@ -1,7 +1,7 @@
 // All mistakes of a study are told at once, in the order of the file, and none that only follows from another.
 
+#include "graze/base/input_errors.hpp"
 #include "graze/study/study.hpp"
-#include "graze/symbolic/input_errors.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,8 +1,8 @@
 #include "graze/study/study_table.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/study/runner.hpp"
 #include "graze/study/stored_study.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

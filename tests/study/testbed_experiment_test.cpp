@@ -5,7 +5,7 @@
 #include "graze/study/runner.hpp"
 #include "graze/study/study_catalogue.hpp"
 
-#include "../symbolic/temporary_folder.hpp"
+#include "../base/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 

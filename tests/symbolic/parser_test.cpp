@@ -307,18 +307,5 @@ TEST(Names, Validity) {
     EXPECT_FALSE(is_reserved_name("2x"));
 }
 
-TEST(Names, Nearest) {
-    const std::vector<std::string> names{"amplitude", "omega", "V0", "x", "x_dot"};
-    EXPECT_EQ(nearest_name("amplitud", names), "amplitude");
-    EXPECT_EQ(nearest_name("omgea", names), "omega") << "exchanged letters are one mistake";
-    EXPECT_EQ(nearest_name("Omega", names), "omega");
-    EXPECT_EQ(nearest_name("xdot", names), "x_dot");
-    EXPECT_EQ(nearest_name("X", names), "x");
-    EXPECT_EQ(nearest_name("z", names), "");
-    EXPECT_EQ(nearest_name("velocity", names), "");
-    EXPECT_EQ(nearest_name("x", {}), "");
-    EXPECT_EQ(nearest_name(std::string(100000, 'a'), names), "");
-}
-
 } // namespace
 } // namespace graze

@@ -2,7 +2,7 @@
 
 #include "tape/column_series.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "graze/symbolic/symbol_index.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "tape/problems.hpp"

@@ -1,6 +1,6 @@
 #include "graze/tape/jet.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 
 #include "tape/problems.hpp"
 

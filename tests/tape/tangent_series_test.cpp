@@ -1,6 +1,6 @@
 #include "tape/tangent_series.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 #include "graze/symbolic/linearisation.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "tape/problems.hpp"

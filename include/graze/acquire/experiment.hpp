@@ -3,7 +3,7 @@
 #include "graze/acquire/generator_client.hpp"
 #include "graze/acquire/instrument_address.hpp"
 #include "graze/acquire/serial_line.hpp"
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 
 #include <cstddef>
 #include <optional>

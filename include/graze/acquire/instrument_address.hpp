@@ -1,6 +1,6 @@
 #pragma once
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 
 #include <string>
 

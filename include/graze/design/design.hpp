@@ -1,11 +1,11 @@
 #pragma once
 
+#include "graze/base/input_error.hpp"
 #include "graze/branch/yield.hpp"
 #include "graze/grazing/trip_time.hpp"
 #include "graze/grazing/verdict.hpp"
 #include "graze/model/model.hpp"
 #include "graze/study/study.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <cstddef>
 #include <cstdint>

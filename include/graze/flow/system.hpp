@@ -1,9 +1,9 @@
 #pragma once
 
+#include "graze/base/require.hpp"
 #include "graze/flow/linear_mode.hpp"
 #include "graze/model/model.hpp"
 #include "graze/symbolic/function.hpp"
-#include "graze/symbolic/require.hpp"
 #include "graze/tape/tape.hpp"
 
 #include <cstddef>

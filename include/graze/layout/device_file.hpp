@@ -1,10 +1,10 @@
 #pragma once
 
+#include "graze/base/input_error.hpp"
 #include "graze/layout/device_dimensions.hpp"
 #include "graze/layout/process_conditions.hpp"
 #include "graze/layout/process_spread.hpp"
 #include "graze/layout/wafer_plan.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <map>
 #include <string>

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "graze/base/input_error.hpp"
 #include "graze/results/estimate_record.hpp"
 #include "graze/results/orbit_record.hpp"
 #include "graze/sweep/attractor.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <chrono>
 #include <cstddef>

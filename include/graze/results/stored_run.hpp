@@ -1,8 +1,8 @@
 #pragma once
 
+#include "graze/base/input_error.hpp"
 #include "graze/model/model.hpp"
 #include "graze/results/result_file.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <cstddef>
 #include <optional>

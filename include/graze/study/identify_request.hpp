@@ -1,7 +1,7 @@
 #pragma once
 
+#include "graze/base/input_error.hpp"
 #include "graze/identify/fit.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <cstddef>
 #include <string>

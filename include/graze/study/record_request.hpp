@@ -1,8 +1,8 @@
 #pragma once
 
+#include "graze/base/input_error.hpp"
 #include "graze/bench/bench_settings.hpp"
 #include "graze/record/processed_record.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "graze/base/input_error.hpp"
 #include "graze/branch/orbit_branch.hpp"
 #include "graze/model/model.hpp"
 #include "graze/results/result_file.hpp"
@@ -8,7 +9,6 @@
 #include "graze/study/record_request.hpp"
 #include "graze/sweep/attractor.hpp"
 #include "graze/sweep/sampling.hpp"
-#include "graze/symbolic/input_error.hpp"
 #include "graze/trajectory/simulation.hpp"
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "graze/symbolic/require.hpp"
+#include "graze/base/require.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "graze/base/input_error.hpp"
 #include "graze/symbolic/expression.hpp"
-#include "graze/symbolic/input_error.hpp"
 
 #include <map>
 #include <string>
@@ -35,8 +35,5 @@ std::vector<Condition> parse_conditions(Graph& graph, std::string_view text, con
 /// a digit, and not reserved: the names of functions, `pi`, `t`, `time`, `and`, `or`, `not`.
 bool is_valid_name(std::string_view name);
 bool is_reserved_name(std::string_view name);
-
-/// The candidate nearest to `name` in edit distance, or "" when none is near.
-std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
 
 } // namespace graze

@@ -1,4 +1,4 @@
-#include "graze/symbolic/file_name.hpp"
+#include "graze/base/file_name.hpp"
 
 #include <gtest/gtest.h>
 

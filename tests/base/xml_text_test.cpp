@@ -1,4 +1,4 @@
-#include "graze/symbolic/xml_text.hpp"
+#include "graze/base/xml_text.hpp"
 
 #include <gtest/gtest.h>
 

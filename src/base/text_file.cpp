@@ -1,6 +1,6 @@
-#include "graze/symbolic/text_file.hpp"
+#include "graze/base/text_file.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-#include "graze/symbolic/file_name.hpp"
+#include "graze/base/file_name.hpp"
 
-#include "graze/symbolic/printable.hpp"
+#include "graze/base/printable.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
-#include "graze/symbolic/xml_text.hpp"
+#include "graze/base/xml_text.hpp"
 
-#include "symbolic/character.hpp"
+#include "base/character.hpp"
 
 namespace graze {
 

@@ -1,4 +1,4 @@
-#include "graze/symbolic/name_list.hpp"
+#include "graze/base/name_list.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,6 +15,19 @@ TEST(NameList, TellsAllOfAFewAndTheNearestOfMany) {
     EXPECT_EQ(name_list(names, "pressure", 1), "pressure_7 and 397 more"); // it is a part of that name
     EXPECT_TRUE(name_list(names, "column3X", 3).starts_with("column3"));
     EXPECT_LT(name_list(names, "nothing like it").size(), 200U);
+}
+
+TEST(NameList, FindsTheNearest) {
+    const std::vector<std::string> names{"amplitude", "omega", "V0", "x", "x_dot"};
+    EXPECT_EQ(nearest_name("amplitud", names), "amplitude");
+    EXPECT_EQ(nearest_name("omgea", names), "omega") << "exchanged letters are one mistake";
+    EXPECT_EQ(nearest_name("Omega", names), "omega");
+    EXPECT_EQ(nearest_name("xdot", names), "x_dot");
+    EXPECT_EQ(nearest_name("X", names), "x");
+    EXPECT_EQ(nearest_name("z", names), "");
+    EXPECT_EQ(nearest_name("velocity", names), "");
+    EXPECT_EQ(nearest_name("x", {}), "");
+    EXPECT_EQ(nearest_name(std::string(100000, 'a'), names), "");
 }
 
 } // namespace graze::testing

@@ -1,4 +1,4 @@
-#include "graze/symbolic/rounded.hpp"
+#include "graze/base/rounded.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "graze/symbolic/input_errors.hpp"
+#include "graze/base/input_errors.hpp"
 
 #include <algorithm>
 #include <string_view>

@@ -1,6 +1,6 @@
-#include "graze/symbolic/printable.hpp"
+#include "graze/base/printable.hpp"
 
-#include "symbolic/character.hpp"
+#include "base/character.hpp"
 
 #include <fmt/format.h>
 

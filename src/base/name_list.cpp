@@ -1,6 +1,6 @@
-#include "graze/symbolic/name_list.hpp"
+#include "graze/base/name_list.hpp"
 
-#include "graze/symbolic/parser.hpp"
+#include "base/letter_case.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,14 +14,6 @@ namespace graze {
 namespace {
 
 constexpr std::size_t longest_compared = 64; ///< letters of names
-
-std::string lower_case(std::string_view text) {
-    std::string result(text);
-    for (char& character : result)
-        if (character >= 'A' && character <= 'Z')
-            character = static_cast<char>(character - 'A' + 'a');
-    return result;
-}
 
 /// Least number of letters to insert, remove, replace or exchange with a neighbour.
 std::size_t edit_distance(std::string_view one, std::string_view other) {
@@ -43,7 +35,7 @@ std::size_t edit_distance(std::string_view one, std::string_view other) {
 
 /// How far a name is from another: below all others those that it is a part of.
 std::size_t distance_between(const std::string& wanted, const std::string& candidate) {
-    const std::string other = lower_case(std::string_view(candidate).substr(0, longest_compared));
+    const std::string other = in_small_letters(std::string_view(candidate).substr(0, longest_compared));
     const std::size_t distance = edit_distance(wanted, other);
     const bool part = wanted.size() > 1 && other.find(wanted) != std::string::npos;
     return part ? distance : distance + longest_compared;
@@ -52,14 +44,14 @@ std::size_t distance_between(const std::string& wanted, const std::string& candi
 } // namespace
 
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
-    const std::string wanted = lower_case(name.substr(0, longest_compared + 1));
+    const std::string wanted = in_small_letters(name.substr(0, longest_compared + 1));
     std::string nearest;
     std::size_t least = 4; // more edits than this are no misspelling
     for (const std::string& candidate : candidates) {
         const std::size_t longer = std::max(name.size(), candidate.size());
         if (longer > longest_compared)
             continue;
-        const std::size_t distance = edit_distance(wanted, lower_case(candidate));
+        const std::size_t distance = edit_distance(wanted, in_small_letters(candidate));
         const std::size_t near = std::max<std::size_t>(1, longer / 3);
         if (distance < least && distance < longer && distance <= near) {
             least = distance;
@@ -76,7 +68,7 @@ std::string name_list(const std::vector<std::string>& names, std::string_view wa
     if (wanted.empty()) {
         shown.assign(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(most));
     } else {
-        const std::string lower = lower_case(wanted.substr(0, longest_compared));
+        const std::string lower = in_small_letters(wanted.substr(0, longest_compared));
         std::vector<std::pair<std::size_t, std::size_t>> order; // distance, place
         for (std::size_t i = 0; i < names.size(); ++i)
             order.emplace_back(distance_between(lower, names[i]), i);

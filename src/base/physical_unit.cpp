@@ -1,6 +1,6 @@
-#include "graze/symbolic/physical_unit.hpp"
+#include "graze/base/physical_unit.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
-#include "graze/symbolic/require.hpp"
+#include "graze/base/require.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/base/input_error.hpp"
 
 #include <fmt/format.h>
 

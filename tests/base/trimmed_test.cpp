@@ -1,4 +1,4 @@
-#include "graze/symbolic/trimmed.hpp"
+#include "graze/base/trimmed.hpp"
 
 #include <gtest/gtest.h>
 
