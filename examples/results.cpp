@@ -1,7 +1,7 @@
 // A study is run into a result file, and everything is read back from that file alone.
 
+#include <graze/picture/result_picture.hpp>
 #include <graze/results/stored_run.hpp>
-#include <graze/study/picture.hpp>
 #include <graze/study/runner.hpp>
 #include <graze/study/stored_study.hpp>
 

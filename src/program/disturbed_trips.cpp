@@ -1,9 +1,10 @@
 #include "program/disturbed_trips.hpp"
+#include "program/drawing.hpp"
 
 #include "graze/base/input_error.hpp"
 #include "graze/branch/disturbed_trip.hpp"
+#include "graze/picture/figure_script.hpp"
 #include "program/commands.hpp"
-#include "program/figure.hpp"
 #include "program/interrupt.hpp"
 #include "program/loss_point.hpp"
 #include "program/status_line.hpp"

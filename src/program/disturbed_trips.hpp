@@ -1,7 +1,7 @@
 #pragma once
 
+#include "graze/picture/figure.hpp"
 #include "graze/results/result_file.hpp"
-#include "graze/study/figure.hpp"
 #include "program/arguments.hpp"
 #include "program/program.hpp"
 

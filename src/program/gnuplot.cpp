@@ -1,7 +1,7 @@
 #include "program/gnuplot.hpp"
 
-#include "program/gnuplot_text.hpp"
-#include "program/picture.hpp"
+#include "picture/gnuplot_text.hpp"
+#include "program/drawing.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "program/curve.hpp"
+#include "picture/curve.hpp"
 #include "program/plot_recorder.hpp"
 
 #include <string>

@@ -2,8 +2,8 @@
 
 #include "graze/base/input_error.hpp"
 #include "graze/model/check.hpp"
+#include "program/drawing.hpp"
 #include "program/output_file.hpp"
-#include "program/picture.hpp"
 #include "program/process.hpp"
 
 #include <fmt/format.h>

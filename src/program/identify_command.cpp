@@ -1,12 +1,12 @@
 #include "graze/base/input_error.hpp"
-#include "graze/study/residual_figure.hpp"
+#include "graze/picture/figure_script.hpp"
+#include "graze/picture/residual_figure.hpp"
 #include "program/commands.hpp"
-#include "program/figure.hpp"
+#include "program/drawing.hpp"
 #include "program/identify_arguments.hpp"
 #include "program/identify_fit.hpp"
 #include "program/identify_kinds.hpp"
 #include "program/identify_study.hpp"
-#include "program/picture.hpp"
 
 #include <fmt/format.h>
 

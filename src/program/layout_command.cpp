@@ -4,14 +4,14 @@
 #include "graze/layout/layout.hpp"
 #include "graze/layout/process_recipe.hpp"
 #include "graze/layout/process_steps.hpp"
+#include "graze/picture/fabrication_picture.hpp"
+#include "graze/picture/layout_picture.hpp"
 #include "program/commands.hpp"
+#include "program/drawing.hpp"
 #include "program/drawn_design.hpp"
-#include "program/fabrication_picture.hpp"
 #include "program/layout_model.hpp"
-#include "program/layout_picture.hpp"
 #include "program/layout_yield.hpp"
 #include "program/output_file.hpp"
-#include "program/picture.hpp"
 #include "program/values.hpp"
 
 #include <fmt/format.h>

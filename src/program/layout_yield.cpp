@@ -1,7 +1,9 @@
 #include "program/layout_yield.hpp"
+#include "program/drawing.hpp"
 
 #include "graze/base/input_error.hpp"
 #include "graze/design/design.hpp"
+#include "graze/picture/wafer_map.hpp"
 #include "program/commands.hpp"
 #include "program/interrupt.hpp"
 #include "program/json_rows.hpp"
@@ -9,7 +11,6 @@
 #include "program/output_file.hpp"
 #include "program/process.hpp"
 #include "program/trip_location.hpp"
-#include "program/wafer_map.hpp"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
 #include "program/live_picture.hpp"
 
+#include "graze/picture/figure_script.hpp"
 #include "graze/record/record_file.hpp"
 #include "graze/record/section.hpp"
-#include "program/figure.hpp"
-#include "program/picture.hpp"
+#include "program/drawing.hpp"
 #include "program/process.hpp"
 #include "program/record_tables.hpp"
 

@@ -1,10 +1,10 @@
 #include "graze/base/input_error.hpp"
+#include "graze/picture/figure_script.hpp"
+#include "graze/picture/result_picture.hpp"
 #include "graze/results/orbit_motion.hpp"
 #include "graze/results/stored_orbit.hpp"
-#include "graze/study/picture.hpp"
 #include "program/commands.hpp"
-#include "program/figure.hpp"
-#include "program/picture.hpp"
+#include "program/drawing.hpp"
 #include "program/quantity.hpp"
 #include "program/values.hpp"
 

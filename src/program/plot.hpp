@@ -1,7 +1,7 @@
 #pragma once
 
 #include "graze/model/model.hpp"
-#include "graze/study/figure.hpp"
+#include "graze/picture/figure.hpp"
 #include "program/arguments.hpp"
 #include "program/plot_recorder.hpp"
 

@@ -1,8 +1,9 @@
+#include "graze/picture/figure_script.hpp"
+#include "graze/picture/result_picture.hpp"
 #include "graze/results/stored_run.hpp"
-#include "graze/study/picture.hpp"
 #include "graze/study/showable_names.hpp"
 #include "program/commands.hpp"
-#include "program/figure.hpp"
+#include "program/drawing.hpp"
 #include "program/style_arguments.hpp"
 #include "program/values.hpp"
 

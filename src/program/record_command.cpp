@@ -1,10 +1,10 @@
 #include "graze/base/input_error.hpp"
+#include "graze/picture/figure_script.hpp"
 #include "graze/record/record_writer.hpp"
 #include "program/commands.hpp"
-#include "program/figure.hpp"
+#include "program/drawing.hpp"
 #include "program/interrupt.hpp"
 #include "program/output_file.hpp"
-#include "program/picture.hpp"
 #include "program/record_tables.hpp"
 #include "program/with_file.hpp"
 

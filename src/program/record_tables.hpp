@@ -1,7 +1,7 @@
 #pragma once
 
+#include "graze/picture/figure.hpp"
 #include "graze/results/table.hpp"
-#include "graze/study/figure.hpp"
 #include "program/record_stages.hpp"
 
 #include <string>

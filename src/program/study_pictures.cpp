@@ -1,8 +1,9 @@
 #include "program/study_pictures.hpp"
+#include "program/drawing.hpp"
 
 #include "graze/base/input_error.hpp"
+#include "graze/picture/figure_script.hpp"
 #include "graze/study/stored_study.hpp"
-#include "program/figure.hpp"
 #include "program/interrupt.hpp"
 #include "program/kept_inputs.hpp"
 #include "program/output_file.hpp"

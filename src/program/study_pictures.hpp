@@ -1,7 +1,7 @@
 #pragma once
 
+#include "graze/picture/result_picture.hpp"
 #include "graze/results/result_file.hpp"
-#include "graze/study/picture.hpp"
 #include "program/program.hpp"
 
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "graze/study/figure.hpp"
+#include "graze/picture/figure.hpp"
 #include "program/arguments.hpp"
 
 #include <string>

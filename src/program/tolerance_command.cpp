@@ -1,16 +1,16 @@
 #include "graze/base/input_error.hpp"
 #include "graze/branch/curve_start.hpp"
 #include "graze/branch/yield.hpp"
+#include "graze/picture/figure_script.hpp"
+#include "graze/picture/yield_picture.hpp"
 #include "graze/results/orbit_motion.hpp"
 #include "graze/results/stored_orbit.hpp"
 #include "program/commands.hpp"
-#include "program/figure.hpp"
+#include "program/drawing.hpp"
 #include "program/interrupt.hpp"
 #include "program/output_file.hpp"
-#include "program/picture.hpp"
 #include "program/status_line.hpp"
 #include "program/values.hpp"
-#include "program/yield_picture.hpp"
 
 #include <fmt/format.h>
 

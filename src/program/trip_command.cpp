@@ -1,11 +1,11 @@
 #include "graze/base/input_error.hpp"
+#include "graze/picture/figure_script.hpp"
+#include "graze/picture/trip_series.hpp"
 #include "program/commands.hpp"
 #include "program/disturbed_trips.hpp"
-#include "program/figure.hpp"
+#include "program/drawing.hpp"
 #include "program/interrupt.hpp"
 #include "program/loss_point.hpp"
-#include "program/picture.hpp"
-#include "program/trip_series.hpp"
 #include "program/values.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,4 @@
 #include "graze/base/file_name.hpp"
-#include "graze/study/picture.hpp"
 #include "graze/study/showable_names.hpp"
 #include "study/picture_style.hpp"
 #include "study/study_reader.hpp"

@@ -1,6 +1,6 @@
 #include "branch_results.hpp"
-#include "graze/study/picture.hpp"
-#include "program/figure.hpp"
+#include "graze/picture/figure_script.hpp"
+#include "graze/picture/result_picture.hpp"
 #include "program/process.hpp"
 
 #include <gmock/gmock.h>

@@ -3,7 +3,7 @@
 #include "branch_results.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/printable.hpp"
-#include "program/gnuplot_text.hpp"
+#include "picture/gnuplot_text.hpp"
 #include "program/output_file.hpp"
 #include "run_graze.hpp"
 

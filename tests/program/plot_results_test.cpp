@@ -1,5 +1,5 @@
-#include "graze/study/picture.hpp"
-#include "program/figure.hpp"
+#include "graze/picture/figure_script.hpp"
+#include "graze/picture/result_picture.hpp"
 #include "program/process.hpp"
 #include "program/table.hpp"
 #include "run_graze.hpp"

@@ -1,6 +1,6 @@
 // Pictures of a study are drawn again only when that could change them.
 
-#include "graze/study/picture.hpp"
+#include "graze/picture/result_picture.hpp"
 #include "run_graze.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-#include "program/trip_series.hpp"
+#include "graze/picture/trip_series.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // What a study calls special points of its runs: in pictures, tables and exports, and where points are asked for.
 
+#include "graze/picture/result_picture.hpp"
 #include "graze/results/result_table.hpp"
 #include "graze/results/stored_orbit.hpp"
-#include "graze/study/picture.hpp"
 #include "graze/study/runner.hpp"
 #include "graze/study/stored_study.hpp"
 #include "graze/study/study_table.hpp"

@@ -2,9 +2,9 @@
 // runs that are broken off.
 
 #include "graze/model/catalogue.hpp"
+#include "graze/picture/result_picture.hpp"
 #include "graze/results/result_file.hpp"
 #include "graze/results/stored_run.hpp"
-#include "graze/study/picture.hpp"
 #include "graze/study/runner.hpp"
 #include "graze/study/stored_study.hpp"
 #include "graze/study/study.hpp"

@@ -2,7 +2,7 @@
 
 #include "graze/base/input_error.hpp"
 #include "graze/model/catalogue.hpp"
-#include "graze/study/picture.hpp"
+#include "graze/picture/result_picture.hpp"
 #include "graze/study/runner.hpp"
 #include "graze/study/study_catalogue.hpp"
 

@@ -4,7 +4,7 @@
 #include "graze/branch/orbit_branch.hpp"
 #include "graze/model/model.hpp"
 #include "graze/results/result_file.hpp"
-#include "graze/study/figure.hpp"
+#include "graze/study/figure_style.hpp"
 #include "graze/study/identify_request.hpp"
 #include "graze/study/record_request.hpp"
 #include "graze/sweep/attractor.hpp"

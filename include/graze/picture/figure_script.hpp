@@ -1,0 +1,17 @@
+#pragma once
+
+#include "graze/picture/figure.hpp"
+
+#include <string>
+#include <vector>
+
+namespace graze {
+
+/// A figure in the language of gnuplot, data included.
+/// @param ending svg, png, pdf, eps or tex; @param output the file that the commands write
+std::string figure_script(const Figure& figure, const std::string& ending, const std::string& output);
+
+/// Endings of the files that can be drawn.
+std::vector<std::string> figure_endings();
+
+} // namespace graze

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "graze/grazing/trip_time.hpp"
+#include "graze/picture/figure.hpp"
+
+#include <utility>
+#include <vector>
+
+namespace graze {
+
+/// Times until trips at overshoots. Each contact more adds a cycle or so: times are steps, and where steps end between
+/// two overshoots nobody has computed. So there is a symbol for each trip, and a line only through those with as many
+/// contacts. At a fold a line goes through all, for there the time is smooth.
+/// @param trips overshoots, from the least or the greatest on, with trips that have come to their end
+/// @param symbol as FigureSeries has it
+void add_trips(FigurePanel& panel, const std::vector<std::pair<double, TripTime>>& trips, const std::string& title,
+               std::size_t colour, int symbol, bool at_fold = false);
+
+} // namespace graze

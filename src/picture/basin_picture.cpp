@@ -1,0 +1,251 @@
+#include "picture/drawn_labels.hpp"
+#include "picture/picture_kinds.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace graze {
+
+namespace {
+
+/// Tells attractors apart: by what they are and, for orbits and equilibria, which Newton's method has computed to many
+/// digits, by the mean, least and greatest of every value along them, which do not depend on where along the orbit one
+/// begins.
+class AttractorNames {
+public:
+    /// @param marks of the orbit, three for each value; @param spreads of the values
+    std::size_t index(const std::string& kind, const std::vector<double>& marks, const std::vector<double>& spreads) {
+        constexpr double same_orbit = 1e-6;
+        for (std::size_t i = 0; i < known_.size(); ++i) {
+            bool same = known_[i].kind == kind;
+            for (std::size_t v = 0; same && v < marks.size(); ++v)
+                same = std::abs(marks[v] - known_[i].marks[v]) <= same_orbit * spreads[v / 3];
+            if (same)
+                return i;
+        }
+        known_.push_back({kind, marks});
+        return known_.size() - 1;
+    }
+    const std::string& kind(std::size_t index) const { return known_[index].kind; }
+    std::size_t count() const { return known_.size(); }
+
+private:
+    struct Known {
+        std::string kind;
+        std::vector<double> marks;
+    };
+    std::vector<Known> known_;
+};
+
+std::string kind_text(const ResultFile::Rows& row) {
+    std::string text = row.text(0);
+    if (text == "periodic")
+        text = fmt::format("period {}{}{}{}", row.text(1), row.is_null(3) || row.integer(3) == 0 ? "" : ", symmetric",
+                           row.text(2).empty() ? "" : ", ", row.text(2));
+    return text;
+}
+
+/// What an attractor is like, of pictures that do not tell it from others like it.
+std::string short_kind(const ResultFile::Rows& row) {
+    return row.text(0) == name_of(Label::periodic) ? fmt::format("period {}", row.text(1)) : row.text(0);
+}
+
+/// The values of one axis of a grid, and where one cell ends and the next begins.
+class GridAxis {
+public:
+    GridAxis(const std::vector<PlanePoint>& points, double PlanePoint::*coordinate, bool logarithmic)
+        : logarithmic_(logarithmic) {
+        for (const PlanePoint& point : points)
+            values_.push_back(point.*coordinate);
+        std::sort(values_.begin(), values_.end());
+        values_.erase(std::unique(values_.begin(), values_.end()), values_.end());
+    }
+    std::size_t size() const { return values_.size(); }
+    std::size_t index(double value) const {
+        return static_cast<std::size_t>(std::lower_bound(values_.begin(), values_.end(), value) - values_.begin());
+    }
+    /// From the edge before one value to that behind another.
+    double edge_before(std::size_t i) const { return i == 0 ? beyond(0, 1) : middle(i - 1, i); }
+    double edge_behind(std::size_t i) const { return i + 1 == size() ? beyond(i, i - 1) : middle(i, i + 1); }
+
+private:
+    double middle(std::size_t i, std::size_t k) const {
+        return is_logarithmic() ? std::sqrt(values_[i] * values_[k]) : (values_[i] + values_[k]) / 2;
+    }
+    double beyond(std::size_t i, std::size_t neighbour) const {
+        return is_logarithmic() ? values_[i] * std::sqrt(values_[i] / values_[neighbour])
+                                : values_[i] + (values_[i] - values_[neighbour]) / 2;
+    }
+    bool is_logarithmic() const { return logarithmic_ && values_.front() > 0; }
+    bool logarithmic_;
+    std::vector<double> values_;
+};
+
+/// Fills the cells around points of a grid; of points that are on none the dots stay.
+void fill_cells(FigurePanel& panel) {
+    std::vector<PlanePoint> all;
+    for (const FigureSeries& series : panel.series)
+        all.insert(all.end(), series.points.begin(), series.points.end());
+    const GridAxis x(all, &PlanePoint::x, panel.logarithmic_x), y(all, &PlanePoint::y, panel.logarithmic_y);
+    if (x.size() < 2 || y.size() < 2 || 2 * all.size() < x.size() * y.size())
+        return;
+    for (FigureSeries& series : panel.series) {
+        std::vector<std::pair<std::size_t, std::size_t>> cells; // row, column
+        for (const PlanePoint& point : series.points)
+            cells.emplace_back(y.index(point.y), x.index(point.x));
+        std::sort(cells.begin(), cells.end());
+        for (std::size_t i = 0; i < cells.size();) {
+            std::size_t last = i; // neighbours in a row are one
+            while (last + 1 < cells.size() && cells[last + 1].first == cells[i].first &&
+                   cells[last + 1].second <= cells[last].second + 1)
+                ++last;
+            series.cells.push_back({x.edge_before(cells[i].second), x.edge_behind(cells[last].second),
+                                    y.edge_before(cells[i].first), y.edge_behind(cells[i].first)});
+            i = last + 1;
+        }
+        series.style = FigureSeries::Style::cells;
+        series.points.clear();
+    }
+}
+
+} // namespace
+
+namespace {
+
+/// Draws one direction of a run.
+class BasinPanel {
+public:
+    BasinPanel(const StudyPicture& picture, const StoredRun& run, bool map)
+        : picture_(&picture), run_(&run), map_(map), x_(first_coordinate(picture, run)),
+          y_(picture.y.empty() ? run.record.coordinates[1].name : picture.y.front()) {}
+
+    FigurePanel drawn(const std::string& direction, Table& table) {
+        panel_ = panel_of(*picture_, *run_, x_, y_, 0);
+        const std::vector<double> spreads = map_ ? std::vector<double>{} : spreads_of_attractors(direction);
+        auto rows = run_->rows({.columns = {"label", "period", "signature", "symmetric", "number"},
+                                .quantities = {x_, y_},
+                                .statistics = map_ ? std::vector<std::string>{} : run_->value_names(),
+                                .directions = {direction}});
+        while (rows.next()) {
+            std::vector<double> marks(map_ ? 0 : 3 * run_->record.values.size());
+            const bool told_apart =
+                rows.text(0) == name_of(Label::periodic) || rows.text(0) == name_of(Label::equilibrium);
+            for (std::size_t v = 0; told_apart && v < marks.size(); ++v)
+                marks[v] = rows.number(7 + v);
+            add(names_.index(map_ ? short_kind(rows) : kind_text(rows), marks, spreads), rows.text(0),
+                {rows.number(5), rows.number(6)}, static_cast<std::size_t>(rows.integer(4)), told_apart);
+        }
+        name_all(table);
+        fill_cells(panel_);
+        if (!map_)
+            mark_attractors();
+        return std::move(panel_);
+    }
+
+private:
+    /// How far values go over all attractors: motions that run away are no measure of how different these are.
+    std::vector<double> spreads_of_attractors(const std::string& direction) const {
+        const std::size_t values = run_->record.values.size();
+        constexpr double none = std::numeric_limits<double>::infinity();
+        constexpr double rounding = 1e-6; // of which the same millionth tells attractors apart
+        std::vector<double> least(values, none), greatest(values, -none), spreads;
+        auto rows = run_->rows({.columns = {"label"}, .statistics = run_->value_names(), .directions = {direction}});
+        while (rows.next())
+            for (std::size_t v = 0; v < values && drawn_as(rows.text(0)) == DrawnAs::attractor; ++v) {
+                least[v] = std::min(least[v], rows.number(2 + 3 * v));
+                greatest[v] = std::max(greatest[v], rows.number(3 + 3 * v));
+            }
+        for (std::size_t v = 0; v < values; ++v)
+            spreads.push_back(std::max(0.0, greatest[v] - least[v]) +
+                              rounding * std::max(std::abs(least[v]), std::abs(greatest[v])));
+        return spreads;
+    }
+
+    void add(std::size_t index, const std::string& label, const PlanePoint& at, std::size_t number, bool told_apart) {
+        if (index >= panel_.series.size()) {
+            const bool settled = drawn_as(label) == DrawnAs::attractor;
+            FigureSeries series{"", FigureSeries::Style::dots, attractors_, {}};
+            if (!settled) { // seen to be no attractor, and of what kind
+                const MarkOfLabel mark = mark_of_label(label);
+                series.style = FigureSeries::Style::symbols;
+                series.colour = mark.colour;
+                series.symbol = mark.symbol;
+                series.hatch = mark.hatch;
+            }
+            attractors_ += settled ? 1 : 0;
+            panel_.series.push_back(std::move(series));
+            first_points_.push_back(told_apart ? std::optional(number) : std::nullopt);
+        }
+        panel_.series[index].points.push_back(at);
+    }
+
+    void name_all(Table& table) {
+        for (std::size_t i = 0; i < panel_.series.size(); ++i) {
+            const std::string kind = names_.kind(i);
+            const std::size_t count = panel_.series[i].points.size();
+            panel_.series[i].title = fmt::format("{} ({})", shown_name(*picture_, kind), count);
+            table.add(static_cast<double>(i + 1));
+            table.add(kind);
+            table.add(static_cast<double>(count));
+        }
+    }
+
+    /// Where both axes are sampled values, the samples of each attractor, with the number that the table gives it.
+    void mark_attractors() {
+        if (!run_->has_value(x_) || !run_->has_value(y_))
+            return;
+        const std::size_t kinds = first_points_.size();
+        for (std::size_t i = 0; i < kinds; ++i) {
+            if (!first_points_[i])
+                continue;
+            const auto point = run_->file->point(run_->record.name, *first_points_[i]);
+            if (!point || run_->record.samplings.empty())
+                continue;
+            const std::string sampling = shown_samplings(*picture_, *run_).front();
+            const std::vector<double> xs = samples_of(*point, *run_, x_, sampling, nullptr),
+                                      ys = samples_of(*point, *run_, y_, sampling, nullptr);
+            FigureSeries marks{"", FigureSeries::Style::symbols, FigureSeries::black, {}};
+            for (std::size_t k = 0; k < xs.size(); ++k) {
+                marks.points.push_back({xs[k], ys[k]});
+                panel_.labels.push_back({{xs[k], ys[k]}, fmt::format("{}", i + 1), FigureSeries::black});
+            }
+            panel_.series.push_back(std::move(marks));
+        }
+    }
+
+    const StudyPicture* picture_;
+    const StoredRun* run_;
+    bool map_;
+    std::string x_, y_;
+    FigurePanel panel_;
+    AttractorNames names_;
+    std::size_t attractors_ = 0;
+    std::vector<std::optional<std::size_t>> first_points_; ///< of each attractor
+};
+
+} // namespace
+
+ResultPicture basin_picture(const StudyPicture& picture, const ResultFile& file, bool map) {
+    const StoredRun run(file, picture.runs.front(), picture.place);
+    if (run.record.coordinates.size() < 2)
+        throw InputError(picture.place, fmt::format("run '{}' varies fewer than two things", run.record.name),
+                         "draw a bifurcation diagram or a scatter plot of it");
+    ResultPicture result;
+    result.table = Table({{map ? "kind_number" : "attractor", ""}, {"kind", ""}, {"points", ""}});
+    const std::vector<std::string> directions = picture.directions.empty() ? run.record.directions : picture.directions;
+    for (const std::string& direction : directions) {
+        result.figure.panels.push_back(BasinPanel(picture, run, map).drawn(direction, result.table));
+        if (directions.size() > 1)
+            result.figure.panels.back().title =
+                fmt::format("{} {} {}", panel_letter(result.figure.panels.size() - 1),
+                            shown_name(picture, run.record.coordinates.front().name), direction);
+    }
+    result.figure.columns = directions.size();
+    return result;
+}
+
+} // namespace graze

@@ -1,0 +1,234 @@
+#include "picture/drawn_labels.hpp"
+#include "picture/picture_kinds.hpp"
+
+#include "graze/base/input_error.hpp"
+#include "graze/base/name_list.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+namespace graze {
+
+namespace {
+
+constexpr std::size_t most_marks = 8;
+constexpr std::size_t most_circles = 200; ///< of what is drawn over; beyond, crosses are seen better
+constexpr double least_stretch = 0.01;    ///< share of a sweep on both sides of a change that is marked
+/// What the dotted lines mean: where consecutive stretches of a sweep differ in this.
+constexpr const char* meaning_of_marks = "label, period, signature or symmetry changes";
+
+/// Where something changes that lasted before and lasts after.
+std::vector<double> changes(const StoredRun& run, const std::string& direction) {
+    auto rows = run.rows({.columns = {"label", "period", "symmetric", "chain", "signature"},
+                          .quantities = {run.record.coordinates.front().name},
+                          .directions = {direction}});
+    struct Stretch {
+        std::string kind;
+        double first, last;
+        std::size_t points;
+    };
+    std::vector<Stretch> stretches;
+    std::size_t all = 0;
+    while (rows.next()) {
+        if (rows.integer(3) != 0)
+            return {}; // several chains: their changes would hide one another
+        const std::string kind = fmt::format("{} {} {} {}", rows.text(0), rows.text(1), rows.text(2), rows.text(4));
+        if (stretches.empty() || stretches.back().kind != kind)
+            stretches.push_back({kind, rows.number(5), rows.number(5), 0});
+        stretches.back().last = rows.number(5);
+        ++stretches.back().points;
+        ++all;
+    }
+    struct Mark {
+        double at;
+        std::size_t points; ///< of the shorter of the stretches that it separates
+    };
+    std::vector<Mark> found;
+    const double least = least_stretch * static_cast<double>(all);
+    const Stretch* before = nullptr;
+    for (const Stretch& stretch : stretches) {
+        if (static_cast<double>(stretch.points) < least)
+            continue;
+        if (before && before->kind != stretch.kind)
+            found.push_back({0.5 * (before->last + stretch.first), std::min(before->points, stretch.points)});
+        before = &stretch;
+    }
+    // Of many, those that part the longest stretches.
+    std::stable_sort(found.begin(), found.end(), [](const Mark& a, const Mark& b) { return a.points > b.points; });
+    found.resize(std::min(found.size(), most_marks));
+    std::vector<double> marks;
+    for (const Mark& mark : found)
+        marks.push_back(mark.at);
+    return marks;
+}
+
+/// Panels of the same value get the same axis, for up and down to be compared.
+void share_axes(Figure& figure) {
+    std::map<std::string, std::pair<double, double>> extents;
+    for (const FigurePanel& panel : figure.panels)
+        for (const FigureSeries& series : panel.series)
+            for (const PlanePoint& point : series.points) {
+                const auto [at, first] = extents.try_emplace(panel.y_label, point.y, point.y);
+                at->second.first = std::min(at->second.first, point.y);
+                at->second.second = std::max(at->second.second, point.y);
+            }
+    constexpr double margin = 0.04;
+    for (FigurePanel& panel : figure.panels)
+        if (const auto at = extents.find(panel.y_label);
+            at != extents.end() && !panel.y_range && !panel.logarithmic_y) {
+            const auto [low, high] = at->second;
+            if (!is_constant(low, high))
+                panel.y_range = std::pair(low - margin * (high - low), high + margin * (high - low));
+        }
+}
+
+/// What a panel shows, for others to be drawn over it.
+struct ShownPanel {
+    std::string value, direction;
+};
+
+/// Seen on a band full of dots: black, then colours, upright and slanting in turn.
+void mark_by_crosses(FigureSeries& series, std::size_t index) {
+    series.style = FigureSeries::Style::symbols;
+    series.symbol = index % 2 == 0 ? 1 : 2; // gnuplot's crosses
+    if (index == 0)
+        series.colour = FigureSeries::black;
+}
+
+/// A text, behind a name if there is one.
+std::string named_with(std::string_view text, const std::string& name) {
+    return name.empty() ? std::string(text) : fmt::format("{}: {}", name, text);
+}
+
+/// Adds a series for each sampling of a run: what settled, then crosses for what did not.
+/// @param over named by the run, too, and seen over what is there
+void add_samples(FigurePanel& panel, const StudyPicture& picture, const StoredRun& run, const std::string& x,
+                 const ShownPanel& shown, bool over) {
+    const std::vector<std::string> samplings = shown_points(picture, run);
+    const std::size_t before = panel.series.size();
+    // What did not settle has no colour of its own, or panels with some and panels without would differ.
+    const auto first_colour =
+        static_cast<std::size_t>(std::count_if(panel.series.begin(), panel.series.end(), [](const FigureSeries& one) {
+            return one.title.empty() || one.colour != FigureSeries::grey;
+        }));
+    std::map<std::string, std::size_t> series;
+    for (std::size_t s = 0; s < samplings.size(); ++s) {
+        series[samplings[s]] = before + s;
+        const std::string run_name = shown_name(picture, run.record.name);
+        const std::string title = samplings.size() > 1 ? shown_name(picture, samplings[s]) : "";
+        // Where another run lies over it, both are named.
+        const bool named = over || (!title.empty() && !picture.over.empty());
+        panel.series.push_back({!named          ? title
+                                : title.empty() ? run_name
+                                                : fmt::format("{}: {}", run_name, title),
+                                over ? FigureSeries::Style::circles : FigureSeries::Style::dots,
+                                first_colour + s,
+                                {}});
+    }
+    const auto& known = run.record.directions;
+    const bool has_direction = std::find(known.begin(), known.end(), shown.direction) != known.end();
+    const std::vector<std::string> directions =
+        has_direction ? std::vector<std::string>{shown.direction} : std::vector<std::string>();
+    const bool judged = seeks_attractors(run.record);
+    FigureSeries uncertain{"", FigureSeries::Style::symbols, mark_of_label(name_of(Label::unsettled)).colour, {}};
+    uncertain.symbol = mark_of_label(name_of(Label::unsettled)).symbol;
+    uncertain.title = named_with(name_of(Label::unsettled), over ? shown_name(picture, run.record.name) : "");
+    auto rows = run.rows({.samples = true,
+                          .columns = {"sampling", "label"},
+                          .quantities = {x},
+                          .values = {shown.value},
+                          .directions = directions,
+                          .samplings = samplings});
+    while (rows.next()) {
+        const auto at = series.find(rows.text(0));
+        const DrawnAs drawn = judged ? drawn_as(rows.text(1)) : DrawnAs::attractor;
+        if (at == series.end() || rows.is_null(3) || drawn == DrawnAs::nothing)
+            continue;
+        FigureSeries& target = drawn == DrawnAs::attractor ? panel.series[at->second] : uncertain;
+        target.points.push_back({rows.number(2), rows.number(3)});
+    }
+    if (!uncertain.points.empty())
+        panel.series.push_back(std::move(uncertain));
+    const std::string note = note_of_left_out(run, directions);
+    if (!note.empty())
+        panel.notes.push_back(named_with(note, over ? shown_name(picture, run.record.name) : ""));
+    for (std::size_t s = before; over && s < before + samplings.size(); ++s)
+        if (panel.series[s].points.size() > most_circles)
+            mark_by_crosses(panel.series[s], s - before);
+}
+
+/// From the first to the last point of a run; where it is known by measurement alone, no point is to lie on the frame.
+std::optional<std::pair<double, double>> shown_extent(const StoredRun& run) {
+    auto extent = run.extent(run.record.coordinates.front().name);
+    constexpr double margin = 0.01;
+    if (extent && run.record.kind == "record") {
+        const double room = margin * (extent->second - extent->first);
+        extent = std::pair(extent->first - room, extent->second + room);
+    }
+    return extent;
+}
+
+/// Runs that are drawn over panels of the same values.
+void add_over(Figure& figure, const StudyPicture& picture, const std::vector<ShownPanel>& shown,
+              const ResultFile& file) {
+    for (const std::string& name : picture.over) {
+        const StoredRun run(file, name, picture.place);
+        bool drawn = false;
+        for (std::size_t p = 0; p < shown.size(); ++p)
+            if (run.has_value(shown[p].value)) {
+                FigurePanel& panel = figure.panels[p];
+                const std::string x = first_coordinate(picture, run);
+                add_samples(panel, picture, run, x, shown[p], true);
+                if (const auto extent = run.extent(x); extent && panel.x_range && !picture.x_range) {
+                    // What was measured may lie beside what was computed by its noise alone: not on the frame.
+                    constexpr double margin = 0.01;
+                    const double room = margin * (panel.x_range->second - panel.x_range->first);
+                    panel.x_range = std::pair(std::min(panel.x_range->first, extent->first - room),
+                                              std::max(panel.x_range->second, extent->second + room));
+                }
+                drawn = true;
+            }
+        if (!drawn)
+            throw InputError(picture.place, fmt::format("run '{}' has none of the values that are drawn", name),
+                             fmt::format("it has {}", name_list(run.value_names())));
+    }
+}
+
+} // namespace
+
+Figure bifurcation_picture(const StudyPicture& picture, const ResultFile& file) {
+    Figure figure;
+    std::vector<ShownPanel> shown;
+    for (const std::string& name : picture.runs) {
+        const StoredRun run(file, name, picture.place);
+        const std::vector<std::string> values = chosen_values(picture, run);
+        require_values(picture, run, values);
+        const std::string x = first_coordinate(picture, run);
+        const std::vector<std::string> directions =
+            picture.directions.empty() ? run.record.directions : picture.directions;
+        figure.columns = values.size() > 1 ? values.size() : directions.size();
+        for (const std::string& direction : directions)
+            for (std::size_t v = 0; v < values.size(); ++v) {
+                FigurePanel panel = panel_of(picture, run, x, values[v], v);
+                const std::string letter = panel_letter(figure.panels.size());
+                panel.title = fmt::format("{} {}", letter,
+                                          direction.empty() ? shown_name(picture, name)
+                                                            : fmt::format("{} {}", shown_name(picture, x), direction));
+                add_samples(panel, picture, run, x, {values[v], direction}, false);
+                if (!panel.x_range && picture.x.empty())
+                    panel.x_range = shown_extent(run);
+                if (run.record.kind == "sweep" && picture.x.empty())
+                    panel.marks = changes(run, direction);
+                panel.marks_title = meaning_of_marks;
+                figure.panels.push_back(std::move(panel));
+                shown.push_back({values[v], direction});
+            }
+    }
+    add_over(figure, picture, shown, file);
+    share_axes(figure);
+    return figure;
+}
+
+} // namespace graze

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "graze/picture/figure.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+namespace graze {
+
+/// A rectangle on the page, in points (1/72 inch) from its lower left corner.
+struct Box {
+    double left = 0, low = 0, right = 0, high = 0;
+
+    double width() const { return right - left; }
+    double height() const { return high - low; }
+    bool meets(const Box& other) const {
+        return left < other.right && other.left < right && low < other.high && other.low < high;
+    }
+    bool holds(const PlanePoint& point) const {
+        return left <= point.x && point.x <= right && low <= point.y && point.y <= high;
+    }
+    bool holds(const Box& other) const {
+        return left <= other.left && other.right <= right && low <= other.low && other.high <= high;
+    }
+    Box grown(double by) const { return {left - by, low - by, right + by, high + by}; }
+    static Box around(const PlanePoint& centre, double width, double height) {
+        return {centre.x - width / 2, centre.y - height / 2, centre.x + width / 2, centre.y + height / 2};
+    }
+};
+
+/// Which part of a line between two points runs through a box: shares of its length, or nothing (Liang and Barsky
+/// 1984).
+inline std::optional<std::pair<double, double>> part_within(const PlanePoint& from, const PlanePoint& to,
+                                                            const Box& box) {
+    double first = 0, last = 1;
+    const auto clip = [&](double start, double step, double low, double high) {
+        if (step == 0)
+            return start >= low && start <= high;
+        const double one = (low - start) / step, other = (high - start) / step;
+        first = std::max(first, std::min(one, other));
+        last = std::min(last, std::max(one, other));
+        return first <= last;
+    };
+    if (clip(from.x, to.x - from.x, box.left, box.right) && clip(from.y, to.y - from.y, box.low, box.high))
+        return std::pair(first, last);
+    return std::nullopt;
+}
+
+} // namespace graze

@@ -1,0 +1,335 @@
+#include "graze/branch/special_point.hpp"
+#include "graze/results/name_advice.hpp"
+#include "graze/results/stored_orbit.hpp"
+#include "graze/study/stored_study.hpp"
+#include "picture/picture_kinds.hpp"
+#include "study/point_limits.hpp"
+#include "study/start_point.hpp"
+
+#include "graze/symbolic/parser.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <set>
+
+namespace graze {
+
+namespace {
+
+constexpr std::size_t most_panels = 4;
+
+/// What is known of an orbit as far as it decides how a branch is drawn there.
+enum class Look { stable, unstable, unphysical };
+constexpr std::array<std::pair<Look, const char*>, 3> looks{
+    {{Look::stable, "stable"}, {Look::unstable, "unstable"}, {Look::unphysical, "unphysical"}}};
+
+struct DrawnPoint {
+    std::string part, label;
+    std::string name; ///< what is shown in the place of the label
+    PointType type = PointType::regular;
+    Look look = Look::stable;
+    std::int64_t step = 0;
+    double along = 0; ///< the branch
+    double x = 0;
+    std::vector<double> y;
+};
+
+/// Curves are drawn by what they are curves of: touches solid, folds dashed, all else dotted.
+FigureSeries::Style style_of(PointType kept) {
+    return kept == PointType::grazing ? FigureSeries::Style::line
+           : kept == PointType::fold  ? FigureSeries::Style::dashed
+                                      : FigureSeries::Style::dotted;
+}
+
+FigureSeries::Style style_of(Look look) {
+    return look == Look::unstable ? FigureSeries::Style::dashed : FigureSeries::Style::line;
+}
+
+/// Names that can be drawn of a branch, besides expressions in SQL.
+std::vector<std::string> known_names(const StoredRun& run) {
+    std::vector<std::string> names{"multiplier"};
+    for (const auto& list : {run.value_names(), run.coordinate_names(), run.number_columns()})
+        names.insert(names.end(), list.begin(), list.end());
+    return names;
+}
+
+void require_known(const StudyPicture& picture, const StoredRun& run, const std::string& name) {
+    const std::vector<std::string> known = known_names(run);
+    if (is_valid_name(name) && std::find(known.begin(), known.end(), name) == known.end())
+        throw InputError(picture.place, fmt::format("run '{}' has no monitor or parameter '{}'", run.record.name, name),
+                         name_advice(name, known, ""));
+}
+
+/// What a run is a curve of, by its first point; none: it is a branch.
+std::optional<PointType> kept_of(const StoredRun& run) {
+    if (run.record.kind != name_of(RunKind::curve))
+        return std::nullopt;
+    const StudyRun asked = stored_run(run.record);
+    if (asked.start && point_type(asked.start->onto))
+        return point_type(asked.start->onto);
+    const auto parent = asked.start ? run.file->find_run(asked.start->run) : std::nullopt;
+    return parent ? orbit_to_start_from(*asked.start, stored_run(*parent), *run.file).point.type : PointType::regular;
+}
+
+/// Monitors of the first run that all have, or the period; of a curve its second parameter.
+std::vector<std::string> default_values(const std::vector<StoredRun>& runs) {
+    std::vector<std::string> names;
+    if (runs.front().record.kind == name_of(RunKind::curve))
+        return {runs.front().record.coordinates.at(1).name};
+    for (const ResultColumn& column : runs.front().record.values)
+        if (names.size() < most_panels &&
+            std::all_of(runs.begin(), runs.end(), [&](const StoredRun& run) { return run.has_value(column.name); }))
+            names.push_back(column.name);
+    return names.empty() ? std::vector<std::string>{"period"} : names;
+}
+
+/// @throws InputError for parts that the run does not have
+void require_parts(const StoredRun& run, const StudyPicture& picture) {
+    const std::vector<std::string> known = run.parts();
+    for (const std::string& part : picture.directions)
+        if (std::find(known.begin(), known.end(), part) == known.end())
+            throw InputError(picture.place, fmt::format("run '{}' has no direction '{}'", run.record.name, part),
+                             name_advice(part, known, "it has none"));
+}
+
+std::vector<DrawnPoint> points_of(const StoredRun& run, const StudyPicture& picture, const std::string& x,
+                                  const std::vector<std::string>& values) {
+    std::vector<std::string> drawn{x};
+    drawn.insert(drawn.end(), values.begin(), values.end());
+    for (const std::string& name : drawn)
+        require_known(picture, run, name);
+    require_parts(run, picture);
+    auto rows = run.rows({.columns = {"part", "label", "type", "stable", "admissible", "step", "arclength"},
+                          .quantities = drawn,
+                          .directions = picture.directions});
+    constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+    std::vector<DrawnPoint> points;
+    while (rows.next()) {
+        DrawnPoint& point = points.emplace_back();
+        point.part = rows.text(0);
+        point.label = rows.text(1);
+        point.name = run.record.point_name(point.label);
+        point.type = point_type(rows.text(2)).value_or(PointType::regular);
+        point.look = rows.integer(4) == 0 ? Look::unphysical : rows.integer(3) == 0 ? Look::unstable : Look::stable;
+        point.step = rows.integer(5);
+        const auto number = [&](std::size_t column) { // what is infinite has no place in a picture
+            return rows.is_null(column) || std::isinf(rows.number(column)) ? nothing : rows.number(column);
+        };
+        point.along = number(6);
+        point.x = number(7);
+        for (std::size_t v = 0; v < values.size(); ++v)
+            point.y.push_back(number(8 + v));
+    }
+    return points;
+}
+
+/// A stretch of a branch along which orbits are of one kind; its ends belong to its neighbours too.
+struct Stretch {
+    Look look;
+    std::vector<std::size_t> points;
+};
+
+/// Parts one after the other. What an orbit at a special point is like is a matter of round-off; so looks are those of
+/// the ordinary points around, and change at the first special point between those that differ.
+std::vector<Stretch> stretches_of(const std::vector<DrawnPoint>& points) {
+    std::vector<Stretch> stretches;
+    for (std::size_t i = 0; i < points.size();) {
+        std::size_t end = i + 1; // parts may have the same name, but steps are counted anew
+        while (end < points.size() && points[end].part == points[i].part && points[end].step >= points[end - 1].step)
+            ++end;
+        const auto next_ordinary = [&](std::size_t at) {
+            while (at < end && kind_of(points[at].type).changes)
+                ++at;
+            return at;
+        };
+        const std::size_t first = next_ordinary(i);
+        Look look = points[first < end ? first : i].look;
+        stretches.push_back({look, {i}});
+        for (std::size_t k = i + 1; k < end; ++k) {
+            stretches.back().points.push_back(k);
+            const std::size_t next = next_ordinary(k);
+            const Look coming = next < end ? points[next].look : points[k].look;
+            if (coming != look && k + 1 < end) {
+                look = coming;
+                stretches.push_back({look, {k}});
+            }
+        }
+        i = end;
+    }
+    return stretches;
+}
+
+/// Which labels matter most where there is no room for all: of points where the model's motions change, then others, of
+/// each those where other branches leave first; then those that the model does not follow.
+int rank_of(const DrawnPoint& point) {
+    const PointKind& kind = kind_of(point.type);
+    return (point.look == Look::unphysical ? 4 : 0) + (kind.changes || kind.limits ? 0 : 2) + (kind.leads_on ? 0 : 1);
+}
+
+/// Whether a point is marked: all those with a symbol are, unless types or labels are chosen.
+bool is_marked(const StudyPicture& picture, const DrawnPoint& point) {
+    const auto names = [&](std::string_view name) {
+        return std::find(picture.points.begin(), picture.points.end(), name) != picture.points.end();
+    };
+    return kind_of(point.type).mark != 0 &&
+           (picture.points.empty() || names(short_name(point.type)) || names(point.label) || names(point.name));
+}
+
+/// @param kept what it is a curve of; none: it is a branch, drawn by how stable orbits are
+/// @param owner what the branch is called, where there are several; empty: it is alone, and its labels are black
+void add_branch(FigurePanel& panel, const StudyPicture& picture, const std::vector<DrawnPoint>& points,
+                const std::optional<PointType>& kept, std::size_t value, std::size_t colour, const std::string& owner) {
+    const std::size_t labels = owner.empty() ? FigureSeries::black : colour;
+    // What is unphysical lies beneath.
+    const std::vector<Stretch> stretches = stretches_of(points);
+    for (const bool unphysical : {true, false})
+        for (const Stretch& stretch : stretches) {
+            if ((stretch.look == Look::unphysical) != unphysical || stretch.points.size() < 2)
+                continue;
+            FigureSeries series{
+                "", kept ? style_of(*kept) : style_of(stretch.look), unphysical ? FigureSeries::grey : colour, {}};
+            for (const std::size_t at : stretch.points) {
+                if (kind_of(points[at].type).limits) // other segments give greatest values from there on
+                    series.corners.push_back(series.points.size());
+                series.points.push_back({points[at].x, points[at].y[value]});
+                series.along.push_back(points[at].along);
+            }
+            panel.series.push_back(std::move(series));
+        }
+    std::set<int> symbols;
+    for (const DrawnPoint& point : points)
+        if (is_marked(picture, point))
+            symbols.insert(kind_of(point.type).mark);
+    for (const int symbol : symbols) {
+        FigureSeries series{"", FigureSeries::Style::symbols, colour, {}};
+        series.symbol = symbol;
+        for (const DrawnPoint& point : points)
+            if (kind_of(point.type).mark == symbol && is_marked(picture, point)) {
+                const PlanePoint here{point.x, point.y[value]};
+                series.points.push_back(here);
+                panel.labels.push_back({here, point.name, labels, rank_of(point), owner});
+            }
+        panel.series.push_back(std::move(series));
+    }
+    if (points.size() == 1)
+        panel.series.push_back({"", FigureSeries::Style::circles, colour, {{points[0].x, points[0].y[value]}}});
+}
+
+/// Runs that are called the same are one curve to the reader.
+std::vector<std::size_t> colours_of(const StudyPicture& picture, const std::vector<StoredRun>& runs) {
+    std::map<std::string, std::size_t> known;
+    std::vector<std::size_t> colours;
+    for (const StoredRun& run : runs)
+        colours.push_back(known.try_emplace(shown_name(picture, run.record.name), known.size()).first->second);
+    return colours;
+}
+
+/// Says what each symbol that is there means, and the letters of its labels.
+void add_symbols(FigurePanel& panel, const StudyPicture& picture, const std::vector<std::vector<DrawnPoint>>& points,
+                 std::size_t colour) {
+    std::set<PointType> types;
+    for (const std::vector<DrawnPoint>& of_run : points)
+        for (const DrawnPoint& point : of_run)
+            if (is_marked(picture, point))
+                types.insert(point.type);
+    for (const PointType type : types) {
+        const PointKind& kind = kind_of(type);
+        FigureSeries series{
+            fmt::format("{}: {}", kind.short_name, kind.name), FigureSeries::Style::symbols, colour, {}};
+        series.symbol = kind.mark;
+        series.only_in_legend = true;
+        panel.series.push_back(std::move(series));
+    }
+}
+
+/// What each style means of curves: several runs have it, and their names may not say.
+std::map<FigureSeries::Style, std::string> curve_styles(const std::vector<std::optional<PointType>>& kept) {
+    std::set<PointType> types;
+    for (const std::optional<PointType>& type : kept)
+        if (type)
+            types.insert(*type);
+    std::map<FigureSeries::Style, std::string> meanings;
+    if (types.size() < 2 || types.size() == kept.size()) // each style is that of one run
+        return meanings;
+    for (const PointType type : types) {
+        std::string& meaning = meanings[style_of(type)];
+        meaning += (meaning.empty() ? "" : ", ") + std::string(kind_of(type).name);
+    }
+    return meanings;
+}
+
+/// Says which colour is which run, and what the styles and symbols mean that are there.
+void add_legend(FigurePanel& panel, const StudyPicture& picture, const std::vector<StoredRun>& runs,
+                const std::vector<std::vector<DrawnPoint>>& points, const std::vector<std::optional<PointType>>& kept) {
+    const std::vector<std::size_t> colours = colours_of(picture, runs);
+    const auto add = [&](const std::string& title, FigureSeries::Style style, std::size_t colour) {
+        FigureSeries series{title, style, colour, {}};
+        series.only_in_legend = true;
+        panel.series.push_back(std::move(series));
+    };
+    if (runs.size() > 1)
+        for (std::size_t r = 0; r < runs.size(); ++r)
+            if (!points[r].empty())
+                add(shown_name(picture, runs[r].record.name), kept[r] ? style_of(*kept[r]) : FigureSeries::Style::line,
+                    colours[r]);
+    for (const auto& [style, meaning] : curve_styles(kept))
+        add(meaning, style, FigureSeries::black);
+    std::set<Look> shown;
+    for (std::size_t r = 0; r < runs.size(); ++r)
+        for (const Stretch& stretch : stretches_of(points[r]))
+            if (stretch.points.size() > 1 && (!kept[r] || stretch.look == Look::unphysical))
+                shown.insert(stretch.look);
+    const std::size_t colour = runs.size() > 1 ? FigureSeries::black : 0;
+    for (const auto& [look, name] : looks)
+        if (shown.contains(look))
+            add(name, style_of(look), look == Look::unphysical ? FigureSeries::grey : colour);
+    add_symbols(panel, picture, points, colour);
+}
+
+} // namespace
+
+Figure branch_picture(const StudyPicture& picture, const ResultFile& file) {
+    std::vector<StoredRun> runs;
+    for (const std::string& name : picture.runs) {
+        const StoredRun& run = runs.emplace_back(file, name, picture.place);
+        if (!run.record.is_branch())
+            throw InputError(picture.place, fmt::format("run '{}' is of kind {}, not a branch", name, run.record.kind),
+                             "leave the kind of picture out to have it drawn by its own kind");
+    }
+    const std::string x = picture.x.empty() ? first_coordinate(picture, runs.front()) : picture.x;
+    const std::vector<std::string> values = picture.y.empty() ? default_values(runs) : picture.y;
+    std::vector<std::vector<DrawnPoint>> points;
+    std::vector<std::optional<PointType>> kept;
+    for (const StoredRun& run : runs) {
+        points.push_back(points_of(run, picture, x, values));
+        kept.push_back(kept_of(run));
+        // Where a multiplier is 1 or -1 all along, stability says nothing.
+        for (DrawnPoint& point : points.back())
+            if (kept.back() && point.look == Look::unstable)
+                point.look = Look::stable;
+    }
+    Figure figure;
+    figure.columns = values.size() > 1 ? 2 : 1;
+    for (std::size_t v = 0; v < values.size(); ++v) {
+        FigurePanel panel = panel_of(picture, runs.front(), x, values[v], v);
+        panel.roomy_y = true;
+        if (values.size() > 1 || runs.size() == 1)
+            panel.title = (values.size() > 1 ? panel_letter(v) + " " : std::string()) +
+                          (runs.size() == 1 ? shown_name(picture, runs.front().record.name) : std::string());
+        const std::vector<std::size_t> colours = colours_of(picture, runs);
+        for (std::size_t r = 0; r < runs.size(); ++r)
+            add_branch(panel, picture, points[r], kept[r], v, colours[r],
+                       runs.size() > 1 ? shown_name(picture, runs[r].record.name) : "");
+        add_legend(panel, picture, runs, points, kept);
+        figure.panels.push_back(std::move(panel));
+    }
+    return figure;
+}
+
+} // namespace graze

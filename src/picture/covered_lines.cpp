@@ -1,0 +1,85 @@
+#include "picture/covered_lines.hpp"
+
+#include "picture/curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <unordered_set>
+
+namespace graze {
+
+namespace {
+
+constexpr double side = 0.4;    ///< of a square, in points: lines further apart than that are both seen
+constexpr double together = 30; ///< points for which lines must run along one another; such as cross do so for fewer
+constexpr double covered_share = 0.7; ///< of a line: of the others enough is seen
+constexpr std::size_t most_layers = 2;
+constexpr double longest = 1e5; ///< points: of a piece of a line that leaves the page
+
+using Squares = std::unordered_set<std::uint64_t>;
+
+bool is_line(const FigureSeries& series) {
+    using Style = FigureSeries::Style;
+    return series.style == Style::line || series.style == Style::dashed || series.style == Style::dotted;
+}
+
+/// Of a point of the page, whose coordinates are not negative.
+std::uint64_t square_at(const PlanePoint& point) {
+    return static_cast<std::uint64_t>(point.x / side) << 32 | static_cast<std::uint64_t>(point.y / side);
+}
+
+/// Calls `visit` with points of a line in the frame, one for each half of a square.
+template <class Visit>
+void walk(const FigureSeries& series, const FigurePanel& panel, const PanelLayout& layout, Visit visit) {
+    const Box& frame = layout.frame;
+    const auto place_of = [&](const PlanePoint& point) {
+        return PlanePoint{frame.left + layout.x.share(point.x) * frame.width(),
+                          frame.low + layout.y.share(point.y) * frame.height()};
+    };
+    const Polyline line = smoothed(series.points, series.along, series.corners);
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        if (!is_drawn(line[i - 1], panel) || !is_drawn(line[i], panel))
+            continue;
+        const PlanePoint from = place_of(line[i - 1]), to = place_of(line[i]);
+        const double length = std::min(std::hypot(to.x - from.x, to.y - from.y), longest);
+        const auto steps = static_cast<std::size_t>(length / (side / 2)) + 1;
+        for (std::size_t k = 0; k < steps; ++k) {
+            const double part = static_cast<double>(k) / static_cast<double>(steps);
+            const PlanePoint here{from.x + part * (to.x - from.x), from.y + part * (to.y - from.y)};
+            if (frame.holds(here))
+                visit(here);
+        }
+    }
+}
+
+} // namespace
+
+std::vector<std::size_t> covering_lines(const FigurePanel& panel, const PanelLayout& layout) {
+    std::vector<std::size_t> colours; // in the order in which they are drawn last
+    std::map<std::size_t, Squares> squares;
+    for (const FigureSeries& series : panel.series) {
+        if (!is_line(series) || series.points.empty())
+            continue;
+        std::erase(colours, series.colour);
+        colours.push_back(series.colour);
+        walk(series, panel, layout, [&](const PlanePoint& here) { squares[series.colour].insert(square_at(here)); });
+    }
+    std::map<std::size_t, std::size_t> covering;
+    for (std::size_t below = 0; below < colours.size(); ++below)
+        for (std::size_t above = below + 1; above < colours.size(); ++above) {
+            const Squares& over = squares[colours[above]];
+            const auto is_covered = [&](std::uint64_t square) { return over.contains(square); };
+            const Squares& under = squares[colours[below]];
+            const auto shared = static_cast<double>(std::count_if(under.begin(), under.end(), is_covered));
+            if (shared * side > together && shared > covered_share * static_cast<double>(under.size()))
+                ++covering[colours[below]];
+        }
+    std::vector<std::size_t> counts;
+    for (const FigureSeries& series : panel.series)
+        counts.push_back(is_line(series) ? std::min(covering[series.colour], most_layers) : 0);
+    return counts;
+}
+
+} // namespace graze

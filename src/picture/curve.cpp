@@ -1,0 +1,171 @@
+#include "picture/curve.hpp"
+
+#include "graze/base/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace graze {
+
+namespace {
+
+/// Distance of p from the stretch between a and b.
+double distance_from(PlanePoint p, PlanePoint a, PlanePoint b) {
+    const double dx = b.x - a.x, dy = b.y - a.y;
+    const double square = dx * dx + dy * dy;
+    double share = square > 0 ? ((p.x - a.x) * dx + (p.y - a.y) * dy) / square : 0;
+    share = std::clamp(share, 0.0, 1.0);
+    return std::hypot(p.x - a.x - share * dx, p.y - a.y - share * dy);
+}
+
+} // namespace
+
+Polyline simplified(std::span<const PlanePoint> line, double width, double height, double distance) {
+    if (line.size() < 3)
+        return {line.begin(), line.end()};
+    const auto scaled = [&](std::size_t i) { return PlanePoint{line[i].x / width, line[i].y / height}; };
+    std::vector<bool> kept(line.size(), false);
+    kept.front() = kept.back() = true;
+    std::vector<std::pair<std::size_t, std::size_t>> open{{0, line.size() - 1}};
+    while (!open.empty()) {
+        const auto [first, last] = open.back();
+        open.pop_back();
+        double furthest = distance;
+        std::size_t split = 0;
+        for (std::size_t i = first + 1; i < last; ++i) {
+            const double away = distance_from(scaled(i), scaled(first), scaled(last));
+            if (away > furthest) {
+                furthest = away;
+                split = i;
+            }
+        }
+        if (split == 0)
+            continue;
+        kept[split] = true;
+        open.emplace_back(first, split);
+        open.emplace_back(split, last);
+    }
+    Polyline result;
+    for (std::size_t i = 0; i < line.size(); ++i)
+        if (kept[i])
+            result.push_back(line[i]);
+    return result;
+}
+
+namespace {
+
+/// Of a coordinate at a point between two intervals with these lengths and slopes: zero at extrema.
+double slope_between(double length, double slope, double next_length, double next_slope) {
+    if (slope * next_slope <= 0)
+        return 0;
+    const double one = 2 * next_length + length, other = next_length + 2 * length;
+    return (one + other) / (one / slope + other / next_slope);
+}
+
+/// The same at an end: that of the parabola through three points, unless it turns the wrong way.
+double slope_at_end(double length, double slope, double next_length, double next_slope) {
+    const double parabola = ((2 * length + next_length) * slope - length * next_slope) / (length + next_length);
+    if (parabola * slope <= 0)
+        return 0;
+    constexpr double steepest = 3; // beyond, the cubic would overshoot (Fritsch and Carlson 1980)
+    return slope * next_slope < 0 && std::abs(parabola) > steepest * std::abs(slope) ? steepest * slope : parabola;
+}
+
+/// A piece of a curve without corners, all of whose points lie farther along than the one before.
+void add_smoothed(Polyline& result, std::span<const PlanePoint> line, std::span<const double> along) {
+    constexpr int parts = 8; // of each interval
+    const std::size_t count = line.size();
+    std::vector<PlanePoint> chords(count), slopes(count);
+    for (std::size_t i = 0; i + 1 < count; ++i) {
+        const double length = along[i + 1] - along[i];
+        chords[i] = {(line[i + 1].x - line[i].x) / length, (line[i + 1].y - line[i].y) / length};
+    }
+    slopes[0] = chords[0];
+    slopes[count - 1] = chords[count - 2];
+    if (count > 2) {
+        const auto at_end = [&](std::size_t i, std::size_t k, double length, double next) {
+            return PlanePoint{slope_at_end(length, chords[i].x, next, chords[k].x),
+                              slope_at_end(length, chords[i].y, next, chords[k].y)};
+        };
+        slopes[0] = at_end(0, 1, along[1] - along[0], along[2] - along[1]);
+        slopes[count - 1] =
+            at_end(count - 2, count - 3, along[count - 1] - along[count - 2], along[count - 2] - along[count - 3]);
+    }
+    for (std::size_t i = 1; i + 1 < count; ++i) {
+        const double length = along[i] - along[i - 1], next = along[i + 1] - along[i];
+        slopes[i] = {slope_between(length, chords[i - 1].x, next, chords[i].x),
+                     slope_between(length, chords[i - 1].y, next, chords[i].y)};
+    }
+    for (std::size_t i = 0; i + 1 < count; ++i) {
+        const double length = along[i + 1] - along[i];
+        for (int part = 1; part <= parts; ++part) {
+            const double t = static_cast<double>(part) / parts, u = 1 - t;
+            const auto cubic = [&](double PlanePoint::*c) {
+                return u * u * (1 + 2 * t) * line[i].*c + t * t * (1 + 2 * u) * line[i + 1].*c +
+                       length * t * u * (u * slopes[i].*c - t * slopes[i + 1].*c);
+            };
+            result.push_back(part == parts ? line[i + 1] : PlanePoint{cubic(&PlanePoint::x), cubic(&PlanePoint::y)});
+        }
+    }
+}
+
+} // namespace
+
+Polyline smoothed(std::span<const PlanePoint> line, std::span<const double> along,
+                  std::span<const std::size_t> corners) {
+    if (line.empty() || along.size() != line.size())
+        return {line.begin(), line.end()};
+    const auto is_whole = [&](std::size_t i) { // the interval behind a point
+        return std::isfinite(line[i].x) && std::isfinite(line[i].y) && std::isfinite(line[i + 1].x) &&
+               std::isfinite(line[i + 1].y) && along[i + 1] > along[i];
+    };
+    Polyline result{line[0]};
+    for (std::size_t first = 0; first + 1 < line.size();) {
+        std::size_t last = first + 1;
+        if (!is_whole(first)) {
+            result.push_back(line[last]);
+            first = last;
+            continue;
+        }
+        while (last + 1 < line.size() && is_whole(last) &&
+               std::find(corners.begin(), corners.end(), last) == corners.end())
+            ++last;
+        add_smoothed(result, line.subspan(first, last - first + 1), along.subspan(first, last - first + 1));
+        first = last;
+    }
+    return result;
+}
+
+void require_drawable(double low, double high, const std::string& name) {
+    const double size = std::max(std::abs(low), std::abs(high));
+    constexpr double largest = 1e280, smallest = 1e-280; // squares of their ratios are numbers still
+    if (!(size >= smallest && size <= largest && high > low))
+        throw InputError(fmt::format("the axis '{}' from {:.3g} to {:.3g} cannot be drawn", name, low, high),
+                         fmt::format("draw numbers between {:g} and {:g}, in another unit", smallest, largest));
+}
+
+Axis axis_for(double least, double greatest, int tics, double margin) {
+    if (!(least <= greatest))
+        return {};
+    double span = greatest - least;
+    const double size = std::max(std::abs(least), std::abs(greatest));
+    if (span <= 1e-9 * size || span == 0) { // a constant: room for its value in the middle
+        span = size > 0 ? 0.2 * size : 2;
+        least -= span / 2;
+        greatest += span / 2;
+    }
+    const double rough = span / tics;
+    const double power = std::pow(10, std::floor(std::log10(rough)));
+    const double lead = rough / power;
+    Axis axis;
+    axis.tic = power * (lead < 1.5 ? 1 : lead < 3.5 ? 2 : lead < 7.5 ? 5 : 10);
+    axis.low = least - margin * span;
+    axis.high = greatest + margin * span;
+    return axis;
+}
+
+} // namespace graze

@@ -1,0 +1,131 @@
+#include "graze/picture/fabrication_picture.hpp"
+
+#include "picture/gnuplot_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace graze {
+
+namespace {
+
+// Pixels, as all places on the page.
+constexpr double page_width = 1000, margin = 20, title_height = 26, section_height = 112, gap = 16, letter = 14;
+constexpr std::size_t columns = 2;
+
+struct MaterialLook {
+    ProcessMaterial material;
+    const char *name, *colour;
+};
+/// From the lowest to the uppermost; told apart in grey, too.
+constexpr std::array<MaterialLook, 4> looks{{{ProcessMaterial::silicon, "silicon", "#b8bec6"},
+                                             {ProcessMaterial::epoxy, "epoxy (SU-8)", "#3f7f4f"},
+                                             {ProcessMaterial::resist, "photoresist", "#e8a33d"},
+                                             {ProcessMaterial::aluminium, "aluminium", "#1c2f5c"}}};
+
+/// From the least to the greatest coordinate of all sections, so that all have one scale.
+struct Extent {
+    double left = 0, right = 0, low = 0, high = 0;
+};
+
+Extent extent_of(const std::vector<ProcessStep>& steps) {
+    Extent extent;
+    for (const ProcessStep& step : steps)
+        for (const ProcessSlab& slab : step.slabs) {
+            extent.left = std::min(extent.left, slab.left);
+            extent.right = std::max(extent.right, slab.right);
+            extent.low = std::min(extent.low, slab.low);
+            extent.high = std::max(extent.high, slab.high);
+        }
+    return extent;
+}
+
+class FabricationPicture {
+public:
+    explicit FabricationPicture(const std::vector<ProcessStep>& steps)
+        : steps_(&steps), extent_(extent_of(steps)), rows_((steps.size() + columns) / columns),
+          page_height_(static_cast<double>(rows_) * (title_height + section_height + gap) + 2 * margin) {}
+
+    std::string text(const std::string& ending, const std::string& output) {
+        for (std::size_t i = 0; i < steps_->size(); ++i)
+            draw((*steps_)[i], i);
+        write_legend(steps_->size());
+        const std::string font = fmt::format("font 'sans,{:.3g}'", ending == "pdf" ? 0.75 * letter : letter);
+        const std::string size =
+            ending == "pdf"
+                ? fmt::format("pdfcairo noenhanced size {:.3f}in,{:.3f}in", page_width / 96, page_height_ / 96)
+            : ending == "png"
+                ? fmt::format("pngcairo noenhanced size {:.0f},{:.0f} fontscale 1.5", 2 * page_width, 2 * page_height_)
+                : fmt::format("svg noenhanced size {:.0f},{:.0f} background rgb 'white'", page_width, page_height_);
+        return fmt::format("set terminal {} {}\nset output {}\nset encoding utf8\nunset key\nunset tics\nunset border\n"
+                           "set lmargin at screen 0\nset rmargin at screen 1\nset bmargin at screen 0\nset tmargin at "
+                           "screen 1\nset xrange [0:{}]\nset yrange [{}:0]\n{}plot NaN\nset output\n",
+                           size, font, quoted_path(output), page_width, page_height_, commands_);
+    }
+
+private:
+    /// Upper left corner of a step's place.
+    std::pair<double, double> corner(std::size_t place) const {
+        const double width = page_width / static_cast<double>(columns);
+        const std::size_t row = place / columns;
+        return {width * static_cast<double>(place % columns) + margin,
+                margin + static_cast<double>(row) * (title_height + section_height + gap)};
+    }
+    static double section_width() { return page_width / static_cast<double>(columns) - 2 * margin; }
+
+    void rectangle(double left, double top, double right, double bottom, const char* colour) {
+        // With an edge of its own colour, or seams would show where slabs touch.
+        commands_ += fmt::format("set object rectangle from {:.6g},{:.6g} to {:.6g},{:.6g} fc rgb '{}' fs solid border "
+                                 "lc rgb '{}' lw 0.3\n",
+                                 left, bottom, right, top, colour, colour);
+    }
+    void write(const std::string& what, double x, double y) {
+        commands_ += fmt::format("set label \"{}\" at {:.6g},{:.6g} left\n", plain(what), x, y);
+    }
+
+    void draw(const ProcessStep& step, std::size_t place) {
+        const auto [left, top] = corner(place);
+        const double across = section_width() / (extent_.right - extent_.left),
+                     up = section_height / (extent_.high - extent_.low), base = top + title_height + section_height;
+        write(step.text, left, top + title_height / 2);
+        for (const MaterialLook& look : looks)
+            for (const ProcessSlab& slab : step.slabs)
+                if (slab.material == look.material)
+                    rectangle(left + (slab.left - extent_.left) * across, base - (slab.high - extent_.low) * up,
+                              left + (slab.right - extent_.left) * across, base - (slab.low - extent_.low) * up,
+                              look.colour);
+    }
+
+    /// In the place after the last step.
+    void write_legend(std::size_t place) {
+        constexpr double box = 18, row = 25;
+        const auto [left, top] = corner(place);
+        double y = top + title_height / 2;
+        for (const MaterialLook& look : looks) {
+            rectangle(left, y - box / 2, left + 2 * box, y + box / 2, look.colour);
+            write(look.name, left + 3 * box, y);
+            y += row;
+        }
+        const double times =
+            section_height / (extent_.high - extent_.low) / (section_width() / (extent_.right - extent_.left));
+        write(fmt::format("heights {:.2g} times as large as lengths, films thicker than they are", times), left, y);
+    }
+
+    const std::vector<ProcessStep>* steps_;
+    Extent extent_;
+    std::size_t rows_;
+    double page_height_;
+    std::string commands_;
+};
+
+} // namespace
+
+std::string fabrication_picture_script(const std::vector<ProcessStep>& steps, const std::string& ending,
+                                       const std::string& output) {
+    return FabricationPicture(steps).text(ending, output);
+}
+
+} // namespace graze

@@ -1,0 +1,371 @@
+#include "picture/figure_layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace graze {
+
+namespace {
+
+constexpr double points_per_mm = 72 / 25.4;
+constexpr double usual_width = 170; ///< mm: that of a page's text
+constexpr double narrow = 120;      ///< mm: a column of text, for which letters are smaller
+constexpr double narrow_font = 8, usual_font = 9;
+constexpr double least_panel = 42;  ///< mm: of the axes of panels that stand beside one another
+constexpr double flat = 0.62;       ///< height of a panel, of its width
+constexpr double flattest = 0.38;   ///< where a picture has only one column
+constexpr double least_height = 30; ///< points: of panels, whatever height was asked for
+constexpr double sheet = 250;       ///< mm: pictures whose height nobody asked for go onto a sheet of A4
+constexpr double legible = 20;      ///< mm: of panels that are made less high for that
+
+// In sizes of the font.
+constexpr double line = 1.3, note_line = 1.25, margin = 0.6, tic_length = 0.45, gap_at_tic = 0.3, gap_of_panels = 1,
+                 title_size = 1.1;
+constexpr std::size_t most_title_lines = 3, most_note_lines = 3;
+
+double font_of(const FigureStyle& style, double width) {
+    if (style.font_size > 0)
+        return style.font_size;
+    return width < narrow ? narrow_font : std::max(usual_font, usual_font * width / usual_width);
+}
+
+Box box_of(const PlacedText& text) {
+    const double length = width_of(text.text) * text.size, height = text.size;
+    if (text.upright)
+        return Box::around(text.at, height, length);
+    const double left = text.align == PlacedText::Align::left     ? text.at.x
+                        : text.align == PlacedText::Align::centre ? text.at.x - length / 2
+                                                                  : text.at.x - length;
+    return {left, text.at.y - height / 2, left + length, text.at.y + height / 2};
+}
+
+bool is_one_word(const std::string& text) {
+    return text.find(' ') == std::string::npos;
+}
+
+/// What stands beside an axis: words and symbol, or less of it, so that it fits into two lines.
+std::vector<RichText> axis_label(const std::string& name, const std::string& words, const std::string& unit, int power,
+                                 double room, const std::vector<std::string>& symbols) {
+    RichText bracket, tail; // the same behind a blank
+    if (!unit.empty() || power != 0) {
+        bracket = rich("(") + (power != 0 ? rich_power(power) : RichText{}) +
+                  rich(power != 0 && !unit.empty() ? " " : "") + rich_unit(unit) + rich(")");
+        tail = rich(" ") + bracket;
+    }
+    const RichText symbol = is_one_word(name) ? rich_name(name) : rich_words(name, symbols);
+    const bool is_symbol = is_one_word(name) && !symbol.empty() && symbol.front().look == TextRun::Look::italic;
+    const RichText end = (is_symbol ? symbol : RichText{}) + tail;
+    if (words.empty() && width_of(symbol + tail) <= room)
+        return {symbol + tail};
+    const std::string text = words.empty() ? letters_of(symbol) : words;
+    if (!words.empty() || !is_symbol) {
+        const RichText blank = rich(is_symbol ? " " : "");
+        const auto with_end = [&](const std::string& words_before) {
+            return rich_words(words_before, symbols) + blank + end;
+        };
+        if (width_of(with_end(text)) <= room)
+            return {with_end(text)};
+        const std::vector<std::string> lines = wrapped_lines(text, room, 3);
+        if (lines.size() == 1 && width_of(end) <= room)
+            return {rich_words(lines[0], symbols), is_symbol ? end : bracket};
+        if (lines.size() == 2 && width_of(with_end(lines[1])) <= room)
+            return {rich_words(lines[0], symbols), with_end(lines[1])};
+    }
+    return {symbol + tail};
+}
+
+/// Works out the places of one figure.
+class Arrangement {
+public:
+    /// @param columns of panels, at most
+    Arrangement(const Figure& figure, std::size_t columns) : figure_(&figure) {
+        const double width = figure.style.width > 0 ? figure.style.width : usual_width;
+        page_.font = font_of(figure.style, width);
+        page_.width = width * points_per_mm;
+        page_.panels.resize(figure.panels.size());
+        titles_.resize(figure.panels.size());
+        x_labels_.resize(figure.panels.size());
+        y_labels_.resize(figure.panels.size());
+        notes_.resize(figure.panels.size());
+        reserved_.resize(figure.panels.size());
+        columns_ = std::clamp<std::size_t>(columns, 1, std::max<std::size_t>(1, figure.panels.size()));
+        while (columns_ > 1 && width / static_cast<double>(columns_) < least_panel + 3 * page_.font / points_per_mm)
+            --columns_;
+        rows_ = std::max<std::size_t>(1, (figure.panels.size() + columns_ - 1) / columns_);
+        frame_width_ = page_.width / static_cast<double>(columns_) - 6 * page_.font;
+        frame_height_ = usual_height();
+        collect_legends();
+    }
+
+    FigureLayout arrange() {
+        // Heights decide on numbers beside axes, these on widths, these on legends and heights; where labels find no
+        // room they are listed, which needs height too.
+        constexpr int rounds = 3;
+        for (int round = 0; round < rounds; ++round)
+            measure();
+        place_all();
+        while (needs_more_lines()) { // ends, for the room of lists only grows, and no list is longer than its names
+            for (int round = 0; round < rounds; ++round)
+                measure();
+            place_all();
+        }
+        for (std::size_t p = 0; p < page_.panels.size(); ++p)
+            write_notes(p);
+        return std::move(page_);
+    }
+    /// Whether panels are too flat to be read because so many stand below one another.
+    bool is_crowded() const { return crowded_; }
+    std::size_t columns() const { return columns_; }
+
+private:
+    double font() const { return page_.font; }
+    double usual_height() const {
+        const double part = columns_ == 1 && page_.width > narrow * points_per_mm && rows_ > 1 ? flattest
+                            : columns_ == 1 && page_.width > narrow * points_per_mm            ? 0.5
+                                                                                               : flat;
+        return part * frame_width_;
+    }
+
+    void collect_legends() {
+        bool shared = figure_->panels.size() > 1;
+        std::vector<std::vector<LegendEntry>> legends;
+        for (const FigurePanel& panel : figure_->panels)
+            legends.push_back(legend_entries(panel));
+        const auto all = shared ? joined_legend(legends) : std::nullopt;
+        shared = all.has_value();
+        if (shared)
+            page_.legend = *all;
+        for (std::size_t p = 0; p < legends.size() && !shared; ++p)
+            page_.panels[p].legend = legends[p];
+    }
+
+    std::size_t column_of(std::size_t panel) const { return panel % columns_; }
+    std::size_t row_of(std::size_t panel) const { return panel / columns_; }
+
+    double room_at_left(std::size_t p) const {
+        double numbers = 0;
+        for (const PanelAxis::Tic& tic : page_.panels[p].y.tics)
+            numbers = std::max(numbers, width_of(tic.text));
+        const double lines = static_cast<double>(y_labels_[p].size());
+        return font() * (numbers + gap_at_tic + tic_length + lines * line + 0.6);
+    }
+    double room_at_right(std::size_t p) const {
+        const std::vector<PanelAxis::Tic>& tics = page_.panels[p].x.tics;
+        return font() * (tics.empty() ? margin : margin + width_of(tics.back().text) / 2);
+    }
+    /// Texts that depend on how much room there is.
+    void write_labels(std::size_t p) {
+        const FigurePanel& panel = figure_->panels[p];
+        const double width = frame_width_ / font();
+        titles_[p] = wrapped_lines(panel.title, width, 2);
+        x_labels_[p] =
+            axis_label(panel.x_label, panel.x_words, panel.x_unit, page_.panels[p].x.power, width, figure_->symbols);
+        // Beside title and numbers below there is room for it as well.
+        const double height = (frame_height_ + 2 * std::min(room_above(p), room_of_axis(p))) / font();
+        y_labels_[p] =
+            axis_label(panel.y_label, panel.y_words, panel.y_unit, page_.panels[p].y.power, height, figure_->symbols);
+    }
+    double room_above(std::size_t p) const { return font() * (line * static_cast<double>(titles_[p].size()) + 0.5); }
+    /// Where a height was asked for, panels come first.
+    double room_of_notes(std::size_t p) const {
+        return note_line * legend_font(font()) * static_cast<double>(reserved_[p]);
+    }
+    /// What a panel says of itself, then what its labels' places do, as lines.
+    std::vector<std::string> notes_of(std::size_t p) const {
+        constexpr std::size_t most_on_given_height = 2;
+        std::vector<std::string> all = figure_->panels[p].notes;
+        const std::vector<std::string>& of_labels = page_.panels[p].labels.notes;
+        all.insert(all.end(), of_labels.begin(), of_labels.end());
+        std::vector<std::string> lines;
+        for (const std::string& note : all)
+            for (std::string& text :
+                 wrapped_lines(note, column_width(column_of(p)) / legend_font(font()), most_note_lines))
+                lines.push_back(std::move(text));
+        if (figure_->style.height > 0 && lines.size() > most_on_given_height) {
+            lines.resize(most_on_given_height);
+            lines.back() += "…";
+        }
+        return lines;
+    }
+    /// Takes over the notes that there are now. @return whether they need more room than is left for them
+    bool needs_more_lines() {
+        bool more = false;
+        for (std::size_t p = 0; p < page_.panels.size(); ++p) {
+            notes_[p] = notes_of(p);
+            more = more || notes_[p].size() > reserved_[p];
+            reserved_[p] = std::max(reserved_[p], notes_[p].size());
+        }
+        return more;
+    }
+    double room_of_axis(std::size_t p) const {
+        return font() * (tic_length + gap_at_tic + 1 + 0.2 + line * static_cast<double>(x_labels_[p].size()) + 0.2);
+    }
+
+    void measure() {
+        left_.assign(columns_, 0);
+        right_.assign(columns_, font() * margin);
+        above_.assign(rows_, 0);
+        below_.assign(rows_, 0);
+        for (std::size_t p = 0; p < page_.panels.size(); ++p) {
+            PanelLayout& panel = page_.panels[p];
+            panel.y = panel_axis(figure_->panels[p], false, frame_height_, font());
+            panel.x = panel_axis(figure_->panels[p], true, frame_width_, font());
+            write_labels(p);
+            left_[column_of(p)] = std::max(left_[column_of(p)], room_at_left(p));
+            right_[column_of(p)] = std::max(right_[column_of(p)], room_at_right(p));
+        }
+        const double beside = std::accumulate(left_.begin(), left_.end(), 0.0) +
+                              std::accumulate(right_.begin(), right_.end(), 0.0) + 2 * margin * font();
+        frame_width_ = std::max(least_height, (page_.width - beside) / static_cast<double>(columns_));
+        for (std::size_t p = 0; p < page_.panels.size(); ++p) {
+            PanelLayout& panel = page_.panels[p];
+            const double legend =
+                place_legend(panel.legend, 0, 0, column_width(column_of(p)), font(), figure_->symbols);
+            above_[row_of(p)] = std::max(above_[row_of(p)], room_above(p));
+            below_[row_of(p)] =
+                std::max(below_[row_of(p)], room_of_axis(p) + legend + room_of_notes(p) + gap_of_panels * font());
+        }
+        title_height_ = font() * (margin + title_size * line * static_cast<double>(figure_title().size()));
+        legend_height_ =
+            place_legend(page_.legend, margin * font(), 0, page_.width - 2 * margin * font(), font(), figure_->symbols);
+        const double around = title_height_ + legend_height_ + std::accumulate(above_.begin(), above_.end(), 0.0) +
+                              std::accumulate(below_.begin(), below_.end(), 0.0);
+        const auto height_on = [&](double page) {
+            return std::max(least_height, (page * points_per_mm - around) / static_cast<double>(rows_));
+        };
+        frame_height_ = usual_height();
+        if (figure_->style.height > 0)
+            frame_height_ = height_on(figure_->style.height);
+        else if (frame_height_ > height_on(sheet)) {
+            crowded_ = height_on(sheet) < legible * points_per_mm;
+            frame_height_ = std::min(usual_height(), std::max(height_on(sheet), legible * points_per_mm));
+        }
+        page_.height = around + static_cast<double>(rows_) * frame_height_;
+    }
+
+    std::vector<std::string> figure_title() const {
+        return wrapped_lines(figure_->title, (page_.width - 2 * margin * font()) / (title_size * font()),
+                             most_title_lines);
+    }
+    double column_width(std::size_t column) const { return left_[column] + frame_width_ + right_[column]; }
+
+    void place_all() {
+        write_title();
+        for (std::size_t p = 0; p < page_.panels.size(); ++p)
+            place(p);
+    }
+
+    void write_title() {
+        page_.title.clear();
+        double y = page_.height - font() * margin / 2;
+        for (const std::string& text : figure_title()) {
+            y -= title_size * line * font() / 2;
+            PlacedText placed{rich_words(text, figure_->symbols), {page_.width / 2, y}, title_size * font()};
+            placed.box = box_of(placed);
+            page_.title.push_back(placed);
+            y -= title_size * line * font() / 2;
+        }
+        place_legend(page_.legend, margin * font(), legend_height_ + 0.3 * font(), page_.width - 2 * margin * font(),
+                     font(), figure_->symbols);
+    }
+
+    void place(std::size_t p) {
+        PanelLayout& panel = page_.panels[p];
+        double left = margin * font(), top = page_.height - title_height_;
+        for (std::size_t c = 0; c < column_of(p); ++c)
+            left += column_width(c);
+        for (std::size_t r = 0; r < row_of(p); ++r)
+            top -= above_[r] + frame_height_ + below_[r];
+        Box& frame = panel.frame;
+        frame.left = left + left_[column_of(p)];
+        frame.right = frame.left + frame_width_;
+        frame.high = top - above_[row_of(p)];
+        frame.low = frame.high - frame_height_;
+        panel.texts.clear();
+        write(p);
+        place_legend(panel.legend, left, frame.low - room_of_axis(p), column_width(column_of(p)), font(),
+                     figure_->symbols);
+        panel.labels = place_labels(figure_->panels[p], frame, panel.x, panel.y, font());
+    }
+
+    /// Below the legend.
+    void write_notes(std::size_t p) {
+        PanelLayout& panel = page_.panels[p];
+        const double size = legend_font(font()), left = panel.frame.left - left_[column_of(p)];
+        double y = panel.frame.low - room_of_axis(p);
+        for (const LegendEntry& entry : panel.legend)
+            y = std::min(y, entry.box.low);
+        for (const std::string& text : notes_[p]) {
+            y -= note_line * size / 2;
+            PlacedText placed{rich_words(text, figure_->symbols), {left, y}, size, PlacedText::Align::left, false};
+            placed.box = box_of(placed);
+            panel.texts.push_back(placed);
+            y -= note_line * size / 2;
+        }
+    }
+
+    void add(PanelLayout& panel, const RichText& text, const PlanePoint& at, PlacedText::Align align, bool upright) {
+        PlacedText placed{text, at, font(), align, upright};
+        placed.box = box_of(placed);
+        panel.texts.push_back(placed);
+    }
+
+    /// Everything around the frame.
+    void write(std::size_t p) {
+        using Align = PlacedText::Align;
+        PanelLayout& panel = page_.panels[p];
+        const Box& frame = panel.frame;
+        const double middle = (frame.left + frame.right) / 2;
+        double y = frame.high + font() * (0.3 + line * (static_cast<double>(titles_[p].size()) - 0.5));
+        for (const std::string& text : titles_[p]) {
+            add(panel, rich_words(text, figure_->symbols), {middle, y}, Align::centre, false);
+            y -= line * font();
+        }
+        for (const PanelAxis::Tic& tic : panel.x.tics)
+            add(panel, tic.text,
+                {frame.left + panel.x.share(tic.value) * frame.width(),
+                 frame.low - font() * (tic_length + gap_at_tic + 0.5)},
+                Align::centre, false);
+        y = frame.low - font() * (tic_length + gap_at_tic + 1.2 + line / 2);
+        for (const RichText& text : x_labels_[p]) {
+            add(panel, text, {middle, y}, Align::centre, false);
+            y -= line * font();
+        }
+        for (const PanelAxis::Tic& tic : panel.y.tics)
+            add(panel, tic.text,
+                {frame.left - font() * (tic_length + gap_at_tic),
+                 frame.low + panel.y.share(tic.value) * frame.height()},
+                Align::right, false);
+        double x = frame.left - room_at_left(p) + font() * (line / 2 + 0.15);
+        for (const RichText& text : y_labels_[p]) {
+            add(panel, text, {x, (frame.low + frame.high) / 2}, Align::centre, true);
+            x += line * font();
+        }
+    }
+
+    const Figure* figure_;
+    FigureLayout page_;
+    std::size_t columns_ = 1, rows_ = 1;
+    double frame_width_ = 0, frame_height_ = 0, title_height_ = 0, legend_height_ = 0;
+    std::vector<double> left_, right_; ///< of each column: room beside its frames
+    std::vector<double> above_, below_;
+    bool crowded_ = false;
+    std::vector<std::vector<std::string>> titles_, notes_; ///< lines, of each panel
+    std::vector<std::size_t> reserved_;                    ///< room for so many lines of notes
+    std::vector<std::vector<RichText>> x_labels_, y_labels_;
+};
+
+} // namespace
+
+FigureLayout layout_of(const Figure& figure) {
+    for (std::size_t columns = std::max<std::size_t>(1, figure.columns);; ++columns) {
+        Arrangement arrangement(figure, columns);
+        FigureLayout layout = arrangement.arrange();
+        const bool wider = arrangement.is_crowded() && columns < figure.panels.size();
+        if (!wider || arrangement.columns() < columns) // a row has as many panels as are legible beside one another
+            return layout;
+    }
+}
+
+} // namespace graze

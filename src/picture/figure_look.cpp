@@ -1,0 +1,72 @@
+#include "picture/figure_look.hpp"
+
+#include "graze/picture/figure.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace graze {
+
+namespace {
+
+/// Those of Okabe and Ito (2008), which the colour-blind tell apart too, brown and grey in the place of yellow and
+/// black; then those of Tol's muted scheme (2021) that are unlike them.
+constexpr std::array<std::uint32_t, 16> palette{0x0072b2, 0xd55e00, 0x009e73, 0xe69f00, 0xcc79a7, 0x56b4e9,
+                                                0x7f4f24, 0x606060, 0x332288, 0x882255, 0x999933, 0x44aa99,
+                                                0xcc3311, 0xaa4499, 0x117733, 0xbbaa66};
+constexpr std::uint32_t light_grey = 0xb0b0b0;
+constexpr std::array<std::uint32_t, 2> line_shades{0x000000, 0x808080};
+constexpr std::array<std::uint32_t, 4> dot_shades{0x000000, 0x9a9a9a, 0x585858, 0xc4c4c4};
+constexpr std::array<std::uint32_t, 4> cell_shades{0x585858, 0xd8d8d8, 0x8c8c8c, 0xb4b4b4};
+constexpr std::array<int, 6> line_marks{5, 9, 7, 13, 11, 15}, circle_marks{6, 4, 8, 10, 12, 14}; // gnuplot's symbols
+
+/// Of more than the palette has the same, darker.
+std::uint32_t darker(std::uint32_t colour, std::size_t times) {
+    for (std::size_t i = 0; i < times; ++i)
+        colour =
+            (((colour >> 16) & 0xff) * 3 / 5) << 16 | (((colour >> 8) & 0xff) * 3 / 5) << 8 | (colour & 0xff) * 3 / 5;
+    return colour;
+}
+
+template <class Shades>
+std::uint32_t shade_of(std::size_t colour, const Shades& shades) {
+    if (colour == FigureSeries::grey)
+        return light_grey;
+    return colour == FigureSeries::black ? 0 : shades[colour % shades.size()];
+}
+
+} // namespace
+
+std::uint32_t colour_number(std::size_t colour, bool grey) {
+    if (grey || colour >= FigureSeries::grey)
+        return shade_of(colour, line_shades);
+    return darker(palette[colour % palette.size()], colour / palette.size() % 3);
+}
+
+std::uint32_t dot_number(std::size_t colour, bool grey) {
+    return grey ? shade_of(colour, dot_shades) : colour_number(colour);
+}
+
+std::uint32_t cell_number(std::size_t colour, bool grey) {
+    return grey ? shade_of(colour, cell_shades) : colour_number(colour);
+}
+
+std::string colour_text(std::size_t colour, bool grey) {
+    return fmt::format("#{:06x}", colour_number(colour, grey));
+}
+
+int line_mark(std::size_t colour) {
+    return colour == 0 || colour >= FigureSeries::grey ? 0 : line_marks[(colour - 1) % line_marks.size()];
+}
+
+int circle_mark(std::size_t colour) {
+    return colour >= FigureSeries::grey ? 6 : circle_marks[colour % circle_marks.size()];
+}
+
+int cell_hatch(std::size_t colour) {
+    constexpr std::size_t solid = cell_shades.size();
+    return colour < solid || colour >= FigureSeries::grey ? 0 : 1 + static_cast<int>((colour - solid) % 2);
+}
+
+} // namespace graze

@@ -1,0 +1,429 @@
+#include "graze/picture/figure_script.hpp"
+
+#include "graze/base/input_error.hpp"
+#include "picture/covered_lines.hpp"
+#include "picture/curve.hpp"
+#include "picture/dot_strokes.hpp"
+#include "picture/figure_layout.hpp"
+#include "picture/figure_look.hpp"
+#include "picture/figure_terminal.hpp"
+#include "picture/gnuplot_text.hpp"
+#include "picture/mingled_crosses.hpp"
+#include "picture/mingled_dots.hpp"
+#include "picture/page_line.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <utility>
+
+namespace graze {
+
+namespace {
+
+/// By how much of a panel's size a line may be moved.
+constexpr double unseen = 1e-4;
+
+bool draws_line(FigureSeries::Style style) {
+    return style == FigureSeries::Style::line || style == FigureSeries::Style::dashed ||
+           style == FigureSeries::Style::dotted;
+}
+
+/// Diameter of dots in points, where they are so many: all panels of a picture have the same.
+double dot_width(std::size_t dots, bool pixels) {
+    constexpr double largest = 2, few = 50, falling = 0.27;
+    return std::clamp(largest * std::pow(few / static_cast<double>(std::max<std::size_t>(dots, 1)), falling),
+                      pixels ? 0.36 : 0.5, largest);
+}
+
+/// Writes one figure in the language of gnuplot.
+class FigureScript {
+public:
+    FigureScript(const Figure& figure, const std::string& ending)
+        : figure_(&figure), page_(layout_of(figure)), terminal_(terminal_of(figure.style, page_, ending)),
+          symbol_(terminal_.point * mark_size(page_.font) / 4.5) {
+        std::size_t most = 0;
+        for (std::size_t p = 0; p < figure.panels.size(); ++p) {
+            dots_.push_back(mingled_dots(figure.panels[p], page_.panels[p]));
+            most = std::max(most, dots_.back().size());
+        }
+        dot_width_ = dot_width(most, terminal_.pixels) * stroke();
+    }
+
+    std::string text(const std::string& output) {
+        std::string text = "set terminal " + terminal_.command + '\n';
+        if (!terminal_.latex)
+            text += "set termoption enhanced\n";
+        text += "set output " + quoted_path(output) + "\nset encoding utf8\n";
+        text += "set tics out nomirror scale 0.6,0.35\nset border lw 0.8\nunset key\nset multiplot\n";
+        for (std::size_t p = 0; p < figure_->panels.size(); ++p) {
+            text += "unset arrow\nunset label\nunset object\n";
+            if (p == 0) {
+                for (const PlacedText& line : page_.title)
+                    text += text_command(line);
+                text += legend_commands(page_.legend);
+            }
+            text += panel_commands(p);
+        }
+        return text + "unset multiplot\nset output\n";
+    }
+
+private:
+    bool grey() const { return figure_->style.grey; }
+    /// How thick lines are, compared to those beside usual letters.
+    double stroke() const { return page_.font / font_of_strokes; }
+
+    std::string at(const PlanePoint& point) const {
+        return fmt::format("screen {:.6f},{:.6f}", point.x / page_.width, point.y / page_.height);
+    }
+
+    /// LaTeX is told the size of letters in the text: gnuplot's own would not reach it.
+    std::string text_of(const RichText& rich, double size) const {
+        const std::string text = terminal_.text(rich);
+        return terminal_.latex && size != page_.font
+                   ? fmt::format("\\\\fontsize{{{:.4g}}}{{{:.4g}}}\\\\selectfont{{}}{}", size, 1.2 * size, text)
+                   : text;
+    }
+
+    std::string text_command(const PlacedText& placed) const {
+        using Align = PlacedText::Align;
+        const char* align = placed.align == Align::left ? "left" : placed.align == Align::centre ? "center" : "right";
+        return fmt::format("set label \"{}\" at {} {}{} {}\n", text_of(placed.text, placed.size), at(placed.at), align,
+                           placed.upright ? " rotate by 90" : "", terminal_.font_text(placed.size));
+    }
+
+    static double line_width(const FigureSeries::Style style) {
+        return style == FigureSeries::Style::dotted || style == FigureSeries::Style::impulses ? 1.1 : 1.3;
+    }
+
+    /// @param over how many series lie on this one
+    std::string style_text(const FigureSeries& series, std::size_t over) const {
+        const auto wider = static_cast<double>(over);
+        const std::string colour = fmt::format("lc rgb '{}'", colour_text(series.colour, grey()));
+        switch (series.style) {
+        case FigureSeries::Style::dots:
+            return fmt::format("with points pt 7 ps {:.3g} {}", 0.17 * symbol_, colour);
+        case FigureSeries::Style::circles:
+            return fmt::format("with points pt {} ps {:.3g} lw 1.2 {}", grey() ? circle_mark(series.colour) : 6,
+                               circle_size(series.colour), colour);
+        case FigureSeries::Style::symbols: {
+            constexpr std::size_t many = 200; // beyond, thin small ones hide less of one another
+            constexpr std::size_t very_many = 1000;
+            const std::size_t count = series.points.size();
+            return fmt::format("with points pt {} ps {:.3g} lw {} {}", series.symbol,
+                               (count > very_many ? 0.35
+                                : count > many    ? 0.6
+                                                  : 1) *
+                                   symbol_,
+                               count > many ? 0.7 : 1.2, colour);
+        }
+        case FigureSeries::Style::impulses: // Spectra may coincide: the first are drawn wide, to be seen beside the
+                                            // others
+            return fmt::format("with linespoints pt 7 ps {:.3g} lw {:.3g} {}", (0.45 + 0.2 * wider) * symbol_,
+                               line_width(series.style) + 0.6 * wider, colour);
+        case FigureSeries::Style::cells:
+            return fmt::format("with boxxyerror {} lc rgb '#{:06x}'", fill_text(series.colour, series.hatch),
+                               cell_number(series.colour, grey()));
+        default: // each line on it leaves an edge of it
+            return fmt::format("with lines lw {:.3g} {}", line_width(series.style) + 1.6 * wider, colour);
+        }
+    }
+
+    /// How cells are filled: with a pattern, if the shade alone does not tell what they are.
+    std::string fill_text(std::size_t colour, int hatch) const {
+        const int pattern = hatch != 0 ? hatch : grey() ? cell_hatch(colour) : 0;
+        return pattern != 0 ? fmt::format("fs transparent pattern {} noborder", pattern) : "fs solid 1 noborder";
+    }
+
+    /// Circles of different colours may lie in one place, where each is to be seen.
+    double circle_size(std::size_t colour) const {
+        constexpr double wider = 0.4;
+        if (colour >= FigureSeries::grey)
+            return symbol_;
+        return symbol_ * (1 + wider * static_cast<double>(colour % 3));
+    }
+
+    /// A sample of each style, and what it is.
+    std::string legend_commands(const std::vector<LegendEntry>& legend) const {
+        std::string text;
+        for (const LegendEntry& entry : legend) {
+            const double y = (entry.box.low + entry.box.high) / 2;
+            if (entry.sampled)
+                text += sample_commands(entry, y);
+            text += fmt::format("set label \"{}\" at {} left {}\n", text_of(entry.text, legend_font(page_.font)),
+                                at({entry.title_left, y}), terminal_.font_text(legend_font(page_.font)));
+        }
+        return text;
+    }
+
+    std::string sample_commands(const LegendEntry& entry, double y) const {
+        using Style = FigureSeries::Style;
+        const double left = entry.box.left, right = left + entry.sample;
+        const PlanePoint middle{(left + right) / 2, y};
+        const std::string colour = colour_text(entry.colour, grey());
+        const auto point = [&](int symbol, double size) {
+            return fmt::format("set label \"\" at {} point pt {} ps {:.3g} lw 1.2 lc rgb '{}'\n", at(middle), symbol,
+                               size * symbol_, colour);
+        };
+        switch (entry.style) {
+        case Style::symbols:
+            return point(entry.symbol, 1);
+        case Style::circles:
+            return point(grey() ? circle_mark(entry.colour) : 6, 1);
+        case Style::dots:
+            return fmt::format("set label \"\" at {} point pt 7 ps {:.3g} lc rgb '#{:06x}'\n", at(middle), symbol_,
+                               dot_number(entry.colour, grey()));
+        case Style::cells: {
+            const double half = entry.sample / 2;
+            return fmt::format("set object rectangle from {} to {} noclip fc rgb '#{:06x}' {}\n", at({left, y - half}),
+                               at({right, y + half}), cell_number(entry.colour, grey()),
+                               fill_text(entry.colour, entry.hatch));
+        }
+        default: {
+            std::string text = line_sample(entry, y, colour);
+            if (const int mark = grey() ? line_mark(entry.colour) : 0; mark != 0)
+                text += point(mark, line_mark_size);
+            return text;
+        }
+        }
+    }
+
+    /// A line of a style, dash by dash.
+    std::string line_sample(const LegendEntry& entry, double y, const std::string& colour) const {
+        const double left = entry.box.left, right = left + entry.sample;
+        const bool whole = entry.style == FigureSeries::Style::line || entry.style == FigureSeries::Style::impulses;
+        const DashPattern pattern = whole ? DashPattern{entry.sample, 1} : dash_pattern(entry.style, stroke());
+        std::string text;
+        for (double x = left; x < right; x += pattern.length())
+            text += fmt::format("set arrow from {} to {} nohead lw {} lc rgb '{}'\n", at({x, y}),
+                                at({std::min(x + pattern.dash, right), y}), line_width(entry.style), colour);
+        return text;
+    }
+
+    std::string label_commands(const LabelPlaces& places) const {
+        std::string text;
+        for (const PlacedLabel& label : places.labels) {
+            const PlanePoint middle{(label.box.left + label.box.right) / 2, (label.box.low + label.box.high) / 2};
+            text += fmt::format("set label \"{}\" at {} center {} tc rgb '{}' front\n",
+                                text_of(rich(label.text), label_font(page_.font)), at(middle),
+                                terminal_.font_text(label_font(page_.font)),
+                                colour_text(grey() ? FigureSeries::black : label.colour));
+            if (label.led)
+                text += fmt::format("set arrow from {} to {} nohead lw 0.5 lc rgb '#606060' front\n",
+                                    at(label.leader_start), at(label.leader_end));
+        }
+        return text;
+    }
+
+    static std::string axis_commands(const char* name, const PanelAxis& axis) {
+        std::string tics;
+        for (const PanelAxis::Tic& tic : axis.tics)
+            tics += fmt::format("{}\"\" {:.12g}", tics.empty() ? "" : ", ", tic.value);
+        for (const double minor : axis.minor)
+            tics += fmt::format("{}\"\" {:.12g} 1", tics.empty() ? "" : ", ", minor);
+        return fmt::format("{1}set logscale {0}\nset {0}range [{2:.12g}:{3:.12g}]\nset {0}tics ({4})\n", name,
+                           axis.logarithmic ? "" : "un", axis.low, axis.high, tics);
+    }
+
+    std::string panel_commands(std::size_t number) const {
+        const PanelLayout& layout = page_.panels[number];
+        const Box& frame = layout.frame;
+        std::string text = fmt::format("set lmargin at screen {:.6f}\nset rmargin at screen {:.6f}\nset bmargin at "
+                                       "screen {:.6f}\nset tmargin at screen {:.6f}\n",
+                                       frame.left / page_.width, frame.right / page_.width, frame.low / page_.height,
+                                       frame.high / page_.height);
+        text += axis_commands("x", layout.x) + axis_commands("y", layout.y);
+        for (const PlacedText& placed : layout.texts)
+            text += text_command(placed);
+        text += legend_commands(layout.legend);
+        text += label_commands(layout.labels);
+        const std::string plots = plot_commands(number);
+        if (!plots.empty())
+            return text + plots;
+        return text + fmt::format("set label \"no data\" at {} center\nplot 1/0 notitle\n",
+                                  at({(frame.left + frame.right) / 2, (frame.low + frame.high) / 2}));
+    }
+
+    std::string plot_commands(std::size_t number) const {
+        const FigurePanel& panel = figure_->panels[number];
+        const PanelLayout& layout = page_.panels[number];
+        std::string plots, data;
+        // Inline data: what gnuplot calls blocks takes it quadratic time to read.
+        const auto add = [&](const std::string& points, const std::string& style) {
+            if (points.find_first_not_of('\n') == std::string::npos)
+                return;
+            data += points + "e\n";
+            plots += fmt::format("{}'-' {} notitle", plots.empty() ? "" : ", ", style);
+        };
+        const bool cells = std::any_of(panel.series.begin(), panel.series.end(),
+                                       [](const FigureSeries& series) { return !series.cells.empty(); });
+        const std::vector<std::size_t> covering = covering_lines(panel, layout);
+        bool dots = false;
+        for (const double mark : panel.marks)
+            add(line_text({{mark, layout.y.low}, {mark, layout.y.high}}, FigureSeries::Style::dotted, layout),
+                "with lines lw 0.5 lc rgb '#808080'");
+        for (std::size_t s = 0; s < panel.series.size(); ++s) {
+            const FigureSeries& series = panel.series[s];
+            if (series.style == FigureSeries::Style::dots) {
+                if (!dots)
+                    add_dots(number, add);
+                dots = true;
+                continue;
+            }
+            if (const std::size_t last = last_of_crosses(panel, s); last > s) {
+                FigureSeries part = series;
+                for (CrossLayer& layer : mingled_crosses(panel, s, last)) {
+                    part.points = std::move(layer.points);
+                    add(data_text(part, panel, layout), style_text(panel.series[layer.series], covering[layer.series]));
+                }
+                s = last;
+                continue;
+            }
+            if (cells && series.style == FigureSeries::Style::symbols) // seen on any colour
+                add(data_text(series, panel, layout),
+                    fmt::format("with points pt 7 ps {:.3g} lc rgb 'white'", 2 * symbol_));
+            add(data_text(series, panel, layout),
+                style_text(series,
+                           series.style == FigureSeries::Style::impulses ? panel.series.size() - 1 - s : covering[s]));
+            if (const int mark = grey() && draws_line(series.style) ? line_mark(series.colour) : 0; mark != 0)
+                add(marks_text(series, panel, layout),
+                    fmt::format("with points pt {} ps {:.3g} lc rgb '{}'", mark, line_mark_size * symbol_,
+                                colour_text(series.colour, true)));
+        }
+        return data.empty() ? "" : "plot " + plots + '\n' + data;
+    }
+
+    /// The points of a line that shows the same: of others so near that they are level gnuplot moves some to whole
+    /// dots, which is seen as a notch.
+    static Polyline thinned(const Polyline& line, const PanelLayout& layout) {
+        if (layout.x.logarithmic || layout.y.logarithmic)
+            return line;
+        return simplified(line, layout.x.high - layout.x.low, layout.y.high - layout.y.low, unseen);
+    }
+
+    /// Dashes are laid here, where those of lines that coincide can be made to coincide.
+    std::string line_text(const Polyline& line, FigureSeries::Style style, const PanelLayout& layout) const {
+        std::string text;
+        if (style == FigureSeries::Style::line) {
+            for (const PlanePoint& point : line)
+                text += fmt::format("{:.10g} {:.10g}\n", point.x, point.y);
+            return text;
+        }
+        for (const Polyline& dash : dashes_of(page_line(line, layout), dash_pattern(style, stroke()), layout.frame)) {
+            for (const PlanePoint& place : dash) {
+                const PlanePoint point = off_page(place, layout);
+                text += fmt::format("{:.10g} {:.10g}\n", point.x, point.y);
+            }
+            text += '\n';
+        }
+        return text;
+    }
+
+    static Polyline page_line(const Polyline& line, const PanelLayout& layout) {
+        Polyline placed;
+        for (const PlanePoint& point : line)
+            placed.push_back(on_page(point, layout));
+        return placed;
+    }
+
+    /// Symbols along a line, which tell it from others where there are no colours.
+    static std::string marks_text(const FigureSeries& series, const FigurePanel& panel, const PanelLayout& layout) {
+        constexpr double distance = 60, first = 12, later = 9; // points
+        std::string text;
+        Polyline piece;
+        const auto write = [&] {
+            const double start = first + later * static_cast<double>(series.colour % 6);
+            for (const PlanePoint& place : spread_along(page_line(piece, layout), distance, start, layout.frame)) {
+                const PlanePoint point = off_page(place, layout);
+                text += fmt::format("{:.10g} {:.10g}\n", point.x, point.y);
+            }
+            piece.clear();
+        };
+        for (const PlanePoint& point : smoothed(series.points, series.along, series.corners))
+            if (is_drawn(point, panel))
+                piece.push_back(point);
+            else
+                write();
+        write();
+        return text;
+    }
+
+    std::string data_text(const FigureSeries& series, const FigurePanel& panel, const PanelLayout& layout) const {
+        const bool line = draws_line(series.style);
+        std::string text;
+        for (const PlaneBox& cell : series.cells)
+            text += fmt::format("{:.10g} {:.10g} {:.10g} {:.10g} {:.10g} {:.10g}\n", (cell.left + cell.right) / 2,
+                                (cell.low + cell.high) / 2, cell.left, cell.right, cell.low, cell.high);
+        Polyline piece;
+        const auto write = [&] {
+            text += line ? line_text(thinned(piece, layout), series.style, layout)
+                         : line_text(piece, FigureSeries::Style::line, layout);
+            piece.clear();
+        };
+        for (const PlanePoint& point : smoothed(series.points, series.along, series.corners))
+            if (is_drawn(point, panel)) {
+                piece.push_back(point);
+            } else {
+                write();
+                text += '\n';
+            }
+        write();
+        return text;
+    }
+
+    /// @param add is given data and style
+    template <class Add>
+    void add_dots(std::size_t number, const Add& add) const {
+        constexpr std::size_t few = 1000;
+        const FigurePanel& panel = figure_->panels[number];
+        const std::vector<MingledDot>& dots = dots_[number];
+        if (dots.size() > few && !terminal_.pixels)
+            return add_strokes(number, add);
+        std::string text;
+        for (const MingledDot& dot : dots)
+            text += fmt::format("{:.7g} {:.7g} {}\n", dot.at.x, dot.at.y,
+                                dot_number(panel.series[dot.series].colour, grey()));
+        constexpr double of_pixel = 0.4; ///< points: such dots are as large as gnuplot's own, which are drawn fast
+        const std::string style =
+            terminal_.pixels && dot_width_ < of_pixel
+                ? "with dots"
+                : fmt::format("with points pt 7 ps {:.3g}", dot_width_ / mark_size(page_.font) * symbol_);
+        add(text, style + " lc rgb variable");
+    }
+
+    /// A file with each dot of a crowd would have tens of megabytes.
+    template <class Add>
+    void add_strokes(std::size_t number, const Add& add) const {
+        constexpr double of_unit = 0.75; ///< points: what is as wide as gnuplot's unit where lines are as usual
+        std::map<std::pair<std::size_t, std::size_t>, std::string> texts; // by layer, then by series
+        for (const DotStroke& stroke : dot_strokes(dots_[number], page_.panels[number], dot_width_))
+            texts[{stroke.layer, stroke.series}] +=
+                fmt::format("{:.7g} {:.7g}\n{:.7g} {:.7g}\n\n", stroke.from.x, stroke.from.y, stroke.to.x, stroke.to.y);
+        for (const auto& [key, text] : texts)
+            add(text, fmt::format("with lines lw {:.3g} lc rgb '#{:06x}'", dot_width_ / (of_unit * stroke()),
+                                  dot_number(figure_->panels[number].series[key.second].colour, grey())));
+    }
+
+    static constexpr double line_mark_size = 0.75; ///< of symbols along lines, compared to those of points
+    const Figure* figure_;
+    FigureLayout page_;
+    FigureTerminal terminal_;
+    double symbol_;                             ///< gnuplot's size of symbols
+    std::vector<std::vector<MingledDot>> dots_; ///< of each panel
+    double dot_width_ = 0;                      ///< points
+};
+
+} // namespace
+
+std::string figure_script(const Figure& figure, const std::string& ending, const std::string& output) {
+    return FigureScript(figure, ending).text(output);
+}
+
+std::vector<std::string> figure_endings() {
+    return {"svg", "png", "pdf", "eps", "tex"};
+}
+
+} // namespace graze

@@ -1,0 +1,74 @@
+#include "picture/gnuplot_text.hpp"
+
+#include "graze/base/input_error.hpp"
+#include "graze/base/printable.hpp"
+#include "picture/rich_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace graze {
+
+void require_quotable(const std::string& text) {
+    if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
+        throw InputError(fmt::format("'{}' cannot be written into a picture: it has control characters", text),
+                         "change the name, title or label");
+}
+
+std::string plain(const std::string& given) {
+    require_quotable(given);
+    const std::string text = printable_line(given); // what is no UTF-8, too
+    std::string result;
+    for (const char c : text) {
+        // By its code: in no other way do all versions leave it alone.
+        if (c == '`')
+            result += "\\140";
+        else if (c == '@')
+            result += "\\\\\\100";
+        else if (std::string_view("_^{}&~\\").find(c) != std::string_view::npos)
+            result += (c == '\\' ? "\\\\\\" : "\\\\") + std::string(1, c);
+        else
+            result += (c == '"' ? "\\" : "") + std::string(1, c);
+    }
+    return result;
+}
+
+std::string quoted_path(const std::string& path) {
+    require_quotable(path);
+    std::string result = "'";
+    for (const char c : path)
+        result += c == '\'' ? "''" : std::string(1, c);
+    return result + "'";
+}
+
+std::string unit_text(const std::string& unit) {
+    return gnuplot_markup(rich_unit(unit));
+}
+
+std::string name_text(const std::string& name) {
+    require_quotable(name);
+    return gnuplot_markup(rich_name(name));
+}
+
+std::string with_unit(const std::string& label, const std::string& unit) {
+    return unit.empty() ? label : firm_blanks(fmt::format("{} ({})", label, unit_text(unit)));
+}
+
+std::string firm_blanks(std::string markup) {
+    // librsvg drops every kind of blank at the end of a span, but not before a mark of no width.
+    const std::string blank = "\u00a0", mark = "\u200b";
+    for (const auto& [soft, firm] : {std::pair{std::string("} "), "}" + mark + blank}, {" {", blank + mark + "{"}})
+        for (std::size_t at = markup.find(soft); at != std::string::npos; at = markup.find(soft, at))
+            markup.replace(at, soft.size(), firm);
+    return markup;
+}
+
+std::string number_text(double value) {
+    return fmt::format("{:.10g}", value);
+}
+
+} // namespace graze

@@ -1,0 +1,359 @@
+#include "picture/label_places.hpp"
+
+#include "picture/curve.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+namespace graze {
+
+namespace {
+
+// In heights of a label.
+constexpr double letters_beyond = 0.25, gap_at_mark = 0.1;
+constexpr std::array<double, 14> distances{0, 0.1, 0.5, 0.8, 1.1, 1.4, 1.8, 2.3, 2.8, 3.4, 4, 4.7, 5.5, 6.5};
+constexpr double led_from = 0.3; ///< distance from which on a line is needed to see what belongs together
+constexpr std::size_t directions = 32;
+
+constexpr double cost_of_distance = 3, cost_of_curve = 8, cost_of_crossing = 0.5, cost_of_side = 0.3;
+constexpr double cost_of_any_curve = 35; ///< a longer leader is better than a label that a curve runs through
+constexpr std::size_t most_labels = 30, most_in_one = 3, most_listed = 40;
+constexpr double room_of_label = 8; ///< area of a panel for each label, in areas of labels with four letters
+// In diameters of a symbol.
+constexpr double as_one = 0.5;       ///< symbols this near cannot be told apart: they have one label
+constexpr double nearer = 0.2;       ///< by which a label is nearer to its own symbol than to any other
+constexpr double clear_of_led = 0.3; ///< between a label at the end of a line and symbols that it does not belong to
+
+double length_of(const PlanePoint& vector) {
+    return std::hypot(vector.x, vector.y);
+}
+
+/// Whether a line between two points runs through a box.
+bool crosses(const PlanePoint& from, const PlanePoint& to, const Box& box) {
+    return part_within(from, to, box).has_value();
+}
+
+bool lines_cross(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& d) {
+    const auto side = [](const PlanePoint& p, const PlanePoint& q, const PlanePoint& r) {
+        return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
+    };
+    return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
+}
+
+/// Where curves run: small squares of a panel, with sums over rectangles of them.
+class CurveMap {
+public:
+    explicit CurveMap(const Box& frame)
+        : frame_(frame), columns_(static_cast<std::size_t>(frame.width() / side) + 2),
+          rows_(static_cast<std::size_t>(frame.height() / side) + 2), cells_(columns_ * rows_, 0) {}
+
+    void add(const PlanePoint& point) {
+        if (frame_.holds(point))
+            cells_[index(column(point.x), row(point.y))] = 1;
+    }
+    void add_line(const PlanePoint& from, const PlanePoint& to) {
+        if (!crosses(from, to, frame_))
+            return;
+        const double length = std::min(length_of({to.x - from.x, to.y - from.y}), 1e5);
+        const auto steps = static_cast<std::size_t>(length / (0.5 * side)) + 1;
+        for (std::size_t i = 0; i <= steps; ++i) {
+            const double part = static_cast<double>(i) / static_cast<double>(steps);
+            add({from.x + part * (to.x - from.x), from.y + part * (to.y - from.y)});
+        }
+    }
+    void finish() {
+        sums_.assign((columns_ + 1) * (rows_ + 1), 0);
+        for (std::size_t r = 0; r < rows_; ++r)
+            for (std::size_t c = 0; c < columns_; ++c)
+                sums_[(r + 1) * (columns_ + 1) + c + 1] =
+                    cells_[index(c, r)] + sum(c, r + 1) + sum(c + 1, r) - sum(c, r);
+    }
+    /// How much of a box has curves, from 0 to 1.
+    double share(const Box& box) const {
+        const std::size_t left = column(box.left), right = column(box.right) + 1, low = row(box.low),
+                          high = row(box.high) + 1;
+        const int found = sum(right, high) - sum(left, high) - sum(right, low) + sum(left, low);
+        return static_cast<double>(found) / static_cast<double>((right - left) * (high - low));
+    }
+    bool is_taken(const PlanePoint& point) const { return cells_[index(column(point.x), row(point.y))] != 0; }
+
+private:
+    static constexpr double side = 2; ///< of a square, in points
+    std::size_t column(double x) const {
+        return static_cast<std::size_t>(std::clamp((x - frame_.left) / side, 0.0, static_cast<double>(columns_ - 1)));
+    }
+    std::size_t row(double y) const {
+        return static_cast<std::size_t>(std::clamp((y - frame_.low) / side, 0.0, static_cast<double>(rows_ - 1)));
+    }
+    std::size_t index(std::size_t column, std::size_t row) const { return row * columns_ + column; }
+    int sum(std::size_t column, std::size_t row) const { return sums_[row * (columns_ + 1) + column]; }
+
+    Box frame_;
+    std::size_t columns_, rows_;
+    std::vector<int> cells_, sums_;
+};
+
+/// Labels of one place.
+struct WantedLabel {
+    std::vector<const FigureLabel*> labels; ///< those of lower rank first; none twice
+    std::size_t colour = 0;
+    int rank = 0;
+    PlanePoint point{};
+};
+
+/// As it stands in a list under the picture.
+std::string listed_name(const FigureLabel& label) {
+    return label.owner.empty() ? label.text : fmt::format("{} ({})", label.text, label.owner);
+}
+
+std::vector<std::string> listed_names(const WantedLabel& wanted) {
+    std::vector<std::string> names;
+    for (const FigureLabel* label : wanted.labels)
+        names.push_back(listed_name(*label));
+    return names;
+}
+
+/// Each text once, though points of several curves may have it.
+std::vector<std::string> texts_of(const WantedLabel& wanted) {
+    std::vector<std::string> texts;
+    for (const FigureLabel* label : wanted.labels)
+        if (std::find(texts.begin(), texts.end(), label->text) == texts.end())
+            texts.push_back(label->text);
+    return texts;
+}
+
+/// What stands for names that are listed under the panel.
+std::string key_text(std::size_t number) {
+    return fmt::format("[{}]", number + 1);
+}
+
+/// From a box to a point outside of it.
+double distance_to(const Box& box, const PlanePoint& point) {
+    return std::hypot(std::max({box.left - point.x, point.x - box.right, 0.0}),
+                      std::max({box.low - point.y, point.y - box.high, 0.0}));
+}
+
+class LabelSearch {
+public:
+    LabelSearch(const FigurePanel& panel, const Box& frame, const PanelAxis& x, const PanelAxis& y, double font)
+        : frame_(frame), x_(&x), y_(&y), font_(label_font(font)), mark_(mark_size(font)), height_(1.2 * font_),
+          curves_(frame) {
+        for (const FigureSeries& series : panel.series)
+            add(series, panel);
+        for (const double mark : panel.marks)
+            curves_.add_line(place_of({mark, 0}, true), place_of({mark, 1}, true));
+        curves_.finish();
+    }
+
+    LabelPlaces find(const FigurePanel& panel) {
+        std::vector<WantedLabel> wanted = wanted_of(panel);
+        std::stable_sort(wanted.begin(), wanted.end(),
+                         [](const WantedLabel& a, const WantedLabel& b) { return a.rank < b.rank; });
+        const double room = frame_.width() * frame_.height() / (room_of_label * 2.8 * font_ * height_);
+        const std::size_t most = std::min(most_labels, static_cast<std::size_t>(room));
+        std::vector<std::string> omitted;
+        for (const WantedLabel& one : wanted) {
+            if (found_.labels.size() < most && place(one))
+                continue;
+            ++found_.omitted;
+            const std::vector<std::string> names = listed_names(one);
+            omitted.insert(omitted.end(), names.begin(), names.end());
+        }
+        list("without room for a label: ", std::move(omitted));
+        return std::move(found_);
+    }
+
+private:
+    PlanePoint place_of(const PlanePoint& point, bool vertical_share = false) const {
+        return {frame_.left + x_->share(point.x) * frame_.width(),
+                frame_.low + (vertical_share ? point.y : y_->share(point.y)) * frame_.height()};
+    }
+
+    void add(const FigureSeries& series, const FigurePanel& panel) {
+        using Style = FigureSeries::Style;
+        const bool symbols = series.style == Style::symbols || series.style == Style::circles;
+        const bool joined = !symbols && series.style != Style::dots;
+        bool begun = false;
+        PlanePoint last{};
+        for (const PlanePoint& point : smoothed(series.points, series.along, series.corners)) {
+            if (!is_drawn(point, panel)) {
+                begun = false;
+                continue;
+            }
+            const PlanePoint here = place_of(point);
+            if (symbols && frame_.holds(here))
+                found_.marks.push_back(Box::around(here, mark_, mark_));
+            curves_.add(here);
+            if (joined && begun)
+                curves_.add_line(last, here);
+            last = here;
+            begun = true;
+        }
+    }
+
+    void list(const std::string& what, std::vector<std::string> names) {
+        if (names.empty())
+            return;
+        std::string more;
+        if (names.size() > most_listed) {
+            more = fmt::format(", and {} more", names.size() - most_listed);
+            names.resize(most_listed);
+        }
+        found_.notes.push_back(fmt::format("{}{}{}", what, fmt::join(names, ", "), more));
+    }
+
+    std::vector<WantedLabel> wanted_of(const FigurePanel& panel) const {
+        std::vector<WantedLabel> wanted;
+        for (const FigureLabel& label : panel.labels) {
+            if (!is_drawn(label.at, panel) || label.text.empty())
+                continue;
+            const PlanePoint here = place_of(label.at);
+            if (!frame_.holds(here))
+                continue;
+            const auto same = std::find_if(wanted.begin(), wanted.end(), [&](const WantedLabel& one) {
+                return length_of({one.point.x - here.x, one.point.y - here.y}) < as_one * mark_;
+            });
+            if (same == wanted.end()) {
+                wanted.push_back({{&label}, label.colour, label.rank, here});
+                continue;
+            }
+            const bool known = std::any_of(same->labels.begin(), same->labels.end(), [&](const FigureLabel* other) {
+                return other->text == label.text && other->owner == label.owner;
+            });
+            if (!known)
+                same->labels.insert(label.rank < same->rank ? same->labels.begin() : same->labels.end(), &label);
+            if (label.colour != same->colour) // it belongs to none of the curves alone
+                same->colour = FigureSeries::black;
+            same->rank = std::min(same->rank, label.rank);
+        }
+        return wanted;
+    }
+
+    /// @return whether there is room
+    bool place(const WantedLabel& wanted) {
+        PlacedLabel label;
+        const std::vector<std::string> texts = texts_of(wanted);
+        const bool keyed = texts.size() > most_in_one;
+        label.text = keyed ? key_text(keys_) : fmt::format("{}", fmt::join(texts, ", "));
+        label.colour = wanted.colour;
+        label.point = wanted.point;
+        const double width = width_of(rich(label.text)) * font_ + letters_beyond * font_;
+        const double radius = mark_ / 2 + gap_at_mark * height_;
+        double least = std::numeric_limits<double>::infinity();
+        PlacedLabel best;
+        for (const double distance : distances)
+            for (std::size_t d = 0; d < directions; ++d) {
+                // Along a square, beginning at its upper right corner, where labels stand best.
+                const double angle = 2 * std::numbers::pi * (static_cast<double>(d) / directions + 0.125);
+                const double size = std::max(std::abs(std::cos(angle)), std::abs(std::sin(angle)));
+                const PlanePoint way{std::cos(angle) / size, std::sin(angle) / size};
+                const double away = radius + distance * height_;
+                label.box = Box::around(
+                    {label.point.x + way.x * (width / 2 + away), label.point.y + way.y * (height_ / 2 + away)}, width,
+                    height_);
+                label.led = distance > led_from;
+                lead(label, way);
+                const double cost = cost_of_distance * distance + cost_of_side * static_cast<double>(d) / directions;
+                if (cost >= least || !is_free(label))
+                    continue;
+                if (const double all = cost + cost_of(label); all < least) {
+                    least = all;
+                    best = label;
+                }
+            }
+        if (!std::isfinite(least))
+            return false;
+        found_.labels.push_back(best);
+        if (keyed) {
+            list(label.text + ": ", listed_names(wanted));
+            ++keys_;
+        }
+        return true;
+    }
+
+    /// From the edge of the symbol to the nearest point of the box.
+    void lead(PlacedLabel& label, const PlanePoint& way) const {
+        const Box& box = label.box;
+        label.leader_end = {std::clamp(label.point.x, box.left, box.right),
+                            std::clamp(label.point.y, box.low, box.high)};
+        const PlanePoint to{label.leader_end.x - label.point.x, label.leader_end.y - label.point.y};
+        const double length = std::max(length_of(to), 1e-9);
+        label.leader_start = {label.point.x + to.x * mark_ / 2 / length, label.point.y + to.y * mark_ / 2 / length};
+        if (length <= mark_ / 2)
+            label.leader_start = {label.point.x + way.x * mark_ / 2, label.point.y + way.y * mark_ / 2};
+    }
+
+    bool is_free(const PlacedLabel& label) const {
+        if (!frame_.grown(-1).holds(label.box))
+            return false;
+        for (const Box& mark : found_.marks)
+            if (label.box.meets(mark) || belongs_to(label, mark))
+                return false;
+        return std::none_of(found_.labels.begin(), found_.labels.end(), [&](const PlacedLabel& other) {
+            return label.box.meets(other.box) ||
+                   (other.led && crosses(other.leader_start, other.leader_end, label.box.grown(0.5))) ||
+                   (label.led && crosses(label.leader_start, label.leader_end, other.box.grown(0.5))) ||
+                   (label.led && other.led &&
+                    lines_cross(label.leader_start, label.leader_end, other.leader_start, other.leader_end));
+        });
+    }
+
+    /// Whether one who reads the picture could take the label for that of a symbol which is not its own.
+    bool belongs_to(const PlacedLabel& label, const Box& mark) const {
+        const PlanePoint middle{(mark.left + mark.right) / 2, (mark.low + mark.high) / 2};
+        if (length_of({middle.x - label.point.x, middle.y - label.point.y}) < as_one * mark_)
+            return false;
+        const double away = distance_to(label.box, middle);
+        if (!label.led)
+            return away < distance_to(label.box, label.point) + nearer * mark_;
+        return away < (0.5 + clear_of_led) * mark_ || crosses(label.leader_start, label.leader_end, mark);
+    }
+
+    double cost_of(const PlacedLabel& label) const {
+        const double share = curves_.share(label.box);
+        double cost = share > 0 ? cost_of_any_curve + cost_of_curve * std::min(1.0, 4 * share) : 0;
+        if (!label.led)
+            return cost;
+        constexpr int parts = 8;
+        for (int i = 2; i < parts; ++i) {
+            const double part = static_cast<double>(i) / parts;
+            cost += curves_.is_taken({label.leader_start.x + part * (label.leader_end.x - label.leader_start.x),
+                                      label.leader_start.y + part * (label.leader_end.y - label.leader_start.y)})
+                        ? cost_of_crossing
+                        : 0;
+        }
+        return cost;
+    }
+
+    Box frame_;
+    const PanelAxis *x_, *y_;
+    double font_, mark_, height_;
+    CurveMap curves_;
+    std::size_t keys_ = 0; ///< that stand for names in the list
+    LabelPlaces found_;
+};
+
+} // namespace
+
+double mark_size(double font) {
+    return 0.55 * font;
+}
+
+double label_font(double font) {
+    return 0.85 * font;
+}
+
+LabelPlaces place_labels(const FigurePanel& panel, const Box& frame, const PanelAxis& x, const PanelAxis& y,
+                         double font) {
+    LabelSearch search(panel, frame, x, y, font);
+    return search.find(panel);
+}
+
+} // namespace graze

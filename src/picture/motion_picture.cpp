@@ -1,0 +1,240 @@
+#include "picture/picture_kinds.hpp"
+
+#include "graze/study/point_motion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace graze {
+
+namespace {
+
+/// The picture once for each point that it shows.
+std::vector<StudyPicture> one_for_each_point(const StudyPicture& picture) {
+    std::vector<StudyPicture> chosen;
+    for (const auto& at : picture.at) {
+        chosen.push_back(picture);
+        chosen.back().at = {at};
+    }
+    if (chosen.empty())
+        chosen.push_back(picture);
+    return chosen;
+}
+
+std::string title_of(const StudyPicture& one, const StoredRun& run, const PointRecord& point) {
+    std::string title = one.at.empty() ? shown_name(one, run.record.name)
+                                       : shown_value(one, run, one.at.front().first, one.at.front().second);
+    if (point.result.label == Label::periodic)
+        title += fmt::format(": period {}", point.result.period);
+    else if (run.record.kind != "simulate" && run.record.kind != "record")
+        title += fmt::format(": {}", name_of(point.result.label));
+    return title;
+}
+
+/// Rows of a record as a line, no more of them than can be seen: of a history in a thousand parts the first, least,
+/// greatest and last of each, otherwise the last ones.
+std::vector<PlanePoint> seen_rows(std::vector<PlanePoint> points, const StudyPicture& picture, bool portrait) {
+    constexpr std::size_t parts = 1000, most_of_portrait = 20'000;
+    if (!portrait && picture.x_range)
+        std::erase_if(points, [&](const PlanePoint& point) {
+            return point.x < picture.x_range->first || point.x > picture.x_range->second;
+        });
+    if (portrait) {
+        if (points.size() > most_of_portrait)
+            points.erase(points.begin(), points.end() - static_cast<std::ptrdiff_t>(most_of_portrait));
+        return points;
+    }
+    if (points.size() <= 4 * parts)
+        return points;
+    std::vector<PlanePoint> seen;
+    for (std::size_t part = 0; part < parts; ++part) {
+        const std::size_t first = part * points.size() / parts, last = (part + 1) * points.size() / parts - 1;
+        std::size_t least = first, greatest = first;
+        for (std::size_t i = first; i <= last; ++i) {
+            least = points[i].y < points[least].y ? i : least;
+            greatest = points[i].y > points[greatest].y ? i : greatest;
+        }
+        std::size_t before = points.size();
+        for (const std::size_t i : {first, std::min(least, greatest), std::max(least, greatest), last})
+            if (i != before) {
+                seen.push_back(points[i]);
+                before = i;
+            }
+    }
+    return seen;
+}
+
+/// The curve through rows of a motion, interrupted where another arc begins and where a phase begins anew.
+std::vector<PlanePoint> curve_of(const DenseMotion& motion, std::size_t value) {
+    constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+    const std::vector<double>&xs = motion.values[0], &ys = motion.values[value];
+    const auto wraps = [](double from, double to, double period) {
+        return period > 0 && std::abs(to - from) > period / 2;
+    };
+    std::vector<PlanePoint> points;
+    std::size_t arc = 0;
+    for (std::size_t i = 0; i < xs.size(); ++i) {
+        const bool begins = arc < motion.begins.size() && motion.begins[arc] == i;
+        arc += begins ? 1 : 0;
+        if (i > 0 &&
+            (begins || wraps(xs[i - 1], xs[i], motion.periods[0]) || wraps(ys[i - 1], ys[i], motion.periods[value])))
+            points.push_back({nothing, nothing});
+        points.push_back({xs[i], ys[i]});
+    }
+    return points;
+}
+
+/// From just before each jump to just after it, where these are different points of the panel.
+std::vector<PlanePoint> jumps_of(const DenseMotion& motion, std::size_t value) {
+    constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+    const std::vector<double>&xs = motion.values[0], &ys = motion.values[value];
+    std::vector<PlanePoint> points;
+    for (const std::size_t row : motion.begins)
+        if (row > 0 && motion.periods[0] == 0 && motion.periods[value] == 0 &&
+            (xs[row] != xs[row - 1] || ys[row] != ys[row - 1]))
+            points.insert(points.end(), {{xs[row - 1], ys[row - 1]}, {xs[row], ys[row]}, {nothing, nothing}});
+    return points;
+}
+
+/// Adds the motions of points, one after the other.
+class MotionPanels {
+public:
+    MotionPanels(const StudyPicture& picture, MotionView view)
+        : picture_(&picture), view_(view), portrait_(view != MotionView::history) {}
+
+    void add(const StoredRun& run, const StudyPicture& one) {
+        const std::vector<std::string> values = chosen_values(*picture_, run);
+        const std::string x = !portrait_ ? "t" : picture_->x.empty() ? values.front() : picture_->x;
+        const PointRecord point = chosen_point(run, one.at, one.directions, one.place);
+        if (!shown_.insert({run.record.name, point.number}).second)
+            return; // nearest to two of the places asked for
+        const bool curve =
+            view_ != MotionView::section && (run.record.kind == "simulate" || point.result.label == Label::periodic);
+        std::vector<std::string> names{x};
+        for (const std::string& value : values)
+            if (!portrait_ || picture_->x.empty() ? value != x : true)
+                names.push_back(value);
+        if (portrait_ && names.size() < 2)
+            throw InputError(picture_->place, fmt::format("run '{}' has only the value '{}'", run.record.name, x),
+                             "name two values, one as x and one as y");
+        DenseMotion motion;
+        if (curve)
+            motion = dense_motion(run, point, names, picture_->place, portrait_ ? WhenLong::last : WhenLong::coarser);
+        const std::string title = title_of(one, run, point);
+        for (std::size_t v = 1; v < names.size(); ++v) {
+            FigurePanel& panel = panel_for(run, x, names[v], v - 1, title);
+            if (curve)
+                add_curve(panel, motion, v, title, run.model.time_unit);
+            add_samples(panel, run, point, x, names[v],
+                        curve ? FigureSeries::Style::circles : FigureSeries::Style::dots);
+        }
+        ++colour_;
+    }
+    /// From now on what comes is drawn over the panels that there are.
+    void draw_over() { over_ = true; }
+    Figure take() {
+        figure_.columns = portrait_ && figure_.panels.size() > 1 ? 2 : 1;
+        return std::move(figure_);
+    }
+
+private:
+    /// Whether panels say above themselves what they show; the legend does where others lie over it.
+    bool is_titled() const { return portrait_ && picture_->over.empty(); }
+    /// A new one in portraits; in histories that of the value.
+    FigurePanel& panel_for(const StoredRun& run, const std::string& x, const std::string& y, std::size_t value,
+                           const std::string& title) {
+        const std::size_t index = portrait_ && !over_ ? figure_.panels.size() : value;
+        if (index >= figure_.panels.size()) {
+            figure_.panels.push_back(panel_of(*picture_, run, x, y, value));
+            figure_.panels.back().roomy_y = true;
+            figure_.panels.back().roomy_x = portrait_;
+            if (is_titled())
+                figure_.panels.back().title = fmt::format("{} {}", panel_letter(index), title);
+        }
+        return figure_.panels[index];
+    }
+    void add_curve(FigurePanel& panel, const DenseMotion& motion, std::size_t value, const std::string& title,
+                   const std::string& time_unit) const {
+        constexpr std::size_t most_marked = 2000; // of more, marks hide the curve
+        const std::size_t colour = portrait_ && !over_ ? 7 : colour_;
+        panel.series.push_back({is_titled() ? "" : title, FigureSeries::Style::line, colour, curve_of(motion, value)});
+        panel.series.push_back({"jump", FigureSeries::Style::dotted, FigureSeries::black, jumps_of(motion, value)});
+        FigureSeries impacts{"impact", FigureSeries::Style::symbols, FigureSeries::black, {}};
+        for (const std::size_t row : motion.impacts)
+            impacts.points.push_back({motion.values[0][row], motion.values[value][row]});
+        if (impacts.points.size() <= most_marked)
+            panel.series.push_back(std::move(impacts));
+        else
+            panel.notes.push_back(fmt::format("{} impacts are not marked", impacts.points.size() / 2));
+        if (motion.start > 0)
+            panel.notes.push_back(
+                fmt::format("from t = {:.6g}{}{} on", motion.start, time_unit.empty() ? "" : " ", time_unit));
+    }
+    void add_samples(FigurePanel& panel, const StoredRun& run, const PointRecord& point, const std::string& x,
+                     const std::string& y, FigureSeries::Style style) const {
+        const auto samplings = shown_samplings(*picture_, run), rows = row_samplings(run);
+        std::size_t points = 0; // samplings that are circles: lines through rows do not count among their colours
+        for (std::size_t s = 0; s < samplings.size(); ++s) {
+            std::vector<double> times;
+            const auto ys = samples_of(point, run, y, samplings[s], &times);
+            const auto xs = portrait_ ? samples_of(point, run, x, samplings[s], nullptr) : times;
+            const bool is_record = std::find(rows.begin(), rows.end(), samplings[s]) != rows.end();
+            const bool is_line = is_record && !over_; // what was measured lies over a curve as dots
+            const bool is_point = run.record.kind == "record" && !is_record;
+            FigureSeries series{is_record               ? shown_name(*picture_, run.record.name)
+                                : portrait_ || is_point ? shown_name(*picture_, samplings[s])
+                                                        : "",
+                                is_line     ? FigureSeries::Style::line
+                                : is_record ? FigureSeries::Style::dots
+                                : is_point  ? FigureSeries::Style::circles
+                                            : style,
+                                portrait_ && !over_ ? is_line ? 7 : points
+                                : is_point          ? colour_ + 1 + points
+                                                    : colour_,
+                                {}};
+            points += is_record ? 0 : 1;
+            for (std::size_t i = 0; i < std::min(xs.size(), ys.size()); ++i)
+                series.points.push_back({xs[i], ys[i]});
+            if (is_record)
+                series.points = seen_rows(std::move(series.points), *picture_, portrait_);
+            // On the lines of a history circles have the lines' colours; the legend says once what they are.
+            const bool on_line = !portrait_ && run.record.kind != "record" && !series.points.empty();
+            panel.series.push_back(std::move(series));
+            if (on_line) {
+                FigureSeries meaning{shown_name(*picture_, samplings[s]), style, FigureSeries::black, {}};
+                meaning.only_in_legend = true;
+                panel.series.push_back(std::move(meaning));
+            }
+        }
+    }
+
+    const StudyPicture* picture_;
+    MotionView view_;
+    bool portrait_, over_ = false;
+    std::set<std::pair<std::string, std::size_t>> shown_; ///< runs and points
+    Figure figure_;
+    std::size_t colour_ = 0;
+};
+
+} // namespace
+
+Figure motion_picture(const StudyPicture& picture, const ResultFile& file, MotionView view) {
+    MotionPanels panels(picture, view);
+    const auto add = [&](const std::vector<std::string>& names) {
+        for (const std::string& name : names) {
+            const StoredRun run(file, name, picture.place);
+            for (const StudyPicture& one : one_for_each_point(picture))
+                panels.add(run, one);
+        }
+    };
+    add(picture.runs);
+    panels.draw_over();
+    add(picture.over);
+    return panels.take();
+}
+
+} // namespace graze

@@ -1,0 +1,291 @@
+#include "graze/results/name_advice.hpp"
+#include "graze/results/orbit_motion.hpp"
+#include "graze/results/quantity_evaluator.hpp"
+#include "graze/results/stored_orbit.hpp"
+#include "graze/study/plain_states.hpp"
+#include "graze/symbolic/function.hpp"
+#include "picture/picture_kinds.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace graze {
+
+namespace {
+
+constexpr std::size_t drawn_samples = 2000, most_default_orbits = 6;
+constexpr PlanePoint interruption{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
+
+std::size_t nearest_number(const StoredRun& run, const StudyPicture& picture,
+                           const std::pair<std::string, double>& at) {
+    const std::vector<std::string> known = run.coordinate_names();
+    if (std::find(known.begin(), known.end(), at.first) == known.end())
+        throw InputError(picture.place, fmt::format("run '{}' has no parameter '{}'", run.record.name, at.first),
+                         name_advice(at.first, known, "it has none"));
+    const auto number = run.nearest({at}, picture.directions);
+    if (!number)
+        throw InputError(picture.place, fmt::format("run '{}' has no such orbit", run.record.name),
+                         "run the study first, or choose another direction");
+    return *number;
+}
+
+/// Those asked for, or the first few at which something happens.
+std::vector<OrbitRecord> shown_orbits(const ResultFile& file, const StoredRun& run, const StudyPicture& picture) {
+    std::vector<OrbitRecord> orbits;
+    for (const std::string& point : picture.points)
+        orbits.push_back(orbit_of_run(file, run.record, point, picture.place));
+    for (const auto& at : picture.at)
+        orbits.push_back(*file.orbit(run.record.name, nearest_number(run, picture, at)));
+    if (!orbits.empty())
+        return orbits;
+    for (OrbitRecord& record : file.orbits(run.record.name, true))
+        if (record.point.type != PointType::end && record.point.type != PointType::bound &&
+            orbits.size() < most_default_orbits)
+            orbits.push_back(std::move(record));
+    if (orbits.empty())
+        orbits = file.orbits(run.record.name, false);
+    if (orbits.empty())
+        throw InputError(picture.place, fmt::format("run '{}' has no orbits yet", run.record.name),
+                         "run the study first");
+    if (run.record.is_followed() && orbits.front().point.type == PointType::end)
+        orbits.erase(orbits.begin(), orbits.end() - 1);
+    return orbits;
+}
+
+/// What the axes show: x first.
+struct Axes {
+    std::vector<NamedValue> values;
+    std::vector<double> periods; ///< of cyclic states, over whose ends no line is drawn; 0 for others
+    bool over_time = false;
+};
+
+Axes axes_of(const Model& model, const StudyPicture& picture, bool portrait) {
+    Axes axes;
+    std::vector<std::string> names = picture.y, pair = default_portrait(model);
+    axes.over_time = !portrait || picture.x == "t" || (picture.x.empty() && names.empty() && pair.empty());
+    if (names.empty() && axes.over_time)
+        names = plain_states(model);
+    else if (names.empty() && !pair.empty())
+        names = {picture.x == pair[1] ? pair[0] : pair[1]};
+    if (names.empty())
+        throw InputError(picture.place, "nothing says what to draw", "name states or expressions by --y");
+    if (!axes.over_time)
+        names.insert(names.begin(), !picture.x.empty() ? picture.x : pair.empty() ? model.states[0].name : pair[0]);
+    for (const std::string& name : names) {
+        axes.values.push_back(named_value(model, name, picture.place));
+        const auto state = model.find_state(name);
+        const bool cyclic = state && model.states[*state].period;
+        axes.periods.push_back(cyclic ? model.periods()[*state] : 0);
+    }
+    return axes;
+}
+
+/// An orbit's motion with the values that are drawn.
+struct DrawnOrbit {
+    OrbitRecord record;
+    std::vector<SegmentMotion> motion;
+    std::vector<std::vector<std::vector<double>>> values; ///< [segment][value][row]
+    Model model;
+    Axes axes;
+};
+
+DrawnOrbit drawn_orbit(const StoredRun& run, OrbitRecord record, const StudyPicture& picture, bool portrait) {
+    const Orbit orbit = whole_orbit(System(run.model), record.point.solution.orbit);
+    DrawnOrbit drawn{
+        std::move(record), orbit_motion(run.model, orbit, drawn_samples), {}, model_at(run.model, orbit), {}};
+    drawn.axes = axes_of(drawn.model, picture, portrait);
+    QuantityEvaluator evaluate(drawn.model, drawn.axes.values);
+    for (const SegmentMotion& segment : drawn.motion) {
+        auto& columns = drawn.values.emplace_back(drawn.axes.values.size());
+        for (const std::vector<double>& state : segment.states) {
+            const std::span<const double> row = evaluate(state);
+            for (std::size_t v = 0; v < row.size(); ++v)
+                columns[v].push_back(row[v]);
+        }
+    }
+    return drawn;
+}
+
+/// One panel's curves: a value over time, or over the first.
+class OrbitCurves {
+public:
+    OrbitCurves(const DrawnOrbit& orbit, std::size_t value) : orbit_(orbit), value_(value) {}
+
+    PlanePoint at(std::size_t segment, std::size_t row) const {
+        const auto& columns = orbit_.values[segment];
+        return {orbit_.axes.over_time ? orbit_.motion[segment].times[row] : columns[0][row], columns[value_][row]};
+    }
+    std::vector<PlanePoint> line(std::size_t segment) const {
+        std::vector<PlanePoint> points;
+        for (std::size_t row = 0; row < orbit_.motion[segment].times.size(); ++row) {
+            const PlanePoint here = at(segment, row);
+            if (!points.empty() && comes_round(points.back(), here))
+                points.push_back(interruption);
+            points.push_back(here);
+        }
+        return points;
+    }
+    /// From the end of each segment to the start of the next, where that is elsewhere: by more than the error of the
+    /// orbit.
+    std::vector<PlanePoint> jumps() const {
+        constexpr double unseen = 1e-5;
+        std::vector<PlanePoint> points;
+        const std::size_t count = orbit_.motion.size();
+        const PlanePoint size = extent();
+        for (std::size_t s = 0; s < count; ++s) {
+            const std::size_t next = (s + 1) % count;
+            if ((orbit_.axes.over_time && next == 0) || orbit_.motion[s].times.empty() ||
+                orbit_.motion[next].times.empty())
+                continue;
+            const PlanePoint before = at(s, orbit_.motion[s].times.size() - 1), after = at(next, 0);
+            const bool seen =
+                std::abs(after.x - before.x) > unseen * size.x || std::abs(after.y - before.y) > unseen * size.y;
+            if (seen && !comes_round(before, after))
+                points.insert(points.end(), {before, after, interruption});
+        }
+        return points;
+    }
+    /// Where a segment ends by an event, rather than a section.
+    std::vector<PlanePoint> events(const Signature& signature) const {
+        std::vector<PlanePoint> points;
+        for (std::size_t s = 0; s < std::min(signature.size(), orbit_.motion.size()); ++s)
+            if (signature[s].end == SegmentEnd::event && !orbit_.motion[s].times.empty())
+                points.push_back(at(s, orbit_.motion[s].times.size() - 1));
+        return points;
+    }
+    /// The row of a segment nearest to a time since its start.
+    PlanePoint at_time(std::size_t segment, double since) const {
+        const std::vector<double>& times = orbit_.motion[segment].times;
+        std::size_t best = 0;
+        for (std::size_t row = 0; row < times.size(); ++row)
+            if (std::abs(times[row] - times[0] - since) < std::abs(times[best] - times[0] - since))
+                best = row;
+        return at(segment, best);
+    }
+
+private:
+    /// How far the curves go, either way.
+    PlanePoint extent() const {
+        constexpr double none = std::numeric_limits<double>::infinity();
+        PlanePoint least{none, none}, greatest{-none, -none};
+        for (std::size_t s = 0; s < orbit_.motion.size(); ++s)
+            for (std::size_t row = 0; row < orbit_.motion[s].times.size(); ++row) {
+                const PlanePoint here = at(s, row);
+                least = {std::min(least.x, here.x), std::min(least.y, here.y)};
+                greatest = {std::max(greatest.x, here.x), std::max(greatest.y, here.y)};
+            }
+        return {greatest.x - least.x, greatest.y - least.y};
+    }
+    bool comes_round(const PlanePoint& a, const PlanePoint& b) const {
+        const auto wraps = [](double from, double to, double period) {
+            return period > 0 && std::abs(to - from) > period / 2;
+        };
+        const std::vector<double>& periods = orbit_.axes.periods;
+        return wraps(a.y, b.y, periods[value_]) || (!orbit_.axes.over_time && wraps(a.x, b.x, periods[0]));
+    }
+    const DrawnOrbit& orbit_;
+    std::size_t value_;
+};
+
+std::string title_with_parameter(const StudyPicture& picture, const StoredRun& run, const OrbitRecord& record) {
+    std::string title = run.record.kind == "orbit" ? shown_name(picture, run.record.name)
+                        : record.label.empty()     ? title_of(record)
+                                                   : run.record.point_name(record.label);
+    if (const std::string followed = followed_parameter(run.record); !followed.empty())
+        title += fmt::format(": {} = {:.6g}{}{}", shown_name(picture, followed), record.point.parameter,
+                             run.unit(followed).empty() ? "" : " ", run.unit(followed));
+    if (is_unphysical(record))
+        title += " (unphysical)";
+    return title;
+}
+
+/// What ends a segment; a transition without a label of its own is called by its event alone, behind its mode.
+std::string shown_end(const StudyPicture& picture, const DrawnOrbit& orbit, std::size_t segment) {
+    const std::string& end = orbit.motion[segment].end;
+    const std::string mode = orbit.model.modes[orbit.motion[segment].mode].name + ":";
+    const bool given = shown_name(picture, end) != shown_name({}, end);
+    return shown_name(picture, !given && end.starts_with(mode) ? end.substr(mode.size()) : end);
+}
+
+/// @param colour of all segments; none: one for each, which those of an image in the second half share
+void add_curves(FigurePanel& panel, const StudyPicture& picture, const DrawnOrbit& orbit, std::size_t value,
+                std::optional<std::size_t> colour, const std::string& title) {
+    const OrbitCurves curves(orbit, value);
+    constexpr std::size_t most_titles = 8;
+    const std::size_t kinds = std::max<std::size_t>(1, orbit.record.point.solution.orbit.segments());
+    for (std::size_t s = 0; s < orbit.motion.size(); ++s) {
+        std::string name = s == 0 ? title : "";
+        if (!colour && kinds <= most_titles && s < kinds)
+            name = fmt::format("{} {} → {}", s + 1, shown_name(picture, orbit.model.modes[orbit.motion[s].mode].name),
+                               shown_end(picture, orbit, s));
+        panel.series.push_back({name, FigureSeries::Style::line, colour.value_or(s % kinds), curves.line(s)});
+    }
+    panel.series.push_back({"jump", FigureSeries::Style::dotted, FigureSeries::black, curves.jumps()});
+    const SpecialPoint& point = orbit.record.point;
+    const Signature signature = whole_orbit(System(orbit.model), point.solution.orbit).signature;
+    panel.series.push_back({"event", FigureSeries::Style::circles, FigureSeries::black, curves.events(signature)});
+    if (point.type == PointType::grazing && !point.at_end && point.segment < orbit.motion.size() &&
+        !orbit.motion[point.segment].times.empty()) {
+        const PlanePoint touch = curves.at_time(point.segment, point.time);
+        FigureSeries mark{"touch", FigureSeries::Style::symbols, FigureSeries::black, {touch}};
+        mark.symbol = 12;
+        panel.series.push_back(std::move(mark));
+        panel.labels.push_back({touch, shown_name(picture, orbit.model.events[point.event].name)});
+    }
+}
+
+FigurePanel panel_of(const StudyPicture& picture, const DrawnOrbit& orbit, std::size_t v) {
+    const Axes& axes = orbit.axes;
+    const NamedValue time{"t", orbit.model.time_unit, "time", {}};
+    FigurePanel panel = empty_panel(picture);
+    label_axis(panel.x_label, panel.x_words, panel.x_unit, picture, axes.over_time ? time : axes.values[0]);
+    label_axis(panel.y_label, panel.y_words, panel.y_unit, picture, axes.values[v]);
+    apply_labels(panel, picture, axes.over_time ? v : v - 1);
+    return panel;
+}
+
+} // namespace
+
+Figure orbit_picture(const StudyPicture& picture, const ResultFile& file, bool portrait) {
+    Figure figure;
+    std::vector<DrawnOrbit> orbits;
+    std::vector<std::string> titles;
+    bool all_alone = true; // each is the only one of its run
+    for (const std::string& name : picture.runs) {
+        const StoredRun run(file, name, picture.place);
+        for (OrbitRecord& record : shown_orbits(file, run, picture)) {
+            const std::string title = title_with_parameter(picture, run, record);
+            const bool has_name = run.record.kind == "orbit";
+            all_alone = all_alone && has_name;
+            titles.push_back(picture.runs.size() > 1 && !has_name ? shown_name(picture, name) + ", " + title : title);
+            orbits.push_back(drawn_orbit(run, std::move(record), picture, portrait));
+        }
+    }
+    const bool together = all_alone && orbits.size() > 1; // to be compared, one panel has them all
+    for (std::size_t o = 0; o < orbits.size(); ++o) {
+        const DrawnOrbit& orbit = orbits[o];
+        const Axes& axes = orbit.axes;
+        const bool over_time = axes.over_time;
+        for (std::size_t v = over_time ? 0 : 1; v < axes.values.size(); ++v) {
+            const std::size_t index = over_time ? v : together ? v - 1 : figure.panels.size();
+            if (index >= figure.panels.size()) {
+                figure.panels.push_back(panel_of(picture, orbit, v));
+                const bool several = orbits.size() > 1;
+                if (!several || (!over_time && !together))
+                    figure.panels.back().title = (several ? panel_letter(index) + " " : std::string()) + titles[o];
+                figure.panels.back().roomy_y = true;
+                figure.panels.back().roomy_x = !over_time;
+            }
+            const bool by_segment = orbits.size() == 1 || (!over_time && !together);
+            add_curves(figure.panels[index], picture, orbit, v, by_segment ? std::nullopt : std::optional(o),
+                       by_segment ? "" : titles[o]);
+        }
+    }
+    figure.columns = figure.panels.size() > 1 && !orbits.front().axes.over_time ? 2 : 1;
+    return figure;
+}
+
+} // namespace graze

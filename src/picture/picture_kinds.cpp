@@ -1,0 +1,141 @@
+#include "picture/picture_kinds.hpp"
+
+#include "graze/base/input_error.hpp"
+#include "graze/results/name_advice.hpp"
+#include "graze/study/stored_study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace graze {
+
+std::vector<std::string> chosen_values(const StudyPicture& picture, const StoredRun& run) {
+    if (!picture.y.empty())
+        return picture.y;
+    return run.value_names();
+}
+
+void require_values(const StudyPicture& picture, const StoredRun& run, const std::vector<std::string>& names) {
+    const std::vector<std::string> known = run.value_names();
+    for (const std::string& name : names)
+        if (!run.has_value(name))
+            throw InputError(picture.place, fmt::format("run '{}' has no value '{}'", run.record.name, name),
+                             name_advice(name, known, "it has none"));
+}
+
+std::string first_coordinate(const StudyPicture& picture, const StoredRun& run) {
+    if (!picture.x.empty())
+        return picture.x;
+    if (run.record.coordinates.empty())
+        throw InputError(picture.place, fmt::format("run '{}' varies nothing", run.record.name),
+                         "draw its history instead");
+    return run.record.coordinates.front().name;
+}
+
+std::vector<std::string> shown_samplings(const StudyPicture& picture, const StoredRun& run) {
+    return picture.samplings.empty() ? run.record.samplings : picture.samplings;
+}
+
+std::vector<std::string> row_samplings(const StoredRun& run) {
+    std::vector<std::string> names;
+    if (run.record.kind == "record")
+        for (const RecordSampling& sampling : stored_run(run.record).record.samplings)
+            if (sampling.kind == RecordSampling::Kind::record)
+                names.push_back(sampling.name);
+    return names;
+}
+
+std::vector<std::string> shown_points(const StudyPicture& picture, const StoredRun& run) {
+    std::vector<std::string> names = shown_samplings(picture, run);
+    if (picture.samplings.empty())
+        for (const std::string& rows : row_samplings(run))
+            std::erase(names, rows);
+    return names;
+}
+
+FigurePanel panel_of(const StudyPicture& picture, const StoredRun& run, const std::string& x, const std::string& y,
+                     std::size_t index) {
+    FigurePanel panel = empty_panel(picture);
+    label_axes(panel, picture, run, x, y);
+    apply_labels(panel, picture, index);
+    return panel;
+}
+
+FigurePanel empty_panel(const StudyPicture& picture) {
+    FigurePanel panel;
+    panel.logarithmic_x = picture.logarithmic_x;
+    panel.logarithmic_y = picture.logarithmic_y;
+    panel.x_range = picture.x_range;
+    panel.y_range = picture.y_range;
+    return panel;
+}
+
+std::string panel_letter(std::size_t index) {
+    std::string letters;
+    for (std::size_t rest = index + 1; rest > 0; rest = (rest - 1) / 26)
+        letters.insert(letters.begin(), static_cast<char>('a' + (rest - 1) % 26));
+    return fmt::format("({})", letters);
+}
+
+void drop_constant_panels(Figure& figure) {
+    std::map<std::string, std::pair<double, double>> extents; // of what each axis shows in all its panels
+    for (const FigurePanel& panel : figure.panels)
+        for (const FigureSeries& series : panel.series)
+            for (const PlanePoint& point : series.points)
+                if (std::isfinite(point.y)) {
+                    const auto at = extents.try_emplace(panel.y_label, point.y, point.y).first;
+                    at->second.first = std::min(at->second.first, point.y);
+                    at->second.second = std::max(at->second.second, point.y);
+                }
+    const auto changes = [&](const FigurePanel& panel) {
+        const auto at = extents.find(panel.y_label);
+        return at != extents.end() && !is_constant(at->second.first, at->second.second);
+    };
+    std::set<std::string> all, kept;
+    for (const FigurePanel& panel : figure.panels) {
+        all.insert(panel.y_label);
+        if (changes(panel))
+            kept.insert(panel.y_label);
+    }
+    if (kept.empty() || kept.size() == all.size())
+        return;
+    if (figure.columns == all.size())
+        figure.columns = kept.size();
+    std::vector<FigurePanel> panels;
+    for (std::size_t p = 0; p < figure.panels.size(); ++p) {
+        FigurePanel& panel = figure.panels[p];
+        if (!kept.contains(panel.y_label))
+            continue;
+        if (const std::string letter = panel_letter(p); panel.title.starts_with(letter))
+            panel.title.replace(0, letter.size(), panel_letter(panels.size()));
+        panels.push_back(std::move(panel));
+    }
+    figure.panels = std::move(panels);
+}
+
+bool is_constant(double least, double greatest) {
+    constexpr double resolved = 1e-9;
+    return !(greatest - least > resolved * std::max(std::abs(least), std::abs(greatest)));
+}
+
+std::vector<double> samples_of(const PointRecord& point, const StoredRun& run, const std::string& value,
+                               const std::string& sampling, std::vector<double>* times) {
+    std::vector<double> result;
+    const SampleSet& samples = point.result.samples;
+    std::size_t column = 0;
+    while (column < run.record.values.size() && run.record.values[column].name != value)
+        ++column;
+    for (std::size_t s = 0; s < samples.size() && column < samples.width; ++s)
+        if (run.record.samplings[samples.samplings[s]] == sampling) {
+            result.push_back(samples.values[s * samples.width + column]);
+            if (times)
+                times->push_back(samples.times[s]);
+        }
+    return result;
+}
+
+} // namespace graze

@@ -1,0 +1,122 @@
+#include "graze/picture/result_picture.hpp"
+
+#include "graze/base/input_error.hpp"
+#include "picture/picture_kinds.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+
+namespace graze {
+
+StudyPicture default_picture(const RunRecord& run) {
+    StudyPicture picture;
+    picture.name = run.name;
+    picture.runs = {run.name};
+    if (run.kind == "sweep")
+        picture.kind = "bifurcation";
+    else if (run.is_followed())
+        picture.kind = "branch";
+    else if (run.kind == "orbit")
+        picture.kind = "portrait";
+    else if (run.kind == "basin" && run.coordinates.size() > 1)
+        picture.kind = "basin";
+    else if (run.kind == "basin")
+        picture.kind = "scatter";
+    else if (run.kind == "record" && run.points > 1 && !run.coordinates.empty())
+        picture.kind = "bifurcation";
+    else if (run.kind == "identify")
+        picture.kind = "residuals";
+    else
+        picture.kind = "history";
+    return picture;
+}
+
+namespace {
+
+/// Whether a picture is made from orbits of branches. @throws InputError when its kind does not go with them
+bool shows_branches(const StudyPicture& picture, const ResultFile& file) {
+    std::size_t branches = 0;
+    for (const std::string& name : picture.over)
+        if (const auto run = file.find_run(name); run && run->is_branch())
+            throw InputError(picture.place, fmt::format("run '{}' is a branch, which is not drawn over others", name),
+                             "name it among the runs");
+    for (const std::string& name : picture.runs) {
+        const auto run = file.find_run(name);
+        branches += run && run->is_branch() ? 1 : 0;
+    }
+    if (branches == 0)
+        return false;
+    if (branches < picture.runs.size())
+        throw InputError(picture.place, "branches and other runs cannot be drawn together", "make a picture of each");
+    for (const char* kind : {"branch", "history", "portrait", "scatter"}) // samples for other kinds they do not have
+        if (picture.kind == kind)
+            return true;
+    throw InputError(picture.place,
+                     fmt::format("run '{}' is a branch, which has no {}", picture.runs.front(), picture.kind),
+                     "choose branch, portrait, history or scatter");
+}
+
+/// Names of parameters and states, for them to be set as such in what the study says.
+std::vector<std::string> symbols_of(const StudyPicture& picture, const ResultFile& file) {
+    std::set<std::string> names;
+    for (const std::string& run : picture.runs) {
+        const Model model = StoredRun(file, run, picture.place).model;
+        for (const Parameter& parameter : model.parameters)
+            names.insert(parameter.name);
+        for (const State& state : model.states)
+            names.insert(state.name);
+    }
+    return {names.begin(), names.end()};
+}
+
+/// What is named twice is drawn once.
+void remove_repeated(std::vector<std::string>& names) {
+    std::set<std::string> known;
+    std::erase_if(names, [&](const std::string& name) { return !known.insert(name).second; });
+}
+
+} // namespace
+
+ResultPicture make_picture(const StudyPicture& given, const ResultFile& file) {
+    StudyPicture picture = given;
+    if (picture.kind.empty())
+        if (const auto run = file.find_run(picture.runs.front()))
+            picture.kind = default_picture(*run).kind;
+    remove_repeated(picture.runs);
+    remove_repeated(picture.over);
+    ResultPicture result;
+    const bool branches = shows_branches(picture, file);
+    if (picture.kind == "branch")
+        result.figure = branch_picture(picture, file);
+    else if (branches && picture.kind != "scatter")
+        result.figure = orbit_picture(picture, file, picture.kind == "portrait");
+    else if (picture.kind == "basin")
+        result = basin_picture(picture, file, false);
+    else if (picture.kind == "map")
+        result = basin_picture(picture, file, true);
+    else if (picture.kind == "spectrum")
+        result = spectrum_picture(picture, file);
+    else if (picture.kind == "regression")
+        result = regression_picture(picture, file);
+    else if (picture.kind == "history")
+        result.figure = motion_picture(picture, file, MotionView::history);
+    else if (picture.kind == "portrait")
+        result.figure = motion_picture(picture, file, MotionView::portrait);
+    else if (picture.kind == "poincare")
+        result.figure = motion_picture(picture, file, MotionView::section);
+    else if (picture.kind == "residuals")
+        result.figure = residual_picture(picture, file);
+    else if (picture.kind == "scatter")
+        result.figure = scatter_picture(picture, file);
+    else
+        result.figure = bifurcation_picture(picture, file);
+    if (picture.y.empty() && picture.y_labels.empty() && picture.kind != "residuals")
+        drop_constant_panels(result.figure);
+    result.figure.title = picture.title;
+    result.figure.symbols = symbols_of(picture, file);
+    result.figure.style = picture.style;
+    return result;
+}
+
+} // namespace graze

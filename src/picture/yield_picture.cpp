@@ -1,0 +1,78 @@
+#include "graze/picture/yield_picture.hpp"
+
+#include "graze/base/input_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace graze {
+
+namespace {
+
+/// Twice the range of the middle half by the third root of the number (D. Freedman and P. Diaconis, "On the histogram
+/// as a density estimator", 1981).
+std::size_t bars_of(const std::vector<double>& sorted) {
+    constexpr double fewest = 5, most = 200;
+    const std::size_t n = sorted.size();
+    const double middle = sorted[3 * n / 4] - sorted[n / 4], width = 2 * middle / std::cbrt(static_cast<double>(n));
+    const double bars = width > 0 ? (sorted.back() - sorted.front()) / width : fewest;
+    return static_cast<std::size_t>(std::clamp(std::ceil(bars), fewest, most));
+}
+
+} // namespace
+
+Figure yield_picture(const Yield& yield, const std::string& parameter, const std::string& unit,
+                     std::optional<double> least, std::optional<double> greatest) {
+    std::vector<double> values;
+    for (const Device& device : yield.devices)
+        if (device.outcome == DeviceOutcome::found)
+            values.push_back(device.value);
+    std::sort(values.begin(), values.end());
+    if (values.empty() || !(values.front() < values.back()))
+        throw InputError(Place{"--plot", 0, 0}, "the devices do not differ, or none was found",
+                         "vary parameters on which the value depends");
+    const std::size_t bars = bars_of(values);
+    const double low = values.front(), width = (values.back() - low) / static_cast<double>(bars);
+    std::vector<double> counts(bars, 0.0);
+    for (const double value : values)
+        counts[std::min(bars - 1, static_cast<std::size_t>((value - low) / width))] += 1;
+    FigurePanel panel;
+    panel.x_label = parameter;
+    panel.x_unit = unit;
+    panel.y_label = "devices";
+    panel.roomy_y = true;
+    FigureSeries& found = panel.series.emplace_back();
+    found.title = "devices";
+    found.style = FigureSeries::Style::cells;
+    double highest = 0;
+    for (std::size_t i = 0; i < bars; ++i) {
+        const double left = low + static_cast<double>(i) * width;
+        found.cells.push_back({left, left + width, 0, counts[i]});
+        highest = std::max(highest, counts[i]);
+    }
+    if (const double deviation = yield.linear_deviation; deviation > 0) {
+        FigureSeries& linear = panel.series.emplace_back();
+        linear.title = "by the derivatives alone";
+        linear.style = FigureSeries::Style::line;
+        linear.colour = FigureSeries::black;
+        constexpr int points = 200;
+        const double peak = static_cast<double>(values.size()) * width / (deviation * std::sqrt(2 * std::numbers::pi));
+        for (int i = 0; i <= points; ++i) {
+            const double z = 8.0 * i / points - 4;
+            linear.points.push_back({yield.nominal + z * deviation, peak * std::exp(-0.5 * z * z)});
+        }
+        highest = std::max(highest, peak);
+    }
+    panel.y_range = {0, 1.08 * highest};
+    for (const std::optional<double>& limit : {least, greatest})
+        if (limit)
+            panel.marks.push_back(*limit);
+    Figure figure;
+    figure.panels.push_back(std::move(panel));
+    figure.symbols = {parameter};
+    return figure;
+}
+
+} // namespace graze

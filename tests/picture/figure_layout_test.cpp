@@ -1,0 +1,276 @@
+// Where things stand in pictures: measured from the boxes that are placed, for pictures of all shipped studies too.
+
+#include "picture/figure_layout.hpp"
+
+#include "base/temporary_folder.hpp"
+#include "graze/picture/figure_script.hpp"
+#include "graze/picture/result_picture.hpp"
+#include "graze/study/runner.hpp"
+#include "graze/study/study_catalogue.hpp"
+#include "layout_overlaps.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+namespace graze::testing {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+namespace {
+
+/// A column of text, a page of text, and a slide.
+const std::vector<FigureStyle> styles{{85, 0, 0, ""}, {170, 0, 0, ""}, {254, 143, 0, ""}, {85, 60, 7, ""}};
+
+FigurePanel panel_with(std::size_t points) {
+    FigurePanel panel;
+    panel.title = "(a) a title that is rather long for a narrow column of text, and needs more than a line there";
+    panel.x_label = "V0";
+    panel.x_words = "amplitude of the voltage of the source";
+    panel.x_unit = "V";
+    panel.y_label = "q";
+    panel.y_words = "displacement of the mass towards magnet and stop from its place of equilibrium";
+    panel.y_unit = "m/s^2";
+    panel.roomy_y = true;
+    FigureSeries line{"free", FigureSeries::Style::line, 0, {}}, symbols{"", FigureSeries::Style::symbols, 0, {}};
+    for (std::size_t i = 0; i < points; ++i) {
+        const double x = static_cast<double>(i) / static_cast<double>(points);
+        line.points.push_back({x, 1e-5 * (x - x * x)});
+        symbols.points.push_back(line.points.back());
+        panel.labels.push_back({line.points.back(), "SN" + std::to_string(i + 1)});
+    }
+    panel.series = {line, symbols};
+    return panel;
+}
+
+/// A study with few points of each sweep, which is done in seconds.
+Study quick(const std::string& name) {
+    Study study = load_study(name);
+    for (StudyRun& run : study.runs) {
+        run.draws = std::min<std::size_t>(run.draws, 6);
+        constexpr std::size_t large = 15, enough = 40; // states; points of what takes long
+        if (run.model.states.size() > large)
+            run.branch.settings.steps = std::min(run.branch.settings.steps, enough);
+        for (Variation& axis : run.axes) {
+            constexpr std::size_t every = 68, few = 60; // 4.84 V, where a branch starts, is among them
+            std::vector<double> kept;
+            for (std::size_t i = 0; i<axis.values.size(); i += axis.values.size()> few ? every : 1)
+                kept.push_back(axis.values[i]);
+            axis.values = kept;
+        }
+    }
+    return study;
+}
+
+} // namespace
+
+TEST(FigureLayout, NothingLiesOnAnythingElse) {
+    for (const FigureStyle& style : styles)
+        for (const std::size_t points : {std::size_t{2}, std::size_t{12}, std::size_t{200}})
+            for (const std::size_t panels : {std::size_t{1}, std::size_t{2}, std::size_t{5}}) {
+                Figure figure{
+                    "Orbits of an oscillator with a stop, which meets it once or twice in each period", 2, {}};
+                figure.panels.assign(panels, panel_with(points));
+                figure.style = style;
+                if (style.height == 0 || panels < 3) {
+                    EXPECT_THAT(overlaps_of(layout_of(figure)), ElementsAre())
+                        << style.width << ' ' << points << ' ' << panels;
+                }
+            }
+}
+
+// gnuplot draws lines beside a panel, too, and into the next one.
+TEST(FigureLayout, LinesOfChangesStayWithinTheirPanel) {
+    Figure figure;
+    figure.panels.push_back(panel_with(50));
+    figure.panels[0].x_range = std::pair(0.2, 0.6);
+    figure.panels[0].marks = {0.1, 0.2, 0.4125, 0.7125};
+    const std::string script = figure_script(figure, "svg", "picture.svg");
+    EXPECT_THAT(script, HasSubstr("\n0.4125 "));
+    std::size_t lines = 0;
+    for (std::size_t at = script.find("lw 0.5 lc"); at != std::string::npos; at = script.find("lw 0.5 lc", at + 1))
+        ++lines;
+    EXPECT_EQ(lines, 2U);
+}
+
+TEST(FigureLayout, HasTheSizeThatWasAskedFor) {
+    Figure figure{"", 1, {panel_with(3)}};
+    figure.style = {85, 60, 7, ""};
+    const FigureLayout page = layout_of(figure);
+    constexpr double points_per_mm = 72 / 25.4;
+    EXPECT_NEAR(page.width, 85 * points_per_mm, 1e-9);
+    EXPECT_NEAR(page.height, 60 * points_per_mm, 1);
+    EXPECT_EQ(page.font, 7);
+}
+
+TEST(FigureLayout, PanelsThatWouldBeTooNarrowStandBelowOneAnother) {
+    Figure figure{"", 2, {panel_with(3), panel_with(3)}};
+    figure.style.width = 170;
+    EXPECT_EQ(layout_of(figure).panels[0].frame.low, layout_of(figure).panels[1].frame.low);
+    figure.style.width = 85;
+    EXPECT_GT(layout_of(figure).panels[0].frame.low, layout_of(figure).panels[1].frame.high);
+}
+
+TEST(FigureLayout, WhatAllPanelsSayTheLegendSaysOnce) {
+    Figure figure{"", 2, {panel_with(3), panel_with(3)}};
+    EXPECT_EQ(layout_of(figure).legend.size(), 1U);
+    EXPECT_TRUE(layout_of(figure).panels[0].legend.empty());
+    figure.panels[1].series[0].title = "held";
+    EXPECT_TRUE(layout_of(figure).legend.empty());
+    EXPECT_EQ(layout_of(figure).panels[1].legend.at(0).title, "held");
+}
+
+TEST(FigureLayout, LabelsOfAxesHaveUnitsAndPowersOfTen) {
+    const FigureLayout page = layout_of({"", 1, {panel_with(3)}});
+    std::string texts;
+    for (const PlacedText& text : page.panels[0].texts)
+        texts += letters_of(text.text) + '\n';
+    EXPECT_THAT(texts, HasSubstr("amplitude of the voltage of the source V0 (V)"));
+    EXPECT_THAT(texts, HasSubstr("(10−6 m/s2)")); // as 10^-6, and a raised 2
+}
+
+TEST(FigureLayout, UnitsStandInBracketsOnALineOfTheirOwnToo) {
+    Figure figure{"", 1, {panel_with(3)}};
+    figure.panels[0].y_label = "velocity jump at the next";
+    figure.panels[0].y_words = "";
+    for (const double width : {60.0, 85.0, 120.0, 170.0}) {
+        figure.style.width = width;
+        const FigureLayout page = layout_of(figure);
+        for (const PlacedText& text : page.panels[0].texts) {
+            const std::string letters = letters_of(text.text);
+            EXPECT_EQ(std::count(letters.begin(), letters.end(), '('), std::count(letters.begin(), letters.end(), ')'))
+                << letters << " at " << width;
+        }
+    }
+}
+
+TEST(FigureLayout, SymbolsAreSetAsSuchInTitlesLegendsAndLabels) {
+    Figure figure{"Orbits at V0 = 3 V", 1, {panel_with(3)}};
+    figure.symbols = {"V0"};
+    figure.panels[0].title = "V0 up";
+    figure.panels[0].series[0].title = "V0 = 3 V";
+    figure.panels[0].y_label = "mean of V0";
+    figure.panels[0].y_words = "";
+    const FigureLayout page = layout_of(figure);
+    std::string all;
+    const auto add = [&](const RichText& text) { all += gnuplot_markup(text) + '\n'; };
+    for (const PlacedText& text : page.title)
+        add(text.text);
+    for (const PlacedText& text : page.panels[0].texts)
+        add(text.text);
+    for (const LegendEntry& entry : page.panels[0].legend)
+        add(entry.text);
+    EXPECT_THAT(all, HasSubstr("Orbits at {/:Italic V}_{0} = 3 V"));
+    EXPECT_THAT(all, HasSubstr("\n{/:Italic V}_{0} up"));
+    EXPECT_THAT(all, HasSubstr("\n{/:Italic V}_{0} = 3 V"));
+    EXPECT_THAT(all, HasSubstr("mean of {/:Italic V}_{0}"));
+}
+
+namespace {
+
+/// Names of parameters, states, modes and runs that stand in a picture as they stand in files: unless they are words.
+std::vector<std::string> raw_names(const FigureLayout& page, const Study& study, const StudyPicture& picture) {
+    std::set<std::string> names;
+    const auto add = [&](const std::string& name) {
+        if (name.find_first_of("_0123456789") != std::string::npos)
+            names.insert(name);
+    };
+    for (const std::string& run : picture.runs) {
+        add(run);
+        const Model& model = study.find_run(run)->model;
+        for (const Parameter& parameter : model.parameters)
+            add(parameter.name);
+        for (const State& state : model.states)
+            add(state.name);
+        for (const Mode& mode : model.modes)
+            add(mode.name);
+        for (const Event& event : model.events)
+            add(event.name);
+        for (const Section& section : model.sections)
+            add(section.name);
+        for (const Transition& transition : model.transitions)
+            add(transition.label);
+    }
+    std::vector<std::string> found;
+    const auto search = [&](const RichText& text) {
+        for (const TextRun& run : text) {
+            if (run.look != TextRun::Look::upright)
+                continue;
+            std::string words = run.text;
+            std::replace_if(
+                words.begin(), words.end(), [](unsigned char c) { return std::isalnum(c) == 0 && c != '_'; }, ' ');
+            std::istringstream stream(words);
+            for (std::string word; stream >> word;)
+                if (names.contains(word) || word.find('_') != std::string::npos)
+                    found.push_back(word + " in " + letters_of(text));
+        }
+    };
+    for (const PlacedText& text : page.title)
+        search(text.text);
+    for (const LegendEntry& entry : page.legend)
+        search(entry.text);
+    for (const PanelLayout& panel : page.panels) {
+        for (const PlacedText& text : panel.texts)
+            search(text.text);
+        for (const LegendEntry& entry : panel.legend)
+            search(entry.text);
+        for (const PlacedLabel& label : panel.labels.labels)
+            search(rich(label.text));
+    }
+    return found;
+}
+
+} // namespace
+
+class ShippedPictures : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(ShippedPictures, NothingOverlapsAndNoNameIsRaw) {
+    const TemporaryFolder folder;
+    const Study study = quick(GetParam());
+    ResultFile file(folder / "results.sqlite", ResultFile::Access::write);
+    run_study(study, file, {});
+    std::size_t labels = 0, crossed = 0;
+    std::string places;
+    for (StudyPicture picture : study.pictures)
+        for (const FigureStyle& style : styles) {
+            if (style.height > 0 && style.width < 100)
+                continue; // as high as several panels need
+            picture.style = style;
+            const Figure figure = make_picture(picture, file).figure;
+            const FigureLayout page = layout_of(figure);
+            const std::vector<std::string> on_lines = labels_on_lines(figure, page, labels);
+            crossed += on_lines.size();
+            for (const std::string& one : on_lines)
+                places += picture.name + " at " + std::to_string(style.width) + " mm: " + one + '\n';
+            if (picture.name == "fig-3-3" || picture.name == "fig-3-7") { // two orbits, to be compared
+                EXPECT_EQ(page.panels.size(), 1U);
+            }
+            EXPECT_THAT(overlaps_of(page), ElementsAre()) << picture.name << " at " << style.width << " mm";
+            EXPECT_THAT(raw_names(page, study, picture), ElementsAre()) << picture.name;
+            std::string all;
+            for (const NamedBox& box : boxes_of(page)) {
+                EXPECT_EQ(box.name.find('_'), std::string::npos) << picture.name << " shows " << box.name;
+                all += box.name + '\n';
+            }
+            EXPECT_EQ(std::count(all.begin(), all.end(), '('), std::count(all.begin(), all.end(), ')'))
+                << picture.name << " shows " << all;
+            // As many as are shown before the rest is counted, and full and dashed lines.
+            for (const PanelLayout& panel : page.panels)
+                EXPECT_LE(panel.legend.size(), 26U);
+        }
+    // Where a dozen points crowd together there may be no such place that is nearer to its own point than to others.
+    EXPECT_LE(40 * crossed, labels) << crossed << " of " << labels << ":\n" << places;
+    RecordProperty("labels", static_cast<int>(labels));
+    RecordProperty("crossed", static_cast<int>(crossed));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ShippedPictures, ::testing::ValuesIn(shipped_studies()), [](const auto& tested) {
+    std::string name = tested.param;
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+});
+
+} // namespace graze::testing

@@ -1,0 +1,111 @@
+#pragma once
+
+#include "picture/curve.hpp"
+#include "picture/figure_layout.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace graze::testing {
+
+/// What stands on a page, with a name for messages.
+struct NamedBox {
+    std::string name;
+    Box box;
+};
+
+inline std::vector<NamedBox> boxes_of(const FigureLayout& page) {
+    std::vector<NamedBox> boxes;
+    const auto add_texts = [&](const std::string& where, const std::vector<PlacedText>& texts) {
+        for (const PlacedText& text : texts)
+            boxes.push_back({where + ": " + letters_of(text.text), text.box});
+    };
+    const auto add_legend = [&](const std::string& where, const std::vector<LegendEntry>& legend) {
+        for (const LegendEntry& entry : legend)
+            boxes.push_back({where + " legend: " + entry.title, entry.box});
+    };
+    add_texts("title", page.title);
+    add_legend("page", page.legend);
+    for (std::size_t p = 0; p < page.panels.size(); ++p) {
+        const std::string where = fmt::format("panel {}", p + 1);
+        boxes.push_back({where + " frame", page.panels[p].frame});
+        add_texts(where, page.panels[p].texts);
+        add_legend(where, page.panels[p].legend);
+    }
+    return boxes;
+}
+
+/// All that lies on something else: texts, legends and frames of a page; within frames labels, symbols and leaders. And
+/// what sticks out of the page or, of labels, out of their frame, or has lost its point.
+inline std::vector<std::string> overlaps_of(const FigureLayout& page) {
+    std::vector<std::string> found;
+    const std::vector<NamedBox> boxes = boxes_of(page);
+    const Box paper{0, 0, page.width, page.height};
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        if (!paper.holds(boxes[i].box))
+            found.push_back(boxes[i].name + " sticks out of the page");
+        for (std::size_t k = i + 1; k < boxes.size(); ++k)
+            if (boxes[i].box.meets(boxes[k].box.grown(-1e-6))) // rows of a legend touch
+                found.push_back(boxes[i].name + " lies on " + boxes[k].name);
+    }
+    for (const PanelLayout& panel : page.panels)
+        for (std::size_t i = 0; i < panel.labels.labels.size(); ++i) {
+            const PlacedLabel& label = panel.labels.labels[i];
+            if (!panel.frame.holds(label.box))
+                found.push_back("label " + label.text + " sticks out of its frame");
+            for (std::size_t k = i + 1; k < panel.labels.labels.size(); ++k)
+                if (label.box.meets(panel.labels.labels[k].box))
+                    found.push_back("label " + label.text + " lies on label " + panel.labels.labels[k].text);
+            for (const Box& mark : panel.labels.marks)
+                if (label.box.meets(mark))
+                    found.push_back("label " + label.text + " lies on a symbol");
+            // Either it stands at its point, or a line leads there.
+            if (!label.led && !label.box.grown(mark_size(page.font)).holds(label.point))
+                found.push_back("label " + label.text + " has lost its point");
+        }
+    return found;
+}
+
+/// Labels that a line of their panel runs through, of lines as they are drawn. @param counted receives how many labels
+/// there are
+inline std::vector<std::string> labels_on_lines(const Figure& figure, const FigureLayout& page, std::size_t& counted) {
+    using Style = FigureSeries::Style;
+    constexpr double step = 0.5; // points, which is less than the width of a line
+    std::vector<std::string> found;
+    for (std::size_t p = 0; p < page.panels.size(); ++p) {
+        const PanelLayout& layout = page.panels[p];
+        std::set<std::string> crossed;
+        counted += layout.labels.labels.size();
+        const auto place_of = [&](const PlanePoint& point) {
+            return PlanePoint{layout.frame.left + layout.x.share(point.x) * layout.frame.width(),
+                              layout.frame.low + layout.y.share(point.y) * layout.frame.height()};
+        };
+        for (const FigureSeries& series : figure.panels[p].series) {
+            if (series.style != Style::line && series.style != Style::dashed && series.style != Style::dotted)
+                continue;
+            const Polyline line = smoothed(series.points, series.along, series.corners);
+            for (std::size_t i = 1; i < line.size(); ++i) {
+                if (!is_drawn(line[i - 1], figure.panels[p]) || !is_drawn(line[i], figure.panels[p]))
+                    continue;
+                const PlanePoint from = place_of(line[i - 1]), to = place_of(line[i]);
+                const double length = std::min(std::hypot(to.x - from.x, to.y - from.y), 1e4);
+                for (double at = 0; at <= length; at += step)
+                    for (const PlacedLabel& label : layout.labels.labels)
+                        if (const double part = length > 0 ? at / length : 0; label.box.holds(
+                                PlanePoint{from.x + part * (to.x - from.x), from.y + part * (to.y - from.y)}))
+                            crossed.insert(label.text);
+            }
+        }
+        for (const std::string& text : crossed)
+            found.push_back(fmt::format("panel {}: a line runs through label {}", p + 1, text));
+    }
+    return found;
+}
+
+} // namespace graze::testing
