@@ -92,7 +92,7 @@ public:
         columns_ = std::clamp<std::size_t>(columns, 1, std::max<std::size_t>(1, figure.panels.size()));
         while (columns_ > 1 && width / static_cast<double>(columns_) < least_panel + 3 * page_.font / points_per_mm)
             --columns_;
-        rows_ = std::max<std::size_t>(1, (figure.panels.size() + columns_ - 1) / columns_);
+        choose_cells();
         frame_width_ = page_.width / static_cast<double>(columns_) - 6 * page_.font;
         frame_height_ = usual_height();
         collect_legends();
@@ -140,8 +140,30 @@ private:
             page_.panels[p].legend = legends[p];
     }
 
-    std::size_t column_of(std::size_t panel) const { return panel % columns_; }
-    std::size_t row_of(std::size_t panel) const { return panel / columns_; }
+    /// Row by row, from left to right, where no panel that spans several rows is.
+    void choose_cells() {
+        std::vector<std::size_t> taken(columns_, 0); // rows of each column
+        std::size_t row = 0, column = 0;
+        for (const FigurePanel& panel : figure_->panels) {
+            while (taken[column] > row)
+                if (++column == columns_) {
+                    column = 0;
+                    ++row;
+                }
+            cells_.push_back({column, row, columns_ > 1 ? std::max<std::size_t>(1, panel.rows) : 1});
+            taken[column] = row + cells_.back().rows;
+        }
+        rows_ = std::max<std::size_t>(1, *std::max_element(taken.begin(), taken.end()));
+    }
+    std::size_t column_of(std::size_t panel) const { return cells_[panel].column; }
+    std::size_t row_of(std::size_t panel) const { return cells_[panel].row; }
+    std::size_t last_row_of(std::size_t panel) const { return cells_[panel].row + cells_[panel].rows - 1; }
+    double height_of(std::size_t panel) const {
+        double height = frame_height_;
+        for (std::size_t r = row_of(panel); r < last_row_of(panel); ++r)
+            height += (r < below_.size() ? below_[r] + above_[r + 1] : 0) + frame_height_;
+        return height;
+    }
 
     double room_at_left(std::size_t p) const {
         double numbers = 0;
@@ -162,7 +184,7 @@ private:
         x_labels_[p] =
             axis_label(panel.x_label, panel.x_words, panel.x_unit, page_.panels[p].x.power, width, figure_->symbols);
         // Beside title and numbers below there is room for it as well.
-        const double height = (frame_height_ + 2 * std::min(room_above(p), room_of_axis(p))) / font();
+        const double height = (height_of(p) + 2 * std::min(room_above(p), room_of_axis(p))) / font();
         y_labels_[p] =
             axis_label(panel.y_label, panel.y_words, panel.y_unit, page_.panels[p].y.power, height, figure_->symbols);
     }
@@ -205,11 +227,9 @@ private:
     void measure() {
         left_.assign(columns_, 0);
         right_.assign(columns_, font() * margin);
-        above_.assign(rows_, 0);
-        below_.assign(rows_, 0);
         for (std::size_t p = 0; p < page_.panels.size(); ++p) {
             PanelLayout& panel = page_.panels[p];
-            panel.y = panel_axis(figure_->panels[p], false, frame_height_, font());
+            panel.y = panel_axis(figure_->panels[p], false, height_of(p), font());
             panel.x = panel_axis(figure_->panels[p], true, frame_width_, font());
             write_labels(p);
             left_[column_of(p)] = std::max(left_[column_of(p)], room_at_left(p));
@@ -218,13 +238,15 @@ private:
         const double beside = std::accumulate(left_.begin(), left_.end(), 0.0) +
                               std::accumulate(right_.begin(), right_.end(), 0.0) + 2 * margin * font();
         frame_width_ = std::max(least_height, (page_.width - beside) / static_cast<double>(columns_));
+        above_.assign(rows_, 0);
+        below_.assign(rows_, 0);
         for (std::size_t p = 0; p < page_.panels.size(); ++p) {
             PanelLayout& panel = page_.panels[p];
             const double legend =
                 place_legend(panel.legend, 0, 0, column_width(column_of(p)), font(), figure_->symbols);
             above_[row_of(p)] = std::max(above_[row_of(p)], room_above(p));
-            below_[row_of(p)] =
-                std::max(below_[row_of(p)], room_of_axis(p) + legend + room_of_notes(p) + gap_of_panels * font());
+            below_[last_row_of(p)] =
+                std::max(below_[last_row_of(p)], room_of_axis(p) + legend + room_of_notes(p) + gap_of_panels * font());
         }
         title_height_ = font() * (margin + title_size * line * static_cast<double>(figure_title().size()));
         legend_height_ =
@@ -281,7 +303,7 @@ private:
         frame.left = left + left_[column_of(p)];
         frame.right = frame.left + frame_width_;
         frame.high = top - above_[row_of(p)];
-        frame.low = frame.high - frame_height_;
+        frame.low = frame.high - height_of(p);
         panel.texts.clear();
         write(p);
         place_legend(panel.legend, left, frame.low - room_of_axis(p), column_width(column_of(p)), font(),
@@ -346,6 +368,10 @@ private:
 
     const Figure* figure_;
     FigureLayout page_;
+    struct Cell {
+        std::size_t column, row, rows;
+    };
+    std::vector<Cell> cells_; ///< of each panel
     std::size_t columns_ = 1, rows_ = 1;
     double frame_width_ = 0, frame_height_ = 0, title_height_ = 0, legend_height_ = 0;
     std::vector<double> left_, right_; ///< of each column: room beside its frames

@@ -42,13 +42,6 @@ const std::string* given_name(const StudyPicture& picture, const std::string& na
     return nullptr;
 }
 
-/// A text up to its first remark.
-std::string first_words(const std::string& text) {
-    std::string words = text.substr(0, text.find_first_of(";,(:"));
-    words.erase(words.find_last_not_of(" .") + 1);
-    return words;
-}
-
 template <class List>
 std::string text_in(const List& list, const std::string& name) {
     for (const auto& one : list)
@@ -93,6 +86,12 @@ void label(std::string& label, std::string& words, const StudyPicture& picture, 
 }
 
 } // namespace
+
+std::string first_words(const std::string& text) {
+    std::string words = text.substr(0, text.find_first_of(";,(:"));
+    words.erase(words.find_last_not_of(" .") + 1);
+    return words;
+}
 
 std::string shown_name(const StudyPicture& picture, const std::string& name) {
     if (const std::string* given = given_name(picture, name))

@@ -11,6 +11,8 @@ namespace graze {
 
 // What readers of a picture see in the place of names: what the study says, or else what the model says.
 
+/// A text up to its first remark.
+std::string first_words(const std::string& text);
 /// The study's name for it, or its own with blanks in the place of underscores.
 std::string shown_name(const StudyPicture& picture, const std::string& name);
 /// NAME = VALUE with its unit.

@@ -1,13 +1,14 @@
 #include "program/plot.hpp"
 
 #include "graze/base/input_error.hpp"
+#include "graze/picture/figure_script.hpp"
+#include "graze/picture/trajectory_figure.hpp"
 #include "graze/study/plain_states.hpp"
 #include "graze/study/point_motion.hpp"
 #include "picture/gnuplot_text.hpp"
 #include "program/drawing.hpp"
-#include "program/gnuplot.hpp"
 #include "program/output_file.hpp"
-#include "program/process.hpp"
+#include "program/quantity.hpp"
 #include "program/style_arguments.hpp"
 #include "program/values.hpp"
 
@@ -19,16 +20,16 @@ namespace graze {
 
 namespace {
 
-std::size_t column_of(PlotContents& contents, RequestedQuantity quantity) {
+std::size_t column_of(MotionPanelChoice& contents, NamedValue quantity) {
     const auto known = std::find_if(contents.columns.begin(), contents.columns.end(),
-                                    [&](const RequestedQuantity& other) { return other.name == quantity.name; });
+                                    [&](const NamedValue& other) { return other.name == quantity.name; });
     if (known != contents.columns.end())
         return static_cast<std::size_t>(known - contents.columns.begin());
     contents.columns.push_back(std::move(quantity));
     return contents.columns.size() - 1;
 }
 
-void choose_panels(const Model& model, const SimulateArguments& arguments, PlotContents& contents) {
+void choose_panels(const Model& model, const SimulateArguments& arguments, MotionPanelChoice& contents) {
     std::vector<std::string> histories = arguments.quantities;
     contents.chosen = !histories.empty();
     if (histories.empty())
@@ -59,8 +60,8 @@ PlotRequest plot_request(const Model& model, const SimulateArguments& arguments,
     request.data_path = arguments.plot_data;
     request.style = figure_style(arguments.style);
     require_quotable(request.style.font);
-    request.ending = picture_ending(request.path, "--plot", {"svg", "png", "pdf", "eps"});
-    request.gnuplot = require_drawing_program("gnuplot", "install gnuplot (Debian: apt-get install gnuplot-nox)");
+    picture_ending(request.path, "--plot", figure_endings());
+    require_drawing_program("gnuplot", "install gnuplot (Debian: apt-get install gnuplot-nox)");
     require_writable(request.path);
     if (!request.data_path.empty())
         require_writable(request.data_path);
@@ -74,18 +75,10 @@ PlotRequest plot_request(const Model& model, const SimulateArguments& arguments,
     return request;
 }
 
-void draw_plot(const PlotRequest& request, const PlotRecorder& recorder) {
-    const GnuplotScript script(recorder, request.style);
-    if (!request.data_path.empty())
-        write_file(request.data_path, script.text(request.ending, request.path));
-    FileReplacement file(request.path);
-    const ProcessResult result =
-        run_process({request.gnuplot, "-d", "-"}, script.text(request.ending, file.temporary_path()));
-    if (result.status != 0)
-        throw InputError(fmt::format("gnuplot could not draw '{}': {}", request.path, one_line(result.output)),
-                         "keep its commands by --data FILE and run gnuplot FILE");
-    require_well_formed_picture(file, request.ending, request.path);
-    file.commit();
+void draw_plot(const PlotRequest& request, const MotionRecorder& recorder) {
+    Figure figure = trajectory_figure(recorder);
+    figure.style = request.style;
+    draw_figure(figure, request.path, request.data_path);
 }
 
 } // namespace graze

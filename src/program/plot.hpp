@@ -1,9 +1,9 @@
 #pragma once
 
 #include "graze/model/model.hpp"
-#include "graze/picture/figure.hpp"
+#include "graze/picture/motion_recorder.hpp"
+#include "graze/study/figure_style.hpp"
 #include "program/arguments.hpp"
-#include "program/plot_recorder.hpp"
 
 #include <string>
 #include <vector>
@@ -12,9 +12,8 @@ namespace graze {
 
 /// A picture that has been asked for.
 struct PlotRequest {
-    std::string path, data_path, ending;
-    std::string gnuplot; ///< path of the program
-    PlotContents contents;
+    std::string path, data_path;
+    MotionPanelChoice contents;
     FigureStyle style;
 };
 
@@ -23,6 +22,6 @@ struct PlotRequest {
 PlotRequest plot_request(const Model& model, const SimulateArguments& arguments, const std::vector<bool>& marked);
 
 /// Draws the picture. @throws InputError when gnuplot fails or the file cannot be written
-void draw_plot(const PlotRequest& request, const PlotRecorder& recorder);
+void draw_plot(const PlotRequest& request, const MotionRecorder& recorder);
 
 } // namespace graze

@@ -169,7 +169,7 @@ public:
             std::make_unique<Simulation>(System(model_), std::move(probes), std::vector<Expression>{}, options);
         table_ = make_table_recorder(*simulation_, request_);
         if (plot_)
-            curves_ = std::make_unique<PlotRecorder>(*simulation_, plot_->contents);
+            curves_ = std::make_unique<MotionRecorder>(*simulation_, plot_->contents);
     }
 
     int run() {
@@ -318,7 +318,7 @@ private:
     std::optional<std::size_t> period_probe_;
     std::unique_ptr<Simulation> simulation_;
     std::unique_ptr<TableRecorder> table_;
-    std::unique_ptr<PlotRecorder> curves_;
+    std::unique_ptr<MotionRecorder> curves_;
     std::unique_ptr<Trajectory> trajectory_;
 };
 

@@ -51,6 +51,7 @@ struct FigurePanel {
     bool logarithmic_x = false, logarithmic_y = false;
     bool roomy_y = false; ///< curves keep away from the frame above and below
     bool roomy_x = false; ///< and at the sides
+    std::size_t rows = 1; ///< which it spans, where panels stand beside one another
     std::optional<std::pair<double, double>> x_range, y_range;
     std::vector<FigureSeries> series;
     std::vector<double> marks; ///< thin vertical lines

@@ -1,8 +1,9 @@
 #pragma once
 
+#include "graze/model/named_value.hpp"
+#include "graze/results/quantity_evaluator.hpp"
 #include "graze/trajectory/observer.hpp"
 #include "graze/trajectory/trajectory.hpp"
-#include "program/quantity.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -12,9 +13,9 @@
 
 namespace graze {
 
-/// What is drawn. Panels refer to columns.
-struct PlotContents {
-    std::vector<RequestedQuantity> columns;
+/// What is drawn of a motion. Panels refer to columns.
+struct MotionPanelChoice {
+    std::vector<NamedValue> columns;
     std::vector<std::size_t> histories;                         ///< drawn over time
     std::vector<std::pair<std::size_t, std::size_t>> portraits; ///< one over the other
     std::vector<bool> marked;                                   ///< events whose contacts are marked
@@ -23,7 +24,7 @@ struct PlotContents {
 };
 
 /// Keeps what a picture needs: points close enough on every arc, contacts before and after, passages of sections.
-class PlotRecorder : public Observer {
+class MotionRecorder : public Observer {
 public:
     struct Arc {
         std::vector<double> times;
@@ -39,15 +40,15 @@ public:
         std::vector<double> values;
     };
 
-    PlotRecorder(const Simulation& simulation, PlotContents contents);
+    MotionRecorder(const Simulation& simulation, MotionPanelChoice contents);
 
     void step(const Step& step) override;
     void contact(const Contact& contact) override;
     void passage(const Passage& passage) override;
     void finish(const Trajectory& trajectory);
 
-    const PlotContents& contents() const { return contents_; }
-    const std::string& time_unit() const { return simulation_.model().time_unit; }
+    const MotionPanelChoice& contents() const { return contents_; }
+    const Model& model() const { return simulation_.model(); }
     const std::vector<Arc>& arcs() const { return arcs_; }
     const std::vector<Jump>& jumps() const { return jumps_; }
     const std::vector<Point>& passages() const { return passages_; }
@@ -62,7 +63,7 @@ private:
     std::vector<double> evaluate(std::span<const double> state);
 
     Simulation simulation_;
-    PlotContents contents_;
+    MotionPanelChoice contents_;
     QuantityEvaluator evaluate_;
     std::vector<double> periods_, column_periods_, state_;
     std::vector<Arc> arcs_;

@@ -1,4 +1,4 @@
-#include "program/plot_recorder.hpp"
+#include "graze/picture/motion_recorder.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,25 +13,25 @@ constexpr std::size_t most_points = 2'000'000;
 
 } // namespace
 
-PlotRecorder::PlotRecorder(const Simulation& simulation, PlotContents contents)
+MotionRecorder::MotionRecorder(const Simulation& simulation, MotionPanelChoice contents)
     : simulation_(simulation), contents_(std::move(contents)), evaluate_(simulation.model(), contents_.columns) {
     const Model& model = simulation.model();
     periods_ = simulation.system().periods()(model.parameter_values());
     state_.resize(periods_.size());
-    for (const RequestedQuantity& column : contents_.columns) {
+    for (const NamedValue& column : contents_.columns) {
         const auto state = column.value.is_symbol() ? model.find_state(column.value.name()) : std::nullopt;
         column_periods_.push_back(state ? periods_[*state] : 0);
     }
 }
 
-std::vector<double> PlotRecorder::evaluate(std::span<const double> state) {
+std::vector<double> MotionRecorder::evaluate(std::span<const double> state) {
     for (std::size_t i = 0; i < state_.size(); ++i)
         state_[i] = periods_[i] > 0 ? state[i] - std::floor(state[i] / periods_[i]) * periods_[i] : state[i];
     const auto values = evaluate_(state_);
     return {values.begin(), values.end()};
 }
 
-void PlotRecorder::step(const Step& step) {
+void MotionRecorder::step(const Step& step) {
     if (points_ >= most_points) {
         complete_ = false;
         return;
@@ -51,7 +51,7 @@ void PlotRecorder::step(const Step& step) {
     }
 }
 
-void PlotRecorder::contact(const Contact& contact) {
+void MotionRecorder::contact(const Contact& contact) {
     const bool touch = contact.kind == ContactKind::touch;
     if (!touch)
         new_arc_ = true;
@@ -60,19 +60,19 @@ void PlotRecorder::contact(const Contact& contact) {
             {contact.time, evaluate(contact.before), evaluate(contact.after), contents_.marked[contact.event]});
 }
 
-void PlotRecorder::passage(const Passage& passage) {
+void MotionRecorder::passage(const Passage& passage) {
     if (complete_ && passage.probe < contents_.sections)
         passages_.push_back({passage.time, evaluate(passage.state)});
 }
 
-std::string PlotRecorder::section_names() const {
+std::string MotionRecorder::section_names() const {
     std::string names;
     for (std::size_t i = 0; i < contents_.sections; ++i)
         names += (i > 0 ? ", " : "") + simulation_.probes()[i].name;
     return names;
 }
 
-void PlotRecorder::finish(const Trajectory& trajectory) {
+void MotionRecorder::finish(const Trajectory& trajectory) {
     if (trajectory.outcome().ending == Ending::singular)
         singularity_ = trajectory.outcome().time;
 }
