@@ -386,10 +386,11 @@ int run_command(const RunArguments& arguments, const Console& console) {
         DrawnPictures drawn;
         if (const bool asks = !study.pictures.empty() || !study.tables.empty(); !asks || !shown.pictures.empty())
             drawn = draw_study_pictures(shown, file, folder, console);
-        for (const auto* paths : {&tables.paths, &drawn.paths})
-            for (const std::string& path : *paths)
-                if (!arguments.quiet && arguments.output.format == TableFormat::table)
-                    console.out << path << '\n';
+        std::vector<std::string> paths = tables.paths;
+        paths.insert(paths.end(), drawn.paths.begin(), drawn.paths.end());
+        for (const std::string& path : paths)
+            if (!arguments.quiet && arguments.output.format == TableFormat::table)
+                console.out << path << '\n';
         if (drawn.interrupted) {
             console.err << "graze: interrupted; all is computed, and the same command draws the other pictures\n";
             return InterruptGuard::exit_code();
