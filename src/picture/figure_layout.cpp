@@ -14,7 +14,7 @@ constexpr double narrow = 120;      ///< mm: a column of text, for which letters
 constexpr double narrow_font = 8, usual_font = 9;
 constexpr double least_panel = 42;  ///< mm: of the axes of panels that stand beside one another
 constexpr double flat = 0.62;       ///< height of a panel, of its width
-constexpr double flattest = 0.38;   ///< where a picture has only one column
+constexpr double flattest = 0.38;   ///< where a picture has only one column, or one panel stands beside several
 constexpr double least_height = 30; ///< points: of panels, whatever height was asked for
 constexpr double sheet = 250;       ///< mm: pictures whose height nobody asked for go onto a sheet of A4
 constexpr double legible = 20;      ///< mm: of panels that are made less high for that
@@ -121,9 +121,10 @@ public:
 private:
     double font() const { return page_.font; }
     double usual_height() const {
-        const double part = columns_ == 1 && page_.width > narrow * points_per_mm && rows_ > 1 ? flattest
-                            : columns_ == 1 && page_.width > narrow * points_per_mm            ? 0.5
-                                                                                               : flat;
+        const bool spanned = std::any_of(cells_.begin(), cells_.end(), [](const Cell& cell) { return cell.rows > 1; });
+        const double part = spanned || (columns_ == 1 && page_.width > narrow * points_per_mm && rows_ > 1) ? flattest
+                            : columns_ == 1 && page_.width > narrow * points_per_mm                         ? 0.5
+                                                                                                            : flat;
         return part * frame_width_;
     }
 

@@ -120,10 +120,8 @@ PointList listed_points(const PointsArguments& arguments, const ResultFile& file
                 ++list.twins;
                 continue;
             }
-            ListedPoint point{&list.runs[r], {}, {}, stored[record.number]};
-            point.record = std::move(record);
-            point.parameters = parameters_of(list.runs[r], point.record);
-            list.points.push_back(std::move(point));
+            std::vector<double> parameters = parameters_of(list.runs[r], record), values = stored[record.number];
+            list.points.push_back({&list.runs[r], std::move(record), std::move(parameters), std::move(values)});
         }
     }
     if (several)

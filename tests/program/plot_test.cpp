@@ -70,34 +70,6 @@ TEST_F(Plot, KeepsItsCommandsToBeDrawnAgain) {
     EXPECT_EQ(contents(picture), first);
 }
 
-TEST_F(Plot, CurvesAreBrokenWhereTheMotionJumps) {
-    const std::string commands = folder / "ball.gp";
-    EXPECT_EQ(run_graze("simulate bouncing-ball --time 0.25 --quantity v --plot " + (folder / "ball.svg") + " --data " +
-                        commands)
-                  .code,
-              0);
-    // The velocity falls along each arc and rises only in between.
-    std::istringstream stream(contents(commands));
-    std::string line;
-    while (std::getline(stream, line) && line != "$history1_curve << end")
-        ;
-    int arcs = 0;
-    bool fresh = true;
-    double last = 0;
-    while (std::getline(stream, line) && line != "end") {
-        if (line.empty()) {
-            fresh = true;
-            continue;
-        }
-        const double value = std::stod(line.substr(line.find(' ')));
-        EXPECT_TRUE(fresh || value <= last) << line;
-        arcs += fresh ? 1 : 0;
-        fresh = false;
-        last = value;
-    }
-    EXPECT_EQ(arcs, 2);
-}
-
 TEST_F(Plot, IsRefusedBeforeTheRunWhereItCannotBeWritten) {
     const Printed run = run_graze("simulate mems-switch --plot " + (folder / "no/such/folder.svg"));
     EXPECT_EQ(run.code, exit_bad_input);
