@@ -4,7 +4,6 @@
 #include "graze/identify/coupling.hpp"
 #include "graze/identify/fit.hpp"
 #include "graze/model/catalogue.hpp"
-#include "graze/picture/result_picture.hpp"
 #include "graze/results/result_file.hpp"
 #include "graze/results/stored_run.hpp"
 #include "graze/study/runner.hpp"
@@ -136,13 +135,6 @@ TEST_F(IdentifyRunTest, decrement_and_coupling_find_what_the_records_were_made_w
     EXPECT_NEAR(both.covariance[1],
                 expected.correlation * both.numbers[0].estimate.error * both.numbers[1].estimate.error,
                 1e-6 * std::abs(both.covariance[1]));
-    // What is drawn: all that was measured, and what is left is its difference from what is fitted.
-    const Figure figure = make_picture(default_picture(*file.find_run("decay")), file).figure;
-    ASSERT_EQ(figure.panels.size(), 2);
-    EXPECT_EQ(figure.panels[0].series[0].points.size(), 30);
-    for (std::size_t i = 0; i < 10; ++i)
-        EXPECT_NEAR(figure.panels[1].series[0].points[i].y,
-                    figure.panels[0].series[0].points[i].y - figure.panels[0].series[1].points[i].y, 1e-15);
 }
 
 // The same release and loads as above, written in other units: the same parameters of the model come out.

@@ -2,7 +2,6 @@
 // runs that are broken off.
 
 #include "graze/model/catalogue.hpp"
-#include "graze/picture/result_picture.hpp"
 #include "graze/results/result_file.hpp"
 #include "graze/results/stored_run.hpp"
 #include "graze/study/runner.hpp"
@@ -257,11 +256,6 @@ TEST_F(RecordRunTest, a_diagram_has_a_point_for_each_record_and_a_direction) {
     }
     EXPECT_THAT(amplitudes, ElementsAre(1, 2, 3, 3, 2, 1));
     EXPECT_THAT(directions, ElementsAre("up", "up", "up", "down", "down", "down"));
-    const Figure figure = make_picture(default_picture(stored.record), file).figure;
-    ASSERT_EQ(figure.panels.size(), 4); // two values, two directions; rows of records are none of its points
-    for (const FigurePanel& panel : figure.panels)
-        EXPECT_EQ(panel.series.size(), 1);
-    EXPECT_EQ(figure.panels[0].x_unit, "V");
 }
 
 TEST(RecordRun, channels_of_a_bench_are_what_its_model_says) {
@@ -283,101 +277,6 @@ time = 1
     EXPECT_EQ(model.states[1].text, "position of the shaker's head");
     EXPECT_EQ(model.states[2].text, "");
     EXPECT_EQ(model.parameters.at(0).text, "amplitude of s");
-}
-
-TEST_F(RecordRunTest, measured_points_lie_over_computed_ones) {
-    for (int i = 1; i <= 2; ++i)
-        folder_.write(fmt::format("{}.csv", i), waves(i, 1));
-    folder_.write("m.toml", R"(name = "m"
-parameters = { amplitude = 1 }
-[states]
-q = { initial = "amplitude" }
-theta = { initial = 0, period = 1 }
-[modes.a]
-rates = { q = 0, theta = 1 }
-[sections.turn]
-state = "theta"
-value = 0
-)");
-    const Study study = read_study(study_file(std::string(head) + R"(files = "*.csv"
-reference = "V"
-[runs.computed]
-kind = "simulate"
-model = "./m.toml"
-vary = { amplitude = [1.2, 1.4, 1.6] }
-periods = 3
-values = ["q"]
-[pictures.both]
-kind = "bifurcation"
-run = "computed"
-over = "r"
-[pictures.nothing]
-kind = "bifurcation"
-run = "r"
-y = ["V"]
-over = "computed"
-[pictures.wrong]
-kind = "scatter"
-run = "computed"
-)"));
-    ResultFile file(results(), ResultFile::Access::write);
-    run_study(study, file, {});
-    const Figure figure = make_picture(study.pictures[0], file).figure;
-    ASSERT_EQ(figure.panels.size(), 1);
-    const FigureSeries& measured = figure.panels[0].series.back();
-    EXPECT_EQ(measured.title, "r");
-    ASSERT_GE(measured.points.size(), 6);
-    for (const PlanePoint& point : measured.points) {
-        EXPECT_TRUE(std::abs(point.x - 1) < 1e-6 || std::abs(point.x - 2) < 1e-6) << point.x;
-        EXPECT_NEAR(point.y, 4, 1e-4);
-    }
-    EXPECT_LT(figure.panels[0].x_range->first, 1); // room for all of them
-    EXPECT_GT(figure.panels[0].x_range->second, 2);
-    EXPECT_THROW(make_picture(study.pictures[1], file), InputError); // no values of the same name
-    EXPECT_THAT(refusal(std::string(head) + "files = \"1.csv\"\n[pictures.p]\nkind = \"scatter\"\nrun = \"r\"\n"
-                                            "over = \"r\"\n"),
-                HasSubstr("have no `over`"));
-}
-
-TEST_F(RecordRunTest, rows_of_records_have_histories_and_spectra) {
-    folder_.write("a.csv", waves(2, 1.999)); // ten periods
-    folder_.write("b.csv", waves(2, 20));
-    const Study study = read_study(study_file(std::string(head) + R"(files = ["a.csv", "b.csv"]
-[runs.a]
-kind = "record"
-files = "a.csv"
-[pictures.spectrum]
-kind = "spectrum"
-run = "a"
-y = "V"
-[pictures.long]
-kind = "spectrum"
-run = "r"
-y = "V"
-[pictures.history]
-kind = "history"
-run = "r"
-)"));
-    ResultFile file(results(), ResultFile::Access::write);
-    run_study(study, file, {});
-    const auto peak = [&](std::size_t picture) {
-        PlanePoint highest;
-        const Figure figure = make_picture(study.pictures[picture], file).figure;
-        for (const PlanePoint& point : figure.panels[0].series[0].points)
-            highest = point.y > highest.y ? point : highest;
-        return highest;
-    };
-    EXPECT_NEAR(peak(0).x, frequency, 1e-9);
-    EXPECT_NEAR(peak(0).y, 2, 1e-9);                      // whole periods: nothing leaks
-    EXPECT_NEAR(peak(1).x, frequency, 0.5 * 1000 / 8192); // the nearest of the frequencies of parts
-    EXPECT_NEAR(peak(1).y, 2, 2 * 0.15);                  // Hann's window between two frequencies: 15 % less
-    const Figure history = make_picture(study.pictures[2], file).figure;
-    ASSERT_EQ(history.panels.size(), 2);
-    EXPECT_LE(history.panels[0].series[0].points.size(), 4000); // of 20001
-    double highest = 0;
-    for (const PlanePoint& point : history.panels[0].series[0].points)
-        highest = std::max(highest, point.y);
-    EXPECT_NEAR(highest, 2, 1e-12); // none that stands out is missing
 }
 
 TEST_F(RecordRunTest, records_stay_in_the_folder_of_the_study) {
