@@ -279,6 +279,13 @@ time = 1
     EXPECT_EQ(model.parameters.at(0).text, "amplitude of s");
 }
 
+TEST_F(RecordRunTest, scatters_have_nothing_drawn_over_them) {
+    folder_.write("1.csv", waves(1, 1));
+    EXPECT_THAT(refusal(std::string(head) + "files = \"1.csv\"\n[pictures.p]\nkind = \"scatter\"\nrun = \"r\"\n"
+                                            "over = \"r\"\n"),
+                HasSubstr("have no `over`"));
+}
+
 TEST_F(RecordRunTest, records_stay_in_the_folder_of_the_study) {
     testing::TemporaryFolder elsewhere;
     elsewhere.write("a.csv", waves(2, 1));
