@@ -1,4 +1,5 @@
 #include "branch_results.hpp"
+#include "results/schema.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -64,7 +65,7 @@ TEST_F(Info, CountsWhatIsInResults) {
     EXPECT_THAT(csv, StartsWith("item,name,property,value,unit\n"));
     EXPECT_EQ(fact(csv, "file,,kind"), "results");
     EXPECT_EQ(fact(csv, "file,,size"), fmt::format("{}", std::filesystem::file_size(path)));
-    EXPECT_EQ(fact(csv, "file,,format"), "6");
+    EXPECT_EQ(fact(csv, "file,,format"), fmt::format("{}", result_format));
     EXPECT_EQ(fact(csv, "run,first,kind"), "continue");
     EXPECT_EQ(fact(csv, "run,first,points"), "10");
     EXPECT_EQ(fact(csv, "run,first,segments"), "10");
