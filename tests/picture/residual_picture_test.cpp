@@ -21,6 +21,7 @@ TEST(ResidualPicture, ShowsAllThatWasMeasuredAndWhatIsLeft) {
     }
     folder.write("release.csv", text);
     const Study study = read_study(folder.write("s.toml", R"(name = "s"
+model = "electromagnetic-testbed"
 [runs.release]
 kind = "record"
 files = "release.csv"
@@ -28,6 +29,7 @@ files = "release.csv"
 kind = "identify"
 what = "decrement"
 records = "release"
+gives = { natural_frequency = "w0", damping_ratio = "zeta" }
 )"));
     ResultFile file(folder / "results.sqlite", ResultFile::Access::write);
     for (const RunReport& report : run_study(study, file, {}))
