@@ -1,0 +1,108 @@
+// Switches across which the vector field is continuous, as where a soft stop begins: branches of a driven oscillator
+// beside it, whose touches have a closed form.
+
+#include "maps.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+namespace graze {
+namespace {
+
+using namespace graze::testing;
+using std::numbers::pi;
+
+/// x'' + 2 z x' + x + k max(x - g, 0) = F cos(w t).
+struct SoftStop {
+    double F, w, z, k, g;
+
+    double size(double at) const { return std::hypot(1 - at * at, 2 * z * at); }
+    Model model(const char* kind) const {
+        return model_from(fmt::format(R"toml(
+[parameters]
+F = {:.17g}
+w = {:.17g}
+z = {:.17g}
+k = {:.17g}
+g = {:.17g}
+[states]
+x = 0
+v = 0
+th = {{ initial = 0, period = "2*pi" }}
+[modes.free]
+rates = {{ x = "v", v = "F*cos(th) - 2*z*v - x", th = "w" }}
+watch = ["on"]
+[modes.contact]
+rates = {{ x = "v", v = "F*cos(th) - 2*z*v - x - k*(x - g)", th = "w" }}
+watch = ["off"]
+[events.on]
+function = "g - x"
+kind = "{}"
+[events.off]
+function = "x - g"
+kind = "{}"
+[[transitions]]
+mode = "free"
+event = "on"
+label = "on"
+next = "contact"
+[[transitions]]
+mode = "contact"
+event = "off"
+label = "off"
+next = "free"
+[initial]
+mode = "free"
+[sections.ph]
+state = "th"
+value = 0
+)toml",
+                                      F, w, z, k, g, kind, kind));
+    }
+    /// The free motion.
+    Orbit orbit(const Model& made) const {
+        const std::complex<double> i(0, 1), amplitude = F / (1 - w * w + 2.0 * i * z * w);
+        return {parse_signature(made, "free:ph"),
+                made.parameter_values(),
+                {{amplitude.real(), (i * w * amplitude).real(), 0}},
+                {2 * pi / w},
+                {}};
+    }
+};
+
+TEST(SmoothSwitch, is_touched_where_the_free_motion_reaches_it) {
+    for (const SoftStop& stop :
+         {SoftStop{1.55, 1.8, 0.02, 100, 1}, SoftStop{0.2, 0.7, 0.1, 5, 1}, SoftStop{0.1, 2.3, 0.3, 0.5, 1e-3}})
+        for (const char* const kind : {"section", "barrier"}) {
+            const Model model = stop.model(kind);
+            const double least = stop.g * stop.size(stop.w), inside = std::min(stop.F, 0.5 * least);
+            SoftStop free = stop;
+            free.F = inside;
+            const Model weak = free.model(kind);
+            const Branch branch =
+                follow_branch(weak, free.orbit(weak), in_parameter(weak, "F", 0.1 * inside, 10 * least));
+            ASSERT_EQ(names(branch), "GR") << kind << ' ' << stop.w << ' ' << branch.detail;
+            EXPECT_NEAR(branch.special[0].parameter, least, 1e-11 * least) << kind;
+            EXPECT_EQ(branch.outcome, BranchOutcome::unphysical);
+        }
+}
+
+TEST(SmoothSwitch, is_touched_on_either_side_of_the_resonance) {
+    const double F = 1.8171679737395643, z = 0.02, g = 1;
+    // (1 - w^2)^2 + 4 z^2 w^2 = (F/g)^2
+    const double middle = 1 - 2 * z * z, root = std::sqrt(middle * middle - 1 + F * F / (g * g));
+    const double above = std::sqrt(middle + root);
+    const SoftStop stop{F, 2.403, z, 0.5, g};
+    const Model model = stop.model("section");
+    BranchSettings settings = in_parameter(model, "w", 0.1, 5);
+    settings.direction = -1;
+    const Branch branch = follow_branch(model, stop.orbit(model), settings);
+    ASSERT_EQ(names(branch), "GR") << branch.detail;
+    EXPECT_NEAR(branch.special[0].parameter, above, 1e-11);
+}
+
+} // namespace
+} // namespace graze
