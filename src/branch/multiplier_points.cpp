@@ -69,19 +69,27 @@ bool holds(BranchState& state, const SpecialPoint& special, const Distance& dist
     // Arclength, in units of the scales, within which it is seen how multipliers change; by how many of these a located
     // point may be off next to a contact without speed; and what is no multiplier of that kind in any case.
     constexpr double beside = 1e-10, times = 50, far = 2;
-    if (multipliers_followed(special.solution).empty()) // as all along a curve of contacts without speed
-        return state.settings().kept.has_value();
+    Continuation& continuation = state.continuation();
+    const LastStep step = state.last_step();
+    ContinuationPoint at;
+    BranchPoint there;
+    std::vector<BranchTest> tests;
+    const auto describe = [&](double fraction) {
+        return continuation.between(fraction, at) && state.describe(at, there, tests);
+    };
+    if (multipliers_followed(special.solution).empty()) {
+        // As all along a curve of contacts without speed; or only here, where another contact loses its own.
+        constexpr double aside = 1e-4, near = 0.1; // fraction of the step; multipliers change by less over that
+        if (!state.settings().kept || !describe(step.fraction(special.arclength) - aside))
+            return false;
+        return multipliers_followed(there.solution).empty() || distance(there.solution) < near;
+    }
     const double here = distance(special.solution);
     if (here <= close || !(here < far))
         return here <= close;
-    Continuation& continuation = state.continuation();
-    const LastStep step = state.last_step();
     double change = 0;
     for (const double aside : {-beside, beside}) {
-        ContinuationPoint at;
-        BranchPoint there;
-        std::vector<BranchTest> tests;
-        if (!continuation.between(step.fraction(special.arclength + aside), at) || !state.describe(at, there, tests))
+        if (!describe(step.fraction(special.arclength + aside)))
             return false;
         change = std::max(change, std::abs(distance(there.solution) - here));
     }

@@ -113,5 +113,24 @@ TEST(SmoothSwitch, no_extremum_of_the_period_is_where_the_force_fixes_it) {
     ASSERT_FALSE(of_type(branch, PointType::grazing).empty()) << names(branch);
 }
 
+TEST(SmoothSwitch, curves_of_touches_begin_at_the_contact_that_vanishes_too) {
+    const SoftStop stop{0.5, 0.8, 0.1, 5, 1};
+    const Model model = stop.model("section");
+    BranchSettings settings = in_parameter(model, "F", 0.1, 2);
+    settings.direction = -1;
+    const Branch branch = follow_branch(model, settled(model, "ph").orbit, settings);
+    const auto touches = of_type(branch, PointType::grazing);
+    ASSERT_EQ(touches.size(), 1U) << names(branch);
+    ASSERT_TRUE(touches[0].at_end);
+    EXPECT_NEAR(touches[0].parameter, stop.g * stop.size(stop.w), 1e-9);
+    for (const int way : {1, -1}) {
+        const Branch curve = curve_of(model, touches[0], in_parameter(model, "w", 0.3, 3), "F", 0.01, 20, way);
+        EXPECT_EQ(curve.outcome, BranchOutcome::bound) << curve.detail;
+        EXPECT_GT(curve.points.size(), 3U);
+        for (const BranchPoint& one : curve.points)
+            EXPECT_NEAR(one.solution.orbit.parameters[0], stop.g * stop.size(one.parameter), 1e-11);
+    }
+}
+
 } // namespace
 } // namespace graze
