@@ -132,5 +132,27 @@ TEST(SmoothSwitch, curves_of_touches_begin_at_the_contact_that_vanishes_too) {
     }
 }
 
+TEST(SmoothSwitch, a_second_contact_comes_and_goes) {
+    const SoftStop stop{1, 0.641, 0.03, 2, 1};
+    const Model model = stop.model("section");
+    BranchSettings settings = in_parameter(model, "w", 0.2, 4);
+    settings.direction = -1;
+    const Branch once = follow_branch(model, settled(model, "ph").orbit, settings);
+    ASSERT_EQ(names(once), "GR") << once.detail;
+    const Branch more = follow(model, branches_at(model, once.special[0], settings).front(), settings);
+    ASSERT_EQ(names(more), "GR") << more.detail;
+    // The contact that vanishes lies across the place where the orbit is closed.
+    EXPECT_TRUE(more.special[0].at_end);
+    const Branch fewer = follow(model, branches_at(model, more.special[0], settings).front(), settings);
+    EXPECT_EQ(names(fewer), "BD") << fewer.detail;
+    EXPECT_EQ(fewer.points.back().solution.orbit.segments(), 2U);
+    // Where the touch comes to the contact that is left, no multiplier is -1: the vector field is continuous.
+    for (const int way : {1, -1}) {
+        const Branch curve = curve_of(model, once.special[0], in_parameter(model, "w", 0.2, 4), "F", 0.05, 4, way);
+        EXPECT_GT(curve.points.size(), 10U) << curve.detail;
+        EXPECT_TRUE(of_type(curve, PointType::flip).empty()) << names(curve);
+    }
+}
+
 } // namespace
 } // namespace graze
