@@ -97,6 +97,13 @@ void test_grazing(const TestedPoint& point, std::vector<BranchTest>& tests) {
 }
 
 bool confirm_grazing(BranchState& state, SpecialPoint& special, const BranchTest&) {
+    // The event that ends an arc, touched at its very end, is that contact without speed.
+    constexpr double very_end = 1e-5; // share of the arc
+    const Segment& arc = special.solution.orbit.signature[special.segment];
+    const double duration = std::abs(special.solution.orbit.durations[special.segment]);
+    if (arc.end == SegmentEnd::event && state.model().transitions[arc.index].event == special.event &&
+        special.type == PointType::grazing && special.time > (1 - very_end) * duration)
+        special.at_end = true;
     if (special.at_end) // their limits are infinite
         special.solution.multipliers.clear();
     special.detail =

@@ -237,6 +237,20 @@ bool are_parted(const Simulation& simulation, const Orbit& one, const Orbit& oth
 
 } // namespace
 
+namespace {
+
+/// Of a touch near a bound, orbits at some speeds lie beyond it.
+bool is_within_bounds(const BranchSettings& settings, const Orbit& orbit, std::string& why) {
+    const double value = orbit.parameters[settings.parameter.place()];
+    const bool within =
+        !(settings.least && value < *settings.least) && !(settings.greatest && value > *settings.greatest);
+    if (!within)
+        why = "it lies outside the branch's bounds";
+    return within;
+}
+
+} // namespace
+
 BranchStart with_one_more_contact(const System& system, const SpecialPoint& point, const BranchSettings& settings) {
     const NewContact contact(system, point, settings);
     std::string why = "Newton's method does not find it";
@@ -247,7 +261,8 @@ BranchStart with_one_more_contact(const System& system, const SpecialPoint& poin
             if (!orbit)
                 continue;
             const OrbitDirection direction = meet_at_speed(contact.simulation(), *orbit, speed, settings);
-            if (!direction.is_empty() && is_admissible(contact.simulation(), *orbit, why))
+            if (!direction.is_empty() && is_within_bounds(settings, *orbit, why) &&
+                is_admissible(contact.simulation(), *orbit, why))
                 return BranchStart{*orbit, direction, 0, fmt::format("with one more contact at '{}'", contact.name())};
         }
         return std::nullopt;

@@ -69,19 +69,27 @@ bool holds(BranchState& state, const SpecialPoint& special, const Distance& dist
     // Arclength, in units of the scales, within which it is seen how multipliers change; by how many of these a located
     // point may be off next to a contact without speed; and what is no multiplier of that kind in any case.
     constexpr double beside = 1e-10, times = 50, far = 2;
-    if (multipliers_followed(special.solution).empty()) // as all along a curve of contacts without speed
-        return state.settings().kept.has_value();
+    Continuation& continuation = state.continuation();
+    const LastStep step = state.last_step();
+    ContinuationPoint at;
+    BranchPoint there;
+    std::vector<BranchTest> tests;
+    const auto describe = [&](double fraction) {
+        return continuation.between(fraction, at) && state.describe(at, there, tests);
+    };
+    if (multipliers_followed(special.solution).empty()) {
+        // As all along a curve of contacts without speed; or only here, where another contact loses its own.
+        constexpr double aside = 1e-4, near = 0.1; // fraction of the step; multipliers change by less over that
+        if (!state.settings().kept || !describe(step.fraction(special.arclength) - aside))
+            return false;
+        return multipliers_followed(there.solution).empty() || distance(there.solution) < near;
+    }
     const double here = distance(special.solution);
     if (here <= close || !(here < far))
         return here <= close;
-    Continuation& continuation = state.continuation();
-    const LastStep step = state.last_step();
     double change = 0;
     for (const double aside : {-beside, beside}) {
-        ContinuationPoint at;
-        BranchPoint there;
-        std::vector<BranchTest> tests;
-        if (!continuation.between(step.fraction(special.arclength + aside), at) || !state.describe(at, there, tests))
+        if (!describe(step.fraction(special.arclength + aside)))
             return false;
         change = std::max(change, std::abs(distance(there.solution) - here));
     }
@@ -129,8 +137,10 @@ std::string in_words(const FoldForm& form, const BranchState& state) {
                           : side + ", a has no value: two multipliers are 1";
 }
 
-/// @param supercritical sign of a coefficient for which what leaves is stable
-std::string in_words(const Criticality& form, const char* name, int supercritical) {
+/// @param supercritical sign of a coefficient for which what leaves is stable; @param several why it may have no value
+std::string in_words(const Criticality& form, const char* name, int supercritical, const char* several) {
+    if (!form.is_simple)
+        return fmt::format("{} has no value: {}", name, several);
     if (!form.is_decided())
         return fmt::format("criticality not decided, {} = 0 +- {:.1e}", name, form.error);
     return fmt::format("{}critical, {} = {:.6g}", form.value * supercritical > 0 ? "super" : "sub", name, form.value);
@@ -157,18 +167,20 @@ std::unique_ptr<OrbitCondition> condition_of_fold(const OrbitEquations& equation
 void test_flip(const TestedPoint& point, std::vector<BranchTest>& tests) {
     const bool tested = !point.equations.symmetry() && !is_kept(point, PointType::flip);
     tests.push_back({.type = where_curves_meet(point, PointType::flip),
-                     .value = tested ? point.at.system.antiperiodic_determinant() : nothing});
+                     .value = tested ? point.at.system.antiperiodic_determinant() : nothing,
+                     .noise = tested ? point.at.system.antiperiodic_noise() : 0});
 }
 
 void test_asymmetry(const TestedPoint& point, std::vector<BranchTest>& tests) {
     const bool tested = point.equations.symmetry() && !is_kept(point, PointType::asymmetry);
     tests.push_back({.type = where_curves_meet(point, PointType::asymmetry),
-                     .value = tested ? point.at.system.antiperiodic_determinant() : nothing});
+                     .value = tested ? point.at.system.antiperiodic_determinant() : nothing,
+                     .noise = tested ? point.at.system.antiperiodic_noise() : 0});
 }
 
 bool confirm_flip(BranchState& state, SpecialPoint& special, const BranchTest&) {
     if (const auto form = flip_criticality(state.problem().equations(), state.problem().evaluation()))
-        special.detail = in_words(*form, "c", 1);
+        special.detail = in_words(*form, "c", 1, "two multipliers are -1");
     return special.located && has_multiplier(state, special, -1);
 }
 
@@ -227,7 +239,7 @@ void test_torus(const TestedPoint& point, std::vector<BranchTest>& tests) {
 
 bool confirm_torus(BranchState& state, SpecialPoint& special, const BranchTest&) {
     if (const auto form = torus_criticality(state.problem().equations(), state.problem().evaluation()))
-        special.detail = in_words(*form, "d", -1);
+        special.detail = in_words(*form, "d", -1, "two pairs are one");
     return special.located && has_pair_on_circle(state, special);
 }
 

@@ -149,11 +149,15 @@ void null_vectors(const MatrixXcd& matrix, VectorXcd& right, VectorXcd& left) {
 
 /// Of numbers that are made of derivatives, in units of their largest parts.
 constexpr double round_off = 1e-12;
+/// What the closing makes of both null vectors, of their sizes: less is zero, since they are known less well than
+/// round-off is small, as the point that they are taken at is a located one.
+constexpr double least_product = 1e-9;
 
 /// A coefficient with what round-off may make of it.
 struct Cubic {
     Complex value;
     double error = 0;
+    bool is_simple = true; ///< whether the multiplier is, but for which there is no value
 };
 
 /// F_3(q, q, q*) + 2 F_2(q, z_11) + F_2(q*, z_20), projected on the critical direction, where z_11 and z_20 are what
@@ -188,7 +192,8 @@ std::optional<Cubic> cubic_coefficient(const OrbitEquations& equations, const Or
                     second_spread = twice.transpose().solve(by_second);
     const double spread = 2 * mean_spread.norm() + second_spread.norm();
     const double error = spread * size + with_q.norm() * (second.norm() + 2 * mean.norm()) + parts * q.norm();
-    const Cubic result{-(third + rest) / product, round_off * error / std::abs(product)};
+    const bool is_simple = std::abs(product) > least_product * left.norm() * (expansion.closing() * q).norm();
+    const Cubic result{-(third + rest) / product, round_off * error / std::abs(product), is_simple};
     if (!std::isfinite(result.value.real()) || !std::isfinite(result.value.imag()) || !std::isfinite(result.error))
         return std::nullopt;
     return result;
@@ -204,7 +209,7 @@ std::optional<double> flip_coefficient(const OrbitEquations& equations, const Or
 std::optional<double> flip_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at,
                                        SecondVariation& variation) {
     const auto cubic = cubic_coefficient(equations, at, -1, variation);
-    return cubic ? std::optional(cubic->value.real() / 6) : std::nullopt;
+    return cubic && cubic->is_simple ? std::optional(cubic->value.real() / 6) : std::nullopt;
 }
 
 namespace {
@@ -238,10 +243,9 @@ std::optional<FoldForm> fold_form(const OrbitEquations& equations, const OrbitEv
     double second = 0, parts = 0;
     if (!fold.right.allFinite() || !expansion.second(fold.left, fold.right, second, parts))
         return std::nullopt;
-    // Null vectors are known less well than round-off: the point that they are taken at is a located one.
-    constexpr double least = 1e-9;
+    constexpr double least = 1e-9; // of the parts of the second derivative
     const bool is_simple =
-        std::abs(fold.product) > least * fold.left.norm() * (expansion.closing() * fold.right).norm();
+        std::abs(fold.product) > least_product * fold.left.norm() * (expansion.closing() * fold.right).norm();
     // The equations are what the next start is less what the motion makes of this one.
     const double coefficient = -second / (2 * fold.product), sign = coefficient < 0 ? -1 : 1;
     const double rate = -sign * expansion.by_parameter(fold.left, at) / fold.product;
@@ -306,7 +310,8 @@ std::optional<Complex> torus_form(const OrbitEquations& equations, const OrbitEv
 std::optional<Criticality> flip_criticality(const OrbitEquations& equations, const OrbitEvaluation& at) {
     SecondVariation variation(equations);
     const auto cubic = cubic_coefficient(equations, at, -1, variation);
-    return cubic ? std::optional(Criticality{cubic->value.real() / 6, cubic->error / 6}) : std::nullopt;
+    return cubic ? std::optional(Criticality{cubic->value.real() / 6, cubic->error / 6, cubic->is_simple})
+                 : std::nullopt;
 }
 
 std::optional<Criticality> torus_criticality(const OrbitEquations& equations, const OrbitEvaluation& at) {
@@ -314,7 +319,8 @@ std::optional<Criticality> torus_criticality(const OrbitEquations& equations, co
     const VectorXd ones = VectorXd::Ones(index(equations.layout().start_of(at.pieces.size())));
     const auto multiplier = pair_on_circle(CyclicMatrix(at.system, 1, ones, ones).multipliers());
     const auto cubic = multiplier ? cubic_coefficient(equations, at, *multiplier, variation) : std::nullopt;
-    return cubic ? std::optional(Criticality{(std::conj(*multiplier) * cubic->value / 2.0).real(), cubic->error / 2})
+    return cubic ? std::optional(Criticality{(std::conj(*multiplier) * cubic->value / 2.0).real(), cubic->error / 2,
+                                             cubic->is_simple})
                  : std::nullopt;
 }
 

@@ -38,6 +38,7 @@ std::optional<std::complex<double>> torus_form(const OrbitEquations& equations, 
 /// The coefficient of a flip or of a torus point with what round-off of all that it is made of may be of it.
 struct Criticality {
     double value = 0, error = 0;
+    bool is_simple = true; ///< false: another multiplier is equal up to round-off, so that there is no value
     /// Whether its sign means something: that of a linear or conservative model is zero up to round-off.
     bool is_decided() const { return std::abs(value) > error; }
 };

@@ -1,6 +1,7 @@
 #include "graze/branch/orbit_branch.hpp"
 
 #include "branch/bounds.hpp"
+#include "branch/curve_begin.hpp"
 #include "branch/point_locator.hpp"
 #include "branch/point_rules.hpp"
 #include "branch/reordering.hpp"
@@ -772,8 +773,10 @@ private:
     bool ended_ = true;
 };
 
-OrbitBranch::OrbitBranch(const System& system, const Orbit& candidate, const BranchSettings& settings)
-    : follower_(std::make_unique<Follower>(system, candidate, settings)) {}
+OrbitBranch::OrbitBranch(const System& system, const Orbit& candidate, const BranchSettings& settings) {
+    const CurveBegin begun = begun_for_curve(system, candidate, settings);
+    follower_ = std::make_unique<Follower>(system, begun.orbit, begun.settings);
+}
 OrbitBranch::~OrbitBranch() = default;
 OrbitBranch::OrbitBranch(OrbitBranch&&) noexcept = default;
 

@@ -61,11 +61,47 @@ bool turns(BranchState& state, const SpecialPoint& special, std::size_t paramete
            std::abs(special.tangent.parameters[parameter]) < turning * beside;
 }
 
+/// Whether an angle that goes round at a rate of its own, as the phase of a force, takes a state along the orbit, and
+/// the rate depends on one of the parameters that vary at most: the period can turn only where that parameter does.
+bool follows_force(BranchState& state, const Orbit& orbit) {
+    const OrbitEquations& equations = state.problem().equations();
+    const System& system = state.system();
+    Model model = state.model();
+    const std::size_t states = model.states.size();
+    const auto is_force = [&](std::size_t i) {
+        const auto period = system.period_gradients()(orbit.parameters);
+        const auto row = period.begin() + static_cast<std::ptrdiff_t>(i * orbit.parameters.size());
+        bool forces =
+            model.states[i].period && std::all_of(row, row + static_cast<std::ptrdiff_t>(orbit.parameters.size()),
+                                                  [](double one) { return one == 0; });
+        for (std::size_t s = 0; forces && s < orbit.segments(); ++s) {
+            const Segment& segment = orbit.signature[s];
+            std::vector<double> inputs = orbit.starts[s];
+            inputs.insert(inputs.end(), orbit.parameters.begin(), orbit.parameters.end());
+            const Expression rate = model.expand(model.modes[segment.mode].rates[i]);
+            const Eigen::VectorXd by_all = equations.gradient_of(system.with_gradient(rate)(inputs));
+            forces = by_all.head(index(states)).isZero(0) &&
+                     (by_all.tail(by_all.size() - index(states)).array() != 0).count() <= 1;
+            if (segment.end == SegmentEnd::event) {
+                const auto& changed = system.jump(model.transitions[segment.index].jump).changed;
+                forces = forces && std::find(changed.begin(), changed.end(), i) == changed.end();
+            }
+        }
+        return forces;
+    };
+    for (std::size_t i = 0; i < states; ++i)
+        if (is_force(i))
+            return true;
+    return false;
+}
+
 } // namespace
 
 bool confirm_extremum(BranchState& state, SpecialPoint& special, const BranchTest& test) {
     if (test.parameter)
         return confirm_turn(state, special, *test.parameter);
+    if (follows_force(state, special.solution.orbit))
+        return false;
     const std::size_t varied = state.settings().kept ? special.tangent.parameters.size() : 1;
     for (std::size_t parameter = 0; parameter < varied; ++parameter)
         if (turns(state, special, parameter))

@@ -281,7 +281,11 @@ std::optional<SpecialPoint> PointLocator::locate_zero(std::size_t test, const Te
             side = 1;
         }
     }
-    return found_any && !(last && is_jump(*last)) ? special_at(there, tests[test], size) : std::nullopt;
+    if (!found_any || (last && is_jump(*last)))
+        return std::nullopt;
+    if (last && std::isnan(tests[test].value)) // where it was as long as it had a meaning
+        tests[test].time = last->time;
+    return special_at(there, tests[test], size);
 }
 
 /// Where another branch crosses, at which determinants are zero, or beside that.

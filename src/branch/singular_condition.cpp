@@ -130,11 +130,13 @@ void SingularCondition::renew(const OrbitEquations& equations, const OrbitEvalua
 }
 
 std::vector<Degeneracy> SingularCondition::degeneracies(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    // Of the vectors' lengths: where areas are preserved the multiplier is double all along.
+    constexpr double least_product = 1e-9;
     if (multiplier_ > 0)
-        return {{PointType::cusp, along_}, {PointType::resonance_1, simplicity_}};
+        return {{PointType::cusp, along_}, {PointType::resonance_1, simplicity_, least_product}};
     const double nothing = std::numeric_limits<double>::quiet_NaN();
     return {{PointType::generalised, flip_coefficient(equations, at, variation()).value_or(nothing)},
-            {PointType::resonance_2, simplicity_}};
+            {PointType::resonance_2, simplicity_, least_product}};
 }
 
 TorusCondition::TorusCondition(const OrbitEquations& equations, const OrbitEvaluation& at, double sum, double product)

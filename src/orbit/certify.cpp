@@ -27,7 +27,7 @@ public:
           mode_(&equations.system().mode(equations.signature()[segment].mode)), roots_(&roots),
           sizes_(mode_->watched.size(), 0.0), falls_(mode_->watched.size(), std::numeric_limits<double>::infinity()),
           starts_(mode_->watched.size(), 0.0), lowest_(mode_->watched.size(), std::numeric_limits<double>::infinity()),
-          lows_(mode_->watched.size(), 0.0) {
+          extrema_(mode_->watched.size()) {
         const System& compiled = equations.system();
         for (std::size_t w = 0; w < mode_->watched.size(); ++w)
             harmless_.push_back(is_harmless(compiled, mode_->transitions[w]));
@@ -58,8 +58,6 @@ public:
                 starts_[w] = coefficients_[0];
             note_lowest(w, evaluate_polynomial(coefficients_, std::abs(length)));
             const bool on_surface_here = first && std::abs(coefficients_[0]) <= on_surface * size;
-            if (first)
-                lows_[w] = on_surface_here ? 0 : coefficients_[0];
             look_for_extrema(w, time, length, on_surface_here ? size : 0);
             if (std::isinf(falls_[w])) {
                 Root root;
@@ -104,12 +102,13 @@ public:
         }
         return {};
     }
-    std::vector<OrbitMinimum> minima() const {
-        std::vector<OrbitMinimum> result = minima_;
-        for (OrbitMinimum& minimum : result)
-            for (std::size_t w = 0; w < mode_->watched.size(); ++w)
-                if (mode_->watched[w] == minimum.event)
-                    minimum.size = sizes_[w];
+    /// @param ends event functions at the segment's end
+    std::vector<OrbitMinimum> minima(std::span<const double> ends) const {
+        std::vector<OrbitMinimum> result;
+        for (std::size_t w = 0; w < mode_->watched.size(); ++w)
+            add_clearances(w, ends[w], result);
+        std::stable_sort(result.begin(), result.end(),
+                         [](const OrbitMinimum& a, const OrbitMinimum& b) { return a.time < b.time; });
         return result;
     }
     bool is_own(std::size_t w) const {
@@ -119,6 +118,11 @@ public:
     bool is_harmless_here(std::size_t w) const { return harmless_[w]; }
 
 private:
+    struct Extremum {
+        double time, value;
+        bool minimum;
+    };
+
     /// What is held on the surface has no lower value than that.
     void note_lowest(std::size_t w, double value) {
         if (touched_ != mode_->watched[w] || std::abs(value) > on_surface * sizes_[w])
@@ -137,17 +141,42 @@ private:
             if (!minimum && !is_section)
                 continue;
             const double value = evaluate_polynomial(coefficients_, root.at);
-            if (minimum) {
+            if (minimum)
                 note_lowest(w, value);
-                lows_[w] = value;
-            } else if (!(lows_[w] < 0)) {
-                continue; // on the side on which only least values matter
-            }
             // A motion that leaves the surface without speed, as at the end of sticking, has its minimum at the start.
             constexpr double at_start = 1e-4;
             if (root.at <= at_start * reach && std::abs(value) <= on_surface * begins_on_surface)
                 continue;
-            minima_.push_back({segment_, mode_->watched[w], time + sign * root.at, minimum ? value : -value, 0});
+            extrema_[w].push_back({time + sign * root.at, value, minimum});
+        }
+    }
+    /// What an event's extrema leave until it would happen. A section's function may have either sign, and falls where
+    /// it is positive before it is negative: of a least value and a greatest one before it, the one that is nearer to
+    /// zero decides. So the number that changes its sign where a fall appears is continuous there.
+    void add_clearances(std::size_t w, double end, std::vector<OrbitMinimum>& result) const {
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        const std::vector<Extremum>& all = extrema_[w];
+        const std::size_t event = mode_->watched[w];
+        const auto note = [&](const Extremum& one, double value) {
+            result.push_back({segment_, event, one.time, value, sizes_[w]});
+        };
+        const bool is_section = equations_->model().events[event].kind == EventKind::section;
+        std::vector<double> later(all.size() + 1, is_own(w) ? infinity : end); // least values from each one on
+        for (std::size_t i = all.size(); i-- > 0;)
+            later[i] = all[i].minimum ? std::min(later[i + 1], all[i].value) : later[i + 1];
+        double before = starts_[w] > on_surface * sizes_[w] ? infinity : -infinity;
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const Extremum& one = all[i];
+            if (!is_section) {
+                note(one, one.value);
+            } else if (one.minimum) {
+                if (one.value >= -before)
+                    note(one, one.value);
+            } else {
+                if (before < infinity && -one.value >= later[i + 1])
+                    note(one, -one.value);
+                before = std::max(before, one.value);
+            }
         }
     }
 
@@ -157,10 +186,9 @@ private:
     const System::CompiledMode* mode_;
     RootFinder* roots_;
     std::vector<double> sizes_, falls_, starts_, lowest_, coefficients_, derivative_;
-    std::vector<double> lows_; ///< least value since the last greatest one, or at the start
+    std::vector<std::vector<Extremum>> extrema_; ///< of each event in their order
     std::vector<bool> harmless_;
     std::vector<Root> found_;
-    std::vector<OrbitMinimum> minima_;
 };
 
 /// How far the alternative that leads to `next` is from not being taken: negative when it is not.
@@ -271,7 +299,7 @@ private:
         if (!held_ || !held_->holds_without_time(
                           s, equations_->signature().size())) // of no time nothing can be said but round-off
             object(watcher.verdict(begin, values_, rates, round_off));
-        for (const OrbitMinimum& minimum : watcher.minima())
+        for (const OrbitMinimum& minimum : watcher.minima(values_))
             certificate_.minima.push_back(minimum);
     }
 

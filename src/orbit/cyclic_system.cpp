@@ -111,10 +111,19 @@ double CyclicSystem::antiperiodic_determinant() const {
 }
 
 double CyclicSystem::periodic_noise() const {
+    return noise(1);
+}
+
+double CyclicSystem::antiperiodic_noise() const {
+    return noise(-1);
+}
+
+double CyclicSystem::noise(double closing) const {
     constexpr double round_off = 1e-9; // of derivatives, which are integrated
     const Eigen::Index n = index(n_);
     const Eigen::VectorXd values =
-        singular_values(Eigen::MatrixXd(final_.leftCols(n) + final_.middleCols(n, n)), SingularVectors::none).values;
+        singular_values(Eigen::MatrixXd(final_.leftCols(n) + closing * final_.middleCols(n, n)), SingularVectors::none)
+            .values;
     return n == 0 ? 0 : round_off * values[0] * values.head(n - 1).prod();
 }
 

@@ -42,8 +42,9 @@ public:
     /// zero where one is -1. To be called after `factor`, like all below.
     double periodic_determinant() const;
     double antiperiodic_determinant() const;
-    /// Value of the periodic one below which its sign is round-off.
+    /// Values of these below which their signs are round-off.
     double periodic_noise() const;
+    double antiperiodic_noise() const;
 
     /// The system closed by q further equations, factored: for as many right-hand sides as one likes. Unknowns are
     /// (x_0, T_0, x_1, T_1, ..., p). A value of its own, but it is solved with the system that it was made from.
@@ -87,6 +88,7 @@ public:
     Eigen::VectorXd between(const Eigen::VectorXd& first, const Eigen::VectorXd& last) const;
 
 private:
+    double noise(double closing) const;
     Eigen::VectorXd reduced(const Eigen::VectorXd& blocks, std::vector<Eigen::VectorXd>& constants) const;
     Eigen::MatrixXd condense(const Eigen::MatrixXd& borders, std::vector<Eigen::MatrixXd>& shares) const;
     Eigen::VectorXd expand(const Eigen::VectorXd& first, const Eigen::VectorXd& last,

@@ -1,5 +1,6 @@
 // Bounds hold whatever else lies in the step that comes to them: branch points, folds, and both at once.
 
+#include "driven_oscillator.hpp"
 #include "follow.hpp"
 
 #include <gtest/gtest.h>
@@ -131,6 +132,21 @@ TEST(Bounds, of_monitors_hold_from_the_first_orbit_on) {
     const Branch branch = follow_branch(model, orbit_at(model, 0.3, 0.3), settings);
     EXPECT_EQ(branch.outcome, BranchOutcome::bound);
     EXPECT_NEAR(branch.points.back().parameter, 0.5, 1e-9);
+}
+
+TEST(Bounds, orbits_that_leave_a_touch_beside_a_bound_begin_within_it) {
+    const DrivenOscillator known;
+    const Model model = known.model();
+    const SpecialPoint touch = known.grazing(model);
+    for (const double side : {1.0, -1.0}) {
+        BranchSettings settings;
+        settings.parameter = model.independent_parameter("F");
+        (side > 0 ? settings.least : settings.greatest) = known.force() * (1 - side * 1e-4);
+        const BranchStart start = branches_at(model, touch, settings).front();
+        const double force = start.orbit.parameters[settings.parameter.place()];
+        EXPECT_LT(std::abs(force / known.force() - 1), 0.1);
+        EXPECT_TRUE(side > 0 ? force >= *settings.least : force <= *settings.greatest) << force;
+    }
 }
 
 } // namespace

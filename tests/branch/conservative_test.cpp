@@ -1,11 +1,12 @@
 // Families of orbits of conservative models, which are branches once a damping is free that then stays zero; and
 // parameters that pass through zero.
 
-#include "follow.hpp"
+#include "maps.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 namespace graze {
@@ -241,6 +242,74 @@ value = 0
     EXPECT_EQ(branch.points.back().parameter, -0.5);
     // What can be seen from either end is the same.
     EXPECT_NEAR(branch.points.front().solution.orbit.starts[0][0], 0.3 / (1 - 9), 1e-3);
+}
+
+TEST(Conservative, folds_and_flips_of_maps_that_preserve_areas_have_no_resonances_along_their_curves) {
+    // x -> p - y - q x^2, y -> x, whose multipliers have the product 1: at the fixed point with q x^2 + 2 x = p two are
+    // 1 where p q = -1, and two are -1 where p q = 3.
+    const Model model = map_model("p = 1.3\nq = 1", {"p - y - q*x^2", "x"});
+    const double x = std::sqrt(2.3) - 1;
+    const Orbit orbit{parse_signature(model, "map"), model.parameter_values(), {{x, x, 0}}, {1}, {}};
+    BranchSettings settings = in_parameter(model, "p", -3, 6);
+    const Branch up = follow_branch(model, orbit, settings);
+    settings.direction = -1;
+    const Branch down = follow_branch(model, orbit, settings);
+    const auto flips = of_type(up, PointType::flip), folds = of_type(down, PointType::fold);
+    ASSERT_EQ(flips.size(), 1U) << names(up);
+    ASSERT_GE(folds.size(), 1U) << names(down);
+    EXPECT_NEAR(flips[0].parameter, 3, 1e-9);
+    EXPECT_NEAR(folds[0].parameter, -1, 1e-9);
+    EXPECT_EQ(flips[0].detail, "c has no value: two multipliers are -1");
+    EXPECT_NE(folds[0].detail.find("a has no value: two multipliers are 1"), std::string::npos) << folds[0].detail;
+    for (const auto& [point, product] : {std::pair{flips[0], 3.0}, {folds[0], -1.0}})
+        for (const int way : {1, -1}) {
+            const Branch curve = curve_of(model, point, in_parameter(model, "p", -5, 9), "q", 0.3, 3, way);
+            EXPECT_EQ(names(curve), "BD") << short_name(point.type) << ' ' << curve.detail;
+            for (const BranchPoint& one : curve.points)
+                EXPECT_NEAR(one.solution.orbit.parameters[0] * one.solution.orbit.parameters[1], product, 1e-9);
+        }
+}
+
+TEST(Conservative, a_free_body_in_a_symmetric_box_does_not_lose_its_symmetry_at_points_of_its_own) {
+    // Its place is nowhere preferred: the half map has the multiplier -1 for every box.
+    const Model model = model_from(R"toml(
+[parameters]
+b = 1
+[states]
+x = 0
+v = 0
+th = { initial = 0, period = "2*pi" }
+[modes.free]
+rates = { x = "v", v = "0.5*cos(th) - 0.05*v", th = 1 }
+watch = ["right", "left"]
+[events]
+right = "b - x"
+left = "b + x"
+[jumps.impact]
+v = "-0.35*v"
+[[transitions]]
+mode = "free"
+event = "right"
+label = "R"
+jump = "impact"
+next = "free"
+[[transitions]]
+mode = "free"
+event = "left"
+label = "L"
+jump = "impact"
+next = "free"
+[sections.ph]
+state = "th"
+value = 0
+[symmetries.turn]
+map = { x = "-x", v = "-v", th = "th + pi" }
+)toml");
+    const std::complex<double> i(0, 1), v = 0.5 / (0.05 + i), x = v / i;
+    const Orbit half{parse_signature(model, "ph"), model.parameter_values(), {{x.real(), v.real(), 0}}, {pi}, 0};
+    const Branch branch = follow_branch(model, half, in_parameter(model, "b", 0.6, 30));
+    EXPECT_GT(branch.points.size(), 10U) << branch.detail;
+    EXPECT_EQ(names(branch), "BD") << branch.detail;
 }
 
 } // namespace

@@ -209,5 +209,63 @@ direction = "falling"
     EXPECT_LT(branch.points.back().parameter, 0.26);
 }
 
+TEST(TouchedSection, curves_of_touches_go_on_where_the_section_is_the_touch) {
+    // The circle of the radius mu^(1/2) touches the wall at its greatest x, where the section is; with two walls it
+    // touches both all along.
+    for (const bool both : {false, true}) {
+        const Model model = model_from(fmt::format(R"toml(
+[parameters]
+mu = 1
+s = 2
+[states]
+x = 1
+y = 0
+[definitions]
+g = "mu - x^2 - y^2"
+[events]
+right = "s - x"
+left = "s + x"
+[modes.free]
+rates = {{ x = "g*x - y", y = "x + g*y" }}
+watch = [{}]
+[jumps.impact]
+y = "-0.5*y"
+[[transitions]]
+mode = "free"
+event = "right"
+label = "R"
+jump = "impact"
+next = "free"
+{}
+[sections.greatest]
+function = "y"
+direction = "rising"
+)toml",
+                                                   both ? "\"right\", \"left\"" : "\"right\"",
+                                                   both ? "[[transitions]]\nmode = \"free\"\nevent = \"left\"\nlabel "
+                                                          "= \"L\"\njump = \"impact\"\nnext = \"free\""
+                                                        : ""));
+        const Orbit circle{parse_signature(model, "free:greatest"), model.parameter_values(), {{1, 0}}, {2 * pi}, {}};
+        BranchSettings settings;
+        settings.parameter = model.independent_parameter("s");
+        settings.least = 0.3;
+        settings.greatest = 3;
+        settings.direction = -1;
+        const Branch branch = follow_branch(model, circle, settings);
+        ASSERT_EQ(names(branch), "GR") << branch.detail;
+        EXPECT_NEAR(branch.special[0].parameter, 1, 1e-12);
+        settings.kept = branch.special[0];
+        settings.free = {model.independent_parameter("mu")};
+        settings.free_bounds = {{settings.free[0], 0.1, 8}};
+        for (const int way : {1, -1}) {
+            settings.direction = way;
+            const Branch curve = follow_branch(model, branch.special[0].solution.orbit, settings);
+            EXPECT_EQ(names(curve), "BD") << both << ' ' << curve.detail;
+            for (const BranchPoint& one : curve.points)
+                EXPECT_NEAR(one.solution.orbit.parameters[0], one.parameter * one.parameter, 1e-10);
+        }
+    }
+}
+
 } // namespace
 } // namespace graze

@@ -6,8 +6,8 @@
 
 namespace graze {
 
-/// A least value of a watched event's function inside an arc, where the event would happen were it lower. For events
-/// that are sections, which may have either sign, also a greatest one: then `value` is its negative.
+/// A least value of a watched event's function inside an arc, where the event would happen were it lower. Of sections,
+/// which may have either sign, also a greatest one, as its negative: of both beside a fall the one nearer to zero.
 struct OrbitMinimum {
     std::size_t segment = 0, event = 0;
     double time = 0; ///< since the segment's start

@@ -1,0 +1,172 @@
+#include "branch/curve_begin.hpp"
+
+#include "branch/point_kind.hpp"
+#include "orbit/newton.hpp"
+#include "orbit/orbit_flow.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace graze {
+
+namespace {
+
+constexpr double no_time = 1e-5; // of a round: beside a contact that vanishes, equations locate to no more than that
+
+/// Whether the jump with which a segment ends changes nothing of a state at which it takes place without speed.
+bool is_idle(const System& system, const Orbit& orbit, std::size_t segment) {
+    constexpr double nothing = 1e-6; // of a state's size, or of what it gains in a round: what is left of the speed
+    const Segment& one = orbit.signature[segment];
+    if (one.end != SegmentEnd::event)
+        return false;
+    const System::CompiledJump& jump = system.jump(system.model().transitions[one.index].jump);
+    if (jump.identity)
+        return true;
+    const std::vector<double>& state = orbit.starts[(segment + 1) % orbit.segments()];
+    std::vector<double> inputs = state;
+    inputs.insert(inputs.end(), orbit.parameters.begin(), orbit.parameters.end());
+    const std::vector<double> after = jump.map(inputs), rates = system.mode(one.mode).rates(inputs);
+    return std::all_of(jump.changed.begin(), jump.changed.end(), [&](std::size_t i) {
+        double size = std::abs(rates[i]) * orbit.round();
+        for (const std::vector<double>& start : orbit.starts)
+            size = std::max(size, std::abs(start[i]));
+        return std::abs(after[i] - state[i]) <= nothing * size;
+    });
+}
+
+bool drifts(const Model& model) {
+    return std::any_of(model.states.begin(), model.states.end(), [](const State& one) { return one.drifting; });
+}
+
+/// Puts the arcs before and after a contact without speed together where both are of one mode, and nothing between them
+/// takes time or changes a state.
+/// @return whether it has
+bool join_across_contact(const System& system, Orbit& orbit, SpecialPoint& kept) {
+    const std::size_t count = orbit.segments();
+    const auto takes_time = [&](std::size_t s) { return std::abs(orbit.durations[s]) > no_time * orbit.round(); };
+    std::size_t before = kept.segment;
+    for (std::size_t i = 0; i < count && !takes_time(before); ++i)
+        before = (before + count - 1) % count;
+    std::size_t after = (before + 1) % count, way = 1;
+    for (; way < count && !takes_time(after); ++way)
+        after = (after + 1) % count;
+    const std::size_t mode = orbit.signature[before].mode;
+    const bool wraps = before + way >= count;
+    if (way < 2 || !takes_time(before) || orbit.signature[after].mode != mode ||
+        (wraps && (orbit.symmetry || drifts(system.model()))))
+        return false;
+    for (std::size_t i = 0; i < way; ++i)
+        if (!is_idle(system, orbit, (before + i) % count))
+            return false;
+    kept.event = system.model().transitions[orbit.signature[before].index].event;
+    kept.time = orbit.durations[before];
+    kept.at_end = false;
+    Orbit joined = orbit;
+    joined.signature.clear();
+    joined.starts.clear();
+    joined.durations.clear();
+    const auto add = [&](std::size_t s) {
+        joined.signature.push_back(orbit.signature[s]);
+        joined.starts.push_back(orbit.starts[s]);
+        joined.durations.push_back(orbit.durations[s]);
+    };
+    // Round once from behind the joined arcs, or from the first segment where that stays the first.
+    const std::size_t others = after == before ? 0 : count - way - 1;
+    for (std::size_t i = 0; wraps && i < others; ++i)
+        add((after + 1 + i) % count);
+    for (std::size_t s = 0; !wraps && s < before; ++s)
+        add(s);
+    kept.segment = joined.signature.size();
+    add(before);
+    if (after == before) {
+        joined.signature.back() = {mode, SegmentEnd::cut, 0};
+    } else {
+        joined.signature.back() = orbit.signature[after];
+        joined.durations.back() += orbit.durations[after];
+    }
+    for (std::size_t s = after + 1; !wraps && s < count; ++s)
+        add(s);
+    orbit = std::move(joined);
+    return true;
+}
+
+/// Whether a motion of one mode touches an event at its start.
+bool touches_at_start(const System& system, const Orbit& orbit, ModeFlow& flow) {
+    constexpr double zero = 1e-6, slow = 1e-3; // of greatest values and rates along the arc
+    constexpr int parts = 16;
+    const System::CompiledMode& mode = system.mode(orbit.signature[0].mode);
+    const std::size_t states = system.states(), count = mode.watched.size();
+    std::vector<double> first, greatest(2 * count, 0.0), state = orbit.starts[0];
+    for (int part = 0; part < parts; ++part) {
+        std::vector<double> inputs = state;
+        inputs.insert(inputs.end(), orbit.parameters.begin(), orbit.parameters.end());
+        std::vector<double> here = mode.events(inputs);
+        const std::vector<double> gradients = mode.event_gradients(inputs), rates = mode.rates(inputs);
+        for (std::size_t w = 0; w < count; ++w)
+            here.push_back(std::inner_product(rates.begin(), rates.end(),
+                                              gradients.begin() + static_cast<std::ptrdiff_t>(w * states), 0.0));
+        for (std::size_t i = 0; i < here.size(); ++i)
+            greatest[i] = std::max(greatest[i], std::abs(here[i]));
+        if (part == 0)
+            first = here;
+        if (flow.run(orbit.signature[0].mode, state, orbit.round() / parts) != ModeFlow::Ending::done)
+            return false;
+    }
+    for (std::size_t w = 0; w < count; ++w)
+        if (std::abs(first[w]) < zero * greatest[w] && std::abs(first[count + w]) < slow * greatest[count + w])
+            return true;
+    return false;
+}
+
+/// Begins a motion without contacts elsewhere where a touch lies where it is closed: the one that is kept, or another,
+/// as of two walls that are touched at once.
+bool begin_off_touch(const System& system, const BranchSettings& settings, Orbit& orbit, SpecialPoint& kept) {
+    constexpr double at_edge = 0.02, later = 0.25; // shares of a round; of two touches the other is half of one later
+    const double round = orbit.durations[0], share = kept.time / round;
+    if (orbit.segments() != 1 || orbit.signature[0].end == SegmentEnd::event || !(round > 0))
+        return false;
+    const Simulation simulation(system, {}, {}, integration(settings.orbit.tolerance));
+    ModeFlow flow = flow_of(simulation);
+    flow.set_parameters(orbit.parameters);
+    const bool kept_there = share < at_edge || share > 1 - at_edge;
+    if (!kept_there && !touches_at_start(system, orbit, flow))
+        return false;
+    // Behind what is kept only where that comes again, not its image.
+    const bool before = orbit.symmetry || share >= 0.5;
+    const double begin = kept_there ? later : before ? 0.5 * share : 0.5 * (1 + share);
+    if (orbit.symmetry && begin > share)
+        return false;
+    std::vector<double> start = orbit.starts[0];
+    if (flow.run(orbit.signature[0].mode, start, begin * round) != ModeFlow::Ending::done)
+        return false;
+    orbit.starts = {std::move(start)};
+    orbit.signature[0] = {orbit.signature[0].mode, SegmentEnd::cut, 0};
+    kept.time = (share - begin + (share < begin ? 1 : 0)) * round;
+    return true;
+}
+
+/// Monitors that are taken where segments begin or end.
+bool needs_segments(const BranchSettings& settings) {
+    return std::any_of(settings.monitors.begin(), settings.monitors.end(), [](const Monitor& monitor) {
+        return !monitor.segment.empty() || monitor.kind == Monitor::Kind::value || monitor.kind == Monitor::Kind::start;
+    });
+}
+
+} // namespace
+
+CurveBegin begun_for_curve(const System& system, const Orbit& orbit, const BranchSettings& settings) {
+    CurveBegin result{orbit, settings};
+    if (!settings.kept || settings.kept->type != PointType::grazing || settings.kept->segment >= orbit.segments() ||
+        orbit.durations.size() != orbit.segments() || needs_segments(settings))
+        return result;
+    SpecialPoint& kept = *result.settings.kept;
+    if (kept.at_end && !join_across_contact(system, result.orbit, kept))
+        return result;
+    begin_off_touch(system, settings, result.orbit, kept);
+    kept.solution.orbit = result.orbit;
+    return result;
+}
+
+} // namespace graze

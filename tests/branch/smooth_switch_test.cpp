@@ -1,0 +1,158 @@
+// Switches across which the vector field is continuous, as where a soft stop begins: branches of a driven oscillator
+// beside it, whose touches have a closed form.
+
+#include "maps.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+namespace graze {
+namespace {
+
+using namespace graze::testing;
+using std::numbers::pi;
+
+/// x'' + 2 z x' + x + k max(x - g, 0) = F cos(w t).
+struct SoftStop {
+    double F, w, z, k, g;
+
+    double size(double at) const { return std::hypot(1 - at * at, 2 * z * at); }
+    Model model(const char* kind) const {
+        return model_from(fmt::format(R"toml(
+[parameters]
+F = {:.17g}
+w = {:.17g}
+z = {:.17g}
+k = {:.17g}
+g = {:.17g}
+[states]
+x = 0
+v = 0
+th = {{ initial = 0, period = "2*pi" }}
+[modes.free]
+rates = {{ x = "v", v = "F*cos(th) - 2*z*v - x", th = "w" }}
+watch = ["on"]
+[modes.contact]
+rates = {{ x = "v", v = "F*cos(th) - 2*z*v - x - k*(x - g)", th = "w" }}
+watch = ["off"]
+[events.on]
+function = "g - x"
+kind = "{}"
+[events.off]
+function = "x - g"
+kind = "{}"
+[[transitions]]
+mode = "free"
+event = "on"
+label = "on"
+next = "contact"
+[[transitions]]
+mode = "contact"
+event = "off"
+label = "off"
+next = "free"
+[initial]
+mode = "free"
+[sections.ph]
+state = "th"
+value = 0
+)toml",
+                                      F, w, z, k, g, kind, kind));
+    }
+    /// The free motion.
+    Orbit orbit(const Model& made) const {
+        const std::complex<double> i(0, 1), amplitude = F / (1 - w * w + 2.0 * i * z * w);
+        return {parse_signature(made, "free:ph"),
+                made.parameter_values(),
+                {{amplitude.real(), (i * w * amplitude).real(), 0}},
+                {2 * pi / w},
+                {}};
+    }
+};
+
+TEST(SmoothSwitch, is_touched_where_the_free_motion_reaches_it) {
+    for (const SoftStop& stop :
+         {SoftStop{1.55, 1.8, 0.02, 100, 1}, SoftStop{0.2, 0.7, 0.1, 5, 1}, SoftStop{0.1, 2.3, 0.3, 0.5, 1e-3}})
+        for (const char* const kind : {"section", "barrier"}) {
+            const Model model = stop.model(kind);
+            const double least = stop.g * stop.size(stop.w), inside = std::min(stop.F, 0.5 * least);
+            SoftStop free = stop;
+            free.F = inside;
+            const Model weak = free.model(kind);
+            const Branch branch =
+                follow_branch(weak, free.orbit(weak), in_parameter(weak, "F", 0.1 * inside, 10 * least));
+            ASSERT_EQ(names(branch), "GR") << kind << ' ' << stop.w << ' ' << branch.detail;
+            EXPECT_NEAR(branch.special[0].parameter, least, 1e-11 * least) << kind;
+            EXPECT_EQ(branch.outcome, BranchOutcome::unphysical);
+        }
+}
+
+TEST(SmoothSwitch, is_touched_on_either_side_of_the_resonance) {
+    const double F = 1.8171679737395643, z = 0.02, g = 1;
+    // (1 - w^2)^2 + 4 z^2 w^2 = (F/g)^2
+    const double middle = 1 - 2 * z * z, root = std::sqrt(middle * middle - 1 + F * F / (g * g));
+    const double above = std::sqrt(middle + root);
+    const SoftStop stop{F, 2.403, z, 0.5, g};
+    const Model model = stop.model("section");
+    BranchSettings settings = in_parameter(model, "w", 0.1, 5);
+    settings.direction = -1;
+    const Branch branch = follow_branch(model, stop.orbit(model), settings);
+    ASSERT_EQ(names(branch), "GR") << branch.detail;
+    EXPECT_NEAR(branch.special[0].parameter, above, 1e-11);
+}
+
+TEST(SmoothSwitch, no_extremum_of_the_period_is_where_the_force_fixes_it) {
+    // The contact loses its speed at the end of the branch, where the frequency goes on.
+    const SoftStop stop{1, 1.472, 0.03, 20, 0.2};
+    const Model model = stop.model("section");
+    const Branch branch = follow_branch(model, settled(model, "ph", 400).orbit, in_parameter(model, "w", 0.2, 4));
+    EXPECT_TRUE(of_type(branch, PointType::extremum).empty()) << names(branch);
+    ASSERT_FALSE(of_type(branch, PointType::grazing).empty()) << names(branch);
+}
+
+TEST(SmoothSwitch, curves_of_touches_begin_at_the_contact_that_vanishes_too) {
+    const SoftStop stop{0.5, 0.8, 0.1, 5, 1};
+    const Model model = stop.model("section");
+    BranchSettings settings = in_parameter(model, "F", 0.1, 2);
+    settings.direction = -1;
+    const Branch branch = follow_branch(model, settled(model, "ph").orbit, settings);
+    const auto touches = of_type(branch, PointType::grazing);
+    ASSERT_EQ(touches.size(), 1U) << names(branch);
+    ASSERT_TRUE(touches[0].at_end);
+    EXPECT_NEAR(touches[0].parameter, stop.g * stop.size(stop.w), 1e-9);
+    for (const int way : {1, -1}) {
+        const Branch curve = curve_of(model, touches[0], in_parameter(model, "w", 0.3, 3), "F", 0.01, 20, way);
+        EXPECT_EQ(curve.outcome, BranchOutcome::bound) << curve.detail;
+        EXPECT_GT(curve.points.size(), 3U);
+        for (const BranchPoint& one : curve.points)
+            EXPECT_NEAR(one.solution.orbit.parameters[0], stop.g * stop.size(one.parameter), 1e-11);
+    }
+}
+
+TEST(SmoothSwitch, a_second_contact_comes_and_goes) {
+    const SoftStop stop{1, 0.641, 0.03, 2, 1};
+    const Model model = stop.model("section");
+    BranchSettings settings = in_parameter(model, "w", 0.2, 4);
+    settings.direction = -1;
+    const Branch once = follow_branch(model, settled(model, "ph").orbit, settings);
+    ASSERT_EQ(names(once), "GR") << once.detail;
+    const Branch more = follow(model, branches_at(model, once.special[0], settings).front(), settings);
+    ASSERT_EQ(names(more), "GR") << more.detail;
+    // The contact that vanishes lies across the place where the orbit is closed.
+    EXPECT_TRUE(more.special[0].at_end);
+    const Branch fewer = follow(model, branches_at(model, more.special[0], settings).front(), settings);
+    EXPECT_EQ(names(fewer), "BD") << fewer.detail;
+    EXPECT_EQ(fewer.points.back().solution.orbit.segments(), 2U);
+    // Where the touch comes to the contact that is left, no multiplier is -1: the vector field is continuous.
+    for (const int way : {1, -1}) {
+        const Branch curve = curve_of(model, once.special[0], in_parameter(model, "w", 0.2, 4), "F", 0.05, 4, way);
+        EXPECT_GT(curve.points.size(), 10U) << curve.detail;
+        EXPECT_TRUE(of_type(curve, PointType::flip).empty()) << names(curve);
+    }
+}
+
+} // namespace
+} // namespace graze
