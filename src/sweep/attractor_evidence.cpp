@@ -13,7 +13,7 @@ namespace graze {
 namespace {
 
 constexpr std::size_t longest_stay = 20;  ///< in `cycles`, with an orbit
-constexpr std::size_t beside_orbits = 10; ///< times as long a motion must remain chaotic that passes by a stable orbit
+constexpr std::size_t beside_orbits = 10; ///< times as long a motion must remain chaotic that may settle by chance
 constexpr double last_share = 0.25;       ///< of the returns of an exponent, in which neighbours must still part
 constexpr double part_still = 0.25;       ///< at least at this share of the rate over all
 
@@ -100,10 +100,12 @@ void AttractorSearch::note_passed_orbit() {
 }
 
 /// Returns for which a motion must remain chaotic: more where it has passed by a stable orbit, on which it may settle
-/// when it happens to come close enough.
+/// when it happens to come close enough; or where all neighbours became one, or may have, by contacts that accumulate,
+/// as when a ball comes to rest on its table. Where that happens again and again there is no chaos, however much they
+/// part in between: from there on the motion is the same each time.
 std::size_t AttractorSearch::chaos_needed() const {
     const std::size_t usual = std::max(setting_->options.cycles, setting_->options.chaos_cycles);
-    return passed_period_ > 0 ? beside_orbits * usual : usual;
+    return passed_period_ > 0 || forgotten_ > 0 || landing_unseen_ ? beside_orbits * usual : usual;
 }
 
 void AttractorSearch::keep_chaos() {
@@ -150,6 +152,37 @@ std::optional<bool> AttractorSearch::confirm_chaos() {
     return try_next_guess();
 }
 
+/// What accumulations make of neighbours counts: that of one that comes without notice is lost, but not of others.
+void AttractorSearch::add_to_exponent() {
+    const bool lost = exponent_.follower() && of_motion_->broken(), stuck = watcher_.has_stuck(1);
+    landing_unseen_ = lost || (landing_unseen_ && !stuck);
+    if (stuck && exponent_.vanishes(*main_)) {
+        ++forgotten_;
+        grown_before_ = last_grown_;
+        last_grown_ = exponent_.most_grown();
+    } else if (!lost) {
+        return exponent_.add_return(*main_);
+    }
+    measure_growth(true);
+    if (!confirming_)
+        return;
+    chaotic_since_ = watcher_.returns();
+    limit_ = chaotic_since_;
+    if (!forgets_all()) {
+        limit_ += chaos_needed();
+        return;
+    }
+    confirming_ = false;
+    lengthen();
+}
+
+/// Whether all that a motion does from one time that all neighbours are one to the next follows from there: round-off
+/// that has grown as they part would decide otherwise, and what repeats itself would do so by chance.
+bool AttractorSearch::follows_from_rest() const {
+    constexpr double most_grown = 20; ///< logarithm, of round-off to 1e-7 of the states' extents
+    return forgets_all() && std::max(last_grown_, grown_before_) < most_grown;
+}
+
 /// A motion that was taken for chaotic has been followed for longer.
 std::optional<bool> AttractorSearch::conclude_chaos() {
     exponent_.catch_up();
@@ -161,7 +194,11 @@ std::optional<bool> AttractorSearch::conclude_chaos() {
             return std::nullopt;
         }
         finish(Label::chaotic);
-        if (passed_period_ > 0)
+        if (forgotten_ > 0)
+            result_.outcome.detail = fmt::format("chaotic for {} returns since contacts accumulated in such a way that "
+                                                 "all neighbours were one; if that comes again it is not",
+                                                 watcher_.returns() - chaotic_since_);
+        else if (passed_period_ > 0)
             result_.outcome.detail = fmt::format("chaotic for {} returns; as it passes by a stable orbit of period {} "
                                                  "it may be a transient that settles there later",
                                                  result_.cycles, passed_period_);
@@ -169,7 +206,7 @@ std::optional<bool> AttractorSearch::conclude_chaos() {
     }
     // It has gone over into something else, of which an exponent has to tell anew.
     confirming_ = false;
-    start_exponent(watcher_.has_stuck(watcher_.remembered()));
+    start_exponent();
     lengthen();
     return std::nullopt;
 }

@@ -102,7 +102,15 @@ bool AttractorSearch::finish(Label label) {
         result_.outcome.detail = "no return to the section came; choose another section";
     if (label != Label::periodic && label != Label::equilibrium)
         exponent_.catch_up();
-    if (exponent_.known()) {
+    if (forgets_all()) {
+        // The exponent is that of zero.
+        if (label == Label::unsettled && result_.outcome.detail.empty())
+            result_.outcome.detail =
+                fmt::format("contacts have accumulated {} times in such a way that all neighbours were one behind: the "
+                            "motion is not "
+                            "chaotic, but its period, if it has one, is longer than could be found",
+                            forgotten_);
+    } else if (exponent_.known()) {
         result_.lyapunov = exponent_.value();
         result_.lyapunov_error = exponent_.error();
     }
