@@ -188,7 +188,6 @@ void AttractorSearch::finish_limit(std::string_view detail) {
 /// as slips that a force only just sets going, to where they vanish. That they return to where they began, since they
 /// lead nowhere, is a double root: half of the way is left after each step, until round-off closes the orbit.
 bool AttractorSearch::vanishes_at_rest() {
-    constexpr double twice = 1e-6; ///< by which the multiplier of a root that is double may differ from 1
     const std::vector<std::uint32_t>& contacts = finder_.contacts();
     const auto mode_before = [&](std::size_t k) {
         return setting_->simulation.model().transitions[contacts[k % contacts.size()] / 2].mode;
@@ -196,8 +195,7 @@ bool AttractorSearch::vanishes_at_rest() {
     for (std::size_t k = 0; k < contacts.size(); ++k)
         if (mode_before(k) == mode_before(k + 1))
             return false;
-    return !contacts.empty() && !moves_along_orbit() && !finder_.multipliers().empty() &&
-           std::abs(std::abs(finder_.multipliers().front()) - 1) <= twice;
+    return !contacts.empty() && !moves_along_orbit() && is_neutral();
 }
 
 /// A motion that comes closer to such a place, by less with every period, does so for ever.

@@ -105,11 +105,10 @@ bool AttractorSearch::finish(Label label) {
     if (forgets_all()) {
         // The exponent is that of zero.
         if (label == Label::unsettled && result_.outcome.detail.empty())
-            result_.outcome.detail =
-                fmt::format("contacts have accumulated {} times in such a way that all neighbours were one behind: the "
-                            "motion is not "
-                            "chaotic, but its period, if it has one, is longer than could be found",
-                            forgotten_);
+            result_.outcome.detail = fmt::format("contacts have accumulated {} times in such a way that all neighbours "
+                                                 "were one behind: this is no chaos, but a "
+                                                 "period that could not be found, or a long transient",
+                                                 forgotten_);
     } else if (exponent_.known()) {
         result_.lyapunov = exponent_.value();
         result_.lyapunov_error = exponent_.error();

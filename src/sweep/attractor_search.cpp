@@ -201,7 +201,8 @@ bool AttractorSearch::examine_return() {
 
 /// An orbit of this period is worth another try when the motion has come clearly closer.
 void AttractorSearch::ask_for_closer(std::size_t period) {
-    thresholds_[period] = watcher_.distance(watcher_.recent(0).state, watcher_.recent(period).state) / 3;
+    thresholds_[period] =
+        std::min(thresholds_[period], watcher_.distance(watcher_.recent(0).state, watcher_.recent(period).state) / 3);
 }
 
 bool AttractorSearch::find_orbit(std::span<const double> point, std::size_t period, std::span<const double> scale) {
@@ -264,6 +265,11 @@ bool AttractorSearch::consider_orbit() {
     if (const auto next = try_next_guess())
         return *next;
     guessed_ = false;
+    // Found once more by its multiples, an orbit that the motion has still to come to would use up all tries.
+    if (finder_.found() && is_neutral())
+        for (std::size_t m = finder_.period(); m < std::min(thresholds_.size(), watcher_.remembered());
+             m += finder_.period())
+            ask_for_closer(m);
     if (n > 0)
         ask_for_closer(n);
     if (n > 0 && ++tries_ > most_tries)

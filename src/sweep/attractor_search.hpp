@@ -70,6 +70,7 @@ private:
     bool vanishes_at_rest();
     bool creeps_to_rest();
     void finish_limit(std::string_view detail);
+    bool is_neutral() const;
     bool repeats_exactly();
     bool begin_repeating();
     OrbitStay::Verdict go_on_repeating();
@@ -79,6 +80,7 @@ private:
     bool advance();
     void keep_chaos();
     void return_to_chaos();
+    std::size_t usual_chaos() const;
     std::size_t chaos_needed() const;
     void note_passed_orbit();
     std::optional<bool> conclude_chaos();
