@@ -107,16 +107,22 @@ std::optional<OrbitSolution> find_orbit(const System& system, const AttractorOpt
     const PointResult& result = search->result();
     // At sections of a clock an equilibrium returns like any orbit.
     const bool returns = result.label == Label::equilibrium && result.period > 0;
+    const auto no_orbit = [&] {
+        return InputError(fmt::format("the motion does not settle on a periodic orbit: it is {}{}{}",
+                                      name_of(result.label), result.outcome.detail.empty() ? "" : ", ",
+                                      result.outcome.detail),
+                          "start elsewhere, allow more cycles or longer periods, or give the orbit's states");
+    };
     if (result.label != Label::periodic && !returns)
-        throw InputError(fmt::format("the motion does not settle on a periodic orbit: it is {}{}{}",
-                                     name_of(result.label), result.outcome.detail.empty() ? "" : ", ",
-                                     result.outcome.detail),
-                         "start elsewhere, allow more cycles or longer periods, or give the orbit's states");
+        throw no_orbit();
     FollowedMotion motion = follow_motion(factory->simulation(), model.parameter_values(), result.state, result.mode,
                                           2.6 * result.duration);
     if (!motion.problem.empty())
         throw InputError("the orbit has no signature: " + motion.problem,
                          "choose parameters at which contacts do not accumulate");
+    // What round-off still lets happen next to where a motion comes to rest is no part of an orbit.
+    if (returns && !motion.segments.empty())
+        throw no_orbit();
     Orbit orbit;
     orbit.parameters = model.parameter_values();
     if (motion.segments.empty()) {

@@ -447,6 +447,15 @@ bool OrbitEquations::solve(const OrbitEvaluation& at, const Closed& closed, cons
     return true;
 }
 
+bool OrbitEquations::respond(const OrbitEvaluation& at, const Eigen::VectorXd& change, Eigen::VectorXd& step) const {
+    const Closed closed = close(at, Eigen::MatrixXd(0, index(layout_.unknowns())));
+    Eigen::VectorXd outer;
+    if (!at.system.solve(closed.system, &change, Eigen::VectorXd(0), outer))
+        return false;
+    step = expanded(at, outer, true);
+    return true;
+}
+
 bool OrbitEquations::solve_nearest(const OrbitEvaluation& at, Eigen::VectorXd& step, std::size_t& lost) const {
     Eigen::VectorXd outer;
     if (!at.system.solve_nearest(at.system.right_hand_sides(), outer, lost))

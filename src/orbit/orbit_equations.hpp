@@ -81,6 +81,9 @@ public:
     /// directions but `lost` ones, which they leave free. @param lost given, how many these are at least. @return false
     /// when a number is not finite
     bool solve_nearest(const OrbitEvaluation& at, Eigen::VectorXd& step, std::size_t& lost) const;
+    /// What the unknowns answer to a change of the equations, piece after piece in units of the scales, without free
+    /// parameters: solves derivatives * step = change. @return false when that is singular
+    bool respond(const OrbitEvaluation& at, const Eigen::VectorXd& change, Eigen::VectorXd& step) const;
     /// Whether `chord` is possible.
     bool has_chords() const { return layout_.inner() == 0; }
     /// Whether derivatives cost more than many flows: by a few inputs they do not.

@@ -2,6 +2,7 @@
 
 #include "graze/base/input_error.hpp"
 #include "orbit/certify.hpp"
+#include "orbit/eigen_index.hpp"
 #include "orbit/family.hpp"
 #include "orbit/newton.hpp"
 #include "orbit/shooting.hpp"
@@ -10,6 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 namespace graze {
 
@@ -154,6 +157,40 @@ void describe_orbit(OrbitEquations& equations, const OrbitEvaluation& at, OrbitS
     solution.certificate = certify(equations, at, held);
 }
 
+namespace {
+
+/// A segment whose duration round-off of the states could change by all of it: at a double root, Newton's method comes
+/// closer and closer to where a slip vanishes, until what it moves is less than round-off and closes the orbit.
+/// @return none when there is none, or number of segments
+std::size_t segment_lost_in_round_off(const OrbitEquations& equations, const OrbitEvaluation& at, const Orbit& orbit) {
+    constexpr double shorter = 1e-2; ///< share of the period, for others are not looked at
+    constexpr double round_off = 16 * std::numeric_limits<double>::epsilon();
+    const std::size_t none = orbit.segments();
+    if (std::ranges::none_of(orbit.durations, [&](double one) { return one < shorter * orbit.period(); }))
+        return none;
+    const OrbitLayout& layout = equations.layout();
+    const std::size_t last = layout.pieces() - 1;
+    std::vector<double> lost(orbit.segments(), 0.0);
+    for (std::size_t i = 0; i < layout.states(); ++i) {
+        if (at.periods[i] > 0)
+            continue;
+        // The orbit comes back to a state that differs by its round-off.
+        Eigen::VectorXd change = Eigen::VectorXd::Zero(index(layout.start_of(layout.pieces()))), step;
+        change[index(layout.start_of(last) + 1 + i)] =
+            round_off * std::abs(at.pieces[last].after[i]) / at.scales[index(layout.start_of(0) + i)];
+        if (!equations.respond(at, change, step))
+            return none;
+        for (std::size_t k = 0; k < layout.pieces(); ++k)
+            lost[layout.segment_of(k)] += std::abs(step[index(layout.duration_of(k))]);
+    }
+    for (std::size_t s = 0; s < none; ++s)
+        if (orbit.durations[s] < shorter * orbit.period() && lost[s] >= orbit.durations[s])
+            return s;
+    return none;
+}
+
+} // namespace
+
 OrbitSolution solve_orbit(const System& system, const Orbit& candidate, const OrbitOptions& options) {
     const Model& model = system.model();
     options.validate();
@@ -173,6 +210,12 @@ OrbitSolution solve_orbit(const System& system, const Orbit& candidate, const Or
     if (solution.outcome != OrbitOutcome::converged)
         return solution;
     describe_orbit(shooting, at, solution);
+    const std::size_t lost_segment = segment_lost_in_round_off(shooting, at, solution.orbit);
+    if (lost_segment < solution.orbit.segments() && solution.certificate.admissible) {
+        solution.certificate.admissible = false;
+        solution.certificate.reason = fmt::format(
+            "segment {} takes so little time that round-off decides whether it takes any", lost_segment + 1);
+    }
     if (moving_neutral_states(shooting, at) > 0 || is_in_family(shooting, at))
         solution.detail = "one of a family of orbits at the same parameters: a multiplier is 1";
     if (options.error_estimate) {

@@ -229,6 +229,16 @@ bool closes_in(ReturnWatcher& motion, const Guess& middle) {
 
 } // namespace
 
+bool creeps_towards(const OrbitFinder& orbit, ReturnWatcher& motion, std::span<const double> periods) {
+    if (motion.remembered() <= orbit.period() || !slows_down(motion, orbit.period()))
+        return false;
+    const Deviations deviations(orbit, motion, periods, motion.scale());
+    for (std::size_t k = 0; k < std::min(most_periods, deviations.count() - 1); ++k)
+        if (!(deviations.size(k) < deviations.size(k + 1)))
+            return false;
+    return true;
+}
+
 std::vector<Guess> slow_limits(ReturnWatcher& motion, const SectionMap& map, std::size_t largest,
                                std::span<const double> periods) {
     std::vector<Guess> guesses;

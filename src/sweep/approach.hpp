@@ -20,6 +20,9 @@ bool approaches(const OrbitFinder& orbit, const ReturnWatcher& motion, std::span
 /// leaves no room for anything else.
 bool is_near(const OrbitFinder& orbit, const ReturnWatcher& motion, std::span<const double> periods);
 
+/// Whether the motion comes closer to the orbit that was found from period to period, by less each time.
+bool creeps_towards(const OrbitFinder& orbit, ReturnWatcher& motion, std::span<const double> periods);
+
 /// Distance of the motion's last return from the orbit that was found, relative to the scales of the states.
 double distance_from(const OrbitFinder& orbit, const ReturnWatcher& motion, std::span<const double> periods,
                      std::span<const double> scale);

@@ -13,7 +13,7 @@ namespace graze {
 namespace {
 
 constexpr std::size_t longest_stay = 20;  ///< in `cycles`, with an orbit
-constexpr std::size_t beside_orbits = 10; ///< times as long a motion must remain chaotic that passes by a stable orbit
+constexpr std::size_t beside_orbits = 10; ///< times as long a motion must remain chaotic that may settle by chance
 constexpr double last_share = 0.25;       ///< of the returns of an exponent, in which neighbours must still part
 constexpr double part_still = 0.25;       ///< at least at this share of the rate over all
 
@@ -36,13 +36,17 @@ bool AttractorSearch::begin_stay() {
     return go_on_staying();
 }
 
-/// Whether the motion is, to within round-off, on an orbit that neither attracts nor repels: one of many side by side,
-/// or one in whose states there is one too many, such as the height of what is carried.
+/// Whether the orbit that was found neither attracts nor repels: one of many side by side, or one in whose states there
+/// is one too many, such as the height of what is carried.
+bool AttractorSearch::is_neutral() const {
+    constexpr double neutral = 1e-6; ///< by which a multiplier may differ from 1 that is double
+    return !finder_.multipliers().empty() && std::abs(std::abs(finder_.multipliers().front()) - 1) <= neutral;
+}
+
+/// Whether the motion is, to within round-off, on such an orbit.
 bool AttractorSearch::repeats_exactly() {
     constexpr double round_off = 1e-10; ///< in units of the states' extents
-    constexpr double neutral = 1e-6;    ///< by which a multiplier may differ from 1 that is double
-    return !finder_.multipliers().empty() && std::abs(std::abs(finder_.multipliers().front()) - 1) <= neutral &&
-           watcher_.distance(watcher_.recent(0).state, finder_.point()) <= round_off;
+    return is_neutral() && watcher_.distance(watcher_.recent(0).state, finder_.point()) <= round_off;
 }
 
 OrbitStay::Verdict AttractorSearch::go_on_repeating() {
@@ -99,11 +103,16 @@ void AttractorSearch::note_passed_orbit() {
         passed_period_ = finder_.period();
 }
 
-/// Returns for which a motion must remain chaotic: more where it has passed by a stable orbit, on which it may settle
-/// when it happens to come close enough.
+std::size_t AttractorSearch::usual_chaos() const {
+    return std::max(setting_->options.cycles, setting_->options.chaos_cycles);
+}
+
+/// Returns for which a motion must remain chaotic: more than usual where it has passed by a stable orbit, on which it
+/// may settle when it happens to come close enough; or where all neighbours became one, or may have, by contacts that
+/// accumulate, as when a ball comes to rest on its table. Where that happens again and again there is no chaos, however
+/// much they part in between: from there on the motion is the same each time.
 std::size_t AttractorSearch::chaos_needed() const {
-    const std::size_t usual = std::max(setting_->options.cycles, setting_->options.chaos_cycles);
-    return passed_period_ > 0 ? beside_orbits * usual : usual;
+    return passed_period_ > 0 || forgotten_ > 0 || landing_unseen_ ? beside_orbits * usual_chaos() : usual_chaos();
 }
 
 void AttractorSearch::keep_chaos() {
@@ -150,6 +159,35 @@ std::optional<bool> AttractorSearch::confirm_chaos() {
     return try_next_guess();
 }
 
+/// What accumulations make of neighbours counts: that of one that comes without notice is lost, but not of others.
+void AttractorSearch::add_to_exponent() {
+    const bool lost = exponent_.follower() && of_motion_->broken(), stuck = watcher_.has_stuck(1);
+    landing_unseen_ = lost || (landing_unseen_ && !stuck);
+    if (stuck && exponent_.vanishes(*main_)) {
+        ++forgotten_;
+        grown_before_ = last_grown_;
+        last_grown_ = exponent_.most_grown();
+    } else if (!lost) {
+        return exponent_.add_return(*main_);
+    }
+    measure_growth(true);
+    if (!confirming_)
+        return;
+    chaotic_since_ = watcher_.returns();
+    if (forgets_all()) { // it may settle still
+        confirming_ = false;
+        lengthen();
+    }
+    limit_ = chaotic_since_ + (forgets_all() ? usual_chaos() : chaos_needed());
+}
+
+/// Whether all that a motion does from one time that all neighbours are one to the next follows from there: round-off
+/// that has grown as they part would decide otherwise, and what repeats itself would do so by chance.
+bool AttractorSearch::follows_from_rest() const {
+    constexpr double most_grown = 25; ///< logarithm, of round-off to 1e-5 of the states' extents
+    return forgets_all() && std::max(last_grown_, grown_before_) < most_grown;
+}
+
 /// A motion that was taken for chaotic has been followed for longer.
 std::optional<bool> AttractorSearch::conclude_chaos() {
     exponent_.catch_up();
@@ -161,7 +199,11 @@ std::optional<bool> AttractorSearch::conclude_chaos() {
             return std::nullopt;
         }
         finish(Label::chaotic);
-        if (passed_period_ > 0)
+        if (forgotten_ > 0)
+            result_.outcome.detail = fmt::format("chaotic for {} returns since contacts accumulated in such a way that "
+                                                 "all neighbours were one; if that comes again it is not",
+                                                 watcher_.returns() - chaotic_since_);
+        else if (passed_period_ > 0)
             result_.outcome.detail = fmt::format("chaotic for {} returns; as it passes by a stable orbit of period {} "
                                                  "it may be a transient that settles there later",
                                                  result_.cycles, passed_period_);
@@ -169,7 +211,7 @@ std::optional<bool> AttractorSearch::conclude_chaos() {
     }
     // It has gone over into something else, of which an exponent has to tell anew.
     confirming_ = false;
-    start_exponent(watcher_.has_stuck(watcher_.remembered()));
+    start_exponent();
     lengthen();
     return std::nullopt;
 }

@@ -71,9 +71,11 @@ std::optional<bool> AttractorSearch::leave_equilibrium(const Equilibrium& equili
 void AttractorSearch::displace(std::span<const double> state, std::size_t mode, double duration) {
     std::fill(thresholds_.begin(), thresholds_.end(), setting_->options.recurrence);
     watcher_.begin_anew();
+    forgotten_ = 0;
+    landing_unseen_ = false;
     restart(state, mode, duration);
     if (exponent_.begun())
-        start_exponent(watcher_.has_stuck(watcher_.remembered()));
+        start_exponent();
     if (confirming_)
         limit_ = std::max(limit_, watcher_.returns() + setting_->options.cycles);
     confirming_ = false;
@@ -102,17 +104,20 @@ std::optional<Equilibrium> AttractorSearch::equilibrium_of_orbit() {
     return attracts ? equilibrium : std::nullopt;
 }
 
-/// Whether nothing but clocks moves along the orbit that was found. What a clock carries along moves, too, though no
+/// Whether anything but clocks moves along the orbit that was found. What a clock carries along moves, too, though no
 /// derivative tells.
-bool AttractorSearch::does_not_move() {
+bool AttractorSearch::moves_along_orbit() {
     constexpr double nothing = 1e-10; ///< relative to the states and what the motion has gone through
-    if (!finder_.contacts().empty())
-        return false;
     for (std::size_t i = 0; i < periods_.size(); ++i)
         if (setting_->map.takes_part(i) && !equilibria_.is_clock(i, finder_.point(), finder_.mode()) &&
             !(finder_.extents()[i] <= nothing * std::max(watcher_.range(i), std::abs(finder_.point()[i]))))
-            return false;
-    return true;
+            return true;
+    return false;
+}
+
+/// Whether nothing happens along the orbit that was found, and nothing but clocks moves.
+bool AttractorSearch::does_not_move() {
+    return finder_.contacts().empty() && !moves_along_orbit();
 }
 
 /// Whether this state of the orbit that was found, along which nothing happens, lies beyond the surface of an event
@@ -163,14 +168,43 @@ bool AttractorSearch::shrinks_to_a_corner() {
         if (setting_->map.takes_part(i) && !equilibria_.is_clock(i, finder_.point(), finder_.mode()) &&
             !(newest.extent(i) <= nothing * watcher_.range(i) && newest.extent(i) < oldest.extent(i)))
             return false;
-    Equilibrium corner;
-    corner.state.assign(finder_.point().begin(), finder_.point().end());
-    corner.mode = finder_.mode();
-    corner.driven = true;
-    finish_equilibrium(corner);
+    finish_limit("the motion shrinks towards a corner between modes, where there are no multipliers");
+    return true;
+}
+
+/// What Newton's method has found is where the motion comes to rest in the end, and no orbit.
+void AttractorSearch::finish_limit(std::string_view detail) {
+    Equilibrium limit;
+    limit.state.assign(finder_.point().begin(), finder_.point().end());
+    limit.mode = finder_.mode();
+    limit.driven = true;
+    finish_equilibrium(limit);
     result_.multipliers.clear();
     result_.lyapunov.reset();
-    result_.outcome.detail = "the motion shrinks towards a corner between modes, where there are no multipliers";
+    result_.outcome.detail = detail;
+}
+
+/// Whether nothing is left of the excursions into other modes that the orbit makes: Newton's method has followed them,
+/// as slips that a force only just sets going, to where they vanish. That they return to where they began, since they
+/// lead nowhere, is a double root: half of the way is left after each step, until round-off closes the orbit.
+bool AttractorSearch::vanishes_at_rest() {
+    const std::vector<std::uint32_t>& contacts = finder_.contacts();
+    const auto mode_before = [&](std::size_t k) {
+        return setting_->simulation.model().transitions[contacts[k % contacts.size()] / 2].mode;
+    };
+    for (std::size_t k = 0; k < contacts.size(); ++k)
+        if (mode_before(k) == mode_before(k + 1))
+            return false;
+    return !contacts.empty() && !moves_along_orbit() && is_neutral();
+}
+
+/// A motion that comes closer to such a place, by less with every period, does so for ever.
+bool AttractorSearch::creeps_to_rest() {
+    if (!creeps_towards(finder_, watcher_, periods_))
+        return false;
+    finish_limit(
+        "the motion creeps to rest: all that happens to it becomes less from return to return, and more slowly "
+        "than by any factor");
     return true;
 }
 

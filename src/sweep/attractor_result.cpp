@@ -102,7 +102,14 @@ bool AttractorSearch::finish(Label label) {
         result_.outcome.detail = "no return to the section came; choose another section";
     if (label != Label::periodic && label != Label::equilibrium)
         exponent_.catch_up();
-    if (exponent_.known()) {
+    if (forgets_all()) {
+        // The exponent is that of zero.
+        if (label == Label::unsettled && result_.outcome.detail.empty())
+            result_.outcome.detail = fmt::format("contacts have accumulated {} times in such a way that all neighbours "
+                                                 "were one behind: this is no chaos, but a "
+                                                 "period that could not be found, or a long transient",
+                                                 forgotten_);
+    } else if (exponent_.known()) {
         result_.lyapunov = exponent_.value();
         result_.lyapunov_error = exponent_.error();
     }

@@ -57,7 +57,7 @@ void AttractorSearch::begin(std::span<const double> parameters, std::span<const 
     recorder_.begin(parameters);
     recorder_.set_origin(0);
     watcher_.begin(parameters, periods_, &recorder_);
-    thresholds_.assign(extension * setting_->options.largest_period + 1, setting_->options.recurrence);
+    thresholds_.assign(2 * extension * setting_->options.largest_period + 1, setting_->options.recurrence);
     watcher_.watch_recurrence(&thresholds_, setting_->options.largest_period);
     watcher_.allow_any_steps(setting_->options.longest_return > 0);
     watcher_.watch_rest(true);
@@ -71,8 +71,8 @@ void AttractorSearch::begin(std::span<const double> parameters, std::span<const 
         if (setting_->map.takes_part(i))
             visited_.periods.push_back(periods_[i]);
     limit_ = setting_->options.cycles;
-    disturbances_ = tries_ = chaotic_ = passed_period_ = 0;
-    staying_ = repeating_ = plane_left_ = lengthened_ = false;
+    disturbances_ = tries_ = chaotic_ = passed_period_ = forgotten_ = 0;
+    staying_ = repeating_ = plane_left_ = lengthened_ = landing_unseen_ = false;
     finding_ = confirming_ = centre_tried_ = limits_tried_ = guessed_ = near_stable_ = false;
     guesses_.clear();
     chaos_.reset();
@@ -170,13 +170,8 @@ void AttractorSearch::extend() {
 }
 
 bool AttractorSearch::examine_return() {
-    if (exponent_.begun()) {
-        // What accumulations make of derivatives counts: those of this one are lost, but not of others to come.
-        if (exponent_.follower() && of_motion_->broken())
-            start_exponent(true);
-        else
-            exponent_.add_return(*main_);
-    }
+    if (exponent_.begun())
+        add_to_exponent();
     const Return& last = watcher_.recent(0);
     if (watcher_.returns() > setting_->options.cycles && !confirming_)
         for (std::size_t i = 0; i < last.state.size(); ++i)
@@ -193,7 +188,7 @@ bool AttractorSearch::examine_return() {
     if (staying_)
         return go_on_staying();
     const std::size_t n = watcher_.recurrent();
-    if (n == 0)
+    if (n == 0 || (watcher_.recurs_exactly() && !follows_from_rest()))
         return go_on();
     if (const auto next = consider_rest(last.state, last.mode))
         return *next;
@@ -206,7 +201,8 @@ bool AttractorSearch::examine_return() {
 
 /// An orbit of this period is worth another try when the motion has come clearly closer.
 void AttractorSearch::ask_for_closer(std::size_t period) {
-    thresholds_[period] = watcher_.distance(watcher_.recent(0).state, watcher_.recent(period).state) / 3;
+    thresholds_[period] =
+        std::min(thresholds_[period], watcher_.distance(watcher_.recent(0).state, watcher_.recent(period).state) / 3);
 }
 
 bool AttractorSearch::find_orbit(std::span<const double> point, std::size_t period, std::span<const double> scale) {
@@ -216,11 +212,16 @@ bool AttractorSearch::find_orbit(std::span<const double> point, std::size_t peri
     return true;
 }
 
-void AttractorSearch::start_exponent(bool sticks) {
+/// @param sticks whether contacts are likely to accumulate
+void AttractorSearch::measure_growth(bool sticks) {
     exponent_.begin(parameters_, watcher_.scale(), main_->time(), sticks);
     exponent_.seed(*main_);
     watcher_.follow(exponent_.follower());
     growth_.mark(watcher_);
+}
+
+void AttractorSearch::start_exponent() {
+    measure_growth(watcher_.has_stuck(watcher_.remembered()) || forgotten_ > 0 || landing_unseen_);
     std::fill(thresholds_.begin(), thresholds_.end(), setting_->options.recurrence);
 }
 
@@ -232,7 +233,7 @@ bool AttractorSearch::go_on() {
             return *next;
     const std::size_t before = exponent_cycles();
     if (before > 0 && !exponent_.begun() && returns + before >= setting_->options.cycles)
-        start_exponent(watcher_.has_stuck(watcher_.remembered()));
+        start_exponent();
     const std::size_t seen = confirming_ ? limit_ : setting_->options.cycles;
     const std::size_t next = exponent_.follower() && returns < seen ? seen : returns + 1;
     watcher_.stop_after(exponent_.begun() ? next : setting_->options.cycles - before);
@@ -243,9 +244,9 @@ bool AttractorSearch::go_on() {
 /// An orbit may have been found near the last return.
 bool AttractorSearch::consider_orbit() {
     const std::size_t n = watcher_.recurrent();
-    const bool is_corner = finder_.found() && has_no_size();
-    if (is_corner) {
-        if (shrinks_to_a_corner())
+    const bool is_corner = finder_.found() && has_no_size(), vanishes = finder_.found() && vanishes_at_rest();
+    if (is_corner || vanishes) {
+        if (is_corner ? shrinks_to_a_corner() : creeps_to_rest())
             return false;
     } else if (finder_.found()) {
         const std::optional<Equilibrium> equilibrium = equilibrium_of_orbit();
@@ -259,11 +260,16 @@ bool AttractorSearch::consider_orbit() {
         note_passed_orbit();
         near_stable_ = near_stable_ || (guessed_ && is_near(finder_, watcher_, periods_));
     }
-    if (!is_corner)
+    if (!is_corner && !vanishes)
         unstable_.add(finder_, watcher_);
     if (const auto next = try_next_guess())
         return *next;
     guessed_ = false;
+    // Found once more by its multiples, an orbit that the motion has still to come to would use up all tries.
+    if (finder_.found() && is_neutral())
+        for (std::size_t m = finder_.period(); m < std::min(thresholds_.size(), watcher_.remembered());
+             m += finder_.period())
+            ask_for_closer(m);
     if (n > 0)
         ask_for_closer(n);
     if (n > 0 && ++tries_ > most_tries)
@@ -329,8 +335,8 @@ std::optional<bool> AttractorSearch::consider_growth() {
     if (linear && !outward)
         return leave_plane();
     if (outward && !linear && watcher_.returns() < limit_) // to be averaged where the motion is going
-        start_exponent(watcher_.has_stuck(watcher_.remembered()));
-    if (linear || outward || !(all > least_growth) || chaotic_ >= most_chaotic)
+        start_exponent();
+    if (linear || outward || !(all > least_growth) || chaotic_ >= most_chaotic || forgets_all())
         return std::nullopt;
     if (const auto next = leave_plane())
         return next;

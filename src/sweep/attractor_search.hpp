@@ -16,6 +16,7 @@
 
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace graze {
@@ -65,6 +66,11 @@ private:
     bool is_behind_event(std::span<const double> state);
     bool has_no_size();
     bool shrinks_to_a_corner();
+    bool moves_along_orbit();
+    bool vanishes_at_rest();
+    bool creeps_to_rest();
+    void finish_limit(std::string_view detail);
+    bool is_neutral() const;
     bool repeats_exactly();
     bool begin_repeating();
     OrbitStay::Verdict go_on_repeating();
@@ -74,6 +80,7 @@ private:
     bool advance();
     void keep_chaos();
     void return_to_chaos();
+    std::size_t usual_chaos() const;
     std::size_t chaos_needed() const;
     void note_passed_orbit();
     std::optional<bool> conclude_chaos();
@@ -86,7 +93,11 @@ private:
     bool finish_equilibrium(const Equilibrium& equilibrium);
     bool finish_still();
     bool finish(Label label);
-    void start_exponent(bool sticks);
+    void start_exponent();
+    void measure_growth(bool sticks);
+    void add_to_exponent();
+    bool forgets_all() const { return forgotten_ > 1; }
+    bool follows_from_rest() const;
 
     std::shared_ptr<const AttractorSetting> setting_;
     std::optional<StepMaps> maps_; ///< for those that follow, where the model suits
@@ -108,19 +119,22 @@ private:
     };
     std::optional<Chaos> chaos_;
     OrbitStay stay_;
-    bool repeating_ = false;        ///< whether that is one of many side by side
-    bool plane_left_ = false;       ///< the motion was displaced from an invariant plane
-    bool staying_ = false;          ///< whether the motion stays with the orbit that was found is being seen
-    bool lengthened_ = false;       ///< after `cycles`
-    bool confirming_ = false;       ///< that the motion remains chaotic
-    std::size_t chaotic_ = 0;       ///< times that the motion was taken for chaotic
-    std::size_t chaotic_since_ = 0; ///< returns, for the last time
-    std::size_t passed_period_ = 0; ///< of a stable orbit that the motion has passed by; 0: none was met
-    bool finding_ = false;          ///< an orbit: the finder's trajectory is to be run
-    bool centre_tried_ = false;     ///< a stable orbit was looked for in the middle of what may be a torus
-    bool limits_tried_ = false;     ///< orbits were looked for where a slow motion may lead
-    bool guessed_ = false;          ///< the orbit that is looked for is one of those
-    bool near_stable_ = false;      ///< a stable orbit is too near for a torus
+    bool repeating_ = false;                   ///< whether that is one of many side by side
+    bool plane_left_ = false;                  ///< the motion was displaced from an invariant plane
+    bool staying_ = false;                     ///< whether the motion stays with the orbit that was found is being seen
+    bool lengthened_ = false;                  ///< after `cycles`
+    bool confirming_ = false;                  ///< that the motion remains chaotic
+    std::size_t chaotic_ = 0;                  ///< times that the motion was taken for chaotic
+    std::size_t chaotic_since_ = 0;            ///< returns, for the last time
+    std::size_t forgotten_ = 0;                ///< times that all neighbours have become one
+    double last_grown_ = 0, grown_before_ = 0; ///< logarithms of how much they had parted, the last two times
+    bool landing_unseen_ = false;              ///< whether they did when contacts last accumulated is not known
+    std::size_t passed_period_ = 0;            ///< of a stable orbit that the motion has passed by; 0: none was met
+    bool finding_ = false;                     ///< an orbit: the finder's trajectory is to be run
+    bool centre_tried_ = false;                ///< a stable orbit was looked for in the middle of what may be a torus
+    bool limits_tried_ = false;                ///< orbits were looked for where a slow motion may lead
+    bool guessed_ = false;                     ///< the orbit that is looked for is one of those
+    bool near_stable_ = false;                 ///< a stable orbit is too near for a torus
     std::vector<Guess> guesses_;
     std::vector<double> parameters_, periods_, thresholds_;
     VisitedStates visited_;           ///< in the time after `cycles`

@@ -30,6 +30,7 @@ void Exponent::begin(std::span<const double> parameters, std::span<const double>
     growth_.clear();
     times_.clear();
     lost_ = 0;
+    grown_ = most_grown_ = 0;
     last_time_ = time;
     to_settle_ = returns_to_settle;
     begun_ = true;
@@ -63,14 +64,29 @@ Eigen::MatrixXd Exponent::seed_column() const {
     return Eigen::Map<const Eigen::VectorXd>(seeds_.data(), static_cast<Eigen::Index>(map_->states()));
 }
 
+Eigen::MatrixXd Exponent::carried(const Trajectory& trajectory) const {
+    Eigen::MatrixXd tangent(static_cast<Eigen::Index>(map_->states()), 1);
+    std::copy(trajectory.tangents().begin(), trajectory.tangents().end(), tangent.data());
+    return tangent;
+}
+
 void Exponent::add_return(Trajectory& trajectory) {
     if (!carried_)
         return;
-    Eigen::MatrixXd tangent(static_cast<Eigen::Index>(map_->states()), 1);
-    std::copy(trajectory.tangents().begin(), trajectory.tangents().end(), tangent.data());
-    if (!add({trajectory.time(), trajectory.mode(), trajectory.state()}, std::move(tangent),
+    if (!add({trajectory.time(), trajectory.mode(), trajectory.state()}, carried(trajectory),
              trajectory.tangents_valid()))
         trajectory.carry_tangents(seeds_, 1);
+}
+
+bool Exponent::vanishes(const Trajectory& trajectory) {
+    constexpr double round_off = 1e-11; ///< share of the vector's length at the last return
+    if (!carried_ || !trajectory.tangents_valid())
+        return false;
+    Eigen::MatrixXd tangent = carried(trajectory);
+    if (!map_->project(workspace_, trajectory.mode(), trajectory.state(), tangent))
+        return false;
+    const double length = length_of(tangent);
+    return !(length > 0) || std::log(length) - length_ < std::log(round_off);
 }
 
 void Exponent::catch_up() {
@@ -95,10 +111,12 @@ bool Exponent::add(const MotionDerivatives::Mark& here, Eigen::MatrixXd tangent,
     const double length = length_of(tangent);
     if (!std::isfinite(length))
         return lose();
+    const double growth = length > 0 ? std::max(std::log(length) - length_, least_growth) : least_growth;
+    most_grown_ = std::max(most_grown_, grown_ += growth);
     if (to_settle_ > 0) {
         --to_settle_; // the vector still turns towards the direction that grows most
     } else {
-        growth_.push_back(length > 0 ? std::max(std::log(length) - length_, least_growth) : least_growth);
+        growth_.push_back(growth);
         times_.push_back(time);
     }
     length_ = std::log(length);

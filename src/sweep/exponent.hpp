@@ -28,6 +28,11 @@ public:
     MotionDerivatives* follower() { return carried_ ? nullptr : derivatives_; }
     /// Takes the growth since the last return from a trajectory that stopped at one, if that carries the vector.
     void add_return(Trajectory& trajectory);
+    /// Whether all that has happened since the last return has made the vector vanish, but for round-off: all
+    /// neighbours are one there. To be asked before `add_return`.
+    bool vanishes(const Trajectory& trajectory);
+    /// Logarithm of the greatest length that the vector has had since it began, in units of that at the beginning.
+    double most_grown() const { return most_grown_; }
     /// Takes the growth over all returns that have been seen of a motion that is followed.
     void catch_up();
 
@@ -54,6 +59,7 @@ public:
 
 private:
     bool add(const MotionDerivatives::Mark& here, Eigen::MatrixXd tangent, bool valid);
+    Eigen::MatrixXd carried(const Trajectory& trajectory) const;
     void seed_here();
     void aim(const Eigen::MatrixXd& direction);
     double length_of(const Eigen::MatrixXd& tangent) const;
@@ -65,7 +71,7 @@ private:
     MotionDerivatives* derivatives_;
     SectionMap::Workspace workspace_;
     std::vector<double> parameters_, scale_, growth_, times_, seeds_;
-    double length_ = 0, last_time_ = 0;
+    double length_ = 0, last_time_ = 0, grown_ = 0, most_grown_ = 0;
     std::size_t to_settle_ = 0, lost_ = 0;
     bool begun_ = false;
     bool carried_ = false; ///< by the trajectory

@@ -22,6 +22,8 @@ constexpr double noise_share = 1e-10;
 /// Shares of the threshold of a recurrence: for one that needs no other evidence, and for the one before it.
 constexpr double striking = 1e-3;
 constexpr double approaching = 30;
+/// Distance of a return that is where another was.
+constexpr double exact = 1e-10;
 constexpr std::size_t most_steps = 100'000; ///< without a return
 constexpr std::size_t first_look = 64;      ///< steps without a return after which the motion may rest
 
@@ -37,7 +39,7 @@ void ReturnWatcher::begin(std::span<const double> parameters, std::span<const do
     periods_.assign(periods.begin(), periods.end());
     recorder_ = recorder;
     derivatives_ = nullptr;
-    next_ = returns_ = 0;
+    next_ = returns_ = last_stuck_ = 0;
     alike_.assign(ring_.size(), {});
     escaped_ = stuck_ = looking_ = false;
     std::fill(widest_.begin(), widest_.end(), 0.0);
@@ -148,6 +150,8 @@ void ReturnWatcher::arrive(double time, std::size_t mode, std::span<const double
     std::fill(greatest_.begin(), greatest_.end(), -infinity);
     next_ = (next_ + 1) % ring_.size();
     ++returns_;
+    if (has_stuck(1))
+        last_stuck_ = returns_;
     parts_.add(part(0));
     compare_contacts();
     steps_ = 0;
@@ -251,6 +255,15 @@ std::size_t ReturnWatcher::find_recurrence() {
         if (now < before && before < approaching * threshold)
             return n;
     }
+    return find_exact_recurrence();
+}
+
+/// Of a period that is longer than those that are looked for. The same must have happened in two periods.
+std::size_t ReturnWatcher::find_exact_recurrence() {
+    for (std::size_t n = std::max(largest_, returns_ - last_stuck_) + 1; last_stuck_ > 0 && n < remembered(); ++n)
+        if (recent(n).mode == recent(0).mode && alike(n) >= n &&
+            distance(recent(0).state, recent(n).state) <= std::min(exact, (*thresholds_)[n]))
+            return n;
     return 0;
 }
 

@@ -36,7 +36,9 @@ public:
     void stop_after(std::size_t returns) { stop_after_ = returns; }
     /// From now on these see what happens too, with marks at returns; null: none.
     void follow(MotionDerivatives* derivatives) { derivatives_ = derivatives; }
-    /// Whether to stop at returns that come this close to one of the last `largest` (in the measure of `scale`).
+    /// Whether to stop at returns that come this close to one of the last `largest` (in the measure of `scale`); or
+    /// that are where one before was, after contacts have accumulated: motions that have forgotten all they were repeat
+    /// themselves exactly, whatever their period. @param thresholds for each return that is remembered
     void watch_recurrence(std::vector<double>* thresholds, std::size_t largest) {
         thresholds_ = thresholds;
         largest_ = largest;
@@ -68,6 +70,8 @@ public:
     MotionPart part(std::size_t before) const;
     /// Period at whose return it stopped; 0: none.
     std::size_t recurrent() const { return recurrent_; }
+    /// Whether that is longer than those that are looked for, of a motion that repeats itself exactly.
+    bool recurs_exactly() const { return recurrent_ > largest_; }
     /// The return `before` returns before the last.
     const Return& recent(std::size_t before) const { return ring_[(next_ + ring_.size() - 1 - before) % ring_.size()]; }
     std::size_t remembered() const { return std::min(returns_, ring_.size()); }
@@ -100,6 +104,7 @@ private:
     void find_noise();
     void widen();
     std::size_t find_recurrence();
+    std::size_t find_exact_recurrence();
     void check_bounds(std::span<const double> state);
 
     const SectionMap* map_;
@@ -112,6 +117,7 @@ private:
     MotionParts parts_;
     Return current_;
     std::size_t next_ = 0, returns_ = 0, stop_after_ = 0, largest_ = 0, recurrent_ = 0;
+    std::size_t last_stuck_ = 0; ///< return at which contacts had accumulated, counted from 1
     std::vector<double>* thresholds_ = nullptr;
     double leg_start_ = 0, shortest_ = 0, pending_time_ = 0;
     bool any_steps_ = false;

@@ -248,5 +248,39 @@ next = "only"
     EXPECT_TRUE(is_stable(found));
 }
 
+/// Friction that exceeds the force: slips to one side become less and less, and no orbit has any.
+TEST(FindOrbit, slips_below_round_off_are_part_of_no_orbit) {
+    Model model = load_model("dry-friction-oscillator");
+    model.set_parameter("friction_static", 1.05);
+    model.set_parameter("friction_dynamic", 1.05);
+    model.set_parameter("omega", 2);
+    AttractorOptions settle;
+    settle.section = "phase0";
+    model.set_initial("x", 0.2);
+    EXPECT_THROW(find_orbit(model, settle), InputError);
+    // Newton's method, begun from two segments of the motion, goes to where they vanish.
+    const Simulation simulation(model, {}, {}, {});
+    for (const double left : {1e-4, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9, 1e-9}) {
+        const FollowedMotion motion = follow_motion(simulation, model.parameter_values(),
+                                                    std::vector{0.05 + left, 0.0, 0.0}, model.initial_mode, 10);
+        ASSERT_GE(motion.segments.size(), 4U);
+        Orbit candidate;
+        candidate.parameters = model.parameter_values();
+        for (const std::size_t k : {2, 3}) {
+            candidate.signature.push_back(motion.segments[k]);
+            candidate.starts.push_back(motion.starts[k]);
+            candidate.durations.push_back(motion.durations[k]);
+        }
+        const OrbitSolution solution = solve_orbit(model, candidate);
+        EXPECT_FALSE(solution.outcome == OrbitOutcome::converged && solution.certificate.admissible) << left;
+    }
+    // Where the force is the stronger by 1 %, the slips of an orbit are small, but there.
+    model.set_parameter("friction_static", 0.99);
+    model.set_parameter("friction_dynamic", 0.99);
+    const OrbitSolution slips = find_orbit(model, settle);
+    EXPECT_EQ(slips.outcome, OrbitOutcome::converged) << slips.detail;
+    EXPECT_TRUE(slips.certificate.admissible) << slips.certificate.reason;
+}
+
 } // namespace
 } // namespace graze

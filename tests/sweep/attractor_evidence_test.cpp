@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
 
 namespace graze {
 namespace {
@@ -216,6 +219,47 @@ mode = "only"
         EXPECT_EQ(result.cycles, 0U) << rate;
         EXPECT_NE(result.label, Label::periodic) << rate;
         EXPECT_NE(result.label, Label::chaotic) << rate;
+    }
+}
+
+/// A ball on a table that comes to rest there, and is released where the table falls away with the ball's weight
+/// (g = 1): what it was before is forgotten each time.
+Model ball_at_rest(double restitution, double omega, double amplitude) {
+    Model model = load_model("bouncing-ball");
+    model.set_parameter("g", 1);
+    model.set_parameter("e", restitution);
+    model.set_parameter("f", omega / (2 * std::numbers::pi));
+    model.set_parameter("a", amplitude);
+    model.set_initial("x", 0);
+    model.set_initial("v", amplitude * omega);
+    model.set_initial_mode("rest");
+    return model;
+}
+
+TEST(AttractorEvidence, what_forgets_all_again_and_again_is_not_chaotic) {
+    // Neighbours part between one rest and the next, which are tens to hundreds of returns apart.
+    for (const double amplitude : {0.754, 0.7874, 0.97, 0.998}) {
+        const PointResult result = settle(ball_at_rest(0.8, 1.5, amplitude));
+        EXPECT_NE(result.label, Label::chaotic) << amplitude;
+        EXPECT_FALSE(result.lyapunov) << amplitude << ": that of a derivative that is zero";
+        EXPECT_TRUE(result.label == Label::periodic || result.outcome.detail != "") << amplitude;
+    }
+}
+
+TEST(AttractorEvidence, periods_between_two_rests_are_found_however_long) {
+    // Periods counted along simulations of many of them, from one release to the next.
+    const std::vector<std::pair<double, std::size_t>> cases{{1.12, 25}, {1.08, 26}, {1.0, 30}, {0.96, 33}, {0.84, 43}};
+    for (const auto& [amplitude, period] : cases) {
+        Model model = ball_at_rest(0.5, 2, amplitude);
+        const PointResult result = settle(model);
+        EXPECT_EQ(result.label, Label::periodic) << amplitude << name_of(result.label) << result.outcome.detail;
+        EXPECT_EQ(result.period, period) << amplitude;
+        ASSERT_FALSE(result.multipliers.empty());
+        EXPECT_LT(std::abs(result.multipliers.front()), 1e-9);
+        model.initial_mode = result.mode;
+        const std::vector<std::size_t> contacts = contacts_of(model, result.state, 4 * period + 1);
+        for (std::size_t c = period; c < 4 * period; ++c)
+            ASSERT_EQ(contacts[c], contacts[c - period]) << amplitude << " " << c;
     }
 }
 

@@ -211,5 +211,19 @@ TEST(AttractorPlane, a_ball_that_rides_for_good_is_periodic) {
     }
 }
 
+TEST(AttractorPlane, what_slides_back_and_forth_anywhere_is_periodic_wherever_that_is) {
+    // x'' = A cos(t) - 2 zeta x': multipliers are 1, of the place about which it swings, and exp(-2 zeta T).
+    for (const double amplitude : {0.1, 0.2, 0.3, 0.4, 0.5, 0.65, 0.8, 1.0}) {
+        const double Omega = 2.2, period = 2 * std::acos(-1.0) / Omega, zeta = 0.02;
+        const Model model =
+            oscillator(fmt::format("{}*cos(theta) - 2*{}*V", amplitude, zeta), SectionOf::clock, 0, 0.1, Omega);
+        const PointResult result = settle(model);
+        EXPECT_EQ(result.label, Label::periodic) << amplitude << name_of(result.label);
+        ASSERT_EQ(result.multipliers.size(), 2U);
+        EXPECT_NEAR(std::abs(result.multipliers[0]), 1, 1e-12);
+        EXPECT_NEAR(std::abs(result.multipliers[1]), std::exp(-2 * zeta * period), 1e-9);
+    }
+}
+
 } // namespace
 } // namespace graze

@@ -1,5 +1,7 @@
 #include "settle.hpp"
 
+#include "graze/model/catalogue.hpp"
+
 #include <gtest/gtest.h>
 
 #include <random>
@@ -228,6 +230,30 @@ TEST(Equilibrium, sweeps_come_back_from_an_equilibrium_that_loses_its_stability)
             state = result.state;
         }
     }
+}
+
+/// A mass that is pushed to one side of where it can rest slips back by less with every period of the force, whose size
+/// the friction exceeds: the distance d left becomes d - C d^2, and in the limit nothing happens.
+TEST(Equilibrium, slips_that_vanish_in_the_limit_are_no_orbit) {
+    Model model = load_model("dry-friction-oscillator");
+    for (const double excess : {0.0, 0.05, 0.3})
+        for (const double omega : {0.8, 1.0, 2.0}) {
+            model.set_parameter("omega", omega);
+            model.set_parameter("friction_static", 1 + excess);
+            model.set_parameter("friction_dynamic", 1 + excess);
+            const PointResult result = settle(model, {}, {excess + 0.1, 0, 0});
+            EXPECT_EQ(result.label, Label::equilibrium) << excess << " " << omega << name_of(result.label);
+            EXPECT_NEAR(result.state[0], excess, 1e-8) << omega;
+            EXPECT_EQ(result.signature, "");
+            EXPECT_TRUE(result.multipliers.empty());
+        }
+    // Where the force is stronger by a little, there is an orbit of small slips to either side, and it is found.
+    model.set_parameter("omega", 2);
+    model.set_parameter("friction_static", 0.99);
+    model.set_parameter("friction_dynamic", 0.99);
+    const PointResult orbit = settle(model, {}, {0.1, 0, 0});
+    EXPECT_EQ(orbit.label, Label::periodic) << name_of(orbit.label);
+    EXPECT_NE(orbit.signature, "");
 }
 
 } // namespace
