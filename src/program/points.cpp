@@ -120,8 +120,8 @@ PointList listed_points(const PointsArguments& arguments, const ResultFile& file
                 ++list.twins;
                 continue;
             }
-            ListedPoint point{&list.runs[r], {}, {}, stored[record.number]};
-            point.record = std::move(record);
+            const std::size_t number = record.number;
+            ListedPoint point{&list.runs[r], std::move(record), {}, stored[number]};
             point.parameters = parameters_of(list.runs[r], point.record);
             list.points.push_back(std::move(point));
         }
