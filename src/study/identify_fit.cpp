@@ -63,6 +63,16 @@ FitTask task_of(const StudyRun& run, const std::vector<KeptRecord>& records) {
 /// A reading in another unit than what it is compared with would be taken for something else.
 void check_units(const StudyRun& run, const std::vector<KeptRecord>& records) {
     for (const KeptRecord& kept : records) {
+        for (const IdentifyRequest::Reading& reading : run.identify.readings) { // whose gain may be unknown
+            const auto unit = [&](const KeptRecord& of) {
+                return of.header.channels[of.header.channel(reading.channel, "readings")].unit;
+            };
+            if (unit(kept) != unit(records.front()))
+                throw InputError(run.place,
+                                 fmt::format("{}: channel '{}' is in '{}', and that of the first record in '{}'",
+                                             kept.name, reading.channel, unit(kept), unit(records.front())),
+                                 "convert it by `scale` of the run that has the record");
+        }
         const std::string &time = kept.header.time.unit, &wanted = run.model.time_unit;
         if (!time.empty() && !wanted.empty() && time != wanted)
             throw InputError(run.place,
