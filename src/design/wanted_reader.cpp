@@ -9,11 +9,28 @@
 
 namespace graze {
 
-void WantedReader::read_item(const TomlEntry& item) {
-    if (item.name == "value" && item.node->is_array()) {
+void WantedReader::read_value(const TomlEntry& item) {
+    if (item.node->is_array())
         std::tie(wanted_.least, wanted_.greatest) = reader_.range(design_.model, item);
-    } else if (item.name == "value") {
+    else
         wanted_.value = number(item);
+    // The finished device goes the same way as the first one: it would begin beyond its touch, or not come to it.
+    const Approach& approach = design_.approach;
+    const double least = wanted_.value.value_or(wanted_.least.value_or(0)),
+                 greatest = wanted_.value.value_or(wanted_.greatest.value_or(0));
+    if (approach.study.empty() && approach.least < approach.greatest &&
+        (greatest < approach.least || least > approach.greatest))
+        reader_.fail(item,
+                     fmt::format("{} is outside of approach.range, from {:g} to {:g}: a device that trips there {}",
+                                 item.path, approach.least, approach.greatest,
+                                 greatest < approach.least ? "has tripped where its approach begins"
+                                                           : "does not trip before its approach ends"),
+                     "let approach.range begin below what is wanted and go beyond it");
+}
+
+void WantedReader::read_item(const TomlEntry& item) {
+    if (item.name == "value") {
+        read_value(item);
     } else if (item.name == "class") {
         constexpr GrazingOutcome outcomes[] = {GrazingOutcome::lost, GrazingOutcome::persists, GrazingOutcome::folds};
         wanted_.outcome = outcomes[reader_.choice(item, {"trips", "persists", "folds"})];
