@@ -109,8 +109,9 @@ ImpactProportion test_proportion(std::span<const RecordedImpact> impacts, double
     const auto square = [](double v, double) { return v * std::abs(v); };
     const auto order = [](double v, double k) { return v * k; };
     result.scatter = weighed.squares() / static_cast<double>(weighed.count() - 1);
-    result.excess = (e - 1) * std::sqrt(weighed.information() / std::max(1.0, result.scatter));
     constexpr double inexact = 2;
+    // What scatters more than that is none of errors, and makes no restitution above one likelier.
+    result.excess = (e - 1) * std::sqrt(weighed.information() / std::clamp(result.scatter, 1.0, inexact));
     result.unlike = chi_square_tail(weighed.squares() / inexact, weighed.count() - 1);
     // Each of so many terms may be the one by chance.
     result.offset = std::min(1.0, 2 * std::min(weighed.chance(one), weighed.chance(one, row)));

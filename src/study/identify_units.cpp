@@ -165,7 +165,7 @@ void convert_to_model(EstimateRecords& estimates, const StudyRun& run) {
             return one.second == number.name && is_ratio(one.first);
         });
         const auto from = ratio ? PhysicalUnit() : told_unit(number.unit), to = unit_in_model(run.model, unit);
-        if (!from && to && !number.unit.empty() && number.unit != unit)
+        if (!from && to && !number.unit.empty() && number.unit != unit_symbol(unit))
             throw InputError(run.place,
                              fmt::format("what is found for '{}' is in '{}', a unit that is not known, and the "
                                          "parameter {}",
