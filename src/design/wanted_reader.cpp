@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <tuple>
 
 namespace graze {
@@ -14,18 +15,16 @@ void WantedReader::read_value(const TomlEntry& item) {
         std::tie(wanted_.least, wanted_.greatest) = reader_.range(design_.model, item);
     else
         wanted_.value = number(item);
-    // The finished device goes the same way as the first one: it would begin beyond its touch, or not come to it.
+    // The finished device goes the same way as the first one, and would begin beyond its touch. What lies beyond the
+    // other end it may come near to, which is told of the device that does.
     const Approach& approach = design_.approach;
-    const double least = wanted_.value.value_or(wanted_.least.value_or(0)),
-                 greatest = wanted_.value.value_or(wanted_.greatest.value_or(0));
-    if (approach.study.empty() && approach.least < approach.greatest &&
-        (greatest < approach.least || least > approach.greatest))
+    const std::optional<double> greatest = wanted_.value ? wanted_.value : wanted_.greatest;
+    if (approach.study.empty() && approach.least < approach.greatest && greatest && *greatest < approach.least)
         reader_.fail(item,
-                     fmt::format("{} is outside of approach.range, from {:g} to {:g}: a device that trips there {}",
-                                 item.path, approach.least, approach.greatest,
-                                 greatest < approach.least ? "has tripped where its approach begins"
-                                                           : "does not trip before its approach ends"),
-                     "let approach.range begin below what is wanted and go beyond it");
+                     fmt::format("{} is below approach.range, from {:g} to {:g}: a device that trips there has tripped "
+                                 "where its approach begins",
+                                 item.path, approach.least, approach.greatest),
+                     "let approach.range begin below what is wanted");
 }
 
 void WantedReader::read_item(const TomlEntry& item) {

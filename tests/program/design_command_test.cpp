@@ -77,7 +77,7 @@ TEST_F(DesignCommand, MeetsWishesOrSaysThatItCannot) {
     printed = run_graze({"design", design(small_design("[wanted]\nclear = 0.001\n")), "--output", results,
                          "--no-pictures", "--format", "csv"});
     EXPECT_EQ(contents(results + "/report.json").find("inf\""), std::string::npos) << "without a bound it is null";
-    printed = run_graze({"design", design(small_design("[wanted]\nvalue = 0.39\n")), "--output", results,
+    printed = run_graze({"design", design(small_design("[wanted]\nvalue = 0.9\n")), "--output", results,
                          "--no-pictures", "--format", "csv"});
     EXPECT_EQ(printed.code, 3);
     EXPECT_THAT(printed.out, HasSubstr("wishes,unmet"));
