@@ -17,8 +17,7 @@ void require_design_key(const TomlReader& reader, const TomlEntry& entry) {
 
 std::string design_fingerprint(const toml::table& root) {
     toml::table said = root;
-    for (const char* other :
-         {"text", "source", "points", "planes", "device", "process", "wafer", "rules", "spread"})
+    for (const char* other : {"text", "source", "points", "planes", "device", "process", "wafer", "rules", "spread"})
         said.erase(other);
     std::ostringstream text;
     text << said;
