@@ -123,7 +123,15 @@ RecordFolder::RecordFolder(std::string path, const Experiment& experiment, doubl
 }
 
 RecordFolder::~RecordFolder() {
+    if (!begun_.empty())
+        unlink(part_of(begun_).c_str());
     close(lock_);
+}
+
+void RecordFolder::finish() {
+    entries_.clear();
+    read_manifest();
+    finish_records();
 }
 
 std::string RecordFolder::path_of(const Level& level) const {
@@ -243,6 +251,7 @@ std::unique_ptr<RecordWriter> RecordFolder::begin(const Level& level, const Reco
     if (!has(level) && lstat(path.c_str(), &status) == 0)
         throw InputError(Place{path, 0, 0}, "it is there already, and not in the list of records", "move it elsewhere");
     unlink(part_of(name).c_str()); // and nothing is written through a link
+    begun_ = name;
     return std::make_unique<RecordWriter>(part_of(name), header);
 }
 
@@ -260,6 +269,7 @@ void RecordFolder::commit(RecordEntry entry) {
         entries_.erase(entry.level.number);
         throw;
     }
+    begun_.clear();
     move_into_place(name);
 }
 

@@ -1,5 +1,6 @@
 #include "graze/base/physical_unit.hpp"
 
+#include "base/letter_case.hpp"
 #include "graze/base/input_error.hpp"
 
 #include <fmt/format.h>
@@ -9,6 +10,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <optional>
+#include <string>
+#include <utility>
 
 namespace graze {
 
@@ -27,7 +30,12 @@ constexpr std::array units{
     NamedUnit{"F", {0, {-2, -1, 4, 2, 0}}},  NamedUnit{"rad", {0, {0, 0, 0, 0, 0}}},
     NamedUnit{"deg", {0, {0, 0, 0, 0, 1}}},  NamedUnit{"ohm", {0, {2, 1, -3, -2, 0}}},
     NamedUnit{"H", {0, {2, 1, -2, -2, 0}}},  NamedUnit{"Wb", {0, {2, 1, -2, -1, 0}}},
-    NamedUnit{"T", {0, {0, 1, -2, -1, 0}}},
+    NamedUnit{"T", {0, {0, 1, -2, -1, 0}}},  NamedUnit{"S", {0, {-2, -1, 3, 2, 0}}},
+};
+/// Which take no prefixes.
+constexpr std::array whole_units{
+    NamedUnit{"min", {0, {0, 0, 1, 0, 0}, 60}},
+    NamedUnit{"h", {0, {0, 0, 1, 0, 0}, 3600}},
 };
 
 struct Prefix {
@@ -38,6 +46,55 @@ constexpr std::array prefixes{Prefix{"f", -15}, Prefix{"p", -12}, Prefix{"n", -9
                               Prefix{"µ", -6},  Prefix{"μ", -6},  Prefix{"m", -3}, Prefix{"c", -2},
                               Prefix{"k", 3},   Prefix{"M", 6},   Prefix{"G", 9}};
 
+/// As instruments and people write them, in small letters, and the symbol.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 31> spelt_units{{
+    {"second", "s"},
+    {"seconds", "s"},
+    {"sec", "s"},
+    {"secs", "s"},
+    {"minute", "min"},
+    {"minutes", "min"},
+    {"mins", "min"},
+    {"hour", "h"},
+    {"hours", "h"},
+    {"hr", "h"},
+    {"hrs", "h"},
+    {"volt", "V"},
+    {"volts", "V"},
+    {"ampere", "A"},
+    {"amperes", "A"},
+    {"amp", "A"},
+    {"amps", "A"},
+    {"watt", "W"},
+    {"watts", "W"},
+    {"ohm", "ohm"},
+    {"ohms", "ohm"},
+    {"hertz", "Hz"},
+    {"metre", "m"},
+    {"meter", "m"},
+    {"metres", "m"},
+    {"meters", "m"},
+    {"newton", "N"},
+    {"newtons", "N"},
+    {"pascal", "Pa"},
+    {"\xce\xa9", "ohm"},
+    {"\xe2\x84\xa6", "ohm"},
+}};
+constexpr std::array<std::pair<std::string_view, std::string_view>, 6> spelt_prefixes{
+    {{"pico", "p"}, {"nano", "n"}, {"micro", "u"}, {"milli", "m"}, {"kilo", "k"}, {"mega", "M"}}};
+
+/// @return nothing for what is no such word
+std::string_view symbol_of_word(std::string_view word) {
+    const std::string small = in_small_letters(word);
+    const auto* const found =
+        std::find_if(spelt_units.begin(), spelt_units.end(), [&](const auto& one) { return one.first == small; });
+    return found == spelt_units.end() ? std::string_view() : found->second;
+}
+
+bool takes_prefixes(std::string_view symbol) {
+    return std::none_of(whole_units.begin(), whole_units.end(), [&](const auto& one) { return one.name == symbol; });
+}
+
 std::optional<PhysicalUnit> named(std::string_view name) {
     for (const NamedUnit& one : units)
         if (one.name == name)
@@ -46,7 +103,12 @@ std::optional<PhysicalUnit> named(std::string_view name) {
 }
 
 /// One factor without its power.
-std::optional<PhysicalUnit> with_prefix(std::string_view name) {
+std::optional<PhysicalUnit> with_prefix(std::string_view text) {
+    const std::string symbol = unit_symbol(text);
+    const std::string_view name = symbol;
+    for (const NamedUnit& one : whole_units)
+        if (one.name == name)
+            return one.unit;
     if (const auto plain = named(name))
         return plain;
     for (const Prefix& prefix : prefixes)
@@ -63,6 +125,27 @@ std::optional<PhysicalUnit> with_prefix(std::string_view name) {
 }
 
 } // namespace
+
+std::string unit_symbol(std::string_view text) {
+    if (const std::string_view symbol = symbol_of_word(text); !symbol.empty())
+        return std::string(symbol);
+    const auto behind = [&](std::string_view before, std::string_view prefix) {
+        const std::string_view symbol = symbol_of_word(text.substr(before.size()));
+        return symbol.empty() || !takes_prefixes(symbol) ? std::string() : std::string(prefix) + std::string(symbol);
+    };
+    const std::string small = in_small_letters(text);
+    for (const auto& [word, prefix] : spelt_prefixes)
+        if (small.starts_with(word))
+            if (std::string symbol = behind(word, prefix); !symbol.empty())
+                return symbol;
+    // Of "MSec" nobody knows whether it means ms: a time has no large prefix.
+    for (const Prefix& prefix : prefixes)
+        if (text.starts_with(prefix.name))
+            if (std::string symbol = behind(prefix.name, prefix.name);
+                !symbol.empty() && (prefix.exponent < 0 || !symbol.ends_with('s')))
+                return symbol;
+    return std::string(text);
+}
 
 PhysicalUnit physical_unit(std::string_view text) {
     constexpr int most = 12; // of a power: further exponents stay small
@@ -84,6 +167,7 @@ PhysicalUnit physical_unit(std::string_view text) {
             if (!unit || result.exponent > 1000 || result.exponent < -1000)
                 fail(text);
             result.exponent += sign * power * unit->exponent;
+            result.factor *= std::pow(unit->factor, sign * power);
             for (std::size_t i = 0; i < result.dimension.size(); ++i)
                 result.dimension[i] += sign * power * unit->dimension[i];
         }
@@ -105,6 +189,8 @@ std::optional<PhysicalUnit> known_unit(std::string_view text) {
 double converted(double value, const PhysicalUnit& from, const PhysicalUnit& to) {
     if (from.dimension != to.dimension)
         throw InputError("the units measure different things", "give a unit of the same kind");
+    if (from.factor != to.factor)
+        value *= from.factor / to.factor;
     const int power = from.exponent - to.exponent;
     // Powers of ten are exact up to 22: a division by one of them is rounded once, a product by its inverse twice.
     return power < 0 ? value / std::pow(10.0, -power) : value * std::pow(10.0, power);

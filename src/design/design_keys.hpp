@@ -10,6 +10,10 @@ namespace graze {
 /// @throws InputError for any other
 void require_design_key(const TomlReader& reader, const TomlEntry& entry);
 
+/// The same for design files that lead to the same device, and different for others: of all but words, what is drawn of
+/// the device, and how closely curves are.
+std::string design_fingerprint(const toml::table& root);
+
 /// A path relative to the folder of the file that names it.
 std::string beside(const std::string& file, const std::string& path);
 

@@ -21,6 +21,7 @@ constexpr std::size_t most_overshoots = 100, most_dimensions = 50, most_planes =
 } // namespace
 
 Design DesignReader::read(const toml::table& root) {
+    design_.fingerprint = design_fingerprint(root);
     whole_ = mistakes_.attempt([&] { read_keys(root); });
     const auto with = [&](const char* name, auto work) {
         if (const TomlEntry* entry = key(name))

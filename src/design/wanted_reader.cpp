@@ -5,15 +5,31 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <tuple>
 
 namespace graze {
 
-void WantedReader::read_item(const TomlEntry& item) {
-    if (item.name == "value" && item.node->is_array()) {
+void WantedReader::read_value(const TomlEntry& item) {
+    if (item.node->is_array())
         std::tie(wanted_.least, wanted_.greatest) = reader_.range(design_.model, item);
-    } else if (item.name == "value") {
+    else
         wanted_.value = number(item);
+    // The finished device goes the same way as the first one, and would begin beyond its touch. What lies beyond the
+    // other end it may come near to, which is told of the device that does.
+    const Approach& approach = design_.approach;
+    const std::optional<double> greatest = wanted_.value ? wanted_.value : wanted_.greatest;
+    if (approach.study.empty() && approach.least < approach.greatest && greatest && *greatest < approach.least)
+        reader_.fail(item,
+                     fmt::format("{} is below approach.range, from {:g} to {:g}: a device that trips there has tripped "
+                                 "where its approach begins",
+                                 item.path, approach.least, approach.greatest),
+                     "let approach.range begin below what is wanted");
+}
+
+void WantedReader::read_item(const TomlEntry& item) {
+    if (item.name == "value") {
+        read_value(item);
     } else if (item.name == "class") {
         constexpr GrazingOutcome outcomes[] = {GrazingOutcome::lost, GrazingOutcome::persists, GrazingOutcome::folds};
         wanted_.outcome = outcomes[reader_.choice(item, {"trips", "persists", "folds"})];

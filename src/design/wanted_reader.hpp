@@ -17,6 +17,7 @@ public:
 
 private:
     void read_item(const TomlEntry& item);
+    void read_value(const TomlEntry& item);
     void read_yield(const TomlEntry& item);
     void read_importance(const TomlEntry& item);
     double number(const TomlEntry& entry) const { return reader_.number(design_.model, entry); }

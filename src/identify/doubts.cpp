@@ -53,6 +53,12 @@ void doubt_impacts(Identification& found, const std::string& name, const std::st
         found.warnings.push_back(fmt::format("{}: the restitution changes from impact to impact: they differ by {:.2g} "
                                              "times the errors of their velocities; the interval is that of its mean",
                                              name, std::sqrt(proportion.scatter)));
+    constexpr double hardly_excess = 3; // of an impact that loses nothing once in a thousand times
+    if (proportion.excess > hardly_excess)
+        warn(fmt::format(
+            "the restitution is above one by {:.2g} times the errors of velocities, as none of an impact is "
+            "('{}' may have an offset)",
+            proportion.excess, channel));
     const ResidualTest test = test_residuals(left);
     if (!test.is_noise())
         warn("what is left of velocities after impacts is no noise: " + test.text());

@@ -7,6 +7,7 @@
 #include "graze/identify/residual_test.hpp"
 #include "graze/identify/restitution.hpp"
 #include "graze/record/impacts.hpp"
+#include "identify/common_units.hpp"
 #include "identify/doubts.hpp"
 #include "identify/impact_proportion.hpp"
 #include "identify/row_gap.hpp"
@@ -116,10 +117,12 @@ Identification identify_decrement(const EachRecord& records, const Identificatio
     RecordHeader header;
     std::size_t channel = 0;
     std::vector<std::string> names;
+    CommonUnits units;
     records([&](const std::string& name, SampleSource& record) {
-        header = record.header();
-        channel = header.channel(settings.channel, settings.asked_as + "channel");
-        UsableSource usable(record, {channel});
+        channel = record.header().channel(settings.channel, settings.asked_as + "channel");
+        CommonUnitSource common(record, units, {channel});
+        header = common.header();
+        UsableSource usable(common, {channel});
         releases.push_back(decay_peaks(usable, channel, settings.peaks));
         names.push_back(name);
     });
@@ -174,10 +177,10 @@ Identification identify_restitution(const EachRecord& records, const Identificat
     std::vector<std::string> names;
     Channel velocity;
     std::vector<ImpactSpeeds> few;
+    CommonUnits units;
     records([&](const std::string& name, SampleSource& record) {
         ImpactSettings impact_settings;
         impact_settings.velocity = record.header().channel(settings.channel, settings.asked_as + "channel");
-        velocity = record.header().channels[impact_settings.velocity];
         if (!settings.displacement.empty())
             impact_settings.displacement =
                 record.header().channel(settings.displacement, settings.asked_as + "displacement");
@@ -185,9 +188,12 @@ Identification identify_restitution(const EachRecord& records, const Identificat
         impact_settings.transition = settings.transition;
         impact_settings.least_jump = settings.least_jump;
         std::vector<ImpactSpeeds> impacts;
-        UsableSource usable(record, impact_settings.displacement
-                                        ? std::vector{impact_settings.velocity, *impact_settings.displacement}
-                                        : std::vector{impact_settings.velocity});
+        std::vector used{impact_settings.velocity};
+        if (impact_settings.displacement)
+            used.push_back(*impact_settings.displacement);
+        CommonUnitSource common(record, units, used, CommonUnitSource::Times::as_they_are);
+        velocity = common.header().channels[impact_settings.velocity];
+        UsableSource usable(common, used);
         VelocityWatch watched(usable, impact_settings.velocity);
         const std::vector<RecordedImpact> recorded = find_impacts(watched, impact_settings);
         for (const RecordedImpact& impact : recorded)
@@ -247,13 +253,15 @@ Identification identify_coupling(const EachRecord& records, const Identification
                          fmt::format("give {0}gap and {0}stiffness, in the units of the record", settings.asked_as));
     std::vector<StaticLoad> loads;
     Channel displacement, current;
+    CommonUnits units;
     records([&](const std::string&, SampleSource& record) {
         const RecordHeader& header = record.header();
         const std::size_t q = header.channel(name_or(settings.displacement, "q"), settings.asked_as + "displacement"),
                           i = header.channel(settings.current, settings.asked_as + "current");
-        displacement = header.channels[q];
-        current = header.channels[i];
-        UsableSource usable(record, {q, i});
+        CommonUnitSource common(record, units, {q, i}, CommonUnitSource::Times::as_they_are);
+        displacement = common.header().channels[q];
+        current = common.header().channels[i];
+        UsableSource usable(common, {q, i});
         const Samples all = read_all(usable, most_samples);
         if (settings.one_load_a_record)
             loads.push_back({mean_of(all.values[q]), mean_of(all.values[i])});
@@ -340,11 +348,13 @@ Identification identify_impedance(const EachRecord& records, const Identificatio
     std::vector<std::string> names;
     Identification found;
     std::string ohm, henry, hertz;
+    CommonUnits units;
     records([&](const std::string& name, SampleSource& record) {
-        const RecordHeader header = record.header();
-        const std::size_t v = header.channel(settings.voltage, asked + "voltage"),
-                          c = header.channel(settings.current, asked + "current");
-        UsableSource usable(record, {v, c});
+        const std::size_t v = record.header().channel(settings.voltage, asked + "voltage"),
+                          c = record.header().channel(settings.current, asked + "current");
+        CommonUnitSource common(record, units, {v, c});
+        const RecordHeader& header = common.header();
+        UsableSource usable(common, {v, c});
         const Samples all = read_all(usable, most_samples);
         const Impedance one = impedance(all.times, all.values[v], all.values[c],
                                         settings.frequency ? 2 * std::numbers::pi * *settings.frequency : 0);

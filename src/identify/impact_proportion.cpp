@@ -36,11 +36,14 @@ public:
             left_.push_back(weights_.back() * (one.after + e * one.before));
         }
         directions_ = {column([](double v, double) { return v; })};
+        information_ = dot(directions_.front(), directions_.front());
         normalise(directions_.front());
         take_out(left_, directions_.front());
     }
 
     double squares() const { return dot(left_, left_); }
+    /// Of the coefficient: one over its variance by the own errors.
+    double information() const { return information_; }
     std::size_t count() const { return left_.size(); }
 
     /// The chance that errors alone explain as much by these terms; 1 where more than errors is left with them.
@@ -91,6 +94,7 @@ private:
 
     std::vector<double> weights_, before_, left_;
     std::vector<std::vector<double>> directions_; ///< that of the line itself
+    double information_ = 0;
 };
 
 } // namespace
@@ -106,6 +110,8 @@ ImpactProportion test_proportion(std::span<const RecordedImpact> impacts, double
     const auto order = [](double v, double k) { return v * k; };
     result.scatter = weighed.squares() / static_cast<double>(weighed.count() - 1);
     constexpr double inexact = 2;
+    // What scatters more than that is none of errors, and makes no restitution above one likelier.
+    result.excess = (e - 1) * std::sqrt(weighed.information() / std::clamp(result.scatter, 1.0, inexact));
     result.unlike = chi_square_tail(weighed.squares() / inexact, weighed.count() - 1);
     // Each of so many terms may be the one by chance.
     result.offset = std::min(1.0, 2 * std::min(weighed.chance(one), weighed.chance(one, row)));

@@ -18,6 +18,7 @@ struct ImpactProportion {
     /// an impact's own samples tell of its errors is itself not exact.
     double unlike = 1;
     double scatter = 0; ///< mean square of what is left about the line, over that of the own errors
+    double excess = 0;  ///< of the restitution over one, in standard errors by own errors that are inexact likewise
 };
 
 /// @param e the coefficient of the line through nought

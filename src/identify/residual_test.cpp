@@ -122,6 +122,28 @@ double deviation_of(std::span<const double> readings) {
     return std::sqrt(squares / static_cast<double>(readings.size()));
 }
 
+/// How many times larger the root of mean squares is in the first half than in the second; 1 where chance makes as much
+/// of noise with tails like these.
+double change_of_size(std::span<const double> left) {
+    const std::size_t half = left.size() / 2;
+    const std::span<const double> parts[] = {left.first(half), left.subspan(half)};
+    double logarithm = 0, variance = 0, sign = 1;
+    for (const std::span<const double> part : parts) {
+        const auto count = static_cast<double>(part.size());
+        const double square = square_sum_of(part) / count;
+        if (!(square > 0))
+            return 1;
+        double fourth = 0;
+        for (const double value : part)
+            fourth += value * value * value * value / (count * square * square);
+        constexpr double of_normal = 3;
+        logarithm += sign * std::log(square);
+        variance += (std::max(fourth, of_normal) - 1) / count;
+        sign = -sign;
+    }
+    return std::abs(logarithm) > deviations * std::sqrt(variance) ? std::exp(0.5 * logarithm) : 1;
+}
+
 std::vector<std::string> reasons_of(std::span<const double> left, double correlation) {
     std::vector<std::string> reasons;
     const auto count = static_cast<double>(left.size());
@@ -197,6 +219,12 @@ ResidualTest test_residuals(std::span<const double> left, std::span<const double
     } else if (rounded) {
         test.widening = std::sqrt(count / changes_of(readings));
     }
+    // Rounding makes errors whose size depends on the motion, which are allowed for.
+    if (const double change = change_of_size(left); change != 1 && !small && !readings.empty())
+        test.reasons.push_back(
+            fmt::format("it is {:.2g} times as large in the first half as in the second, as of a clock "
+                        "that jitters",
+                        change));
     if (const std::size_t clipped = clipped_readings(readings); clipped > 0)
         test.reasons.push_back(
             fmt::format("{} readings stand at the end of their range, as if they were clipped", clipped));

@@ -2,6 +2,7 @@
 
 #include "graze/record/spectrum.hpp"
 #include "graze/study/point_motion.hpp"
+#include "record/even_clock.hpp"
 
 #include <fmt/format.h>
 
@@ -16,7 +17,7 @@ namespace {
 Spectrum spectrum_of_rows(const std::vector<double>& times, const std::vector<double>& values) {
     constexpr std::size_t most = 16'384, part = 8192;
     if (values.size() <= most)
-        return spectrum(values, sampling_frequency(times));
+        return spectrum(values, even_sampling_frequency(times));
     StoredSamples record({{"t", ""}, {{"value", ""}}}, {times, {values}});
     return averaged_spectrum(record, 0, part);
 }

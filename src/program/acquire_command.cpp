@@ -129,7 +129,7 @@ private:
 };
 
 AcquisitionReport carried_out(const Experiment& experiment, RecordFolder& folder, Watcher& watcher) {
-    Guardian guardian(experiment);
+    Guardian guardian(experiment, folder);
     AcquisitionOptions options;
     options.interrupted = [] { return InterruptGuard::requested(); };
     options.progress = [&](const AcquisitionProgress& progress) { watcher.progress(progress); };

@@ -5,6 +5,7 @@
 #include "graze/picture/design_page.hpp"
 #include "graze/picture/figure_script.hpp"
 #include "program/commands.hpp"
+#include "program/design_folder.hpp"
 #include "program/drawing.hpp"
 #include "program/interrupt.hpp"
 #include "program/json_rows.hpp"
@@ -52,7 +53,6 @@ int list_designs(const DesignArguments& arguments, const Console& console) {
     return exit_success;
 }
 
-constexpr const char* device_model = "device.toml";
 constexpr const char* circuit_module = "device.va";
 constexpr const char* designed_results = "designed.sqlite"; ///< of the way of the finished device
 
@@ -70,6 +70,7 @@ void remove_designed(const std::string& path) {
 }
 
 constexpr const char* report_name = "report.json";
+constexpr const char* way_name = "results.sqlite"; ///< to the trip point of the first device
 
 /// Whether a file has the name and the first line of a table of which a run writes one or not, as dimensions, planes
 /// and wants are.
@@ -107,6 +108,16 @@ public:
     void draw(const Figure& figure, const std::string& name) {
         draw_figure(figure, path(name), "");
         written_.push_back(path(name));
+    }
+    /// From here on what an earlier run has left there says nothing of this design, until it is done.
+    /// @throws InputError while another run works there
+    void begin(const Design& design) const {
+        const ResultFile locked(path(way_name), ResultFile::Access::write);
+        write_file(path(unfinished_name), unfinished_text(design));
+    }
+    void finish() const {
+        std::error_code error;
+        std::filesystem::remove(path(unfinished_name), error);
     }
     /// What an earlier run has left there and this one has not written says nothing of this design.
     void remove_others() const {
@@ -150,14 +161,14 @@ void tell(const Yield& yield, const Console& console) {
                                    yield.problems[i].first);
 }
 
-void write_all(Workplace& place, const Design& design, const TripPoint& trip, const DesignReport& report,
-               const DesignArguments& arguments, const Console& console) {
+void write_all(Workplace& place, const Design& first, const Design& design, const TripPoint& trip,
+               const DesignReport& report, const DesignArguments& arguments, const Console& console) {
     const std::vector<NamedTable> tables = tables_of(design, trip, report);
     for (const NamedTable& table : tables)
         place.write(table.name + ".csv", csv_text(table.table));
     place.write(report_name, json_of(design, tables));
     const Model device = model_of_device(trip);
-    place.write(device_model, write_model(device));
+    place.write(device_model_name, device_heading(first) + write_model(device));
     if (has_verilog_a(device))
         place.write(circuit_module, verilog_a_text(device, design.name, "graze " GRAZE_VERSION));
     if (!arguments.no_pictures) {
@@ -170,6 +181,7 @@ void write_all(Workplace& place, const Design& design, const TripPoint& trip, co
         }
     }
     place.remove_others();
+    place.finish();
 }
 
 MetWishes wished(const Design& design, const TripPoint& trip, const DesignReportOptions& options) {
@@ -198,7 +210,9 @@ bool is_irregular(const Design& design, const DesignReport& report) {
 }
 
 int interrupted(const Console& console) {
-    console.err << "graze: interrupted; nothing but the way to the trip point is kept\n";
+    console.err << fmt::format("graze: interrupted; nothing but the way to the trip point is kept, and {} says so of "
+                               "what an earlier run has left\n",
+                               unfinished_name);
     return InterruptGuard::exit_code();
 }
 
@@ -218,12 +232,13 @@ int design_command(const DesignArguments& arguments, const Console& console) {
     make_folder(folder, "--output");
     Workplace place(folder);
     keep_inputs_of(first);
-    for (const char* name : {report_name, device_model, circuit_module, "page.svg", "page.pdf"})
+    for (const char* name : {report_name, device_model_name, circuit_module, unfinished_name, "page.svg", "page.pdf"})
         KeptInputs::require_none_at(place.path(name)); // before the work
+    place.begin(first);
     const InterruptGuard guard;
     StatusLine line(console, console.terminal);
     const DesignReportOptions options = interactive_options(arguments.jobs, line);
-    std::optional<TripPoint> trip = locate_trip(first, place.path("results.sqlite"), options);
+    std::optional<TripPoint> trip = locate_trip(first, place.path(way_name), options);
     if (!trip)
         return interrupted(console);
     std::optional<MetWishes> wishes;
@@ -244,7 +259,7 @@ int design_command(const DesignArguments& arguments, const Console& console) {
     report.wishes = std::move(wishes);
     if (report.interrupted)
         return interrupted(console);
-    write_all(place, design, *trip, report, arguments, console);
+    write_all(place, first, design, *trip, report, arguments, console);
     if (!arguments.quiet) {
         deliver(facts_of(design, *trip, report), arguments.output, {}, console);
         if (arguments.output.format == TableFormat::table)

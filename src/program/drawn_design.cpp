@@ -8,6 +8,7 @@
 #include "graze/model/model_file.hpp"
 #include "graze/model/parameter_file.hpp"
 #include "program/commands.hpp"
+#include "program/design_folder.hpp"
 #include "program/interrupt.hpp"
 #include "program/kept_inputs.hpp"
 #include "program/output_file.hpp"
@@ -105,11 +106,18 @@ void add_quantities(Comparison& rows, const DesignedDevice& designed) {
     }
 }
 
-/// The drawn device has what is wanted, but for values to be met exactly, from which the grid keeps it.
+/// The drawn device has what is wanted. Of values to be met exactly the grid keeps it, by far less than a share of
+/// them.
 bool has_what_is_wanted(const MetWishes& wishes) {
-    for (std::size_t i = 0; i < wishes.found.wants.size(); ++i)
-        if (const Want& want = wishes.list.wants[i]; !wishes.found.wants[i].met && want.least != want.most)
+    constexpr double grid = 1e-2;
+    for (std::size_t i = 0; i < wishes.found.wants.size(); ++i) {
+        const Want& want = wishes.list.wants[i];
+        const FoundWant& found = wishes.found.wants[i];
+        const bool is_exact = want.least == want.most;
+        if (!found.met &&
+            !(is_exact && found.value && std::abs(*found.value - want.least) <= grid * std::abs(want.least)))
             return false;
+    }
     return true;
 }
 
@@ -158,11 +166,10 @@ void write_numbers(const DesignedDevice& designed) {
 } // namespace
 
 DesignedDevice matched_device(const DeviceFile& file, const std::string& design, const std::string& folder) {
-    const std::string path = path_in(folder, "device.toml");
-    if (!std::filesystem::is_regular_file(path))
-        throw InputError({"--from-design", 0, 0}, fmt::format("the folder {} has no device.toml", folder),
-                         fmt::format("make it by: graze design {} --output {}", design, folder));
-    DesignedDevice result{folder, load_design(design), read_model(path), {}};
+    const Design own = load_design(design);
+    require_device_of(own, folder);
+    const std::string path = path_in(folder, device_model_name);
+    DesignedDevice result{folder, own, read_model(path), {}};
     keep_inputs_of(result.own);
     KeptInputs::add("the designed device", path);
     if (result.device.name != result.own.model.name)

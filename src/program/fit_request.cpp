@@ -1,6 +1,7 @@
 #include "program/fit_request.hpp"
 
 #include "graze/base/input_error.hpp"
+#include "graze/base/physical_unit.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/model/named_value.hpp"
 #include "program/record_stages.hpp"
@@ -193,7 +194,7 @@ private:
                              fmt::format("say what is measured by --reading {}=EXPRESSION", names.front()));
         }
         const std::string& unit = request_.model.time_unit;
-        if (!unit.empty() && !header.time.unit.empty() && unit != header.time.unit)
+        if (!unit.empty() && !header.time.unit.empty() && unit_symbol(unit) != header.time.unit)
             throw InputError(fmt::format("its time is in {}, and that of the model in {}", header.time.unit, unit),
                              "convert the times of the record");
         Samples samples = read_all(stages.source(), most_samples);
@@ -249,7 +250,8 @@ private:
     void check_units() const {
         for (std::size_t o = 0; o < units_.size(); ++o) {
             const std::string &read = request_.channels[o].unit, &meant = units_[o];
-            if (!request_.task.outputs[o].gain_unknown && !read.empty() && !meant.empty() && read != meant)
+            if (!request_.task.outputs[o].gain_unknown && !read.empty() && !meant.empty() &&
+                unit_symbol(read) != unit_symbol(meant))
                 throw InputError(fmt::format("channel '{}' is in {}, and what it measures in {}",
                                              request_.channels[o].name, read, meant),
                                  fmt::format("convert it by --scale {}=FACTOR:{}", request_.channels[o].name, meant));

@@ -45,7 +45,7 @@ void make_safe(const Experiment& experiment) {
 }
 
 /// Reads what it is told until nobody can tell anything any more.
-[[noreturn]] void watch(int pipe, const Experiment& experiment) {
+[[noreturn]] void watch(int pipe, const Experiment& experiment, RecordFolder& folder) {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT})
         std::signal(signal, SIG_IGN); // of a terminal they come to all its processes
     setpgid(0, 0);                    // whoever kills a group kills the one at work
@@ -60,21 +60,27 @@ void make_safe(const Experiment& experiment) {
         else if (count == 0 || errno != EINTR)
             break;
     }
-    if (armed)
+    if (armed) {
         make_safe(experiment);
+        try {
+            folder.finish();
+        } catch (const std::exception& error) {
+            say(fmt::format("graze: the records could not be finished ({}): call it again\n", error.what()));
+        }
+    }
     _exit(0);
 }
 
 } // namespace
 
-Guardian::Guardian(const Experiment& experiment) {
+Guardian::Guardian(const Experiment& experiment, RecordFolder& folder) {
     int ends[2] = {-1, -1};
     if (pipe2(ends, O_CLOEXEC) != 0)
         throw std::system_error(errno, std::generic_category(), "no pipe can be made");
     process_ = fork();
     if (process_ == 0) {
         close(ends[1]);
-        watch(ends[0], experiment);
+        watch(ends[0], experiment, folder);
     }
     const int reason = errno;
     close(ends[0]);

@@ -1,17 +1,18 @@
 #pragma once
 
 #include "graze/acquire/experiment.hpp"
+#include "graze/acquire/record_folder.hpp"
 
 #include <sys/types.h>
 
 namespace graze {
 
-/// A process that outlives this one when it is killed, and brings the generator to its safe amplitude then. It keeps
-/// what was locked before, so that nobody goes on before it is done.
+/// A process that outlives this one when it is killed, and then brings the generator to its safe amplitude and the
+/// records to their names. It keeps what was locked before, so that nobody goes on before it is done.
 class Guardian {
 public:
     /// To be made before connections are opened. @param experiment with the line that is to be opened then
-    explicit Guardian(const Experiment& experiment);
+    Guardian(const Experiment& experiment, RecordFolder& folder);
     /// Sends it home.
     ~Guardian();
     Guardian(const Guardian&) = delete;

@@ -3,6 +3,7 @@
 #include "graze/base/input_error.hpp"
 #include "graze/record/impacts.hpp"
 #include "graze/record/spectrum.hpp"
+#include "record/even_clock.hpp"
 
 #include <fmt/format.h>
 
@@ -221,7 +222,7 @@ public:
         } else {
             constexpr std::size_t most = 4'000'000;
             const Samples all = read_all(stages.source(), most);
-            found = spectrum(all.values[channels.front()], sampling_frequency(all.times));
+            found = spectrum(all.values[channels.front()], even_sampling_frequency(all.times));
         }
         FigureSeries series;
         series.title = several() ? file : "";

@@ -1,8 +1,8 @@
 #include "record/column_names.hpp"
 
 #include "base/character.hpp"
-#include "base/letter_case.hpp"
 #include "graze/base/input_error.hpp"
+#include "graze/base/physical_unit.hpp"
 #include "graze/base/printable.hpp"
 #include "graze/base/trimmed.hpp"
 
@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <optional>
 
 namespace graze {
 
@@ -52,15 +53,34 @@ void require_utf8(const NameField& field, const Place& line) {
 
 } // namespace
 
+namespace {
+
+/// Whether letters of a line of names stand in brackets or quotes, where nothing separates columns.
+class NameNesting {
+public:
+    /// A quote that is never closed is a letter.
+    explicit NameNesting(std::string_view line) : has_quotes_(std::count(line.begin(), line.end(), '"') % 2 == 0) {}
+    /// @return whether the letter, the next one of the line, may separate columns
+    bool is_outside(char letter) {
+        depth_ += letter == '[' || letter == '(' ? 1 : letter == ']' || letter == ')' ? -1 : 0;
+        in_quotes_ = in_quotes_ != (has_quotes_ && letter == '"');
+        return depth_ <= 0 && !in_quotes_;
+    }
+
+private:
+    bool has_quotes_, in_quotes_ = false;
+    int depth_ = 0;
+};
+
+} // namespace
+
 char separator_of_names(std::string_view line) {
     line = trimmed(line);
     for (const char separator : {';', ',', '\t', ' '}) {
-        int depth = 0;
-        for (const char letter : line) {
-            depth += letter == '[' || letter == '(' ? 1 : letter == ']' || letter == ')' ? -1 : 0;
-            if (letter == separator && depth <= 0)
+        NameNesting nesting(line);
+        for (const char letter : line)
+            if (nesting.is_outside(letter) && letter == separator)
                 return separator == '\t' ? ' ' : separator;
-        }
     }
     return ',';
 }
@@ -68,13 +88,12 @@ char separator_of_names(std::string_view line) {
 std::vector<NameField> name_fields(std::string_view line, char separator) {
     std::vector<NameField> fields;
     std::size_t begin = 0;
-    int depth = 0;
+    NameNesting nesting(line);
     for (std::size_t i = 0; i <= line.size(); ++i) {
         if (i < line.size()) {
             const char letter = line[i];
-            depth += letter == '[' || letter == '(' ? 1 : letter == ']' || letter == ')' ? -1 : 0;
             const bool ends = separator == ' ' ? is_blank(letter) : letter == separator;
-            if (!ends || depth > 0)
+            if (!nesting.is_outside(letter) || !ends)
                 continue;
         }
         const NameField field{line.substr(begin, i - begin), begin};
@@ -92,13 +111,33 @@ std::vector<NameField> name_fields(std::string_view line, char separator) {
     return fields;
 }
 
+namespace {
+
+/// Takes "t / s", "CH1 in V" and, in quotes, "Time, s" apart, where what stands behind is a unit.
+void split_unit_behind(std::string_view& text, std::string& unit) {
+    for (const std::string_view between : {" / ", " in ", ", "}) {
+        const std::size_t at = text.rfind(between);
+        if (at == std::string_view::npos || at == 0 || !is_unit_word(text.substr(at + between.size())))
+            continue;
+        unit = unit_of_word(text.substr(at + between.size()));
+        text = trimmed(text.substr(0, at));
+        return;
+    }
+}
+
+} // namespace
+
 Channel named_channel(const NameField& field, const Place& line) {
     std::string_view text = without_quotes(trimmed(field.text));
     Channel channel;
     const std::size_t bracket = text.find_first_of("[(");
     if (bracket != std::string_view::npos && (text.back() == ']' || text.back() == ')')) {
-        channel.unit = trimmed(text.substr(bracket + 1, text.size() - bracket - 2));
+        channel.unit = unit_symbol(trimmed(text.substr(bracket + 1, text.size() - bracket - 2)));
         text = trimmed(text.substr(0, bracket));
+        if (text.ends_with(" /")) // "v / (m/s)"
+            text = trimmed(text.substr(0, text.size() - 1));
+    } else {
+        split_unit_behind(text, channel.unit);
     }
     text = without_quotes(text);
     channel.name = text;
@@ -159,14 +198,7 @@ void require_closed_brackets(std::string_view line, const Place& place) {
 
 namespace {
 
-/// As instruments spell them, in small letters, and the symbol of SI.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 20> spelt_units{{
-    {"second", "s"}, {"seconds", "s"}, {"sec", "s"},     {"secs", "s"},   {"volt", "V"},
-    {"volts", "V"},  {"ampere", "A"},  {"amperes", "A"}, {"amp", "A"},    {"amps", "A"},
-    {"watt", "W"},   {"watts", "W"},   {"ohm", "ohm"},   {"ohms", "ohm"}, {"hertz", "Hz"},
-    {"metre", "m"},  {"meter", "m"},   {"metres", "m"},  {"meters", "m"}, {"newton", "N"},
-}};
-
+/// As they stand in a line of units.
 constexpr std::array<std::string_view, 40> symbols{
     "s",  "ms", "us",  "ns",   "\xc2\xb5s", "\xce\xbcs", "ps", "min", "h",   "V",   "mV",   "uV", "kV", "Vpp",
     "A",  "mA", "uA",  "nA",   "W",         "mW",        "Hz", "kHz", "MHz", "ohm", "kohm", "m",  "mm", "um",
@@ -176,20 +208,28 @@ constexpr std::array<std::string_view, 40> symbols{
 } // namespace
 
 std::string unit_of_word(std::string_view word) {
-    const std::string_view text = without_brackets(without_quotes(trimmed(word)));
-    const std::string small = in_small_letters(text);
-    const auto* const spelt =
-        std::find_if(spelt_units.begin(), spelt_units.end(), [&](const auto& one) { return one.first == small; });
-    return std::string(spelt != spelt_units.end() ? spelt->second : text);
+    return unit_symbol(without_brackets(without_quotes(trimmed(word))));
 }
 
 bool is_unit_word(std::string_view word) {
     const std::string_view text = without_quotes(trimmed(word));
     if (text.empty() || without_brackets(text).size() < text.size())
         return !text.empty();
-    const std::string small = in_small_letters(text);
-    return std::any_of(spelt_units.begin(), spelt_units.end(), [&](const auto& one) { return one.first == small; }) ||
-           std::find(symbols.begin(), symbols.end(), text) != symbols.end();
+    return unit_symbol(text) != text || std::find(symbols.begin(), symbols.end(), text) != symbols.end();
+}
+
+std::string unit_of_time_word(std::string_view word) {
+    const std::string unit = unit_of_word(word);
+    return unit == "S" ? "s" : unit;
+}
+
+void require_unit_of_time(const RecordHeader& header, const std::string& path) {
+    const std::optional<PhysicalUnit> unit = known_unit(header.time.unit);
+    if (unit && unit->dimension == physical_unit("S").dimension)
+        throw InputError(
+            Place{path, 0, 0},
+            fmt::format("the unit of the times, {}, is one of conductance: S is siemens", header.time.unit),
+            "write times in s, ms, us, min or h, with small letters");
 }
 
 RecordHeader parse_record_header(const std::string& line, const Place& place) {

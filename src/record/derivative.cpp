@@ -4,6 +4,7 @@
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 #include "graze/record/spectrum.hpp"
+#include "record/even_clock.hpp"
 #include "record/local_polynomial.hpp"
 #include "record/resumed_source.hpp"
 #include "record/sliding_samples.hpp"
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace graze {
@@ -20,66 +22,106 @@ namespace graze {
 namespace {
 
 constexpr std::size_t least_half_width = 4, most_half_width = 100'000;
-constexpr std::size_t sixth = 6;
+constexpr std::size_t fourth = 4, sixth = 6; // degrees of the slope's polynomial, and of the other
 
-/// The derivative in the middle of a window, in units of one sample's distance.
+/// The derivative in the middle of a window.
 struct Slope {
     double value = 0;
     double truncation = 0; ///< what the terms of fifth and sixth degree add
     double squares = 0;    ///< that a polynomial of sixth degree leaves
+    double noise = 0,
+           truncation_noise = 0; ///< standard errors of the value and the truncation, of samples with one of 1
+
+    /// Square of what the terms of fifth and sixth degree add, without what noise adds to it: of one window it may be
+    /// below zero. @param variance of a sample
+    double beyond(double variance) const {
+        return truncation * truncation - variance * truncation_noise * truncation_noise;
+    }
+    /// @param usual what these terms usually add, squared: that of one window is as noisy as the slope itself, so that
+    ///        it is believed only where it is much larger
+    double error(double variance, double usual) const {
+        constexpr double significant = 9;
+        const double own = truncation * truncation, own_noise = variance * truncation_noise * truncation_noise;
+        return std::sqrt(variance * noise * noise +
+                         (own > significant * own_noise ? std::max(usual, own - own_noise) : usual));
+    }
 };
 
+/// Of windows with the same times, counted from the middle one.
 class SlopeFilter {
 public:
-    explicit SlopeFilter(std::size_t half) : half_(half), fit_(places(half), sixth), rest_(2 * half + 1) {
-        noise_ = std::hypot(fit_.slope_at_zero(1), fit_.slope_at_zero(3)) / static_cast<double>(half);
-        truncation_noise_ = std::abs(fit_.slope_at_zero(5)) / static_cast<double>(half);
-    }
-    std::size_t half() const { return half_; }
-    double freedom() const { return static_cast<double>(2 * half_ + 1 - (sixth + 1)); }
-    /// @param middle sample with `half` others on each side
+    /// @param places of the samples, the middle one at nought @param reach by which they are divided, of their size
+    SlopeFilter(std::vector<double> places, double reach)
+        : places_(std::move(places)), reach_(reach), fit_(divided(places_, reach), sixth), rest_(places_.size()) {}
+    const std::vector<double>& places() const { return places_; }
+    /// @param middle sample with as many others on each side
     Slope at(const double* middle) {
         // Less the middle, lest a constant cost digits.
         for (std::size_t i = 0; i < rest_.size(); ++i)
-            rest_[i] = *(middle - half_ + i) - *middle;
-        Slope slope;
+            rest_[i] = *(middle - rest_.size() / 2 + i) - *middle;
         double factors[sixth + 1];
         for (std::size_t k = 0; k <= sixth; ++k)
             factors[k] = fit_.coefficient(k, rest_.data());
+        Slope slope;
         slope.squares = fit_.squares_left(rest_.data(), factors);
-        const auto width = static_cast<double>(half_);
-        slope.value = (factors[1] * fit_.slope_at_zero(1) + factors[3] * fit_.slope_at_zero(3)) / width;
-        slope.truncation = factors[5] * fit_.slope_at_zero(5) / width;
+        for (std::size_t k = 1; k <= sixth; ++k) {
+            const double one = fit_.slope_at_zero(k) / reach_;
+            (k <= fourth ? slope.value : slope.truncation) += factors[k] * one;
+            double& noise = k <= fourth ? slope.noise : slope.truncation_noise;
+            noise = std::hypot(noise, one);
+        }
         return slope;
-    }
-    /// Square of what the terms of fifth and sixth degree add, without what noise adds to it: of one window it may be
-    /// below zero. @param variance of a sample
-    double beyond(const Slope& slope, double variance) const {
-        return slope.truncation * slope.truncation - variance * truncation_noise_ * truncation_noise_;
-    }
-    /// @param usual what these terms usually add, squared: that of one window is as noisy as the slope itself, so that
-    /// it
-    ///        is believed only where it is much larger
-    double error(const Slope& slope, double variance, double usual) const {
-        constexpr double significant = 9;
-        const double own = slope.truncation * slope.truncation,
-                     noise = variance * truncation_noise_ * truncation_noise_;
-        return std::sqrt(variance * noise_ * noise_ +
-                         (own > significant * noise ? std::max(usual, own - noise) : usual));
     }
 
 private:
-    static std::vector<double> places(std::size_t half) {
-        std::vector<double> result;
-        for (std::size_t i = 0; i <= 2 * half; ++i)
-            result.push_back((static_cast<double>(i) - static_cast<double>(half)) / static_cast<double>(half));
-        return result;
+    static std::vector<double> divided(std::vector<double> places, double by) {
+        for (double& place : places)
+            place /= by;
+        return places;
     }
-    std::size_t half_;
+    std::vector<double> places_;
+    double reach_;
     LocalPolynomial fit_;
-    double noise_ = 0, truncation_noise_ = 0;
     std::vector<double> rest_;
 };
+
+/// Slopes of samples with so many others on each side: at equal distances where the clock is even but for the rounding
+/// of times, and otherwise at the times that are told.
+class SlopeWindows {
+public:
+    /// @param times, values with `half` more on both sides of what is asked for; they must outlive this
+    SlopeWindows(const std::vector<double>& times, const std::vector<double>& values, std::size_t half)
+        : times_(&times), values_(&values), half_(half), is_even_(is_even_clock(times)),
+          spacing_(1 / sampling_frequency(times)) {}
+    Slope at(std::size_t row) {
+        set_filter(row);
+        return filter_->at(values_->data() + row);
+    }
+
+private:
+    void set_filter(std::size_t row) {
+        if (filter_ && is_even_)
+            return;
+        std::vector<double> places(2 * half_ + 1);
+        for (std::size_t i = 0; i < places.size(); ++i)
+            places[i] = is_even_ ? spacing_ * (static_cast<double>(i) - static_cast<double>(half_))
+                                 : (*times_)[row - half_ + i] - (*times_)[row];
+        const double reach = spacing_ * static_cast<double>(half_);
+        const auto is_same = [&](double one, double other) { return std::abs(one - other) <= 1e-12 * reach; };
+        if (!filter_ || !std::equal(places.begin(), places.end(), filter_->places().begin(), is_same))
+            filter_.emplace(std::move(places), reach);
+    }
+
+    const std::vector<double>*times_, *values_;
+    std::size_t half_;
+    bool is_even_;
+    double spacing_;
+    std::optional<SlopeFilter> filter_{};
+};
+
+double freedom_of(std::size_t half) {
+    return static_cast<double>(2 * half + 1 - (sixth + 1));
+}
 
 /// The variance that most windows have.
 double usual_variance(const std::vector<Slope>& slopes, double freedom) {
@@ -99,35 +141,37 @@ double variance_at(const Slope& slope, double usual, double freedom) {
 }
 
 /// What terms beyond the fourth degree add to the slope, squared: the mean of all windows in which nothing jumps.
-double usual_beyond(const SlopeFilter& filter, const std::vector<Slope>& slopes, double usual) {
+double usual_beyond(const std::vector<Slope>& slopes, double usual, double freedom) {
     double sum = 0, count = 0;
     for (const Slope& slope : slopes)
-        if (variance_at(slope, usual, filter.freedom()) == usual) {
-            sum += filter.beyond(slope, usual);
+        if (variance_at(slope, usual, freedom) == usual) {
+            sum += slope.beyond(usual);
             ++count;
         }
     return count > 0 ? std::max(0.0, sum / count) : 0;
 }
 
-std::size_t best_half_width(const std::vector<double>& values) {
+std::size_t best_half_width(const std::vector<double>& times, const std::vector<double>& values) {
     std::size_t best = 0;
     double least = 0, noise = 0;
     constexpr std::size_t tried_rows = 500;
     for (std::size_t half = least_half_width; 4 * half < values.size() && half <= 512;
          half += std::max<std::size_t>(1, half / 3)) {
-        SlopeFilter filter(half);
+        SlopeWindows windows(times, values, half);
         std::vector<Slope> slopes;
         const std::size_t step = std::max<std::size_t>(1, (values.size() - 2 * half) / tried_rows);
         for (std::size_t i = half; i + half < values.size(); i += step)
-            slopes.push_back(filter.at(values.data() + i));
-        const double usual = usual_variance(slopes, filter.freedom());
+            slopes.push_back(windows.at(i));
+        const double freedom = freedom_of(half), usual = usual_variance(slopes, freedom);
         // Where more is left than noise, the window is too wide for any polynomial, whatever its terms say.
         constexpr double more_than_noise = 1.5;
         if (best != 0 && usual > more_than_noise * noise)
             break;
         noise = best == 0 ? usual : std::min(noise, usual);
         // Of the squares' mean: where the terms pass through nought they are as large elsewhere.
-        const double error = filter.error({}, usual, usual_beyond(filter, slopes, usual));
+        Slope typical = slopes[slopes.size() / 2];
+        typical.truncation = 0;
+        const double error = typical.error(usual, usual_beyond(slopes, usual, freedom));
         if (best == 0 || error < least) {
             best = half;
             least = error;
@@ -144,7 +188,7 @@ struct WithDerivative::State {
     RecordHeader header{};
     std::unique_ptr<SampleSource> beginning{};
     std::optional<SlidingSamples> window{};
-    std::optional<SlopeFilter> filter{};
+    std::size_t half = 0; ///< once something has been read
 };
 
 WithDerivative::WithDerivative(SampleSource& source, const DerivativeSettings& settings)
@@ -172,7 +216,7 @@ const RecordHeader& WithDerivative::header() const {
 }
 
 std::size_t WithDerivative::half_width() const {
-    return state_->filter ? state_->filter->half() : state_->settings.half_width;
+    return state_->half > 0 ? state_->half : state_->settings.half_width;
 }
 
 bool WithDerivative::read(Samples& samples) {
@@ -189,30 +233,29 @@ bool WithDerivative::read(Samples& samples) {
         if (begun.rows() < needed || (state.settings.half_width == 0 && begun.rows() <= 4 * least_half_width))
             throw InputError(fmt::format("the record is too short for a derivative: it has {} samples", begun.rows()),
                              "record longer");
-        const std::size_t half =
-            state.settings.half_width > 0 ? state.settings.half_width : best_half_width(begun.values[channel]);
-        state.filter.emplace(half);
+        state.half = state.settings.half_width > 0 ? state.settings.half_width
+                                                   : best_half_width(begun.times, begun.values[channel]);
         state.beginning = std::make_unique<ResumedSource>(*state.source, std::move(begun));
-        state.window.emplace(*state.beginning, half);
+        state.window.emplace(*state.beginning, state.half);
     }
     samples.clear(state.header.channels.size());
     if (!state.window->next())
         return false;
     const Samples& rows = state.window->samples();
-    const double frequency = sampling_frequency(rows.times);
+    SlopeWindows windows(rows.times, rows.values[channel], state.half);
     std::vector<Slope> slopes;
     for (std::size_t i = state.window->first(); i < state.window->last(); ++i)
-        slopes.push_back(state.filter->at(rows.values[channel].data() + i));
-    const double freedom = state.filter->freedom(), usual = usual_variance(slopes, freedom);
+        slopes.push_back(windows.at(i));
+    const double freedom = freedom_of(state.half), usual = usual_variance(slopes, freedom);
     Samples core;
     core.append(rows, state.window->first(), state.window->last());
     samples.times = std::move(core.times);
     std::move(core.values.begin(), core.values.end(), samples.values.begin());
-    const double beyond = usual_beyond(*state.filter, slopes, usual);
+    const double beyond = usual_beyond(slopes, usual, freedom);
     std::vector<double>&values = samples.values[core.values.size()], &errors = samples.values[core.values.size() + 1];
     for (const Slope& slope : slopes) {
-        values.push_back(slope.value * frequency);
-        errors.push_back(state.filter->error(slope, variance_at(slope, usual, freedom), beyond) * frequency);
+        values.push_back(slope.value);
+        errors.push_back(slope.error(variance_at(slope, usual, freedom), beyond));
     }
     return true;
 }

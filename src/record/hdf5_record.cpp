@@ -1,7 +1,9 @@
 #include "record/hdf5_record.hpp"
 
+#include "graze/base/physical_unit.hpp"
 #include "graze/base/printable.hpp"
 #include "graze/base/text_file.hpp"
+#include "record/column_names.hpp"
 #include "record/hdf5_handle.hpp"
 #include "record/separate_source.hpp"
 
@@ -142,6 +144,7 @@ private:
             throw InputError(Place{path_, 0, 0}, has_time ? "there are no channels" : "there is no dataset t or time",
                              advice);
         header_.time = time_.channel;
+        require_unit_of_time(header_, path_);
         rows_ = time_.rows;
         for (const Column& column : columns_) {
             header_.channels.push_back(column.channel);
@@ -243,7 +246,7 @@ private:
             if (H5Aread(attribute.id(), type.id(), text.data()) >= 0)
                 unit = text.data();
         }
-        return unit.size() <= longest_channel_name && is_plain_line(unit) ? unit : "";
+        return unit.size() <= longest_channel_name && is_plain_line(unit) ? unit_symbol(unit) : "";
     }
 
     std::string path_;

@@ -93,7 +93,7 @@ std::string unit_of_times(const TextLines& lines, const LabviewHeading& heading,
     for (std::size_t c = 0; found != heading.end() && c < channels && c < found->second.size(); ++c) {
         if (found->second[c] != found->second.front())
             fail_common(lines, key);
-        if (const std::string word = unit_of_word(found->second[c]); !word.empty())
+        if (const std::string word = unit_of_time_word(found->second[c]); !word.empty())
             unit = word;
     }
     return unit;
@@ -168,7 +168,7 @@ TextTable tektronix_table(TextLines& lines, const KeptLine& first) {
         else if (key == "Vertical Units")
             table.header.channels.front().unit = unit_of_word(value);
         else if (key == "Horizontal Units")
-            table.header.time.unit = unit_of_word(value);
+            table.header.time.unit = unit_of_time_word(value);
     }
     return table;
 }

@@ -3,6 +3,7 @@
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 #include "graze/record/spectrum.hpp"
+#include "record/even_clock.hpp"
 #include "record/resumed_source.hpp"
 #include "record/sliding_samples.hpp"
 
@@ -13,6 +14,7 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace graze {
@@ -48,11 +50,29 @@ std::vector<double> filter_of(double pass, double stop, double attenuation) {
     return factors;
 }
 
+/// What passes and what does not are parts of the frequency of samples: within the length of the filter the clock must
+/// keep the distances for which it was made, but for the rounding of times.
+void require_spacing(std::span<const double> times, double spacing, std::size_t length) {
+    const double rounding = rounding_of(times, spacing);
+    constexpr double share = 0.05, drift = 0.0025; // of a step, and half of by which frequencies may be off
+    for (std::size_t first = 0; first + 1 < times.size(); first += std::max<std::size_t>(1, length / 2)) {
+        const auto part = times.subspan(first, std::min(length, times.size() - first));
+        const double allowed = std::max(share * spacing, rounding) + drift * static_cast<double>(part.size()) * spacing;
+        if (const double stray = stray_of(part, spacing); stray > allowed)
+            throw InputError(fmt::format("the samples are not at equal distances of time: from {} to {} they are up to "
+                                         "{:.3g} beside times that are {:.6g} apart",
+                                         part.front(), part.back(), stray, spacing),
+                             "give a part of the record whose clock is even (--from, --to), or one that has been "
+                             "resampled");
+    }
+}
+
 } // namespace
 
 struct LowPass::State {
     SampleSource* source;
     LowPassSettings settings;
+    double spacing = 0; ///< of the first samples, for which the factors are
     std::vector<double> factors{};
     std::optional<SlidingSamples> window{};
     std::unique_ptr<SampleSource> beginning{};
@@ -90,6 +110,7 @@ bool LowPass::read(Samples& samples) {
         if (!state.source->read(begun))
             return false;
         const double frequency = sampling_frequency(begun.times);
+        state.spacing = 1 / frequency;
         const auto every = static_cast<double>(state.settings.every);
         constexpr double usual_pass = 0.35, usual_stop = 0.5, wider = 1.5;
         const double highest = usual_stop * frequency / every;
@@ -111,6 +132,7 @@ bool LowPass::read(Samples& samples) {
     while (samples.rows() == 0 && state.window->next()) {
         const Samples& rows = state.window->samples();
         sampling_frequency(rows.times);
+        require_spacing(rows.times, state.spacing, 2 * half + 1);
         for (; state.next < state.window->dropped() + state.window->last(); state.next += state.settings.every) {
             const std::size_t i = state.next - state.window->dropped();
             samples.times.push_back(rows.times[i]);

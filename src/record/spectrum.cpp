@@ -2,6 +2,7 @@
 
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
+#include "record/even_clock.hpp"
 #include "record/fourier.hpp"
 
 #include <fmt/format.h>
@@ -104,7 +105,7 @@ Spectrum averaged_spectrum(SampleSource& source, std::size_t channel, std::size_
         for (; first + part <= buffer.rows(); first += part / 2, ++parts) {
             const std::span<const double> values(buffer.values[channel].data() + first, part);
             duration += static_cast<double>(part) /
-                        sampling_frequency(std::span<const double>(buffer.times.data() + first, part));
+                        even_sampling_frequency(std::span<const double>(buffer.times.data() + first, part));
             const double mean = mean_of(values);
             for (std::size_t i = 0; i < part; ++i)
                 piece[i] = window[i] * (values[i] - mean);

@@ -31,7 +31,7 @@ bool is_word_of_missing(std::string_view field) {
     const bool is_signed = !field.empty() && (field.front() == '+' || field.front() == '-');
     const std::string small = in_small_letters(is_signed ? field.substr(1) : field);
     constexpr std::array words{"",         "nan",    "na",      "n/a",    "#n/a",     "null", "none", "inf",
-                               "infinity", "1.#inf", "1.#qnan", "1.#ind", "overload", "ovld", "ol"};
+                               "infinity", "1.#inf", "1.#qnan", "1.#ind", "overload", "ovld", "ol",   "\xe2\x88\x9e"};
     return std::find(words.begin(), words.end(), small) != words.end();
 }
 

@@ -45,6 +45,7 @@ TextRecord::TextRecord(const std::string& path, const RecordLayout& layout)
     : lines_(path), table_(find_table(lines_, layout)), numbers_(table_.decimal), remark_(layout.remark),
       last_time_(-std::numeric_limits<double>::infinity()) {
     row_.resize(table_.columns());
+    require_unit_of_time(table_.header, path);
 }
 
 void TextRecord::refuse(std::string_view line, const char* at, const std::string& problem,

@@ -119,8 +119,11 @@ public:
         }
         std::size_t bytes = 0;
         while (heading_.size() < most_heading_lines && bytes < longest_heading && lines_->next(line)) {
-            if (is_comment(line))
+            if (is_comment(line)) {
+                if (!trimmed(line).empty())
+                    comment_ = kept(line);
                 continue;
+            }
             bytes += line.size();
             if (given == 0 && heading_.empty() && layout_->columns.empty()) {
                 if (is_labview(line))
@@ -245,8 +248,10 @@ private:
         return header;
     }
 
-    /// Lines such as "Vertical Units,V" say them for channels that have none.
+    /// Lines such as "Vertical Units,V" say them for channels that have none. LeCroy says none: times are in s.
     void take_units(RecordHeader& header) const {
+        if (heading_.front().text.starts_with("LECROY") && header.time.unit.empty())
+            header.time.unit = "s";
         for (const KeptLine& line : heading_) {
             std::vector<std::string_view> values;
             for (const std::string_view field : row_fields(line.text, ','))
@@ -255,12 +260,21 @@ private:
             if (values.size() < 2)
                 continue;
             if (values[0] == "Horizontal Units" && header.time.unit.empty())
-                header.time.unit = unit_of_word(values[1]);
+                header.time.unit = unit_of_time_word(values[1]);
             if (values[0] == "Vertical Units" && values.size() == header.channels.size() + 1)
                 for (std::size_t c = 0; c < header.channels.size(); ++c)
                     if (header.channels[c].unit.empty())
                         header.channels[c].unit = unit_of_word(values[c + 1]);
         }
+    }
+
+    /// A comment right above the rows with as many parts as they have may name the columns, which is not for certain.
+    std::string remedy_of_comment(std::string_view row) const {
+        std::string_view text = comment_.text;
+        text.remove_prefix(std::min(text.find_first_not_of("#% \t"), text.size()));
+        return common_separator(text, row) == 0
+                   ? ""
+                   : fmt::format("; if the comment in line {0} does, by --names-line {0}", comment_.number);
     }
 
     /// Rows alone.
@@ -273,7 +287,8 @@ private:
         if (columns != columns_of_dissertation)
             throw InputError(place(rows_.front().number),
                              fmt::format("nothing says what the {} columns of the record are", columns),
-                             "begin the file with a line such as 't [s], V [V], q [mm]', or say it by --columns");
+                             "begin the file with a line such as 't [s], V [V], q [mm]', or say it by --columns" +
+                                 remedy_of_comment(line));
         table.header = {{"t", "s"}, {{"V", ""}, {"I", ""}, {"q", ""}, {"v", ""}}};
         return table;
     }
@@ -301,6 +316,7 @@ private:
     TextLines* lines_;
     const RecordLayout* layout_;
     KeptLine names_, units_;
+    KeptLine comment_; ///< the last one above the first row
     std::vector<KeptLine> heading_;
     std::vector<KeptLine> rows_; ///< the first ones, where nothing has told where they begin
 };

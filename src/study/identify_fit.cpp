@@ -1,5 +1,6 @@
 #include "study/identify_fit.hpp"
 
+#include "graze/base/physical_unit.hpp"
 #include "graze/identify/fit.hpp"
 #include "graze/model/named_value.hpp"
 
@@ -63,15 +64,26 @@ FitTask task_of(const StudyRun& run, const std::vector<KeptRecord>& records) {
 /// A reading in another unit than what it is compared with would be taken for something else.
 void check_units(const StudyRun& run, const std::vector<KeptRecord>& records) {
     for (const KeptRecord& kept : records) {
+        for (const IdentifyRequest::Reading& reading : run.identify.readings) { // whose gain may be unknown
+            const auto unit = [&](const KeptRecord& of) {
+                return of.header.channels[of.header.channel(reading.channel, "readings")].unit;
+            };
+            if (unit(kept) != unit(records.front()))
+                throw InputError(run.place,
+                                 fmt::format("{}: channel '{}' is in '{}', and that of the first record in '{}'",
+                                             kept.name, reading.channel, unit(kept), unit(records.front())),
+                                 "convert it by `scale` of the run that has the record");
+        }
         const std::string &time = kept.header.time.unit, &wanted = run.model.time_unit;
-        if (!time.empty() && !wanted.empty() && time != wanted)
+        if (!time.empty() && !wanted.empty() && time != unit_symbol(wanted))
             throw InputError(run.place,
                              fmt::format("{}: its time is in {}, and that of the model in {}", kept.name, time, wanted),
                              "convert the times of the record");
         for (const IdentifyRequest::Reading& reading : run.identify.readings) {
             const std::string& unit = kept.header.channels[kept.header.channel(reading.channel, "readings")].unit;
             const std::string meant = named_value(run.model, reading.value, run.place).unit;
-            if (!reading.gain_unknown && reading.gain == 1 && !unit.empty() && !meant.empty() && unit != meant)
+            if (!reading.gain_unknown && reading.gain == 1 && !unit.empty() && !meant.empty() &&
+                unit_symbol(unit) != unit_symbol(meant))
                 throw InputError(run.place,
                                  fmt::format("{}: channel '{}' is in {}, and what it measures in {}", kept.name,
                                              reading.channel, unit, meant),

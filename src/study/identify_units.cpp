@@ -74,6 +74,11 @@ void check_channel(const StudyRun& run, const KeptRecord& record, const Channel&
 
 void check_time(const StudyRun& run, const KeptRecord& record) {
     const auto unit = told_unit(record.header.time.unit), wanted = told_unit(run.model.time_unit);
+    if (!unit && wanted && !record.header.time.unit.empty())
+        throw InputError(run.place,
+                         fmt::format("{}: the unit of its time, '{}', is not known, and that of the model is {}",
+                                     record.name, record.header.time.unit, run.model.time_unit),
+                         "give times in s, ms, us, ns, min or h");
     if (unit && wanted && *unit != *wanted)
         throw InputError(run.place,
                          fmt::format("{}: its time is in {}, and that of the model in {}", record.name,
@@ -160,6 +165,12 @@ void convert_to_model(EstimateRecords& estimates, const StudyRun& run) {
             return one.second == number.name && is_ratio(one.first);
         });
         const auto from = ratio ? PhysicalUnit() : told_unit(number.unit), to = unit_in_model(run.model, unit);
+        if (!from && to && !number.unit.empty() && number.unit != unit_symbol(unit))
+            throw InputError(run.place,
+                             fmt::format("what is found for '{}' is in '{}', a unit that is not known, and the "
+                                         "parameter {}",
+                                         number.name, number.unit, unit.empty() ? "a number" : "in " + unit),
+                             "give the record units of the SI: a channel by `scale`, times as s, ms, us, ns, min or h");
         if (!from || !to)
             continue;
         const auto in = [](const std::string& text) { return text.empty() ? "without a unit" : "in " + text; };

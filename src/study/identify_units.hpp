@@ -15,8 +15,8 @@ void check_record_units(const StudyRun& run, const std::vector<KeptRecord>& reco
 
 /// Gives estimates of parameters of the run's model the units of these, their covariances as well: 0.1 rad/ms is
 /// 100 rad/s, and a frequency of 1 Hz is 2 pi rad/s. Other estimates stay as they are, and units that one of both does
-/// not say, or that are none of the SI, are taken to agree.
-/// @throws InputError for units that measure different things
+/// not say are taken to agree.
+/// @throws InputError for units that measure different things, and for one of an estimate that is not known
 void convert_to_model(EstimateRecords& estimates, const StudyRun& run);
 
 } // namespace graze

@@ -78,6 +78,31 @@ TEST(RecordFolder, GivesARecordItsNameThatTheListHasAlready) {
     EXPECT_THAT(contents(folder / "r/manifest.txt"), HasSubstr("\n2,0002"));
 }
 
+/// A copy of the process, which holds the lock, does what is left when the process is killed between list and name.
+TEST(RecordFolder, IsFinishedByACopyOfItsProcess) {
+    const TemporaryFolder folder;
+    const Experiment experiment = parse_experiment(experiment_text(), "e.toml");
+    const std::string name = experiment.record_name(experiment.levels[0]);
+    RecordFolder copy(folder / "r", experiment, 0);
+    {
+        std::filesystem::create_directory(folder / "other");
+        RecordFolder killed(folder / "other/r", experiment, 0);
+        commit(killed, experiment.levels[0]);
+        write(killed, experiment.levels[1]);
+        for (const char* file : {"manifest.txt", ".part."})
+            for (const auto& entry : std::filesystem::directory_iterator(folder / "other/r"))
+                if (entry.path().filename().string().starts_with(file))
+                    std::filesystem::copy(entry.path(), folder / ("r/" + entry.path().filename().string()));
+        std::filesystem::copy(killed.path_of(experiment.levels[0]), folder / ("r/.part." + name));
+    }
+    EXPECT_EQ(files_of(folder / "other/r").size(), 3U) << "what was begun goes with the object";
+    EXPECT_FALSE(copy.has(experiment.levels[0]));
+    copy.finish();
+    EXPECT_TRUE(copy.has(experiment.levels[0]));
+    EXPECT_EQ(contents(folder / ("r/" + name)), "t [s], x\n0,2\n1,1\n");
+    EXPECT_EQ(files_of(folder / "r").size(), 3U) << "list, settings and the record";
+}
+
 TEST(RecordFolder, BelongsToOneExperimentAndOneProcess) {
     const TemporaryFolder folder;
     const Experiment experiment = parse_experiment(experiment_text(), "e.toml");

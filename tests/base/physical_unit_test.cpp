@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace graze {
 namespace {
 
@@ -25,6 +27,26 @@ TEST(PhysicalUnit, ConvertsWithOneRounding) {
     EXPECT_EQ(in(3, "rad/ms", "1/s"), 3000);
     EXPECT_EQ(in(1, "Mm", "nm"), 1e15); // from nano to mega
     EXPECT_EQ(physical_unit(""), PhysicalUnit());
+}
+
+TEST(PhysicalUnit, MinutesHoursAndWords) {
+    EXPECT_EQ(in(3, "min", "s"), 180);
+    EXPECT_EQ(in(1.5, "h", "min"), 90);
+    EXPECT_DOUBLE_EQ(in(3000, "rad/min", "rad/s"), 50);
+    EXPECT_DOUBLE_EQ(in(7200, "m/h^2", "m/min/h"), 120);
+    EXPECT_FALSE(known_unit("mh")); // no prefixes
+    for (const auto& [word, symbol] :
+         {std::pair{"seconds", "s"}, std::pair{"sec", "s"}, std::pair{"msec", "ms"}, std::pair{"mSec", "ms"},
+          std::pair{"usec", "us"}, std::pair{"milliseconds", "ms"}, std::pair{"Minutes", "min"}, std::pair{"hrs", "h"},
+          std::pair{"Volts", "V"}, std::pair{"mVolt", "mV"}, std::pair{"kOhm", "kohm"}, std::pair{"kΩ", "kohm"}}) {
+        EXPECT_EQ(unit_symbol(word), symbol);
+        EXPECT_EQ(known_unit(word), physical_unit(symbol)) << word;
+    }
+    for (const char* symbol : {"s", "S", "mS", "MSec", "V", "m/s", "min", "dBV", "", "kmin"})
+        EXPECT_EQ(unit_symbol(symbol), symbol) << symbol;
+    EXPECT_EQ(in(1, "mS", "1/ohm"), 1e-3); // no time
+    EXPECT_DOUBLE_EQ(in(1, "V msec/A", "H"), 1e-3);
+    EXPECT_FALSE(known_unit("MSec")) << "nobody knows whether it is ms";
 }
 
 TEST(PhysicalUnit, RefusesOthers) {

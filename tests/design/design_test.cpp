@@ -112,6 +112,18 @@ TEST(Design, SaysWhatAYieldTakes) {
     EXPECT_TRUE(mistakes_of(made + "[wanted]\nvalue = [0.2, 0.3]\nyield = 1\nimportance = { yield = 2 }\n").empty());
 }
 
+/// The finished device goes the same way as the first.
+TEST(Design, WantsNoTripValueBelowTheBeginningOfItsApproach) {
+    const std::string head = "name = \"a\"\nmodel = \"mems-switch\"\ncontrol = \"V\"\n[approach]\nrange = [0.05, 0.6]\n"
+                             "[dimensions.delta]\nrange = [0.1, 1]\n[wanted]\n";
+    for (const char* value : {"0.04", "[0.01, 0.049]"})
+        EXPECT_THAT(mistakes_of(head + "value = " + value + "\n").front(),
+                    HasSubstr("d.toml:9:9: wanted.value is below approach.range, from 0.05 to 0.6: a device that trips "
+                              "there has tripped where its approach begins"));
+    for (const char* value : {"0.05", "0.7", "[0.01, 0.06]", "[0.5, 2]"})
+        EXPECT_TRUE(mistakes_of(head + "value = " + value + "\n").empty()) << value;
+}
+
 TEST(Design, SaysWhatIsMissingOrDoesNotGoTogether) {
     EXPECT_EQ(mistakes_of("").size(), 4U); // name, approach, dimensions, model
     EXPECT_THAT(mistakes_of("name = \"a\"\nmodel = \"mems-switch\"\ncontrol = \"V\"\n[approach]\nrun = \"x\"\n"

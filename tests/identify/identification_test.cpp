@@ -149,6 +149,35 @@ TEST(Identification, OffsetsOfVelocitiesAreTold) {
                 ::testing::Contains(::testing::HasSubstr("may have an offset")));
 }
 
+/// Four impacts with an offset that makes all ratios larger than one: by the scatter about the line the interval
+/// reaches below one, by the velocities' own errors it does not. One that loses nothing may be above one by its errors.
+TEST(Identification, RestitutionsAboveOneAreTold) {
+    IdentificationSettings settings;
+    settings.least_jump = 1;
+    for (const double offset : {0.0, 0.1}) {
+        std::size_t told = 0;
+        for (int seed = 1; seed <= 20; ++seed) {
+            Noise noise(static_cast<unsigned>(seed));
+            NamedRecord one{"a", {{"t", "s"}, {{"v", "m/s"}}}, {}};
+            one.samples.clear(1);
+            double first = 2.3;
+            for (int k = 0; k < 5; ++k, first *= offset == 0 ? 1 : 0.93)
+                for (int i = 0; i < 100; ++i) {
+                    one.samples.times.push_back(0.001 * (100 * k + i));
+                    one.samples.values[0].push_back(first * (1 - 2 * i / 99.0) + offset + 0.01 * noise.normal());
+                }
+            const Identification found = identify_restitution(each({one}), settings);
+            for (const std::string& warning : found.warnings)
+                told += warning.find("the restitution is above one by") != std::string::npos ? 1 : 0;
+        }
+        if (offset == 0) {
+            EXPECT_EQ(told, 0U);
+        } else {
+            EXPECT_GE(told, 18U);
+        }
+    }
+}
+
 /// Between impacts the velocity goes straight from one to the next, so that each is known to its noise.
 TEST(Identification, RestitutionsThatChangeFromImpactToImpactAreTold) {
     for (const double other : {0.8, 0.6}) {
@@ -258,6 +287,65 @@ TEST(Identification, ImpedancesWarnOfSigns) {
     half.beta1 = Estimate{1.9e-5, 0, 0};
     EXPECT_THAT(message_of([&] { identify_impedance(each({coil(1)}), half); }),
                 HasSubstr("give --beta1, --beta2 and --gap, or none"));
+}
+
+/// The same in other units, by numbers that are multiples of these.
+NamedRecord in_units(NamedRecord one, const std::string& time, double times, std::size_t channel,
+                     const std::string& unit, double values) {
+    one.header.time.unit = time;
+    for (double& t : one.samples.times)
+        t *= times;
+    one.header.channels[channel].unit = unit;
+    for (double& value : one.samples.values[channel])
+        value *= values;
+    return one;
+}
+
+/// A record in mV, mA or ms tells what the one in V, A and s does, and the numbers are put together in the first one's.
+TEST(Identification, RecordsInOtherUnitsAreConverted) {
+    constexpr double resistance = 1.4, inductance = 0.0105, frequency = 4;
+    const double w = turn * frequency, size = std::hypot(resistance, w * inductance);
+    const double late = std::atan2(w * inductance, resistance);
+    const NamedRecord coil = record(
+        "coil", {{"V", "V"}, {"I", "A"}}, 1000, 2000,
+        {[=](double t) { return 5 * std::sin(w * t); }, [=](double t) { return 5 / size * std::sin(w * t - late); }});
+    for (const NamedRecord& other :
+         {in_units(coil, "s", 1, 0, "mV", 1e3), in_units(coil, "s", 1, 1, "mA", 1e3),
+          in_units(coil, "ms", 1e3, 0, "V", 1), in_units(coil, "min", 1.0 / 60, 1, "A", 1)}) {
+        const Identification found = identify_impedance(each({coil, other}), {});
+        EXPECT_NEAR(value_of(found, "resistance").estimate.value, resistance, 1e-9);
+        EXPECT_EQ(value_of(found, "resistance").unit, "ohm");
+        EXPECT_NEAR(value_of(found, "inductance").estimate.value, inductance, 1e-9);
+        EXPECT_EQ(value_of(found, "inductance").unit, "H");
+    }
+    const Identification turned = identify_impedance(each({in_units(coil, "s", 1, 0, "mV", 1e3), coil}), {});
+    EXPECT_NEAR(value_of(turned, "resistance").estimate.value, 1e3 * resistance, 1e-6);
+    EXPECT_EQ(value_of(turned, "resistance").unit, "mV/A");
+
+    const NamedRecord first = release(0.1);
+    const Identification decay = identify_decrement(each({first, in_units(first, "ms", 1e3, 0, "mm/s", 1e3)}), {});
+    EXPECT_NEAR(value_of(decay, "natural_frequency").estimate.value, 95.94, 1e-6);
+    EXPECT_EQ(value_of(decay, "natural_frequency").unit, "rad/s");
+    EXPECT_NEAR(value_of(decay, "rest_position").estimate.value, 0.25, 1e-6);
+    EXPECT_EQ(value_of(decay, "rest_position").unit, "m/s");
+    EXPECT_THAT(decay.warnings, ::testing::IsEmpty());
+    for (const double x : decay.shown[1].measured.x)
+        EXPECT_LT(x, 1) << "seconds";
+}
+
+TEST(Identification, RecordsOfOtherKindsAreRefused) {
+    const NamedRecord first = release(0.1);
+    const auto refusal = [&](const NamedRecord& other) {
+        return message_of([&] { identify_decrement(each({first, other}), {}); });
+    };
+    EXPECT_THAT(refusal(in_units(first, "s", 1, 0, "V", 1)),
+                HasSubstr("channel 'v' is in V, and that of the first record in m/s"));
+    EXPECT_THAT(refusal(in_units(first, "s", 1, 0, "", 1)), HasSubstr("channel 'v' is without a unit"));
+    EXPECT_THAT(refusal(in_units(first, "ticks", 1, 0, "m/s", 1)),
+                HasSubstr("its time is in ticks, and that of the first record in s"));
+    EXPECT_THAT(refusal(in_units(first, "mS", 1, 0, "m/s", 1)), HasSubstr("its time is in mS"));
+    const NamedRecord ticks = in_units(first, "ticks", 1, 0, "turns", 1);
+    EXPECT_NO_THROW(identify_decrement(each({ticks, ticks}), {})) << "the same unit, whatever it is";
 }
 
 TEST(Identification, RefusesWhatNothingCanBeFoundFrom) {

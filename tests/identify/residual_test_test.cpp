@@ -43,6 +43,47 @@ TEST(ResidualTest, NoiseIsNoise) {
     EXPECT_LE(wrong, 2U);
 }
 
+/// Where the clock jitters, what is left dies out with the motion, and so do the weights that samples should have had.
+TEST(ResidualTest, NoiseThatDiesOutIsTold) {
+    const std::vector<double> readings = series(400, [](double i) { return 1000 * std::sin(i); });
+    std::size_t wrong = 0, seen = 0;
+    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+        Noise noise(seed);
+        wrong += test_residuals(series(400, [&](double) { return noise.normal(); }), readings).is_noise() ? 0 : 1;
+        const ResidualTest dying =
+            test_residuals(series(400, [&](double i) { return std::exp(-i / 400) * noise.normal(); }), readings);
+        seen += dying.is_noise() ? 0 : 1;
+        // Of noise with long tails nobody can tell so well.
+        const auto tails = series(400, [&](double) { return noise.normal() / std::sqrt(0.05 + noise.uniform()); });
+        EXPECT_EQ(test_residuals(tails, readings).text().find("as large in the first half"), std::string::npos) << seed;
+    }
+    EXPECT_LE(wrong, 1U);
+    EXPECT_GE(seen, 85U);
+}
+
+/// A release whose samples are taken up to a tenth of a step beside their times.
+TEST(ResidualTest, AClockThatJittersIsTold) {
+    constexpr double w0 = 50, zeta = 0.02, step = 3e-3;
+    std::size_t told = 0, wrong = 0;
+    for (std::uint64_t seed = 0; seed < 40; ++seed)
+        for (const double jitter : {0.0, 0.2}) {
+            Noise noise(seed);
+            Samples samples;
+            samples.clear(1);
+            for (int i = 0; i < 1000; ++i) {
+                const double t = step * (i + jitter * (noise.uniform() - 0.5));
+                samples.times.push_back(step * i);
+                samples.values[0].push_back(std::exp(-zeta * w0 * t) *
+                                                std::cos(w0 * std::sqrt(1 - zeta * zeta) * t + 0.3) +
+                                            0.002 * noise.normal());
+            }
+            StoredSamples source({{"t", "s"}, {{"v", "m/s"}}}, std::move(samples));
+            (jitter > 0 ? told : wrong) += decay_peaks(source, 0, 10).wave.left.is_noise() ? 0 : 1;
+        }
+    EXPECT_GE(told, 38U);
+    EXPECT_LE(wrong, 1U);
+}
+
 TEST(ResidualTest, TellsWhyItIsNone) {
     Noise noise(3);
     const auto text = [&](const std::function<double(double)>& value) {

@@ -106,6 +106,36 @@ TEST_F(DesignCommand, LeavesNoTablesOfAnotherDesignInItsFolder) {
         EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(results) / name)) << name;
 }
 
+/// What is drawn is the device of the design that is named, and no earlier one.
+TEST_F(DesignCommand, DevicesOfOtherDesignsAndUnfinishedOnesAreNotDrawn) {
+    const std::string results = folder / "results", wanted = "[wanted]\nvalue = 0.21\n", drawn = "[device]\n";
+    const std::string unfinished = results + "/design-unfinished.txt";
+    const auto design_of = [&](const std::string& text) {
+        return run_graze({"design", design(text), "--output", results, "--no-pictures", "--quiet"}).code;
+    };
+    const auto refusal = [&](const std::string& text) {
+        return run_graze({"layout", design(text), "--from-design", results}).err;
+    };
+    ASSERT_EQ(design_of(small_design(wanted + drawn)), 0);
+    EXPECT_FALSE(std::filesystem::exists(unfinished));
+    EXPECT_THAT(refusal(small_design("[wanted]\nvalue = 0.2\n" + drawn)),
+                HasSubstr("the device of " + results + " is of another design, or of this one before it was changed"));
+    // Words and what is drawn of it make no other design.
+    for (const std::string& same : {"# a remark\n" + small_design(wanted + drawn),
+                                    "text = \"a switch\"\n" + small_design(wanted + "[device]\ngap = \"9 um\"\n")})
+        EXPECT_THAT(refusal(same), ::testing::Not(HasSubstr("another design")));
+    // A run that ends before its time, here since nothing is touched.
+    std::string failing = small_design(wanted + drawn);
+    failing.replace(failing.find("[0.05, 0.4]"), 11, "[0.05, 0.06]");
+    failing.replace(failing.find("value = 0.21"), 12, "value = 0.06");
+    ASSERT_EQ(design_of(failing), 2);
+    EXPECT_TRUE(std::filesystem::exists(unfinished));
+    for (const std::string& any : {failing, small_design(wanted + drawn)})
+        EXPECT_THAT(refusal(any), HasSubstr("the last run of graze design in " + results + " has not come to its end"));
+    ASSERT_EQ(design_of(small_design(wanted + drawn)), 0);
+    EXPECT_THAT(refusal(small_design(wanted + drawn)), ::testing::Not(HasSubstr("has not come to its end")));
+}
+
 TEST_F(DesignCommand, LeavesNoWayOfAFinishedDeviceOfAnotherDesign) {
     const std::string results = folder / "results", designed = results + "/designed.sqlite";
     const std::vector<std::string> rest{"--output", results, "--no-pictures", "--quiet"};

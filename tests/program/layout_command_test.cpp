@@ -168,6 +168,14 @@ TEST_F(LayoutCommand, DrawsWhatADesignHasFoundAndGivesItBackSlow) {
     EXPECT_EQ(given.code, 3);
     EXPECT_THAT(given.out, HasSubstr("not as designed: pressure is given by --set"));
     EXPECT_EQ(run_graze({"layout", mine, "--from-design", found, "--yield", "2"}).code, 2);
+    // A device by hand, of which nobody can tell for which design it was made: what is wanted is missed by far.
+    const std::string device = contents(found + "/device.toml");
+    std::ofstream(found + "/device.toml") << device.substr(device.find('\n') + 1);
+    change("value = 28", "value = 26");
+    std::ofstream(mine) << text;
+    const Printed missed = run_graze({"layout", mine, "--from-design", found, "--format", "csv"});
+    EXPECT_EQ(missed.code, 3) << missed.err;
+    EXPECT_THAT(missed.out, HasSubstr("not met: 26 is wanted"));
     EXPECT_THAT(
         run_graze({"layout", "mems-switch-device", "--from-design", found, "--output", found + "/device.toml"}).err,
         HasSubstr("let the name end in"));

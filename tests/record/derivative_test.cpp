@@ -5,8 +5,10 @@
 #include "record/waves.hpp"
 
 #include <cmath>
+#include <functional>
 #include <gtest/gtest.h>
 #include <numbers>
+#include <vector>
 
 namespace graze::testing {
 
@@ -88,6 +90,56 @@ TEST(Derivative, ErrorsCoverTheTruthOfManyRecords) {
             EXPECT_LT(std::sqrt(ratio / count), 1.1) << f << ", " << sigma;
             EXPECT_GT(within / count, 0.93) << f << ", " << sigma;
         }
+}
+
+/// A sine with noise at times of a clock whose steps change: they are taken as told.
+TEST(Derivative, OfAClockThatIsNotEvenIsThatAtTheTimesTold) {
+    constexpr double w = turn * 7;
+    constexpr std::size_t count = 1500;
+    const std::vector<std::function<double(std::size_t)>> clocks{
+        [](std::size_t i) { return i < count / 2 ? 1e-3 : 1.1e-3; },
+        [](std::size_t i) { return i < count / 2 ? 1e-3 : 1.02e-3; },
+        [](std::size_t i) { return 1e-3 * (1 + 0.3 * static_cast<double>(i) / count); },
+        [](std::size_t i) { return 1e-3 * (1 + 0.004 * static_cast<double>(i) / count); },
+        [](std::size_t i) { return 1e-3 * (1 + 0.1 * std::sin(static_cast<double>(i * i))); }};
+    for (std::size_t c = 0; c < clocks.size(); ++c) {
+        Noise noise(5);
+        Samples samples;
+        samples.clear(1);
+        for (std::size_t i = 0; i < count; ++i) {
+            samples.times.push_back(i == 0 ? 0 : samples.times.back() + clocks[c](i));
+            samples.values[0].push_back(std::sin(w * samples.times.back()) + 1e-4 * noise.normal());
+        }
+        StoredSamples source(named({"q"}), samples);
+        WithDerivative derived(source, {0, 0, "v"});
+        const Samples rows = read_all(derived, 100'000);
+        double squares = 0, said = 0, within = 0;
+        for (std::size_t i = 0; i < rows.rows(); ++i) {
+            const double off = rows.values[1][i] - w * std::cos(w * rows.times[i]);
+            squares += off * off;
+            said += std::pow(rows.values[2][i], 2);
+            within += std::abs(off) < 2 * rows.values[2][i] ? 1 : 0;
+        }
+        EXPECT_NEAR(std::sqrt(squares / said), 1, 0.4) << "clock " << c;
+        EXPECT_GT(within / static_cast<double>(rows.rows()), 0.85) << "clock " << c;
+    }
+}
+
+/// Times with few digits are those of an even clock: as they are told, they would make noise of the motion.
+TEST(Derivative, TimesThatAreRoundedAreEven) {
+    constexpr double w = turn * 7;
+    Samples exact = sampled(300, 3000, {[](double t) { return std::sin(w * t); }}), rounded = exact;
+    for (double& t : rounded.times)
+        t = std::round(t * 1e3) / 1e3;
+    const auto derivative = [](const Samples& samples) {
+        StoredSamples source(named({"q"}), samples);
+        WithDerivative derived(source, {0, 6, "v"});
+        return read_all(derived, 10'000);
+    };
+    const Samples one = derivative(exact), other = derivative(rounded);
+    for (std::size_t i = 0; i < one.rows(); ++i)
+        EXPECT_NEAR(other.values[1][i], one.values[1][i], 1e-2)
+            << i; // the last time is off by half a ms of ten seconds
 }
 
 TEST(Derivative, OfARecordedDisplacementIsItsVelocityAndSaysWhereItJumps) {

@@ -61,6 +61,28 @@ TEST(LowPass, KeepsConstantsAndDropsSamples) {
     }
 }
 
+/// What passes is said in the frequency of samples, which must not change within the filter.
+TEST(LowPass, RefusesClocksThatAreNotEven) {
+    const auto filter_clock = [](double later, double jitter) {
+        Samples samples;
+        samples.clear(1);
+        for (int i = 0; i < 4000; ++i) {
+            samples.times.push_back(1e-3 * (i + (i > 2000 ? (later - 1) * (i - 2000) : 0) + jitter * std::sin(i * i)));
+            samples.values[0].push_back(std::sin(turn * 20 * samples.times.back()));
+        }
+        StoredSamples source(named({"q"}), samples);
+        LowPass filter(source, {22, 33, 80, 1});
+        return read_all(filter, 10'000);
+    };
+    EXPECT_THROW(filter_clock(1.1, 0), InputError);
+    EXPECT_THROW(filter_clock(1.02, 0), InputError);
+    for (const double later : {1.0, 1.0001}) {
+        const Samples rest = filter_clock(later, 0.01);
+        for (std::size_t i = 0; i < rest.rows(); ++i)
+            EXPECT_NEAR(rest.values[0][i], std::sin(turn * 20 * rest.times[i]), 3e-3) << later;
+    }
+}
+
 TEST(LowPass, RefusesWhatHasNoMeaning) {
     const auto wave = [](double t) { return t; };
     EXPECT_THROW(filtered({0, 0, 80, 1}, wave), InputError);

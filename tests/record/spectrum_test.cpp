@@ -1,6 +1,7 @@
 #include "graze/record/spectrum.hpp"
 
 #include "graze/base/input_error.hpp"
+#include "record/even_clock.hpp"
 #include "record/waves.hpp"
 
 #include <cmath>
@@ -107,6 +108,17 @@ TEST(SpectrumTest, NeedsEqualDistancesOfTime) {
     EXPECT_NEAR(sampling_frequency(std::vector<double>{0, 0.1, 0.21, 0.3}), 10, 1e-12);
     EXPECT_THROW(sampling_frequency(std::vector<double>{0, 0.1, 0.3, 0.4}), InputError);
     EXPECT_THROW(sampling_frequency(std::vector<double>{0}), InputError);
+    std::vector<double> times{0}, written, jittered;
+    for (int i = 1; i < 1000; ++i)
+        times.push_back(times.back() + (i < 500 ? 1e-3 : 1.002e-3));
+    EXPECT_NEAR(sampling_frequency(times), 1e3, 2);
+    EXPECT_THROW(even_sampling_frequency(times), InputError) << "its waves are at other frequencies";
+    for (int i = 0; i < 1000; ++i) {
+        written.push_back(std::round(i / 0.3) / 1000);
+        jittered.push_back(1e-3 * (i + 0.03 * std::sin(i * i)));
+    }
+    EXPECT_NEAR(even_sampling_frequency(written), 300, 0.1) << "rounded to ms";
+    EXPECT_NEAR(even_sampling_frequency(jittered), 1e3, 0.1) << "by less than a twentieth of a step";
 }
 
 } // namespace graze::testing

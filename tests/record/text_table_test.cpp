@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace graze::testing {
@@ -148,7 +149,7 @@ TEST(TextTable, OscilloscopesOfLecroy) {
     const ReadFile file = read_file("LECROYWR64Xi,12345,Waveform\nSegments,1,SegmentSize,3\n"
                                     "Segment,TrigTime,TimeSinceSegment1\n#1,14-May-2019 10:22:31,0\nTime,Ampl\n"
                                     "-5e-06,0.0123\n-4.9e-06,0.0125\n");
-    EXPECT_THAT(file.names(), ElementsAre("Time|", "Ampl|"));
+    EXPECT_THAT(file.names(), ElementsAre("Time|s", "Ampl|"));
     EXPECT_THAT(file.rows.times, ElementsAre(-5e-6, -4.9e-6));
     EXPECT_THAT(file.rows.values[0], ElementsAre(0.0123, 0.0125));
 }
@@ -194,6 +195,27 @@ TEST(TextTable, TimesInHeadingsHaveUnits) {
                 HasSubstr("the channels have no common X_Unit_Label"));
 }
 
+TEST(TextTable, UnitsAreSpeltInManyWays) {
+    const std::string rows = "\n0,1\n1,2\n";
+    for (const auto& [heading, time, channel] :
+         {std::tuple{"t [msec], v [Volts]", "t|ms", "v|V"},
+          std::tuple{"\"Time, s\",\"Velocity, V\"", "Time|s", "Velocity|V"},
+          std::tuple{"t / s, v / (m/s)", "t|s", "v|m/s"}, std::tuple{"in s,CH1 in V", "in s|", "CH1|V"},
+          std::tuple{"\"t [min]\",\"v, left [mV]\"", "t|min", "v, left|mV"},
+          std::tuple{"x-axis,1\nmSec,Volt", "x-axis|ms", "CH1|V"},
+          std::tuple{"Horizontal Units,S\nVertical Units,V\nTIME,CH1", "TIME|s", "CH1|V"},
+          std::tuple{"t,5\" plate", "t|", "5\" plate|"}})
+        EXPECT_THAT(read_file(heading + rows).names(), ElementsAre(time, channel)) << heading;
+    EXPECT_THAT(refusal_of("t [mS], v [V]" + rows), HasSubstr("the unit of the times, mS, is one of conductance"));
+    EXPECT_THAT(read_file("t [ms], g [mS]" + rows).names(), ElementsAre("t|ms", "g|mS"));
+}
+
+TEST(TextTable, CommentsThatMayNameColumnsAreTold) {
+    EXPECT_THAT(refusal_of("# made by hand\n# t [s], v [V]\n0,1\n1,2\n"),
+                HasSubstr("or say it by --columns; if the comment in line 2 does, by --names-line 2"));
+    EXPECT_THAT(refusal_of("# made by hand\n0,1\n1,2\n"), Not(HasSubstr("names-line")));
+}
+
 TEST(TextTable, DecimalCommas) {
     for (const char* text : {"t [s];v [V]\n0,5;-1,25e0\n1;2\n", "t [s]\tv [V]\n0,5\t-1,25\n1\t2\n",
                              "Zeit [s] v [V]\n0,5 -1,25\n1,0 2,0\n", "Zeit (s), Uhr\tv\n0,5\t-1,25\n1,0\t2,0\n"}) {
@@ -225,7 +247,7 @@ TEST(TextTable, MissingValuesAreLeftOutAndCounted) {
 
 /// They are no names, though the file has those.
 TEST(TextTable, FirstRowsMayMissValues) {
-    for (const char* missing : {"", "nan", "9.9E37", "---", "OVLD"}) {
+    for (const char* missing : {"", "nan", "9.9E37", "---", "OVLD", "\u221e", "-\u221e"}) {
         const std::string none(missing);
         const ReadFile named = read_file("t [s],v [V]\n0," + none + "\n1," + none + "\n2,3\n3,4\n");
         EXPECT_THAT(named.names(), ElementsAre("t|s", "v|V")) << none;

@@ -187,6 +187,44 @@ gives = { resistance = "R", inductance = "Ll", frequency = "f" }
         }
 }
 
+// Minutes and words for units are known; an unknown unit beside a known one is refused.
+TEST_F(IdentifyRunTest, usual_units_of_time_are_known_and_others_refused) {
+    const double wd = w0 * std::sqrt(1 - zeta * zeta);
+    const auto write = [&](const char* unit, double by) {
+        std::string release = fmt::format("t [{}], v [m/s]\n", unit);
+        for (int i = 0; i < 1500; ++i)
+            release += fmt::format("{:.17g},{:.17g}\n", by * i,
+                                   0.07 * std::exp(-zeta * w0 * i * 1e-3) * std::sin(wd * i * 1e-3));
+        folder_.write("r1.csv", release);
+    };
+    for (const auto& [unit, by] : {std::pair{"min", 1e-3 / 60}, std::pair{"h", 1e-3 / 3600}, std::pair{"msec", 1.0}}) {
+        write(unit, by);
+        EXPECT_EQ(refusal(head), "") << unit;
+        EXPECT_NEAR(estimate("decay", "w0").estimate.value, w0, 1e-5 * w0) << unit;
+        EXPECT_EQ(estimate("decay", "w0").unit, "rad/s");
+    }
+    write("ticks", 1);
+    EXPECT_THAT(refusal(head), HasSubstr("what is found for 'w0' is in 'rad/ticks', a unit that is not known, and the "
+                                         "parameter in rad/s"));
+}
+
+// Two runs that keep records in other units.
+TEST_F(IdentifyRunTest, records_of_several_runs_are_put_together_in_one_unit) {
+    write_release("r1.csv");
+    std::string text = "t [ms], v [mm/s]\n";
+    const double wd = w0 * std::sqrt(1 - zeta * zeta);
+    for (int i = 0; i < 1500; ++i)
+        text += fmt::format("{},{:.17g}\n", i, 70 * std::exp(-zeta * w0 * i * 1e-3) * std::sin(wd * i * 1e-3));
+    folder_.write("other.csv", text);
+    std::string both = head;
+    const std::string one = "records = \"releases\"";
+    ASSERT_NE(both.find(one), std::string::npos);
+    both.replace(both.find(one), one.size(), "records = [\"releases\", \"others\"]");
+    both += "[runs.others]\nkind = \"record\"\nfiles = \"other.csv\"\n";
+    EXPECT_EQ(refusal(both), "");
+    EXPECT_NEAR(estimate("decay", "w0").estimate.value, w0, 1e-5 * w0);
+}
+
 TEST_F(IdentifyRunTest, units_that_do_not_agree_are_refused) {
     write_release("r1.csv");
     folder_.write("loads.csv", "n, q [mm], I [A]\n1, 0.1, 1\n2, 0.2, 1.4\n3, 0.3, 1.7\n4, 0.4, 2\n");

@@ -22,7 +22,8 @@ struct RecordEntry {
 
 /// A folder with an experiment's records and their list, manifest.txt. A record and its line in the list come into
 /// being together, whenever the process or the machine stops: the list is written first, and a record that is whole but
-/// has not got its name yet gets it when the folder is opened again.
+/// has not got its name yet gets it when the folder is finished or opened again. What was begun and does not count goes
+/// with the object.
 class RecordFolder {
 public:
     /// Opens a folder, and makes it where there is none. Nobody else can use it as long as this lives, nor can copies
@@ -45,6 +46,8 @@ public:
     std::unique_ptr<RecordWriter> begin(const Level& level, const RecordHeader& header);
     /// The record that was begun, and closed, counts from now on.
     void commit(RecordEntry entry);
+    /// For a copy of the process that used the folder and has ended, whenever that was: makes list and records agree.
+    void finish();
 
 private:
     std::string part_of(const std::string& name) const;
@@ -57,6 +60,7 @@ private:
     std::string path_;
     const Experiment* experiment_;
     int lock_ = -1;
+    std::string begun_; ///< name of a record that does not count yet
     std::map<std::size_t, RecordEntry> entries_;
 };
 

@@ -89,7 +89,8 @@ struct DesignYield {
 /// A switch to be designed.
 struct Design {
     std::string name, text, source, file;
-    Model model; ///< with the parameters that the design sets
+    std::string fingerprint; ///< of all in the file that says which device is found, whatever stands where
+    Model model;             ///< with the parameters that the design sets
     std::string model_path;
     ParameterValues set;
     std::string control;

@@ -50,7 +50,8 @@ struct Identification {
     std::vector<Shown> shown;          ///< a curve for each record, or one for all
 };
 
-/// Hands out records one after the other, with what they are called.
+/// Hands out records one after the other, with what they are called. Numbers of several records are put together in the
+/// units of the first: others are converted, and refused where they measure something else or one of them says none.
 using EachRecord = std::function<void(const std::function<void(const std::string& name, SampleSource& record)>&)>;
 
 /// Natural frequency and damping ratio: a record for each release.

@@ -25,7 +25,8 @@ struct ResidualTest {
 /// Tests residuals in the order of time: the correlation of neighbours, and the number of runs of one sign (A. Wald and
 /// J. Wolfowitz, Ann. Math. Stat. 11 (1940) 147), both to four standard deviations; the largest line of the periodogram
 /// (R. A. Fisher, Proc. R. Soc. A 125 (1929) 54), to one chance in 10^5; residuals beyond six standard deviations, by
-/// their median; and readings that stand at the end of their range, as where an instrument clips them.
+/// their median; the size in the first half over that in the second, of residuals that are given with their readings,
+/// to four standard deviations; and readings that stand at the end of their range, as where an instrument clips them.
 /// @param left readings less what they should be
 /// @param readings the same number of them; empty: nothing is said about clipping
 /// @throws InputError when the numbers of readings differ, or a number is not finite

@@ -20,7 +20,8 @@ struct DerivativeSettings {
 /// polynomial of sixth degree leaves, and by how much the derivative of that one differs: at least by as much as it
 /// does in the root of mean squares, since at a single sample that is as noisy as the derivative. The width is the one
 /// for which this error is least at the record's beginning. Where the velocity jumps no polynomial fits, and the error
-/// is large. Rows at both ends are left out.
+/// is large. Rows at both ends are left out. Times that are not at equal distances are taken as they are told, unless
+/// that is no more than their rounding.
 class WithDerivative : public SampleSource {
 public:
     /// @param source must outlive this
@@ -28,7 +29,7 @@ public:
     WithDerivative(SampleSource& source, const DerivativeSettings& settings);
     ~WithDerivative() override;
     const RecordHeader& header() const override;
-    /// @throws InputError when the samples are not at equal distances of time, or the record is too short
+    /// @throws InputError when there are gaps between the samples, or the record is too short
     bool read(Samples& samples) override;
     /// Samples on each side, once something has been read.
     std::size_t half_width() const;

@@ -1,0 +1,58 @@
+#include "record/even_clock.hpp"
+
+#include "graze/base/input_error.hpp"
+#include "graze/record/spectrum.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace graze {
+
+double stray_of(std::span<const double> times, double spacing) {
+    double least = 0, most = 0;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        const double off = times[i] - times[0] - static_cast<double>(i) * spacing;
+        least = std::min(least, off);
+        most = std::max(most, off);
+    }
+    return (most - least) / 2;
+}
+
+double rounding_of(std::span<const double> times, double spacing) {
+    constexpr double eps = std::numeric_limits<double>::epsilon();
+    const double digits = 8 * eps * std::max(std::abs(times.front()), std::abs(times.back()));
+    constexpr int places = 8; // below the distance
+    const int first = static_cast<int>(std::ceil(std::log10(spacing)));
+    for (int place = first; place > first - places; --place) {
+        const double unit = std::pow(10.0, place);
+        const bool fits = std::all_of(times.begin(), times.end(), [&](double t) {
+            return std::abs(t / unit - std::round(t / unit)) <= 1e-4 + 4 * eps * std::abs(t / unit);
+        });
+        if (fits)
+            return unit + digits;
+    }
+    return digits + 1e-6 * spacing;
+}
+
+bool is_even_clock(std::span<const double> times) {
+    const double spacing = 1 / sampling_frequency(times);
+    return stray_of(times, spacing) <= rounding_of(times, spacing);
+}
+
+double even_sampling_frequency(std::span<const double> times) {
+    const double frequency = sampling_frequency(times), spacing = 1 / frequency;
+    constexpr double share = 0.05;
+    const double stray = stray_of(times, spacing);
+    if (stray > std::max(share * spacing, rounding_of(times, spacing)))
+        throw InputError(
+            fmt::format("the samples are not at equal distances of time: from {} to {} they are up to "
+                        "{:.3g} beside times that are {:.6g} apart",
+                        times.front(), times.back(), stray, spacing),
+            "give a part of the record whose clock is even (--from, --to), or one that has been resampled");
+    return frequency;
+}
+
+} // namespace graze
