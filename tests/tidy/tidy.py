@@ -17,7 +17,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "cmake"))
 from batches import batches_of  # noqa: E402
 
-MOST = 48  # sources in a batch
+MOST = 16  # sources in a batch: of more some collide, and are looked at again in halves
 
 
 def batch_text(sources):
