@@ -2,6 +2,7 @@
 
 #include "graze/base/printable.hpp"
 #include "program/wrapped_text.hpp"
+#include "study/json.hpp"
 
 #include <fmt/format.h>
 
@@ -17,22 +18,6 @@ namespace {
 
 std::string number_text(double value, int digits) {
     return fmt::format("{:.{}g}", value, digits);
-}
-
-std::string json_cell(std::string_view text) {
-    std::string result = "\"";
-    for (const char c : text) {
-        const auto code = static_cast<unsigned char>(c);
-        if (c == '"' || c == '\\')
-            result += {'\\', c};
-        else if (c == '\n')
-            result += "\\n";
-        else if (code < 0x20)
-            result += fmt::format("\\u{:04x}", static_cast<unsigned>(code));
-        else
-            result += c;
-    }
-    return result + '"';
 }
 
 std::string json_number(double value, int digits) {
@@ -75,16 +60,16 @@ void write_json(std::ostream& out, const Table& table, int digits, const JsonObj
     const std::size_t columns = table.columns().size();
     out << '{' << heading.members() << (heading.members().empty() ? "" : ",") << "\n\"columns\":[";
     for (std::size_t column = 0; column < columns; ++column)
-        out << (column > 0 ? "," : "") << json_cell(table.columns()[column].name);
+        out << (column > 0 ? "," : "") << json_text(table.columns()[column].name);
     out << "],\n\"units\":[";
     for (std::size_t column = 0; column < columns; ++column)
-        out << (column > 0 ? "," : "") << json_cell(table.columns()[column].unit);
+        out << (column > 0 ? "," : "") << json_text(table.columns()[column].unit);
     out << "],\n\"rows\":[";
     for (std::size_t row = 0; row < table.rows(); ++row) {
         out << (row > 0 ? ",\n[" : "\n[");
         for (std::size_t column = 0; column < columns; ++column)
             out << (column > 0 ? "," : "")
-                << (table.is_text(row, column) ? json_cell(table.text(row, column))
+                << (table.is_text(row, column) ? json_text(table.text(row, column))
                                                : json_number(table.number(row, column), digits));
         out << ']';
     }
@@ -132,12 +117,12 @@ void write_aligned(std::ostream& out, const Table& table, int digits, std::size_
 } // namespace
 
 void JsonObject::begin(std::string_view name) {
-    members_ += (members_.empty() ? "" : ",\n") + json_cell(name) + ':';
+    members_ += (members_.empty() ? "" : ",\n") + json_text(name) + ':';
 }
 
 void JsonObject::add(std::string_view name, std::string_view text) {
     begin(name);
-    members_ += json_cell(text);
+    members_ += json_text(text);
 }
 
 void JsonObject::add(std::string_view name, double number) {
