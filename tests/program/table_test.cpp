@@ -78,7 +78,7 @@ TEST(Table, JsonIsJson) {
     EXPECT_NE(text.find("\"columns\":[\"time\",\"mode\",\"x\"]"), std::string::npos);
     EXPECT_NE(text.find("\"units\":[\"s\",\"\",\"m\"]"), std::string::npos);
     EXPECT_NE(text.find("[0.1,\"free, really\",null]"), std::string::npos);
-    EXPECT_NE(text.find("\"model\":\"a \\\"quoted\\\"\\nname\""), std::string::npos);
+    EXPECT_NE(text.find("\"model\":\"a \\\"quoted\\\"\\u000aname\""), std::string::npos);
     EXPECT_TRUE(JsonCheck(written(Table(std::vector<Table::Column>{{"x", ""}}), TableFormat::json)).valid());
 }
 
