@@ -80,9 +80,9 @@ void require_ladder(std::span<const SpecialPoint> grazings) {
 }
 
 /// Limits with 2, 3, ... contacts before the self-similar rest: each a solution from which the next begins.
-class Approach {
+class ApproachToLimit {
 public:
-    explicit Approach(AccumulatingOrbit orbit) : orbit_(std::move(orbit)) {}
+    explicit ApproachToLimit(AccumulatingOrbit orbit) : orbit_(std::move(orbit)) {}
 
     /// The more contacts, the better the guess has to be, and the nearer the first solution is to it: where others do
     /// not follow from the first one, it is tried with more or fewer.
@@ -216,7 +216,7 @@ ChatterLimit chatter_limit(const System& system, std::span<const SpecialPoint> g
         limit.problem = "the last grazing cannot be followed";
         return limit;
     }
-    Approach approach(
+    ApproachToLimit approach(
         AccumulatingOrbit(system, orbit, orbit.signature[last.segment].mode, last.event, along, tolerance));
     if (!approach.run(guess, contacts, touch, limit))
         return limit;
@@ -246,7 +246,7 @@ ChatterLimit chatter_limit_near(const System& system, const Orbit& known, std::s
     }
     ChatterLimit limit;
     constexpr std::size_t contacts = 8;
-    Approach(AccumulatingOrbit(system, known, contact->mode, event, along, tolerance))
+    ApproachToLimit(AccumulatingOrbit(system, known, contact->mode, event, along, tolerance))
         .run(known.parameters[along.place()], contacts, state, limit);
     return limit;
 }

@@ -67,9 +67,9 @@ private:
 };
 
 /// One touch, beside which motions are simulated.
-class Experiment {
+class TrialExperiment {
 public:
-    Experiment(const System& system, const CycleMap& map, ParameterId parameter, const TrialOptions& options)
+    TrialExperiment(const System& system, const CycleMap& map, ParameterId parameter, const TrialOptions& options)
         : simulation_(system, {}, {}, integration(options.tolerance)), map_(map), parameter_(parameter),
           options_(options), compliant_(map.contact.order == MapOrder::three_halves) {
         for (std::size_t i = 0; i < map.contact.touch.state.size(); ++i)
@@ -143,7 +143,7 @@ bool is_near(double one, double other, double factor) {
 }
 
 /// The first contact must end every motion.
-Trial try_ending(const Experiment& experiment) {
+Trial try_ending(const TrialExperiment& experiment) {
     Trial trial;
     for (const double factor : {1.0, 30.0})
         trial.motions.push_back(experiment.run(-experiment.least_clearance() * factor));
@@ -154,7 +154,7 @@ Trial try_ending(const Experiment& experiment) {
 }
 
 /// Growth must be there at every distance, and the nearer the touch the more of it.
-Trial try_loss(const Experiment& experiment, const Verdict& verdict, const TrialOptions& options) {
+Trial try_loss(const TrialExperiment& experiment, const Verdict& verdict, const TrialOptions& options) {
     Trial trial;
     const double least = experiment.least_clearance();
     // Contacts go on growing only as long as they are slower than the reach of the growth. That of sliding is not
@@ -193,7 +193,7 @@ Trial try_loss(const Experiment& experiment, const Verdict& verdict, const Trial
 }
 
 /// Speeds and depths are those of the map, and shrink with the distance.
-Trial try_persistence(const Experiment& experiment) {
+Trial try_persistence(const TrialExperiment& experiment) {
     Trial trial;
     constexpr double nearer = 100;
     const double first = experiment.least_clearance();
@@ -248,7 +248,7 @@ Trial try_verdict(const System& system, const CycleMap& map, const Verdict& verd
         return with_reason(trial, TrialOutcome::undecided, "no parameter is known that moves the orbit from its touch");
     if (map.contact.touch.state.size() != system.states() || map.contact.touch.parameters.size() != system.parameters())
         throw InputError("the map belongs to another model", "give the system that it was made from");
-    const Experiment experiment(system, map, parameter, options);
+    const TrialExperiment experiment(system, map, parameter, options);
     if (map.contact.ends)
         return try_ending(experiment);
     return verdict.outcome == GrazingOutcome::lost ? try_loss(experiment, verdict, options)

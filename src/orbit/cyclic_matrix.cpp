@@ -17,8 +17,8 @@ namespace {
 using Complex = std::complex<double>;
 
 /// Multipliers of a relation first * x_0 + last * x_m = 0 with x_m = mu x_0, but for infinite ones.
-struct Spectrum {
-    explicit Spectrum(const CyclicSystem& system) : relation(system.relation()) {
+struct CycleSpectrum {
+    explicit CycleSpectrum(const CyclicSystem& system) : relation(system.relation()) {
         if (relation.first.rows() == 0)
             return;
         const auto found = generalized_eigenvalues(relation.first, -relation.second);
@@ -48,7 +48,7 @@ struct Spectrum {
 };
 
 /// The plane of two multipliers next to one another, by subspace iteration with the relation inverted beside them.
-Eigen::MatrixXd plane_of_close(const Spectrum& others, double middle) {
+Eigen::MatrixXd plane_of_close(const CycleSpectrum& others, double middle) {
     constexpr double share = 0.1;   // of the way to the nearest of the others
     constexpr int repetitions = 20; // each makes of what does not belong to it a tenth or less
     const auto& [first, last] = others.relation;
@@ -68,7 +68,7 @@ Eigen::MatrixXd plane_of_close(const Spectrum& others, double middle) {
 /// The plane, as starts, that belongs to two multipliers, and what one round makes of it.
 bool plane_of(const CyclicSystem& system, Complex one, Complex other, Eigen::MatrixXd& starts, Eigen::Matrix2d& map) {
     constexpr double close = 1e-3; // vectors of multipliers that differ by so little are nearly the same
-    Spectrum spectrum(system);
+    CycleSpectrum spectrum(system);
     const auto& [first, last] = spectrum.relation;
     const auto at = spectrum.take(one), beside = spectrum.take(other);
     if (!at || !beside)
@@ -196,7 +196,7 @@ double CyclicMatrix::closing_product(const Eigen::VectorXd& left, const Eigen::V
 
 std::vector<std::complex<double>> CyclicMatrix::multipliers() const {
     CyclicSystem system = direct({});
-    return system.factor() ? Spectrum(system).all : std::vector<std::complex<double>>();
+    return system.factor() ? CycleSpectrum(system).all : std::vector<std::complex<double>>();
 }
 
 bool CyclicMatrix::plane_near(std::complex<double> one, std::complex<double> other, Plane& result) const {

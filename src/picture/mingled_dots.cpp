@@ -1,5 +1,7 @@
 #include "picture/mingled_dots.hpp"
 
+#include "symbolic/random_number.hpp"
+
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
@@ -22,14 +24,6 @@ struct Dot {
     bool on_top = false;
     MingledDot drawn;
 };
-
-/// SplitMix64 (Steele, Lea and Flood 2014).
-std::uint64_t mixed(std::uint64_t value) {
-    value += 0x9e3779b97f4a7c15u;
-    value = (value ^ (value >> 30)) * 0xbf58476d1ce4e5b9u;
-    value = (value ^ (value >> 27)) * 0x94d049bb133111ebu;
-    return value ^ (value >> 31);
-}
 
 std::uint64_t cell(double column, double row) {
     return static_cast<std::uint64_t>(column) << 32 | static_cast<std::uint64_t>(row);

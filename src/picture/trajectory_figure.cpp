@@ -21,7 +21,7 @@ constexpr double last_moments = 0.005;    ///< of a motion that ends in a singul
 constexpr std::size_t most_marked = 2000; ///< contacts: of more, marks hide the curve
 constexpr std::size_t section_colour = 1;
 
-struct Range {
+struct ValueRange {
     double least = std::numeric_limits<double>::infinity(), greatest = -std::numeric_limits<double>::infinity();
     void add(double value) {
         if (!std::isfinite(value))
@@ -74,7 +74,7 @@ private:
         const MotionPanelChoice& contents = recorder_->contents();
         std::vector<std::size_t> shown;
         for (const std::size_t column : contents.histories) {
-            const Range& range = ranges_[column];
+            const ValueRange& range = ranges_[column];
             if (contents.chosen || range.span() > resolved * std::max(std::abs(range.least), std::abs(range.greatest)))
                 shown.push_back(column);
         }
@@ -84,8 +84,8 @@ private:
     double start() const { return recorder_->arcs().front().times.front(); }
     double end() const { return recorder_->arcs().back().times.back(); }
 
-    Range range_of(std::size_t column) const {
-        Range range;
+    ValueRange range_of(std::size_t column) const {
+        ValueRange range;
         if (recorder_->arcs().empty())
             return range;
         const std::size_t columns = recorder_->contents().columns.size();
@@ -126,7 +126,7 @@ private:
     void limit(FigurePanel& panel, Column x, std::size_t y) const {
         constexpr double margin = 0.08, after = 0.01;
         const auto roomy = [&](std::size_t column) {
-            const Range& range = ranges_[column];
+            const ValueRange& range = ranges_[column];
             const double room = margin * (range.span() > 0 ? range.span() : std::max(std::abs(range.least), 1.0));
             return std::pair(range.least - room, range.greatest + room);
         };
@@ -211,7 +211,7 @@ private:
     }
 
     const MotionRecorder* recorder_;
-    std::vector<Range> ranges_; ///< of each column
+    std::vector<ValueRange> ranges_; ///< of each column
 };
 
 } // namespace

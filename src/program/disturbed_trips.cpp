@@ -27,7 +27,7 @@ namespace {
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); // an empty cell
 
 /// What a disturbance is asked about, and what has been found.
-struct Asked {
+struct AskedTrips {
     const TripArguments& arguments;
     const Console& console;
     LossPoint point;
@@ -45,7 +45,7 @@ struct Asked {
     }
 };
 
-TripOrigin origin_at(const Asked& asked, double value) {
+TripOrigin origin_at(const AskedTrips& asked, double value) {
     const LossPoint& point = asked.point;
     try {
         if (point.fold)
@@ -61,14 +61,14 @@ TripOrigin origin_at(const Asked& asked, double value) {
 }
 
 /// The value that is disturbed.
-TripOrigin resting_origin(const Asked& asked, const char* option) {
+TripOrigin resting_origin(const AskedTrips& asked, const char* option) {
     if (asked.arguments.at.empty())
         throw InputError(Place{asked.option(option), 0, 0}, "nothing says where the motion rests",
                          fmt::format("give the value of {} that is disturbed: --at VALUE", asked.point.name));
     return origin_at(asked, asked.number(asked.arguments.at, "at"));
 }
 
-TripOptions options_of(const Asked& asked) {
+TripOptions options_of(const AskedTrips& asked) {
     TripOptions options;
     constexpr long usual = 2000;
     options.cycles = asked.cycles(usual);
@@ -88,7 +88,7 @@ FigurePanel panel_of(const std::string& x, const std::string& x_unit, const std:
 }
 
 /// One row after another, until Ctrl-C. @param row is not added when interrupted: it then says false
-void for_each_of(Asked& asked, const std::vector<double>& values, const char* option,
+void for_each_of(AskedTrips& asked, const std::vector<double>& values, const char* option,
                  const std::function<bool(double)>& row) {
     asked.wanted = values.size();
     for (const double value : values) {
@@ -115,7 +115,7 @@ double beginning_of_ramp(const LossPoint& point, double rate) {
     return point.value - point.side * std::max(way, tellable * least);
 }
 
-void ramp(Asked& asked) {
+void ramp(AskedTrips& asked) {
     const LossPoint& point = asked.point;
     const std::string& time = point.model().time_unit;
     const std::string rate_unit =
@@ -169,7 +169,7 @@ void ramp(Asked& asked) {
     asked.figure.panels.push_back(std::move(panel));
 }
 
-void wave(Asked& asked) {
+void wave(AskedTrips& asked) {
     const LossPoint& point = asked.point;
     const TripOrigin origin = resting_origin(asked, "wave");
     constexpr double usual = 100; // cycles
@@ -201,7 +201,7 @@ void wave(Asked& asked) {
     asked.figure.panels.push_back(std::move(panel));
 }
 
-NoiseSettings settings_of(const Asked& asked) {
+NoiseSettings settings_of(const AskedTrips& asked) {
     NoiseSettings settings;
     constexpr long usual = 100;
     settings.cycles = static_cast<std::size_t>(asked.arguments.cycles.value_or(usual));
@@ -213,7 +213,7 @@ NoiseSettings settings_of(const Asked& asked) {
     return settings;
 }
 
-void noise(Asked& asked) {
+void noise(AskedTrips& asked) {
     const LossPoint& point = asked.point;
     const TripOrigin origin = resting_origin(asked, "noise");
     NoiseSettings settings = settings_of(asked);
@@ -268,7 +268,7 @@ void noise(Asked& asked) {
     asked.figure.panels.push_back(std::move(panel));
 }
 
-JsonObject heading_of(const ResultFile& file, const Asked& asked) {
+JsonObject heading_of(const ResultFile& file, const AskedTrips& asked) {
     JsonObject heading = heading_of(file, asked.point, asked.end);
     const TripArguments& arguments = asked.arguments;
     if (!arguments.at.empty())
@@ -322,7 +322,7 @@ int disturbed_trips(const ResultFile& file, const TripArguments& arguments, cons
     if (point.fold && !end.given)
         throw InputError(Place{"POINT", 0, 0}, "nothing says where a motion ends that has left a fold",
                          "give --until EXPR=LEVEL or --until end");
-    Asked asked{.arguments = arguments, .console = console, .point = std::move(point), .end = std::move(end)};
+    AskedTrips asked{.arguments = arguments, .console = console, .point = std::move(point), .end = std::move(end)};
     const InterruptGuard guard;
     if (!arguments.ramps.empty())
         ramp(asked);

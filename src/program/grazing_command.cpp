@@ -23,9 +23,9 @@ struct Findings : TouchingOrbit {
 };
 
 /// Rows of what is known: a name, a value, what it is.
-class Facts {
+class GrazingFacts {
 public:
-    Facts() : table_({{"quantity", ""}, {"value", ""}, {"meaning", ""}}) {}
+    GrazingFacts() : table_({{"quantity", ""}, {"value", ""}, {"meaning", ""}}) {}
     void add(const std::string& name, double value, const std::string& meaning) {
         table_.add(name);
         table_.add(value);
@@ -75,7 +75,7 @@ OrderTexts texts_of(MapOrder order) {
 }
 
 /// Where and how the orbit touches.
-void add_contact(Facts& facts, const Model& model, const CycleMap& map) {
+void add_contact(GrazingFacts& facts, const Model& model, const CycleMap& map) {
     const DiscontinuityMap& contact = map.contact;
     facts.add("event", model.events[map.touch.event].name, "that is touched");
     if (!map.exists()) {
@@ -96,7 +96,7 @@ void add_contact(Facts& facts, const Model& model, const CycleMap& map) {
             facts.add("second_" + model.states[i].name, contact.second[i], texts.next);
 }
 
-void add_cycle(Facts& facts, const Findings& found) {
+void add_cycle(GrazingFacts& facts, const Findings& found) {
     const CycleMap& map = found.map;
     if (!map.exists() && !map.contact.ends)
         return;
@@ -123,7 +123,7 @@ void add_cycle(Facts& facts, const Findings& found) {
 }
 
 /// What the map settles on at some distances beyond the touch, where something remains.
-void add_attractors(Facts& facts, const Findings& found) {
+void add_attractors(GrazingFacts& facts, const Findings& found) {
     const CycleMap& map = found.map;
     if (found.verdict.outcome != GrazingOutcome::persists || map.contact.order != MapOrder::square_root ||
         !map.clearance_rate || *map.clearance_rate == 0 || !found.parameter)
@@ -142,7 +142,7 @@ void add_attractors(Facts& facts, const Findings& found) {
 }
 
 /// What becomes of an orbit that begins to slide.
-void add_border(Facts& facts, const Verdict& verdict) {
+void add_border(GrazingFacts& facts, const Verdict& verdict) {
     if (verdict.border == BorderCollision::none)
         return;
     facts.add("border", name_of(verdict.border),
@@ -154,7 +154,7 @@ void add_border(Facts& facts, const Verdict& verdict) {
         facts.add("beyond", fmt::format("{} in {}", verdict.slides, verdict.in), "times it slides in cycles");
 }
 
-void add_verdict(Facts& facts, const Findings& found) {
+void add_verdict(GrazingFacts& facts, const Findings& found) {
     const Verdict& verdict = found.verdict;
     const auto logarithm = [](const std::optional<double>& value) {
         return value ? std::optional(std::log10(*value)) : std::nullopt;
@@ -196,7 +196,7 @@ void add_verdict(Facts& facts, const Findings& found) {
         facts.add("trial", name_of(found.trial->outcome), found.trial->reason);
 }
 
-JsonObject heading_of(const ResultFile& file, const Findings& found, const Facts& facts) {
+JsonObject heading_of(const ResultFile& file, const Findings& found, const GrazingFacts& facts) {
     const OrbitRecord& record = found.stored.record;
     JsonObject heading;
     heading.add("graze", GRAZE_VERSION);
@@ -235,7 +235,7 @@ int grazing_command(const GrazingArguments& arguments, const Console& console) {
                              "name a parameter by --parameter NAME");
         found.trial = try_verdict(system, found.map, found.verdict, *found.parameter);
     }
-    Facts facts;
+    GrazingFacts facts;
     add_contact(facts, found.stored.run.model, found.map);
     add_cycle(facts, found);
     add_verdict(facts, found);
