@@ -36,7 +36,7 @@ constexpr std::array<LayerText, 16> layer_table{{
     {mask_layers::usable, "outline of the part for devices"},
 }};
 
-constexpr std::size_t longest_structure_name = 28; // GDSII has 32, of which an ending may take some
+constexpr std::size_t longest_cell_name = 28; // GDSII has 32, of which an ending may take some
 
 struct Transform {
     double cosine = 1, sine = 0;
@@ -150,7 +150,7 @@ std::map<MaskLayer, double> areas_of(const LayoutLibrary& library, std::string_v
 
 std::string cell_name(std::string_view text) {
     std::string name;
-    for (const char c : text.substr(0, longest_structure_name))
+    for (const char c : text.substr(0, longest_cell_name))
         name += (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ? c : '_';
     return name;
 }
