@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <sstream>
 
 namespace graze {
 
@@ -15,14 +14,40 @@ void require_design_key(const TomlReader& reader, const TomlEntry& entry) {
                           "spread"});
 }
 
+namespace {
+
+/// All that a node says, in one form: keys in their order, numbers with all digits.
+std::string text_of_node(const toml::node& node) {
+    std::string text;
+    if (const auto* table = node.as_table()) {
+        for (const auto& [key, value] : *table)
+            text += fmt::format("{}={};", key.str(), text_of_node(value));
+        return '{' + text + '}';
+    }
+    if (const auto* array = node.as_array()) {
+        for (const toml::node& item : *array)
+            text += text_of_node(item) + ',';
+        return '[' + text + ']';
+    }
+    if (const auto* one = node.as_string())
+        return fmt::format("{}:{}", one->get().size(), one->get());
+    if (const auto* one = node.as_integer())
+        return fmt::format("{}", one->get());
+    if (const auto* one = node.as_floating_point())
+        return fmt::format("{}f", one->get());
+    if (const auto* one = node.as_boolean())
+        return one->get() ? "true" : "false";
+    return "time"; // which no design has
+}
+
+} // namespace
+
 std::string design_fingerprint(const toml::table& root) {
     toml::table said = root;
     for (const char* other : {"text", "source", "points", "planes", "device", "process", "wafer", "rules", "spread"})
         said.erase(other);
-    std::ostringstream text;
-    text << said;
     std::uint64_t hash = 0xcbf29ce484222325ULL; // FNV-1a
-    for (const char letter : text.str())
+    for (const char letter : text_of_node(said))
         hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3ULL;
     return fmt::format("{:016x}", hash);
 }
