@@ -2,6 +2,8 @@
 
 #include "program/temporary_files.hpp"
 
+#include <algorithm>
+#include <array>
 #include <csignal>
 
 namespace graze {
@@ -63,6 +65,11 @@ bool InterruptGuard::requested() {
 int InterruptGuard::exit_code() {
     constexpr int of_shells = 128;
     return interrupted == 0 ? 0 : of_shells + interrupted;
+}
+
+bool ends_in_order(std::string_view command) {
+    constexpr std::array<std::string_view, 5> commands{"run", "simulate", "ladder", "bench", "acquire"};
+    return std::find(commands.begin(), commands.end(), command) != commands.end();
 }
 
 } // namespace graze

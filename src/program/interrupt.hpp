@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string_view>
 
 namespace graze {
 
@@ -22,5 +23,9 @@ private:
     struct Handlers;
     std::unique_ptr<Handlers> before_; ///< none: another guard has them
 };
+
+/// Whether a command of the program ends in order when it is interrupted; others are broken off, and leave nothing half
+/// written.
+bool ends_in_order(std::string_view command);
 
 } // namespace graze

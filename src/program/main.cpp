@@ -25,12 +25,6 @@ std::size_t width_of_terminal() {
     return std::max<std::size_t>(size.ws_col, least);
 }
 
-/// Commands that end in order when they are interrupted; others are broken off, and leave nothing half written.
-bool ends_in_order(int count, char** values) {
-    constexpr std::array<std::string_view, 5> commands{"run", "simulate", "ladder", "bench", "acquire"};
-    return count > 1 && std::find(commands.begin(), commands.end(), values[1]) != commands.end();
-}
-
 } // namespace
 
 int main(int count, char** values) {
@@ -40,7 +34,7 @@ int main(int count, char** values) {
     FLAGS_minloglevel = google::GLOG_FATAL;
     graze::TemporaryFiles::watch_signals();
     std::optional<graze::InterruptGuard> guard; // from the first moment, not only from where computing begins
-    if (ends_in_order(count, values))
+    if (count > 1 && graze::ends_in_order(values[1]))
         guard.emplace();
     std::ios::sync_with_stdio(false);
     const std::vector<std::string> arguments(values + std::min(count, 1), values + count); // none, not even a name

@@ -12,6 +12,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -50,7 +51,9 @@ namespace separate_run {
     }
     rlimit core{0, 0};
     setrlimit(RLIMIT_CORE, &core);
-    const InterruptGuard guard; // as main does
+    std::optional<InterruptGuard> guard; // as main does
+    if (!words.empty() && ends_in_order(words.front()))
+        guard.emplace();
     const Printed printed = run_graze(words);
     setrlimit(RLIMIT_FSIZE, &all_sizes);
     std::fwrite(printed.out.data(), 1, printed.out.size(), out);
