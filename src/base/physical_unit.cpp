@@ -186,6 +186,10 @@ std::optional<PhysicalUnit> known_unit(std::string_view text) {
     }
 }
 
+std::optional<PhysicalUnit> told_unit(std::string_view text) {
+    return text.empty() ? std::nullopt : known_unit(text);
+}
+
 double converted(double value, const PhysicalUnit& from, const PhysicalUnit& to) {
     if (from.dimension != to.dimension)
         throw InputError("the units measure different things", "give a unit of the same kind");

@@ -235,10 +235,6 @@ bool are_parted(const Simulation& simulation, const Orbit& one, const Orbit& oth
             here.system.antiperiodic_determinant() * there.system.antiperiodic_determinant() < 0);
 }
 
-} // namespace
-
-namespace {
-
 /// Of a touch near a bound, orbits at some speeds lie beyond it.
 bool is_within_bounds(const BranchSettings& settings, const Orbit& orbit, std::string& why) {
     const double value = orbit.parameters[settings.parameter.place()];

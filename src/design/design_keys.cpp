@@ -1,8 +1,9 @@
 #include "design/design_keys.hpp"
 
+#include "graze/study/stored_study.hpp"
+
 #include <fmt/format.h>
 
-#include <cstdint>
 #include <filesystem>
 
 namespace graze {
@@ -46,10 +47,7 @@ std::string design_fingerprint(const toml::table& root) {
     toml::table said = root;
     for (const char* other : {"text", "source", "points", "planes", "device", "process", "wafer", "rules", "spread"})
         said.erase(other);
-    std::uint64_t hash = 0xcbf29ce484222325ULL; // FNV-1a
-    for (const char letter : text_of_node(said))
-        hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3ULL;
-    return fmt::format("{:016x}", hash);
+    return fingerprint_of(text_of_node(said));
 }
 
 std::string beside(const std::string& file, const std::string& path) {

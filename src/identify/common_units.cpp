@@ -25,8 +25,7 @@ CommonUnits::Conversion CommonUnits::take(Channel& column, const std::string& ro
     const std::string& common = found->second;
     if (column.unit == common)
         return {};
-    const auto from = column.unit.empty() ? std::nullopt : known_unit(column.unit),
-               to = common.empty() ? std::nullopt : known_unit(common);
+    const auto from = told_unit(column.unit), to = told_unit(common);
     const std::string what = role.empty() ? "its time" : fmt::format("channel '{}'", role);
     if (!from || !to || from->dimension != to->dimension)
         throw InputError(fmt::format("{} is {}, and that of the first record {}", what, unit_or_none(column.unit),

@@ -27,10 +27,11 @@ ParameterId asked_parameter(const Model& model, const std::string& name);
 /// Carries out `--set NAME=EXPRESSION ...`, one after the other; `@FILE` stands for all that a file of parameters
 /// sets, of which what comes later takes the place. @throws InputError, also for a file of another model
 void set_parameters(Model& model, const std::vector<std::string>& assignments);
-/// Names and values of `--set NAME=NUMBER ...` for models that are not known yet: expressions without names.
-/// @param read gives the value of a text, and throws with the place; none: an expression without units
-/// @throws InputError
+/// The value of a text that is given for a name. @throws InputError with the place
 using ValueReader = std::function<double(const std::string& name, const std::string& text, const Place& place)>;
+/// Names and values of `--set NAME=NUMBER ...` for models that are not known yet: expressions without names.
+/// @param read none: an expression without units
+/// @throws InputError
 std::vector<std::pair<std::string, double>> parameter_values(const std::vector<std::string>& assignments,
                                                              const ValueReader& read = {});
 /// Does what may refuse one of these names or values, and tells where: the line of the file that has it, or `--set`.

@@ -51,10 +51,6 @@ void require_utf8(const NameField& field, const Place& line) {
     }
 }
 
-} // namespace
-
-namespace {
-
 /// Whether letters of a line of names stand in brackets or quotes, where nothing separates columns.
 class NameNesting {
 public:

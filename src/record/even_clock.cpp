@@ -42,16 +42,19 @@ bool is_even_clock(std::span<const double> times) {
     return stray_of(times, spacing) <= rounding_of(times, spacing);
 }
 
-double even_sampling_frequency(std::span<const double> times) {
-    const double frequency = sampling_frequency(times), spacing = 1 / frequency;
-    constexpr double share = 0.05;
-    const double stray = stray_of(times, spacing);
-    if (stray > std::max(share * spacing, rounding_of(times, spacing)))
+void require_even(std::span<const double> times, double spacing, double allowed) {
+    if (const double stray = stray_of(times, spacing); stray > allowed)
         throw InputError(
             fmt::format("the samples are not at equal distances of time: from {} to {} they are up to "
                         "{:.3g} beside times that are {:.6g} apart",
                         times.front(), times.back(), stray, spacing),
             "give a part of the record whose clock is even (--from, --to), or one that has been resampled");
+}
+
+double even_sampling_frequency(std::span<const double> times) {
+    constexpr double share = 0.05;
+    const double frequency = sampling_frequency(times), spacing = 1 / frequency;
+    require_even(times, spacing, std::max(share * spacing, rounding_of(times, spacing)));
     return frequency;
 }
 

@@ -57,13 +57,8 @@ void require_spacing(std::span<const double> times, double spacing, std::size_t 
     constexpr double share = 0.05, drift = 0.0025; // of a step, and half of by which frequencies may be off
     for (std::size_t first = 0; first + 1 < times.size(); first += std::max<std::size_t>(1, length / 2)) {
         const auto part = times.subspan(first, std::min(length, times.size() - first));
-        const double allowed = std::max(share * spacing, rounding) + drift * static_cast<double>(part.size()) * spacing;
-        if (const double stray = stray_of(part, spacing); stray > allowed)
-            throw InputError(fmt::format("the samples are not at equal distances of time: from {} to {} they are up to "
-                                         "{:.3g} beside times that are {:.6g} apart",
-                                         part.front(), part.back(), stray, spacing),
-                             "give a part of the record whose clock is even (--from, --to), or one that has been "
-                             "resampled");
+        require_even(part, spacing,
+                     std::max(share * spacing, rounding) + drift * static_cast<double>(part.size()) * spacing);
     }
 }
 

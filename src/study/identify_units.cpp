@@ -15,11 +15,6 @@ namespace {
 
 using What = IdentifyRequest::What;
 
-/// Nothing for what says none, or is none that is known.
-std::optional<PhysicalUnit> told_unit(const std::string& text) {
-    return text.empty() ? std::nullopt : known_unit(text);
-}
-
 /// Units of the model's parameters and states, and of its time, that measure what this one does.
 std::vector<std::string> units_alike(const Model& model, const PhysicalUnit& unit) {
     std::vector<std::string> found;

@@ -27,6 +27,8 @@ std::string unit_symbol(std::string_view text);
 PhysicalUnit physical_unit(std::string_view text);
 /// The same, and nothing for what is no unit.
 std::optional<PhysicalUnit> known_unit(std::string_view text);
+/// The same, and nothing for a text that says none.
+std::optional<PhysicalUnit> told_unit(std::string_view text);
 
 /// A value in another unit, rounded once. @throws InputError where the units measure different things
 double converted(double value, const PhysicalUnit& from, const PhysicalUnit& to);
