@@ -68,8 +68,8 @@ bool follows_force(BranchState& state, const Orbit& orbit) {
     const System& system = state.system();
     Model model = state.model();
     const std::size_t states = model.states.size();
+    const auto period = system.period_gradients()(orbit.parameters);
     const auto is_force = [&](std::size_t i) {
-        const auto period = system.period_gradients()(orbit.parameters);
         const auto row = period.begin() + static_cast<std::ptrdiff_t>(i * orbit.parameters.size());
         bool forces =
             model.states[i].period && std::all_of(row, row + static_cast<std::ptrdiff_t>(orbit.parameters.size()),

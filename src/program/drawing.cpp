@@ -134,29 +134,38 @@ void draw_figure(const Figure& figure, const std::string& path, const std::strin
     file.commit();
 }
 
-void draw_layout(const Layout& layout, const std::string& path, std::optional<int> mask) {
-    const std::string ending = picture_ending(path, "--picture", {"svg", "png", "pdf"});
+namespace {
+
+/// Draws what has no commands to be kept.
+/// @param option that asks for it; @param script gives the commands for an ending and the file that they write
+template <class Script>
+void draw_script(const std::string& path, const std::string& option, const Script& script) {
+    const std::string ending = picture_ending(path, option, {"svg", "png", "pdf"});
     FileReplacement file(path);
-    draw_by_gnuplot(layout_picture_script(layout, ending, file.temporary_path(), mask), file, ending, path,
+    draw_by_gnuplot(script(ending, file.temporary_path()), file, ending, path,
                     "look whether this gnuplot is of version 5.2 or later");
     file.commit();
+}
+
+} // namespace
+
+void draw_layout(const Layout& layout, const std::string& path, std::optional<int> mask) {
+    draw_script(path, "--picture", [&](const std::string& ending, const std::string& output) {
+        return layout_picture_script(layout, ending, output, mask);
+    });
 }
 
 void draw_wafer_map(const WaferYield& yield, const WaferPlan& plan, const WaferMapLabels& labels,
                     const std::string& path) {
-    const std::string ending = picture_ending(path, "--folder", {"svg", "png", "pdf"});
-    FileReplacement file(path);
-    draw_by_gnuplot(wafer_map_script(yield, plan, labels, ending, file.temporary_path()), file, ending, path,
-                    "look whether this gnuplot is of version 5.2 or later");
-    file.commit();
+    draw_script(path, "--folder", [&](const std::string& ending, const std::string& output) {
+        return wafer_map_script(yield, plan, labels, ending, output);
+    });
 }
 
 void draw_fabrication(const std::vector<ProcessStep>& steps, const std::string& path) {
-    const std::string ending = picture_ending(path, "--recipe", {"svg", "png", "pdf"});
-    FileReplacement file(path);
-    draw_by_gnuplot(fabrication_picture_script(steps, ending, file.temporary_path()), file, ending, path,
-                    "look whether this gnuplot is of version 5.2 or later");
-    file.commit();
+    draw_script(path, "--recipe", [&](const std::string& ending, const std::string& output) {
+        return fabrication_picture_script(steps, ending, output);
+    });
 }
 
 } // namespace graze

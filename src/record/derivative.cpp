@@ -85,14 +85,22 @@ private:
     std::vector<double> rest_;
 };
 
+/// Of some rows: looked at once, for windows of many lengths.
+struct Clock {
+    explicit Clock(const std::vector<double>& given)
+        : times(&given), spacing(1 / sampling_frequency(given)), is_even(is_even_clock(given)) {}
+    const std::vector<double>* times;
+    double spacing;
+    bool is_even;
+};
+
 /// Slopes of samples with so many others on each side: at equal distances where the clock is even but for the rounding
 /// of times, and otherwise at the times that are told.
 class SlopeWindows {
 public:
-    /// @param times, values with `half` more on both sides of what is asked for; they must outlive this
-    SlopeWindows(const std::vector<double>& times, const std::vector<double>& values, std::size_t half)
-        : times_(&times), values_(&values), half_(half), is_even_(is_even_clock(times)),
-          spacing_(1 / sampling_frequency(times)) {}
+    /// @param clock, values with `half` more rows on both sides of what is asked for; they must outlive this
+    SlopeWindows(const Clock& clock, const std::vector<double>& values, std::size_t half)
+        : clock_(&clock), values_(&values), half_(half) {}
     Slope at(std::size_t row) {
         set_filter(row);
         return filter_->at(values_->data() + row);
@@ -100,22 +108,22 @@ public:
 
 private:
     void set_filter(std::size_t row) {
-        if (filter_ && is_even_)
+        if (filter_ && clock_->is_even)
             return;
+        const std::vector<double>& times = *clock_->times;
         std::vector<double> places(2 * half_ + 1);
         for (std::size_t i = 0; i < places.size(); ++i)
-            places[i] = is_even_ ? spacing_ * (static_cast<double>(i) - static_cast<double>(half_))
-                                 : (*times_)[row - half_ + i] - (*times_)[row];
-        const double reach = spacing_ * static_cast<double>(half_);
+            places[i] = clock_->is_even ? clock_->spacing * (static_cast<double>(i) - static_cast<double>(half_))
+                                        : times[row - half_ + i] - times[row];
+        const double reach = clock_->spacing * static_cast<double>(half_);
         const auto is_same = [&](double one, double other) { return std::abs(one - other) <= 1e-12 * reach; };
         if (!filter_ || !std::equal(places.begin(), places.end(), filter_->places().begin(), is_same))
             filter_.emplace(std::move(places), reach);
     }
 
-    const std::vector<double>*times_, *values_;
+    const Clock* clock_;
+    const std::vector<double>* values_;
     std::size_t half_;
-    bool is_even_;
-    double spacing_;
     std::optional<SlopeFilter> filter_{};
 };
 
@@ -155,9 +163,10 @@ std::size_t best_half_width(const std::vector<double>& times, const std::vector<
     std::size_t best = 0;
     double least = 0, noise = 0;
     constexpr std::size_t tried_rows = 500;
+    const Clock clock(times);
     for (std::size_t half = least_half_width; 4 * half < values.size() && half <= 512;
          half += std::max<std::size_t>(1, half / 3)) {
-        SlopeWindows windows(times, values, half);
+        SlopeWindows windows(clock, values, half);
         std::vector<Slope> slopes;
         const std::size_t step = std::max<std::size_t>(1, (values.size() - 2 * half) / tried_rows);
         for (std::size_t i = half; i + half < values.size(); i += step)
@@ -242,7 +251,8 @@ bool WithDerivative::read(Samples& samples) {
     if (!state.window->next())
         return false;
     const Samples& rows = state.window->samples();
-    SlopeWindows windows(rows.times, rows.values[channel], state.half);
+    const Clock clock(rows.times);
+    SlopeWindows windows(clock, rows.values[channel], state.half);
     std::vector<Slope> slopes;
     for (std::size_t i = state.window->first(); i < state.window->last(); ++i)
         slopes.push_back(windows.at(i));

@@ -11,6 +11,7 @@
 #include "../base/temporary_folder.hpp"
 
 #include "refusal.hpp"
+#include "wave_records.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -28,19 +29,10 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-constexpr double frequency = 5;
+using testing::waves;
 
-/// V = amplitude sin, q = 3 cos + 1, rows at 1 kHz for `seconds`.
-std::string waves(double amplitude, double seconds, double phase = 0) {
-    std::string text = "t [s], V [V], q [mm]\n";
-    for (int i = 0; i <= static_cast<int>(1000 * seconds); ++i) {
-        const double t = i / 1000.0, angle = 2 * std::numbers::pi * frequency * t + phase;
-        text += fmt::format("{:.17g}, {:.17g}, {:.17g}\n", t, amplitude * std::sin(angle), 3 * std::cos(angle) + 1);
-    }
-    return text;
-}
-
-const char* const head = "name = \"s\"\n[runs.r]\nkind = \"record\"\n";
+constexpr double frequency = testing::wave_frequency;
+constexpr const char* head = testing::record_head;
 
 class RecordRunTest : public ::testing::Test {
 protected:
