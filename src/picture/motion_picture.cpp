@@ -1,3 +1,4 @@
+#include "picture/motion_curve.hpp"
 #include "picture/picture_kinds.hpp"
 
 #include "graze/study/point_motion.hpp"
@@ -66,26 +67,6 @@ std::vector<PlanePoint> seen_rows(std::vector<PlanePoint> points, const StudyPic
             }
     }
     return seen;
-}
-
-/// The curve through rows of a motion, interrupted where another arc begins and where a phase begins anew.
-std::vector<PlanePoint> curve_of(const DenseMotion& motion, std::size_t value) {
-    constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-    const std::vector<double>&xs = motion.values[0], &ys = motion.values[value];
-    const auto wraps = [](double from, double to, double period) {
-        return period > 0 && std::abs(to - from) > period / 2;
-    };
-    std::vector<PlanePoint> points;
-    std::size_t arc = 0;
-    for (std::size_t i = 0; i < xs.size(); ++i) {
-        const bool begins = arc < motion.begins.size() && motion.begins[arc] == i;
-        arc += begins ? 1 : 0;
-        if (i > 0 &&
-            (begins || wraps(xs[i - 1], xs[i], motion.periods[0]) || wraps(ys[i - 1], ys[i], motion.periods[value])))
-            points.push_back({nothing, nothing});
-        points.push_back({xs[i], ys[i]});
-    }
-    return points;
 }
 
 /// From just before each jump to just after it, where these are different points of the panel.
@@ -161,7 +142,8 @@ private:
                    const std::string& time_unit) const {
         constexpr std::size_t most_marked = 2000; // of more, marks hide the curve
         const std::size_t colour = portrait_ && !over_ ? 7 : colour_;
-        panel.series.push_back({is_titled() ? "" : title, FigureSeries::Style::line, colour, curve_of(motion, value)});
+        panel.series.push_back(
+            {is_titled() ? "" : title, FigureSeries::Style::line, colour, curve_of(motion, 0, value)});
         panel.series.push_back({"jump", FigureSeries::Style::dotted, FigureSeries::black, jumps_of(motion, value)});
         FigureSeries impacts{"impact", FigureSeries::Style::symbols, FigureSeries::black, {}};
         for (const std::size_t row : motion.impacts)

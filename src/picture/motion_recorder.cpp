@@ -18,37 +18,41 @@ MotionRecorder::MotionRecorder(const Simulation& simulation, MotionPanelChoice c
     const Model& model = simulation.model();
     periods_ = simulation.system().periods()(model.parameter_values());
     state_.resize(periods_.size());
+    motion_.values.resize(contents_.columns.size() + 1);
+    motion_.periods = {0};
     for (const NamedValue& column : contents_.columns) {
         const auto state = column.value.is_symbol() ? model.find_state(column.value.name()) : std::nullopt;
-        column_periods_.push_back(state ? periods_[*state] : 0);
+        motion_.periods.push_back(state ? periods_[*state] : 0);
     }
 }
 
-std::vector<double> MotionRecorder::evaluate(std::span<const double> state) {
+MotionRecorder::Row MotionRecorder::row_of(double time, std::span<const double> state) {
     for (std::size_t i = 0; i < state_.size(); ++i)
         state_[i] = periods_[i] > 0 ? state[i] - std::floor(state[i] / periods_[i]) * periods_[i] : state[i];
+    Row row{time};
     const auto values = evaluate_(state_);
-    return {values.begin(), values.end()};
+    row.insert(row.end(), values.begin(), values.end());
+    return row;
 }
 
 void MotionRecorder::step(const Step& step) {
-    if (points_ >= most_points) {
+    const std::size_t rows = motion_.values.front().size();
+    if (rows >= most_points) {
         complete_ = false;
         return;
     }
-    if (std::exchange(new_arc_, false))
-        arcs_.emplace_back();
-    Arc& arc = arcs_.back();
+    if (new_arc_ && rows > 0)
+        motion_.begins.push_back(rows);
     std::vector<double> state(state_.size());
-    for (int k = arc.times.empty() ? 0 : 1; k <= points_of_step; ++k) {
+    for (int k = new_arc_ ? 0 : 1; k <= points_of_step; ++k) {
         const double s = k == points_of_step ? step.length : step.length * k / points_of_step;
         for (std::size_t i = 0; i < state.size(); ++i)
             state[i] = step.state(i, s);
-        const std::vector<double> values = evaluate(state);
-        arc.times.push_back(step.start + s);
-        arc.values.insert(arc.values.end(), values.begin(), values.end());
-        ++points_;
+        const Row row = row_of(step.start + s, state);
+        for (std::size_t v = 0; v < row.size(); ++v)
+            motion_.values[v].push_back(row[v]);
     }
+    new_arc_ = false;
 }
 
 void MotionRecorder::contact(const Contact& contact) {
@@ -56,13 +60,13 @@ void MotionRecorder::contact(const Contact& contact) {
     if (!touch)
         new_arc_ = true;
     if (complete_)
-        jumps_.push_back(
-            {contact.time, evaluate(contact.before), evaluate(contact.after), contents_.marked[contact.event]});
+        jumps_.push_back({row_of(contact.time, contact.before), row_of(contact.time, contact.after),
+                          contents_.marked[contact.event]});
 }
 
 void MotionRecorder::passage(const Passage& passage) {
     if (complete_ && passage.probe < contents_.sections)
-        passages_.push_back({passage.time, evaluate(passage.state)});
+        passages_.push_back(row_of(passage.time, passage.state));
 }
 
 std::string MotionRecorder::section_names() const {

@@ -4,6 +4,7 @@
 #include "graze/results/stored_orbit.hpp"
 #include "graze/study/plain_states.hpp"
 #include "graze/symbolic/function.hpp"
+#include "picture/motion_curve.hpp"
 #include "picture/picture_kinds.hpp"
 
 #include <fmt/format.h>
@@ -122,7 +123,7 @@ public:
         std::vector<PlanePoint> points;
         for (std::size_t row = 0; row < orbit_.motion[segment].times.size(); ++row) {
             const PlanePoint here = at(segment, row);
-            if (!points.empty() && comes_round(points.back(), here))
+            if (!points.empty() && is_interrupted(points.back(), here))
                 points.push_back(interruption);
             points.push_back(here);
         }
@@ -143,7 +144,7 @@ public:
             const PlanePoint before = at(s, orbit_.motion[s].times.size() - 1), after = at(next, 0);
             const bool seen =
                 std::abs(after.x - before.x) > unseen * size.x || std::abs(after.y - before.y) > unseen * size.y;
-            if (seen && !comes_round(before, after))
+            if (seen && !is_interrupted(before, after))
                 points.insert(points.end(), {before, after, interruption});
         }
         return points;
@@ -179,12 +180,9 @@ private:
             }
         return {greatest.x - least.x, greatest.y - least.y};
     }
-    bool comes_round(const PlanePoint& a, const PlanePoint& b) const {
-        const auto wraps = [](double from, double to, double period) {
-            return period > 0 && std::abs(to - from) > period / 2;
-        };
+    bool is_interrupted(const PlanePoint& a, const PlanePoint& b) const {
         const std::vector<double>& periods = orbit_.axes.periods;
-        return wraps(a.y, b.y, periods[value_]) || (!orbit_.axes.over_time && wraps(a.x, b.x, periods[0]));
+        return comes_round(a.y, b.y, periods[value_]) || (!orbit_.axes.over_time && comes_round(a.x, b.x, periods[0]));
     }
     const DrawnOrbit& orbit_;
     std::size_t value_;

@@ -1,6 +1,7 @@
 #include "graze/picture/trajectory_figure.hpp"
 
 #include "picture/curve.hpp"
+#include "picture/motion_curve.hpp"
 #include "picture/shown_names.hpp"
 
 #include <fmt/format.h>
@@ -8,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
+#include <span>
 #include <utility>
 
 namespace graze {
@@ -35,8 +36,8 @@ struct ValueRange {
 class TrajectoryPanels {
 public:
     explicit TrajectoryPanels(const MotionRecorder& recorder) : recorder_(&recorder) {
-        for (std::size_t c = 0; c < recorder.contents().columns.size(); ++c)
-            ranges_.push_back(range_of(c));
+        for (std::size_t value = 0; value < motion().values.size(); ++value)
+            ranges_.push_back(range_of(value));
     }
 
     Figure figure() const {
@@ -46,9 +47,9 @@ public:
         figure.columns = !histories.empty() && !portraits.empty() ? 2 : portraits.size() > 1 ? 2 : 1;
         for (std::size_t i = 0; i < std::max(histories.size(), portraits.size()); ++i) {
             if (i < histories.size())
-                figure.panels.push_back(panel(std::nullopt, histories[i]));
+                figure.panels.push_back(panel(time, 1 + histories[i]));
             if (i < portraits.size()) {
-                figure.panels.push_back(panel(portraits[i].first, portraits[i].second));
+                figure.panels.push_back(panel(1 + portraits[i].first, 1 + portraits[i].second));
                 figure.panels.back().rows = rows_of(i, portraits.size(), histories.size());
             }
         }
@@ -60,7 +61,9 @@ public:
     }
 
 private:
-    using Column = std::optional<std::size_t>; ///< none: the time
+    static constexpr std::size_t time = 0; ///< of the motion's values; columns come behind it
+
+    const DenseMotion& motion() const { return recorder_->motion(); }
 
     /// Portraits share the height of the histories beside them.
     static std::size_t rows_of(std::size_t portrait, std::size_t portraits, std::size_t histories) {
@@ -74,121 +77,102 @@ private:
         const MotionPanelChoice& contents = recorder_->contents();
         std::vector<std::size_t> shown;
         for (const std::size_t column : contents.histories) {
-            const ValueRange& range = ranges_[column];
+            const ValueRange& range = ranges_[1 + column];
             if (contents.chosen || range.span() > resolved * std::max(std::abs(range.least), std::abs(range.greatest)))
                 shown.push_back(column);
         }
         return shown.empty() ? contents.histories : shown;
     }
 
-    double start() const { return recorder_->arcs().front().times.front(); }
-    double end() const { return recorder_->arcs().back().times.back(); }
+    double start() const { return motion().values[time].front(); }
+    double end() const { return motion().values[time].back(); }
 
-    ValueRange range_of(std::size_t column) const {
+    ValueRange range_of(std::size_t value) const {
         ValueRange range;
-        if (recorder_->arcs().empty())
+        const std::vector<double>&times = motion().values[time], &values = motion().values[value];
+        if (times.empty())
             return range;
-        const std::size_t columns = recorder_->contents().columns.size();
         const double last = recorder_->singularity() ? end() - last_moments * (end() - start()) : end();
-        for (const MotionRecorder::Arc& arc : recorder_->arcs())
-            for (std::size_t i = 0; i < arc.times.size() && arc.times[i] <= last; ++i)
-                range.add(arc.values[i * columns + column]);
+        for (std::size_t i = 0; i < times.size() && times[i] <= last; ++i)
+            range.add(values[i]);
         return range;
     }
 
-    FigurePanel panel(Column x, std::size_t y) const {
+    FigurePanel panel(std::size_t x, std::size_t y) const {
         FigurePanel panel;
         describe(panel.x_label, panel.x_words, panel.x_unit, x);
         describe(panel.y_label, panel.y_words, panel.y_unit, y);
         panel.roomy_y = true;
-        panel.roomy_x = x.has_value();
-        if (recorder_->arcs().empty())
+        panel.roomy_x = x != time;
+        if (motion().values[time].empty())
             return panel;
         limit(panel, x, y);
-        add_curve(panel, x, y);
+        panel.series.push_back({"", FigureSeries::Style::line, 0, seen_curve(x, y)});
         add_marks(panel, x, y);
         return panel;
     }
 
-    void describe(std::string& label, std::string& words, std::string& unit, Column column) const {
-        if (!column) {
+    void describe(std::string& label, std::string& words, std::string& unit, std::size_t shown) const {
+        if (shown == time) {
             label = "t";
             words = "time";
             unit = recorder_->model().time_unit;
             return;
         }
-        const NamedValue& value = recorder_->contents().columns[*column];
+        const NamedValue& value = recorder_->contents().columns[shown - 1];
         label = value.name;
         words = first_words(value.text);
         unit = value.unit;
     }
 
-    void limit(FigurePanel& panel, Column x, std::size_t y) const {
+    void limit(FigurePanel& panel, std::size_t x, std::size_t y) const {
         constexpr double margin = 0.08, after = 0.01;
-        const auto roomy = [&](std::size_t column) {
-            const ValueRange& range = ranges_[column];
+        const auto roomy = [&](std::size_t value) {
+            const ValueRange& range = ranges_[value];
             const double room = margin * (range.span() > 0 ? range.span() : std::max(std::abs(range.least), 1.0));
             return std::pair(range.least - room, range.greatest + room);
         };
         if (const auto singularity = recorder_->singularity()) {
             panel.y_range = roomy(y);
-            if (x)
-                panel.x_range = roomy(*x);
-            else
+            if (x == time) {
                 panel.x_range = {start(), *singularity + after * (*singularity - start())};
-            if (!x) {
                 panel.marks.push_back(*singularity);
                 panel.marks_title = "singularity";
+            } else {
+                panel.x_range = roomy(x);
             }
-        } else if (!x && end() > start()) {
+        } else if (x == time && end() > start()) {
             panel.x_range = {start(), end()};
         }
     }
 
-    double value(Column column, double time, const double* values) const { return column ? values[*column] : time; }
-    double period(Column column) const { return column ? recorder_->period(*column) : 0; }
-
-    /// Of each arc; a phase that begins anew, or a quantity without a value, interrupts it.
-    void add_curve(FigurePanel& panel, Column x, std::size_t y) const {
-        FigureSeries curve{"", FigureSeries::Style::line, 0, {}};
-        const std::size_t columns = recorder_->contents().columns.size();
-        const double width = x ? ranges_[*x].span() : end() - start(), height = ranges_[y].span();
-        const auto wraps = [](double from, double to, double period) {
-            return period > 0 && std::abs(to - from) > period / 2;
-        };
-        Polyline line;
-        const auto flush = [&] {
-            if (line.empty())
-                return;
-            const Polyline seen = width > 0 && height > 0 ? simplified(line, width, height, unseen) : line;
-            curve.points.insert(curve.points.end(), seen.begin(), seen.end());
-            curve.points.push_back({nothing, nothing});
-            line.clear();
-        };
-        for (const MotionRecorder::Arc& arc : recorder_->arcs()) {
-            for (std::size_t i = 0; i < arc.times.size(); ++i) {
-                const double* values = &arc.values[i * columns];
-                const PlanePoint point{value(x, arc.times[i], values), values[y]};
-                const bool finite = std::isfinite(point.x) && std::isfinite(point.y);
-                if (!finite || (!line.empty() &&
-                                (wraps(line.back().x, point.x, period(x)) || wraps(line.back().y, point.y, period(y)))))
-                    flush();
-                if (finite)
-                    line.push_back(point);
-            }
-            flush();
+    /// Less what nobody would miss, so that all that looks at figures has less to look at.
+    std::vector<PlanePoint> seen_curve(std::size_t x, std::size_t y) const {
+        const std::vector<PlanePoint> curve = curve_of(motion(), x, y);
+        const double width = x == time ? end() - start() : ranges_[x].span(), height = ranges_[y].span();
+        if (!(width > 0 && height > 0))
+            return curve;
+        const auto is_drawn = [](const PlanePoint& point) { return std::isfinite(point.x) && std::isfinite(point.y); };
+        std::vector<PlanePoint> seen;
+        for (auto begin = curve.begin(); begin != curve.end();) {
+            begin = std::find_if(begin, curve.end(), is_drawn);
+            const auto end = std::find_if_not(begin, curve.end(), is_drawn);
+            const Polyline line = simplified(std::span(begin, end), width, height, unseen);
+            seen.insert(seen.end(), line.begin(), line.end());
+            if (end != curve.end())
+                seen.push_back(*end);
+            begin = end;
         }
-        panel.series.push_back(std::move(curve));
+        return seen;
     }
 
-    void add_marks(FigurePanel& panel, Column x, std::size_t y) const {
+    void add_marks(FigurePanel& panel, std::size_t x, std::size_t y) const {
         FigureSeries jumps{"jump", FigureSeries::Style::dotted, FigureSeries::black, {}};
         FigureSeries contacts{"contact", FigureSeries::Style::symbols, FigureSeries::black, {}};
         FigureSeries passages{recorder_->section_names(), FigureSeries::Style::circles, section_colour, {}};
-        const bool cyclic = period(x) > 0 || period(y) > 0;
+        const bool cyclic = motion().periods[x] > 0 || motion().periods[y] > 0;
         for (const MotionRecorder::Jump& jump : recorder_->jumps()) {
-            const PlanePoint before{value(x, jump.time, jump.before.data()), jump.before[y]};
-            const PlanePoint after{value(x, jump.time, jump.after.data()), jump.after[y]};
+            const PlanePoint before{jump.before[x], jump.before[y]}, after{jump.after[x], jump.after[y]};
             const bool moves = before.x != after.x || before.y != after.y;
             if (moves && !cyclic)
                 jumps.points.insert(jumps.points.end(), {before, after, {nothing, nothing}});
@@ -197,8 +181,8 @@ private:
             if (jump.marked && moves)
                 contacts.points.push_back(after);
         }
-        for (const MotionRecorder::Point& passage : recorder_->passages())
-            passages.points.push_back({value(x, passage.time, passage.values.data()), passage.values[y]});
+        for (const MotionRecorder::Row& passage : recorder_->passages())
+            passages.points.push_back({passage[x], passage[y]});
         if (contacts.points.size() > most_marked) {
             const auto count = std::count_if(recorder_->jumps().begin(), recorder_->jumps().end(),
                                              [](const MotionRecorder::Jump& jump) { return jump.marked; });
@@ -211,7 +195,7 @@ private:
     }
 
     const MotionRecorder* recorder_;
-    std::vector<ValueRange> ranges_; ///< of each column
+    std::vector<ValueRange> ranges_; ///< of each value
 };
 
 } // namespace

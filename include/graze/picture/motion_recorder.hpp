@@ -2,6 +2,7 @@
 
 #include "graze/model/named_value.hpp"
 #include "graze/results/quantity_evaluator.hpp"
+#include "graze/study/point_motion.hpp"
 #include "graze/trajectory/observer.hpp"
 #include "graze/trajectory/trajectory.hpp"
 
@@ -26,18 +27,11 @@ struct MotionPanelChoice {
 /// Keeps what a picture needs: points close enough on every arc, contacts before and after, passages of sections.
 class MotionRecorder : public Observer {
 public:
-    struct Arc {
-        std::vector<double> times;
-        std::vector<double> values; ///< [point * columns + column]
-    };
+    /// The time, then each column.
+    using Row = std::vector<double>;
     struct Jump {
-        double time;
-        std::vector<double> before, after;
+        Row before, after;
         bool marked;
-    };
-    struct Point {
-        double time;
-        std::vector<double> values;
     };
 
     MotionRecorder(const Simulation& simulation, MotionPanelChoice contents);
@@ -49,28 +43,26 @@ public:
 
     const MotionPanelChoice& contents() const { return contents_; }
     const Model& model() const { return simulation_.model(); }
-    const std::vector<Arc>& arcs() const { return arcs_; }
+    /// Its values are the time and the columns.
+    const DenseMotion& motion() const { return motion_; }
     const std::vector<Jump>& jumps() const { return jumps_; }
-    const std::vector<Point>& passages() const { return passages_; }
+    const std::vector<Row>& passages() const { return passages_; }
     std::string section_names() const;
-    /// Period of a column that is a cyclic state; 0 for others.
-    double period(std::size_t column) const { return column_periods_[column]; }
     std::optional<double> singularity() const { return singularity_; }
     /// False when the run was too long for a picture, which then shows its beginning.
     bool is_complete() const { return complete_; }
 
 private:
-    std::vector<double> evaluate(std::span<const double> state);
+    Row row_of(double time, std::span<const double> state);
 
     Simulation simulation_;
     MotionPanelChoice contents_;
     QuantityEvaluator evaluate_;
-    std::vector<double> periods_, column_periods_, state_;
-    std::vector<Arc> arcs_;
+    std::vector<double> periods_, state_;
+    DenseMotion motion_;
     std::vector<Jump> jumps_;
-    std::vector<Point> passages_;
+    std::vector<Row> passages_;
     std::optional<double> singularity_;
-    std::size_t points_ = 0;
     bool new_arc_ = true, complete_ = true;
 };
 
