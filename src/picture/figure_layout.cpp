@@ -155,6 +155,8 @@ private:
             taken[column] = row + cells_.back().rows;
         }
         rows_ = std::max<std::size_t>(1, *std::max_element(taken.begin(), taken.end()));
+        above_.assign(rows_, 0);
+        below_.assign(rows_, 0);
     }
     std::size_t column_of(std::size_t panel) const { return cells_[panel].column; }
     std::size_t row_of(std::size_t panel) const { return cells_[panel].row; }
@@ -162,7 +164,7 @@ private:
     double height_of(std::size_t panel) const {
         double height = frame_height_;
         for (std::size_t r = row_of(panel); r < last_row_of(panel); ++r)
-            height += (r < below_.size() ? below_[r] + above_[r + 1] : 0) + frame_height_;
+            height += below_[r] + above_[r + 1] + frame_height_;
         return height;
     }
 
