@@ -14,6 +14,7 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     list(APPEND kernel_sets avx2 avx512)
 endif()
 foreach(kernel_set IN LISTS kernel_sets)
+    # A header that was compiled for other instructions is of no use to them.
     set_source_files_properties(src/tape/jet_${kernel_set}.cpp PROPERTIES
-                                COMPILE_OPTIONS "${kernel_flags_${kernel_set}}")
+                                COMPILE_OPTIONS "${kernel_flags_${kernel_set}}" SKIP_PRECOMPILE_HEADERS ON)
 endforeach()

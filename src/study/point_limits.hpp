@@ -12,9 +12,6 @@ constexpr double most_points = 1e9;
 constexpr double most_chains = 2e7;
 /// Values along one axis.
 constexpr std::size_t most_values = 10'000'000;
-/// Returns until a motion has settled, and of which an exponent is averaged; those that are kept, in memory, of a
-/// motion that is not periodic; those of one period. As AttractorOptions::validate has them.
-constexpr std::size_t most_cycles = 100'000'000, most_kept_returns = 1'000'000, most_returns_of_orbit = 1000;
 /// Samples of a record that a virtual bench makes, which are in memory.
 constexpr double most_bench_samples = 1e7;
 constexpr double most_bench_records = 1e6;

@@ -33,6 +33,18 @@ std::vector<std::pair<std::string, Place>> StudyRun::needs() const {
     return needed;
 }
 
+double StudyRun::points() const {
+    double product = static_cast<double>(std::max<std::size_t>(draws, 1));
+    for (const Variation& axis : axes)
+        product *= static_cast<double>(std::max<std::size_t>(axis.values.size(), 1));
+    return product;
+}
+
+double StudyRun::chains() const {
+    const bool swept = kind == RunKind::sweep && !axes.empty() && !axes.front().values.empty();
+    return swept ? points() / static_cast<double>(axes.front().values.size()) : points();
+}
+
 std::vector<std::string> StudyRun::sampling_names() const {
     if (kind == RunKind::record)
         return record.sampling_names();

@@ -4,6 +4,7 @@
 #include "graze/model/named_value.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "study/json.hpp"
+#include "study/run_key.hpp"
 
 #include <fmt/format.h>
 
@@ -31,10 +32,67 @@ inline const std::string& word_of(const std::vector<std::string>& words, std::si
     return words[index];
 }
 
+/// The keys of a run as fields, of which their names and values are stored.
+template <class Fields>
+class StoredKeys {
+public:
+    static constexpr bool stored = true;
+
+    template <class Count>
+    void count(const Key& key, Count& value, CountRange range = {}) {
+        within(key, value, [range](const auto& one) {
+            return one >= static_cast<Count>(range.least) && one <= static_cast<Count>(range.most);
+        });
+    }
+    template <class Number>
+    void number(const Key& key, Number& value, const NumberRange& range) {
+        within(key, value, [&range](double one) { return range.contains(one); });
+    }
+    template <class Truth>
+    void truth(const Key& key, Truth& value) {
+        fields().field(key.name, value);
+    }
+    /// A key that says the opposite of the field of this name.
+    template <class Truth>
+    void denied(const Key&, const char* name, Truth& value) {
+        fields().field(name, value);
+    }
+    template <class Choice>
+    void choice(const Key& key, Choice& value, const std::vector<std::string>& words) {
+        fields().number(key.name, value, words.size());
+    }
+    template <class Text>
+    void line(const Key& key, Text& value) {
+        fields().field(key.name, value);
+    }
+    template <class Texts>
+    void lines(const Key& key, Texts& value) {
+        fields().field(key.name, value);
+    }
+    template <class Text>
+    void later_number(const Key& key, Text& value) {
+        fields().field(key.name, value);
+    }
+    void form(const Key&, const char*, FormReader) const {}
+
+private:
+    Fields& fields() { return static_cast<Fields&>(*this); }
+    /// What is not said need not be in range: 0 may mean none.
+    template <class Value, class Contains>
+    void within(const Key& key, Value& value, const Contains& contains) {
+        const auto standard = value;
+        fields().field(key.name, value);
+        if constexpr (Fields::reading)
+            if (value != standard && !contains(value))
+                fields().fail(key.name, "in the range that a study may give");
+    }
+};
+
 /// Writes the members of a JSON object, in the order in which they are named.
-class SettingsWriter {
+class SettingsWriter : public StoredKeys<SettingsWriter> {
 public:
     static constexpr bool reading = false;
+    using StoredKeys::number;
 
     template <class Value>
     void field(std::string_view name, const Value& value) {
@@ -142,9 +200,10 @@ private:
 };
 
 /// Reads the fields of a JSON object, those that it has: others keep their values.
-class SettingsReader {
+class SettingsReader : public StoredKeys<SettingsReader> {
 public:
     static constexpr bool reading = true;
+    using StoredKeys::number;
 
     /// @param model in whose words expressions are; may be null
     SettingsReader(const Json& object, const Model* model, const Place& place)

@@ -1,7 +1,6 @@
 #include "graze/base/file_name.hpp"
 #include "graze/model/named_value.hpp"
-#include "study/point_limits.hpp"
-#include "study/study_reader.hpp"
+#include "study/run_forms.hpp"
 
 #include <fmt/format.h>
 
@@ -24,9 +23,15 @@ ParameterId parameter_named(const StudyReader& reader, const Model& model, const
     return *place;
 }
 
-/// Further parameters with their bounds.
+} // namespace
+
 void read_free(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     BranchSettings& settings = run.branch.settings;
+    if (!entry.node->is_table()) {
+        for (const std::string& name : reader.strings(entry))
+            settings.free.push_back(parameter_named(reader, run.model, entry, name));
+        return;
+    }
     reader.each_of(entry, {}, [&](const TomlEntry& item) {
         const ParameterId parameter = parameter_named(reader, run.model, item, item.name);
         const auto [least, greatest] = reader.range(run.model, item);
@@ -34,6 +39,8 @@ void read_free(const StudyReader& reader, StudyRun& run, const TomlEntry& entry)
         settings.free_bounds.push_back({parameter, least, greatest});
     });
 }
+
+namespace {
 
 /// Both parameters of a curve: the second is free, as those of `free` after it.
 void read_plane(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
@@ -54,6 +61,8 @@ void read_plane(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
         }
     });
 }
+
+} // namespace
 
 void read_along(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     BranchSettings& settings = run.branch.settings;
@@ -95,6 +104,8 @@ void read_stop(const StudyReader& reader, StudyRun& run, const TomlEntry& entry)
         run.branch.settings.stop_at.push_back(*type);
     }
 }
+
+namespace {
 
 /// What is measured: `kind = "expression"`, or `duration = "segment"`.
 void read_monitor_kind(const StudyReader& reader, const Model& model, const TomlEntry& item, Monitor& monitor) {
@@ -163,7 +174,15 @@ Monitor read_monitor(const StudyReader& reader, const Model& model, const TomlEn
     return monitor;
 }
 
-/// The period, and how far each state goes.
+} // namespace
+
+void read_monitors(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
+    std::vector<Monitor>& monitors = run.branch.settings.monitors;
+    monitors.clear();
+    reader.each_of(entry, {},
+                   [&](const TomlEntry& item) { monitors.push_back(read_monitor(reader, run.model, item)); });
+}
+
 std::vector<Monitor> usual_monitors(const Model& model) {
     std::vector<Monitor> monitors;
     Monitor& period = monitors.emplace_back();
@@ -180,11 +199,15 @@ std::vector<Monitor> usual_monitors(const Model& model) {
     return monitors;
 }
 
+namespace {
+
 /// Whether a text means something else than the name of a point, where points are asked for.
 bool is_taken(const std::string& name) {
     return is_point_label(name) || point_type(name) || name.find(':') != std::string::npos ||
            name.find_first_not_of("0123456789") == std::string::npos;
 }
+
+} // namespace
 
 void read_point_names(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     reader.each_of(entry, {}, [&](const TomlEntry& item) {
@@ -203,53 +226,28 @@ void read_point_names(const StudyReader& reader, StudyRun& run, const TomlEntry&
     });
 }
 
-} // namespace
-
 void note_set(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     for (const TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path))
         if (const auto place = run.model.find_independent_parameter(item.name))
             run.branch.set.push_back(*place);
 }
 
-void read_branch(const StudyReader& reader, StudyRun& run, const RunKeys& keys) {
-    BranchRequest& branch = run.branch;
-    BranchSettings& settings = branch.settings;
-    Mistakes mistakes;
-    const auto with = [&](const char* key, auto use) { with_key(mistakes, keys, key, use); };
-    with("signature", [&](const TomlEntry& e) {
-        branch.signature = reader.toml().string(e);
-        branch.signature_place = reader.inside(e);
-        parse_signature(run.model, branch.signature, branch.signature_place);
-    });
-    with("table", [&](const TomlEntry& e) {
-        const std::filesystem::path path = reader.toml().string(e);
-        branch.table = (path.is_relative() ? std::filesystem::path(reader.file()).parent_path() / path : path).string();
-    });
-    with("along", [&](const TomlEntry& e) { read_along(reader, run, e); });
-    with("steps", [&](const TomlEntry& e) { settings.steps = reader.count(e, 1, most_branch_steps); });
-    with("grazing", [&](const TomlEntry& e) { branch.touches = reader.toml().boolean(e); });
-    with("point_names", [&](const TomlEntry& e) { read_point_names(reader, run, e); });
-    with("rungs", [&](const TomlEntry& e) { branch.rungs = reader.count(e, 2, most_rungs); });
-    with("stop", [&](const TomlEntry& e) { read_stop(reader, run, e); });
-    with("step", [&](const TomlEntry& e) { read_step(reader, run, e); });
-    with("unphysical", [&](const TomlEntry& e) { settings.stop_when_unphysical = !reader.toml().boolean(e); });
-    with("accuracy", [&](const TomlEntry& e) {
-        settings.orbit.accuracy = settings.continuation.accuracy = reader.positive(run.model, e);
-    });
-    with("tolerance", [&](const TomlEntry& e) { settings.orbit.tolerance = reader.positive(run.model, e); });
-    with("free", [&](const TomlEntry& e) {
-        if (e.node->is_table())
-            return read_free(reader, run, e);
-        for (const std::string& name : reader.strings(e))
-            settings.free.push_back(parameter_named(reader, run.model, e, name));
-    });
-    settings.monitors = usual_monitors(run.model);
-    with("monitors", [&](const TomlEntry& e) {
-        settings.monitors.clear();
-        reader.each_of(
-            e, {}, [&](const TomlEntry& item) { settings.monitors.push_back(read_monitor(reader, run.model, item)); });
-    });
-    mistakes.throw_noted();
+void read_signature(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
+    run.branch.signature = reader.toml().string(entry);
+    run.branch.signature_place = reader.inside(entry);
+    parse_signature(run.model, run.branch.signature, run.branch.signature_place);
+}
+
+void read_orbit_table(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
+    const std::filesystem::path path = reader.toml().string(entry);
+    run.branch.table = (path.is_relative() ? std::filesystem::path(reader.file()).parent_path() / path : path).string();
+}
+
+void complete_branch(StudyRun& run, const RunKeys& keys) {
+    BranchSettings& settings = run.branch.settings;
+    settings.continuation.accuracy = settings.orbit.accuracy;
+    if (keys.contains("tolerance"))
+        settings.orbit.tolerance = run.simulation.tolerance;
 }
 
 void check_branch(const StudyReader& reader, const StudyRun& run, const TomlEntry& entry, const RunKeys& keys) {

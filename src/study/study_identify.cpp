@@ -1,6 +1,6 @@
 #include "graze/symbolic/parser.hpp"
 #include "study/identify_run.hpp"
-#include "study/study_reader.hpp"
+#include "study/run_description.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,18 +9,16 @@
 
 namespace graze {
 
-namespace {
-
 using What = IdentifyRequest::What;
 
-std::vector<std::string> kinds_of_estimates() {
-    return {"decrement", "restitution", "coupling", "impedance", "fit"};
+const std::vector<std::string>& kinds_of_estimates() {
+    static const std::vector<std::string> kinds{"decrement", "restitution", "coupling", "impedance", "fit"};
+    return kinds;
 }
 
-/// A number, or an expression in the model's parameters as they will be when others have been found.
-std::string number_text(const StudyReader& reader, const Model& model, const TomlEntry& entry) {
-    const double value = reader.number(model, entry); // says what is wrong with it
-    return entry.node->is_string() ? reader.toml().string(entry) : fmt::format("{:.17g}", value);
+void read_records(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
+    run.identify.records = reader.strings(entry);
+    run.identify.records_place = entry.place;
 }
 
 void read_gives(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
@@ -45,7 +43,8 @@ void read_gives(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
     });
 }
 
-void read_noise(const StudyReader& reader, IdentifyRequest& request, const TomlEntry& entry) {
+void read_noise(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
+    IdentifyRequest& request = run.identify;
     const Model none;
     reader.each_of(entry, {"displacement", "current"}, [&](const TomlEntry& item) {
         (item.name == "displacement" ? request.displacement_noise : request.current_noise) =
@@ -67,12 +66,12 @@ void read_unknowns(const StudyReader& reader, StudyRun& run, const TomlEntry& en
     reader.each_of(entry, {}, [&](const TomlEntry& item) {
         IdentifyRequest::Unknown& unknown = add(item, item.name);
         if (!item.node->is_table()) {
-            unknown.guess = number_text(reader, run.model, item);
+            unknown.guess = reader.number_text(run.model, item);
             return;
         }
         reader.each_of(item, {"guess", "bounds"}, [&](const TomlEntry& part) {
             if (part.name == "guess") {
-                unknown.guess = number_text(reader, run.model, part);
+                unknown.guess = reader.number_text(run.model, part);
                 return;
             }
             const auto [least, greatest] = reader.range(run.model, part);
@@ -132,49 +131,7 @@ void read_known(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
                         study_name_remedy(name, names_of(run.model.states)));
 }
 
-struct KeyOfEstimate {
-    const char* name;
-    std::vector<What> of;
-};
-
-/// A key that this estimate does not use would be ignored.
-void check_keys(const StudyReader& reader, What what, const RunKeys& keys) {
-    const std::vector<KeyOfEstimate> known{
-        {"channel", {What::decrement, What::restitution}},
-        {"displacement", {What::restitution, What::coupling}},
-        {"voltage", {What::impedance}},
-        {"current", {What::coupling, What::impedance}},
-        {"peaks", {What::decrement}},
-        {"window", {What::restitution}},
-        {"transition", {What::restitution}},
-        {"least_jump", {What::restitution}},
-        {"gap", {What::coupling, What::impedance}},
-        {"stiffness", {What::coupling}},
-        {"noise", {What::coupling}},
-        {"beta1", {What::impedance}},
-        {"beta2", {What::impedance}},
-        {"clamped", {What::impedance}},
-        {"frequency", {What::impedance}},
-        {"unknowns", {What::fit}},
-        {"readings", {What::fit}},
-        {"known", {What::fit}},
-        {"loss", {What::fit}},
-        {"piece", {What::fit}},
-        {"from", {What::fit}},
-        {"mode", {What::fit}},
-        {"tolerance", {What::fit}},
-    };
-    Mistakes mistakes;
-    for (const KeyOfEstimate& key : known)
-        if (std::find(key.of.begin(), key.of.end(), what) == key.of.end())
-            with_key(mistakes, keys, key.name, [&](const TomlEntry& entry) {
-                reader.fail(entry,
-                            fmt::format("`{}` has no effect on a {}", key.name,
-                                        kinds_of_estimates()[static_cast<std::size_t>(what)]),
-                            "leave it out");
-            });
-    mistakes.throw_noted();
-}
+namespace {
 
 void require_what_is_needed(const StudyReader& reader, const StudyRun& run, const TomlEntry& entry) {
     const IdentifyRequest& request = run.identify;
@@ -194,42 +151,16 @@ void require_what_is_needed(const StudyReader& reader, const StudyRun& run, cons
 
 } // namespace
 
-void read_identify(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const RunKeys& keys) {
-    IdentifyRequest& request = run.identify;
+void read_estimate(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const RunKeys& keys) {
     if (!keys.contains("what"))
         reader.fail(entry, fmt::format("{} does not say what is to be found", entry.path),
                     "give what = \"decrement\", \"restitution\", \"coupling\", \"impedance\" or \"fit\"");
-    request.what = static_cast<What>(reader.choice(keys.at("what"), kinds_of_estimates()));
-    check_keys(reader, request.what, keys);
-    Mistakes mistakes;
-    const auto with = [&](const char* key, auto use) { with_key(mistakes, keys, key, use); };
-    with("records", [&](const TomlEntry& e) {
-        request.records = reader.strings(e);
-        request.records_place = e.place;
-    });
-    with("gives", [&](const TomlEntry& e) { read_gives(reader, run, e); });
-    for (auto [key, text] : {std::pair{"channel", &request.channel}, std::pair{"displacement", &request.displacement},
-                             std::pair{"voltage", &request.voltage}, std::pair{"current", &request.current}})
-        with(key, [&, text = text](const TomlEntry& e) { *text = reader.toml().line(e); });
-    for (auto [key, text] : {std::pair{"gap", &request.gap}, std::pair{"stiffness", &request.stiffness},
-                             std::pair{"beta1", &request.beta1}, std::pair{"beta2", &request.beta2},
-                             std::pair{"clamped", &request.clamped}, std::pair{"frequency", &request.frequency}})
-        with(key, [&, text = text](const TomlEntry& e) { *text = number_text(reader, run.model, e); });
-    with("peaks", [&](const TomlEntry& e) { request.peaks = reader.count(e, 2, 100'000); });
-    with("window", [&](const TomlEntry& e) { request.window = reader.count(e, 5, 100'000); });
-    with("transition", [&](const TomlEntry& e) { request.transition = reader.count(e, 0, 100'000); });
-    with("least_jump", [&](const TomlEntry& e) { request.least_jump = reader.positive(run.model, e); });
-    with("noise", [&](const TomlEntry& e) { read_noise(reader, request, e); });
-    with("unknowns", [&](const TomlEntry& e) { read_unknowns(reader, run, e); });
-    with("readings", [&](const TomlEntry& e) { read_readings(reader, run, e); });
-    with("known", [&](const TomlEntry& e) { read_known(reader, run, e); });
-    with("loss", [&](const TomlEntry& e) {
-        request.loss = static_cast<FitLoss>(reader.choice(e, {"squares", "huber", "cauchy"}));
-    });
-    with("piece", [&](const TomlEntry& e) { request.piece = reader.positive(run.model, e); });
-    mistakes.throw_noted();
+    run.identify.what = static_cast<What>(reader.choice(keys.at("what"), kinds_of_estimates()));
+}
+
+void complete_identify(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     require_what_is_needed(reader, run, entry);
-    run.value_names = residual_names(request);
+    run.value_names = residual_names(run.identify);
     run.value_units.assign(run.value_names.size(), "");
 }
 

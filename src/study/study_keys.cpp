@@ -1,4 +1,5 @@
-#include "study/study_reader.hpp"
+#include "study/key_list.hpp"
+#include "study/run_description.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,119 +10,6 @@
 namespace graze {
 
 namespace {
-
-/// Kinds of runs, as bits.
-enum Kinds : unsigned {
-    simulate = 1u << static_cast<unsigned>(RunKind::simulate),
-    sweep = 1u << static_cast<unsigned>(RunKind::sweep),
-    basin = 1u << static_cast<unsigned>(RunKind::basin),
-    orbit = 1u << static_cast<unsigned>(RunKind::orbit),
-    follow = 1u << static_cast<unsigned>(RunKind::follow),
-    curve = 1u << static_cast<unsigned>(RunKind::curve),
-    ladder = 1u << static_cast<unsigned>(RunKind::ladder),
-    record = 1u << static_cast<unsigned>(RunKind::record),
-    identify = 1u << static_cast<unsigned>(RunKind::identify),
-    followed = follow | curve,
-    points = simulate | sweep | basin, ///< those whose points are motions
-    branches = orbit | follow,         ///< that may begin by themselves
-    settling = sweep | basin | branches,
-    at_will = points | branches | curve, ///< at other parameters than where they start
-    simulated = at_will | ladder,
-    measured = record | identify,
-    every = simulated | measured,
-};
-
-struct Key {
-    const char* name;
-    unsigned kinds; ///< that use it
-};
-
-/// Which kinds of runs use a key: no other may have it.
-constexpr std::array keys_of_runs{
-    Key{"kind", every},
-    Key{"text", every},
-    Key{"model", every},
-    Key{"set", at_will | measured},
-    Key{"from", points | branches | measured},
-    Key{"mode", points | branches | measured},
-    Key{"start", simulated},
-    Key{"parameters", at_will | identify},
-    Key{"section", points | branches},
-    Key{"bounds", points | branches},
-    Key{"tolerance", simulated | identify},
-    Key{"order", points | branches},
-    Key{"largest_step", points | branches},
-    Key{"vary", points | record},
-    Key{"draws", points},
-    Key{"seed", points | record},
-    Key{"sample", points | record},
-    Key{"values", points | record},
-    Key{"time", simulate},
-    Key{"periods", simulate},
-    Key{"contacts", simulate},
-    Key{"skip", simulate},
-    Key{"events", simulate},
-    Key{"greatest_speed", simulate},
-    Key{"carry", sweep | record},
-    Key{"direction", sweep | followed | record},
-    Key{"keep", sweep | basin | record},
-    Key{"cycles", settling},
-    Key{"largest_period", settling},
-    Key{"recurrence", settling},
-    Key{"disturbance", settling},
-    Key{"longest_return", settling},
-    Key{"lyapunov_cycles", sweep | basin},
-    Key{"chaos_cycles", sweep | basin},
-    Key{"signature", branches},
-    Key{"table", branches},
-    Key{"monitors", orbit | followed | ladder},
-    Key{"accuracy", orbit | followed | ladder},
-    Key{"along", followed | ladder},
-    Key{"steps", followed | ladder},
-    Key{"stop", followed},
-    Key{"step", followed | ladder},
-    Key{"rungs", ladder},
-    Key{"grazing", followed | ladder},
-    Key{"point_names", followed | ladder},
-    Key{"free", followed},
-    Key{"unphysical", orbit | followed},
-    Key{"files", record},
-    Key{"bench", record},
-    Key{"channels", record},
-    Key{"columns", record},
-    Key{"group", record},
-    Key{"lines", record},
-    Key{"scale", record},
-    Key{"part", record},
-    Key{"every", record},
-    Key{"filter", record},
-    Key{"derivative", record},
-    Key{"reference", record},
-    Key{"coordinate", record},
-    Key{"what", identify},
-    Key{"records", identify},
-    Key{"gives", identify},
-    Key{"channel", identify},
-    Key{"displacement", identify},
-    Key{"voltage", identify},
-    Key{"current", identify},
-    Key{"peaks", identify},
-    Key{"window", identify},
-    Key{"transition", identify},
-    Key{"least_jump", identify},
-    Key{"gap", identify},
-    Key{"stiffness", identify},
-    Key{"beta1", identify},
-    Key{"beta2", identify},
-    Key{"clamped", identify},
-    Key{"frequency", identify},
-    Key{"noise", identify},
-    Key{"unknowns", identify},
-    Key{"readings", identify},
-    Key{"known", identify},
-    Key{"loss", identify},
-    Key{"piece", identify},
-};
 
 /// Keys of runs of orbits that say how simulation settles on one.
 constexpr std::array of_settling{"section",    "bounds",      "cycles",        "largest_period",
@@ -190,26 +78,41 @@ void check_beginning(const StudyReader& reader, RunKind kind, const RunKeys& key
 
 } // namespace
 
-std::vector<std::string> run_keys() {
+std::vector<StudyKey> study_keys(RunKind kind) {
+    StudyRun run;
+    run.kind = kind;
+    set_standards(run);
+    KeyList list;
+    describe(list, run);
+    return std::move(list.keys);
+}
+
+std::vector<std::string> names_of_keys() {
     std::vector<std::string> names;
-    for (const Key& key : keys_of_runs)
-        names.emplace_back(key.name);
+    for (std::size_t kind = 0; kind < kinds_of_runs().size(); ++kind)
+        for (const StudyKey& key : study_keys(static_cast<RunKind>(kind)))
+            if (std::find(names.begin(), names.end(), key.name) == names.end())
+                names.push_back(key.name);
     return names;
 }
 
 void check_keys_of_kind(const StudyReader& reader, RunKind kind, const RunKeys& keys) {
+    std::vector<std::vector<StudyKey>> known;
+    for (std::size_t one = 0; one < kinds_of_runs().size(); ++one)
+        known.push_back(study_keys(static_cast<RunKind>(one)));
+    const auto has = [&](std::size_t of, const std::string& name) {
+        return std::any_of(known[of].begin(), known[of].end(), [&](const StudyKey& key) { return key.name == name; });
+    };
     Mistakes mistakes;
     for (const auto& [name, entry] : keys) {
-        const auto* key = std::find_if(keys_of_runs.begin(), keys_of_runs.end(),
-                                       [&, &name = name](const Key& one) { return name == one.name; });
-        if (key->kinds & (1u << static_cast<unsigned>(kind)))
+        if (has(static_cast<std::size_t>(kind), name))
             continue;
         std::vector<std::string> kinds;
-        for (unsigned k = 0; k < kinds_of_runs().size(); ++k)
-            if (key->kinds & (1u << k))
-                kinds.push_back(fmt::format("\"{}\"", name_of(static_cast<RunKind>(k))));
-        with_key(mistakes, keys, key->name, [&](const TomlEntry& wrong) {
-            reader.fail(wrong, fmt::format("runs of kind \"{}\" have no `{}`", name_of(kind), wrong.name),
+        for (std::size_t other = 0; other < known.size(); ++other)
+            if (has(other, name))
+                kinds.push_back(fmt::format("\"{}\"", kinds_of_runs()[other]));
+        mistakes.attempt([&, &name = name, &entry = entry] {
+            reader.fail(entry, fmt::format("runs of kind \"{}\" have no `{}`", name_of(kind), name),
                         fmt::format("leave it out; it belongs to {}", fmt::join(kinds, ", ")));
         });
     }

@@ -57,11 +57,25 @@ double StudyReader::number(const Model& model, const TomlEntry& entry) const {
     return value;
 }
 
-double StudyReader::positive(const Model& model, const TomlEntry& entry) const {
+double StudyReader::number(const Model& model, const TomlEntry& entry, const NumberRange& range) const {
     const double value = number(model, entry);
-    if (!(value > 0))
+    if (range.least == 0 && !range.includes_least && !(value > 0))
         fail(entry, fmt::format("{} is {}, not positive", entry.path, value), "give a positive number");
+    if (!range.contains(value))
+        fail(entry, fmt::format("{} is {}, which is out of range", entry.path, value),
+             std::isfinite(range.most) ? fmt::format("give a number {}{} to {}",
+                                                     range.includes_least ? "from " : "above ", range.least, range.most)
+                                       : fmt::format("give {} or more", range.least));
     return value;
+}
+
+double StudyReader::positive(const Model& model, const TomlEntry& entry) const {
+    return number(model, entry, positive_number);
+}
+
+std::string StudyReader::number_text(const Model& model, const TomlEntry& entry) const {
+    const double value = number(model, entry); // says what is wrong with it
+    return entry.node->is_string() ? toml_.string(entry) : fmt::format("{:.17g}", value);
 }
 
 std::size_t StudyReader::count(const TomlEntry& entry, std::size_t least, std::size_t most) const {
@@ -150,8 +164,7 @@ double step_of(const StudyReader& reader, const Model& model, const TomlEntry& e
     return step;
 }
 
-void read_variation_table(const StudyReader& reader, const Model& model, const TomlEntry& entry, Variation& variation,
-                          bool& random) {
+void read_variation_table(const StudyReader& reader, const Model& model, const TomlEntry& entry, Variation& variation) {
     std::optional<double> from, to, step;
     std::size_t points = 0;
     double offset = 0;
@@ -180,7 +193,6 @@ void read_variation_table(const StudyReader& reader, const Model& model, const T
     if (draws) {
         if (from || to || step || points)
             reader.fail(entry, fmt::format("{} is both random and in steps", entry.path), "choose one of them");
-        random = true;
         variation.low = draws->first;
         variation.high = draws->second;
         variation.offset = offset;
@@ -199,7 +211,7 @@ void read_variation_table(const StudyReader& reader, const Model& model, const T
 
 } // namespace
 
-Variation read_variation(const StudyReader& reader, const Model& model, const TomlEntry& entry, bool& random) {
+Variation read_variation(const StudyReader& reader, const Model& model, const TomlEntry& entry) {
     Variation variation;
     variation.name = entry.name;
     if (const auto parameter = model.find_independent_parameter(entry.name)) {
@@ -226,7 +238,7 @@ Variation read_variation(const StudyReader& reader, const Model& model, const To
             std::adjacent_find(variation.values.begin(), variation.values.end()) != variation.values.end())
             reader.fail(entry, fmt::format("{} is empty or has a value twice", entry.path), "list distinct values");
     } else if (entry.node->is_table()) {
-        read_variation_table(reader, model, entry, variation, random);
+        read_variation_table(reader, model, entry, variation);
     } else {
         variation.values.push_back(reader.number(model, entry));
     }

@@ -3,9 +3,10 @@
 #include "graze/base/input_errors.hpp"
 #include "graze/model/named_value.hpp"
 #include "graze/results/name_advice.hpp"
-#include "graze/study/study.hpp"
+#include "graze/study/study_keys.hpp"
 #include "model/catalogue_data.hpp"
 #include "model/model_file_toml.hpp"
+#include "study/run_key.hpp"
 
 #include <map>
 #include <optional>
@@ -25,7 +26,10 @@ public:
 
     /// A number, or an expression in the model's parameters.
     double number(const Model& model, const TomlEntry& entry) const;
+    double number(const Model& model, const TomlEntry& entry, const NumberRange& range) const;
     double positive(const Model& model, const TomlEntry& entry) const;
+    /// What `number` reads, as a text to be evaluated when parameters are known that it depends on.
+    std::string number_text(const Model& model, const TomlEntry& entry) const;
     std::size_t count(const TomlEntry& entry, std::size_t least = 0, std::size_t most = 1'000'000'000) const;
     /// Two numbers in order.
     std::pair<double, double> range(const Model& model, const TomlEntry& entry) const;
@@ -99,27 +103,31 @@ void require_run(const std::string& name, const std::vector<std::string>& names,
 /// @throws InputError for a run that starts from one that is not there, or from itself
 std::vector<StudyRun> in_order(std::vector<StudyRun> runs);
 /// The values of one entry of `vary`.
-Variation read_variation(const StudyReader& reader, const Model& model, const TomlEntry& entry, bool& random);
+Variation read_variation(const StudyReader& reader, const Model& model, const TomlEntry& entry);
 
 /// What only runs of kind record say. The run's model is that of a virtual bench, and becomes that of the record.
 void read_record(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const RunKeys& keys);
 /// What the user left to us, once values have been read.
 void complete_record(const StudyReader& reader, StudyRun& run, const RunKeys& keys);
-/// What only runs of kind identify say.
-void read_identify(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const RunKeys& keys);
+/// What a run of kind identify finds. @throws InputError for keys that have no effect on it
+void read_estimate(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const RunKeys& keys);
+/// Once its keys have been read. @throws InputError where it lacks one
+void complete_identify(const StudyReader& reader, StudyRun& run, const TomlEntry& entry);
 /// @throws InputError when the runs that another one needs do not give what it needs
 void check_needs(const StudyRun& run, const Study& study);
-/// In the order of RunKind.
-const std::vector<std::string>& kinds_of_runs();
 
-/// What only runs of kind orbit and continue say.
-void read_branch(const StudyReader& reader, StudyRun& run, const RunKeys& keys);
+/// The period, and how far each state goes.
+std::vector<Monitor> usual_monitors(const Model& model);
+/// Settings that follow from others, once the keys of a run of orbits have been read.
+void complete_branch(StudyRun& run, const RunKeys& keys);
 /// @throws InputError when they do not go together
 void check_branch(const StudyReader& reader, const StudyRun& run, const TomlEntry& entry, const RunKeys& keys);
 /// Remembers which parameters a run itself sets.
 void note_set(const StudyReader& reader, StudyRun& run, const TomlEntry& entry);
+/// What holds where nothing is said, and is not the same for all kinds.
+void set_standards(StudyRun& run);
 /// Keys that runs of any kind have.
-std::vector<std::string> run_keys();
+std::vector<std::string> names_of_keys();
 /// @throws InputError for a key that runs of this kind do not use, or that another one makes useless
 void check_keys_of_kind(const StudyReader& reader, RunKind kind, const RunKeys& keys);
 

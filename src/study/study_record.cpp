@@ -2,8 +2,8 @@
 #include "graze/model/model_file.hpp"
 #include "graze/symbolic/parser.hpp"
 #include "study/record_inputs.hpp"
+#include "study/run_forms.hpp"
 #include "study/study_bench.hpp"
-#include "study/study_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -53,7 +53,9 @@ void read_all_files(const StudyReader& reader, const TomlEntry& entry, RecordReq
         reader.fail(entry, fmt::format("{} names no record", entry.path), "give up = [...] or down = [...]");
 }
 
-void read_scales(const StudyReader& reader, const TomlEntry& entry, RecordProcessing& processing) {
+} // namespace
+
+void read_scales(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     reader.each_of(entry, {}, [&](const TomlEntry& channel) {
         RecordProcessing::Scale scale;
         scale.channel = channel.name;
@@ -66,13 +68,13 @@ void read_scales(const StudyReader& reader, const TomlEntry& entry, RecordProces
             });
         else
             scale.factor = reader.number(no_model(), channel);
-        processing.scales.push_back(scale);
+        run.record.processing.scales.push_back(scale);
     });
 }
 
-/// Where an instrument's text has names and units, and how much comes before.
-void read_lines(const StudyReader& reader, const TomlEntry& entry, RecordLayout& layout) {
+void read_lines(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     constexpr std::size_t most = 1'000'000;
+    RecordLayout& layout = run.record.processing.layout;
     reader.each_of(entry, {"skip", "names", "units"}, [&](const TomlEntry& item) {
         if (item.name == "skip")
             layout.skip = reader.count(item, 0, most);
@@ -81,36 +83,34 @@ void read_lines(const StudyReader& reader, const TomlEntry& entry, RecordLayout&
     });
 }
 
-void read_processing(const StudyReader& reader, RecordProcessing& processing, const RunKeys& keys) {
-    Mistakes mistakes;
-    const auto with = [&](const char* key, auto use) { with_key(mistakes, keys, key, use); };
-    with("columns", [&](const TomlEntry& e) { processing.layout.columns = reader.toml().line(e); });
-    with("group", [&](const TomlEntry& e) { processing.layout.group = reader.toml().line(e); });
-    with("lines", [&](const TomlEntry& e) { read_lines(reader, e, processing.layout); });
-    with("scale", [&](const TomlEntry& e) { read_scales(reader, e, processing); });
-    with("part", [&](const TomlEntry& e) { std::tie(processing.begin, processing.end) = reader.range(no_model(), e); });
-    with("every", [&](const TomlEntry& e) { processing.every = reader.count(e, 1, 1'000'000); });
-    with("filter", [&](const TomlEntry& e) {
-        reader.each_of(e, {"pass", "stop"}, [&](const TomlEntry& item) {
-            (item.name == "pass" ? processing.pass : processing.stop) = reader.positive(no_model(), item);
-        });
-        if (processing.pass == 0)
-            reader.fail(e, fmt::format("{} does not say what passes", e.path), "give pass = FREQUENCY");
-    });
-    with("derivative", [&](const TomlEntry& e) {
-        if (e.node->is_string()) {
-            processing.derivative = reader.toml().line(e);
-            return;
-        }
-        reader.each_of(e, {"channel", "half_width"}, [&](const TomlEntry& item) {
-            if (item.name == "channel")
-                processing.derivative = reader.toml().line(item);
-            else
-                processing.half_width = reader.count(item, 4, 100'000);
-        });
-    });
-    mistakes.throw_noted();
+void read_part(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
+    std::tie(run.record.processing.begin, run.record.processing.end) = reader.range(no_model(), entry);
 }
+
+void read_filter(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
+    RecordProcessing& processing = run.record.processing;
+    reader.each_of(entry, {"pass", "stop"}, [&](const TomlEntry& item) {
+        (item.name == "pass" ? processing.pass : processing.stop) = reader.positive(no_model(), item);
+    });
+    if (processing.pass == 0)
+        reader.fail(entry, fmt::format("{} does not say what passes", entry.path), "give pass = FREQUENCY");
+}
+
+void read_derivative(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
+    RecordProcessing& processing = run.record.processing;
+    if (entry.node->is_string()) {
+        processing.derivative = reader.toml().line(entry);
+        return;
+    }
+    reader.each_of(entry, {"channel", "half_width"}, [&](const TomlEntry& item) {
+        if (item.name == "channel")
+            processing.derivative = reader.toml().line(item);
+        else
+            processing.half_width = reader.count(item, 4, 100'000);
+    });
+}
+
+namespace {
 
 RecordSampling read_record_sampling(const StudyReader& reader, const TomlEntry& entry) {
     using Kind = RecordSampling::Kind;
@@ -301,8 +301,6 @@ void read_record(const StudyReader& reader, StudyRun& run, const TomlEntry& entr
             read_bench(reader, run, keys.at("bench"));
             set_levels(reader, run, keys.at("bench"));
         });
-    mistakes.attempt([&] { read_processing(reader, request.processing, keys); });
-    with_key(mistakes, keys, "keep", [&](const TomlEntry& keep) { request.keep = reader.count(keep, 0, 10'000'000); });
     mistakes.throw_noted();
     const RecordHeader header = header_of(reader, run, keys);
     read_channels(reader, header, request, keys);
@@ -312,7 +310,6 @@ void read_record(const StudyReader& reader, StudyRun& run, const TomlEntry& entr
                           words_of_channel(request, one.channel)});
     with_key(mistakes, keys, "reference", [&](const TomlEntry& at) { read_reference(reader, request, at); });
     with_key(mistakes, keys, "coordinate", [&](const TomlEntry& name) {
-        request.coordinate = reader.toml().line(name);
         if (!is_valid_name(request.coordinate) || request.reference.empty())
             reader.fail(name,
                         fmt::format("'{}' cannot be what the amplitude of the reference is called", request.coordinate),

@@ -1,6 +1,7 @@
 #include "graze/base/file_name.hpp"
 #include "graze/model/catalogue.hpp"
-#include "study/point_limits.hpp"
+#include "study/key_reader.hpp"
+#include "study/run_description.hpp"
 #include "study/start_state.hpp"
 #include "study/study_reader.hpp"
 #include "study/study_sampling.hpp"
@@ -12,6 +13,14 @@
 #include <functional>
 
 namespace graze {
+
+void set_standards(StudyRun& run) {
+    // Where a branch or a curve lies is what one asks; a sweep is a motion, which can go one way only.
+    if (run.kind == RunKind::follow || run.kind == RunKind::curve)
+        run.direction = SweepDirection::both;
+    if (run.is_branch())
+        run.branch.settings.monitors = usual_monitors(run.model);
+}
 
 namespace {
 
@@ -56,113 +65,14 @@ void set_values(const StudyReader& reader, Model& model, const TomlEntry& entry,
     });
 }
 
-void read_bounds(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
-    reader.each_of(entry, {}, [&](const TomlEntry& item) {
-        const auto state = run.model.find_state(item.name);
-        if (!state)
-            throw InputError(item.place, fmt::format("the model has no state '{}'", item.name),
-                             "give bounds of states: { q = [-1, 1] }");
-        const auto [least, greatest] = reader.range(run.model, item);
-        run.attractor.bounds.push_back({*state, least, greatest});
-    });
-    run.transient.bounds = run.attractor.bounds;
-}
-
-/// Which branch through a point, or which curve.
-std::vector<std::string> ways_on() {
-    std::vector<std::string> names{"same", "other", "twin"};
-    for (const PointKind& kind : point_kinds())
-        if (kind.may_be_kept)
-            names.emplace_back(kind.short_name);
-    return names;
-}
-
-void read_start(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
-    StartFrom start;
-    start.place = entry.place;
-    reader.each_of(entry, {"run", "at", "direction", "point", "onto"}, [&](const TomlEntry& item) {
-        if (item.name == "run") {
-            start.run = reader.toml().string(item);
-        } else if (item.name == "direction") {
-            reader.choice(item, {"up", "down"});
-            start.direction = reader.toml().string(item);
-        } else if (item.name == "point") {
-            start.point = item.node->is_integer() ? std::to_string(reader.count(item)) : reader.toml().string(item);
-        } else if (item.name == "onto") {
-            reader.choice(item, ways_on());
-            start.onto = reader.toml().string(item);
-        } else {
-            const auto at = reader.toml().entries(reader.toml().table(item), item.path);
-            if (at.size() != 1)
-                reader.fail(item, fmt::format("{} names {} coordinates", item.path, at.size()), "name one");
-            start.coordinate = at.front().name;
-            start.value = reader.number(run.model, at.front());
-        }
-    });
-    if (start.run.empty())
-        reader.fail(entry, fmt::format("{} names no run", entry.path), "write { run = \"NAME\", at = { V = 1 } }");
-    run.start = start;
-}
-
-void read_vary(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, bool& random) {
-    double points = static_cast<double>(std::max<std::size_t>(run.draws, 1));
-    reader.each_of(entry, {}, [&](const TomlEntry& item) {
-        run.axes.push_back(read_variation(reader, run.model, item, random));
-        points *= static_cast<double>(std::max<std::size_t>(run.axes.back().values.size(), 1));
-        if (points > most_points) // before the next axis takes room
-            reader.fail(entry, "there would be more than a thousand million points", "take larger steps");
-    });
-    const bool swept = run.kind == RunKind::sweep && !run.axes.empty();
-    if (points / static_cast<double>(swept ? std::max<std::size_t>(run.axes.front().values.size(), 1) : 1) >
-        most_chains)
+/// More points than can be kept in memory, or computed in a lifetime.
+void check_points(const StudyReader& reader, const StudyRun& run, const TomlEntry& vary) {
+    if (!(run.points() <= most_points))
+        reader.fail(vary, "there would be more than a thousand million points", "take larger steps");
+    if (!(run.chains() <= most_chains))
         reader.fail(
-            entry,
-            fmt::format("there would be more than {} million points that begin by themselves", most_chains / 1e6),
+            vary, fmt::format("there would be more than {} million points that begin by themselves", most_chains / 1e6),
             "make several studies, or sweep along the axis with the most values");
-}
-
-void read_skip(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
-    reader.each_of(entry, {"time", "periods"}, [&](const TomlEntry& item) {
-        if (item.name == "time")
-            run.transient.skip_time = reader.positive(run.model, item);
-        else
-            run.transient.skip_periods = reader.count(item);
-    });
-}
-
-/// Keys whose order does not matter once the model is known.
-void read_settings(const StudyReader& reader, StudyRun& run, const RunKeys& keys) {
-    const Model& model = run.model;
-    Mistakes mistakes;
-    const auto with = [&](const char* key, auto use) { with_key(mistakes, keys, key, use); };
-    AttractorOptions& attractor = run.attractor;
-    TransientOptions& transient = run.transient;
-    with("direction", [&](const TomlEntry& e) {
-        run.direction = static_cast<SweepDirection>(reader.choice(e, {"up", "down", "both"}));
-    });
-    with("carry", [&](const TomlEntry& e) { run.carry = reader.toml().boolean(e); });
-    with("cycles", [&](const TomlEntry& e) { attractor.cycles = reader.count(e, 1, most_cycles); });
-    with("keep", [&](const TomlEntry& e) { attractor.keep = reader.count(e, 1, most_kept_returns); });
-    with("largest_period",
-         [&](const TomlEntry& e) { attractor.largest_period = reader.count(e, 1, most_returns_of_orbit); });
-    with("recurrence", [&](const TomlEntry& e) { attractor.recurrence = reader.positive(model, e); });
-    with("disturbance", [&](const TomlEntry& e) { attractor.disturbance = reader.number(model, e); });
-    with("lyapunov_cycles", [&](const TomlEntry& e) { attractor.lyapunov_cycles = reader.count(e, 0, most_cycles); });
-    with("chaos_cycles", [&](const TomlEntry& e) { attractor.chaos_cycles = reader.count(e, 0, most_cycles); });
-    with("longest_return", [&](const TomlEntry& e) { attractor.longest_return = reader.positive(model, e); });
-    with("bounds", [&](const TomlEntry& e) { read_bounds(reader, run, e); });
-    with("time", [&](const TomlEntry& e) { transient.time = reader.positive(model, e); });
-    with("periods", [&](const TomlEntry& e) { transient.periods = reader.count(e, 1); });
-    with("skip", [&](const TomlEntry& e) { read_skip(reader, run, e); });
-    with("contacts", [&](const TomlEntry& e) { transient.contacts = reader.count(e, 1); });
-    with("events", [&](const TomlEntry& e) { transient.counted = events_of(reader, model, e); });
-    with("greatest_speed", [&](const TomlEntry& e) { transient.greatest_speed = reader.positive(model, e); });
-    with("tolerance", [&](const TomlEntry& e) { run.simulation.tolerance = reader.positive(model, e); });
-    with("order", [&](const TomlEntry& e) { run.simulation.order = static_cast<int>(reader.count(e)); });
-    with("largest_step", [&](const TomlEntry& e) { run.simulation.largest_step = reader.positive(model, e); });
-    with("draws", [&](const TomlEntry& e) { run.draws = reader.count(e, 1); });
-    with("seed", [&](const TomlEntry& e) { run.seed = reader.count(e); });
-    mistakes.throw_noted();
 }
 
 /// What the user left to us.
@@ -244,16 +154,9 @@ void read_beginning(const StudyReader& reader, StudyRun& run, const StudyDefault
     mistakes.throw_noted();
 }
 
-/// What varies, with draws where it does so at random. @return whether anything does
-bool read_axes(const StudyReader& reader, StudyRun& run, const RunKeys& keys) {
-    bool random = false;
-    if (keys.contains("vary"))
-        read_vary(reader, run, keys.at("vary"), random);
-    return random;
-}
-
-void check_draws(const StudyReader& reader, const StudyRun& run, bool random, const TomlEntry& entry,
-                 const RunKeys& keys) {
+void check_draws(const StudyReader& reader, const StudyRun& run, const TomlEntry& entry, const RunKeys& keys) {
+    const bool random =
+        std::any_of(run.axes.begin(), run.axes.end(), [](const Variation& axis) { return axis.values.empty(); });
     if (random && run.draws == 0)
         reader.fail(keys.at("vary"), fmt::format("{} does not say how many values to draw", entry.path),
                     "give draws = N");
@@ -266,7 +169,7 @@ void check_draws(const StudyReader& reader, const StudyRun& run, bool random, co
 
 /// The keys that a run has, and what it is.
 void read_keys(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, RunKeys& keys) {
-    const std::vector<std::string> known = run_keys();
+    const std::vector<std::string> known = names_of_keys();
     Mistakes mistakes;
     mistakes.attempt([&] { require_file_name(run.name, "name of a run", entry.place); });
     mistakes.attempt([&] {
@@ -289,14 +192,6 @@ void read_keys(const StudyReader& reader, StudyRun& run, const TomlEntry& entry,
     mistakes.throw_noted();
 }
 
-/// What comes from other runs.
-void read_parameters(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
-    run.parameters = reader.strings(entry);
-    run.parameters_place = entry.place;
-    if (run.parameters.empty())
-        reader.fail(entry, fmt::format("{} names no run", entry.path), "name a run of kind \"identify\"");
-}
-
 /// Whether a run's records are those of a virtual bench.
 bool has_bench(const RunKeys& keys) {
     return keys.contains("bench") && !keys.contains("files");
@@ -309,27 +204,17 @@ void read_measured(const StudyReader& reader, StudyRun& run, const TomlEntry& en
     const bool identifies = run.kind == RunKind::identify;
     if (identifies || has_bench(keys))
         mistakes.attempt([&] { read_beginning(reader, run, defaults, keys); });
-    if (identifies)
-        mistakes.attempt([&] { read_settings(reader, run, keys); });
-    if (has_bench(keys)) {
-        with_key(mistakes, keys, "direction", [&](const TomlEntry& e) {
-            run.direction = static_cast<SweepDirection>(reader.choice(e, {"up", "down", "both"}));
-        });
-        with_key(mistakes, keys, "carry", [&](const TomlEntry& e) { run.carry = reader.toml().boolean(e); });
-        with_key(mistakes, keys, "seed", [&](const TomlEntry& e) { run.seed = reader.count(e); });
-        mistakes.attempt([&] { read_axes(reader, run, keys); });
-    }
-    mistakes.throw_noted();
-    if (run.kind == RunKind::record) {
-        read_record(reader, run, entry, keys);
-        with_key(mistakes, keys, "values", [&](const TomlEntry& values) { read_values(reader, run, values); });
+    if (identifies && !mistakes.attempt([&] { read_estimate(reader, run, entry, keys); }))
         mistakes.throw_noted();
-        complete_record(reader, run, keys);
-        return;
-    }
-    with_key(mistakes, keys, "parameters", [&](const TomlEntry& from) { read_parameters(reader, run, from); });
-    mistakes.attempt([&] { read_identify(reader, run, entry, keys); });
+    const KeyReader fields(reader, run, keys, mistakes);
+    describe(fields, run);
     mistakes.throw_noted();
+    if (identifies)
+        return complete_identify(reader, run, entry);
+    read_record(reader, run, entry, keys);
+    with_key(mistakes, keys, "values", [&](const TomlEntry& values) { read_values(reader, run, values); });
+    mistakes.throw_noted();
+    complete_record(reader, run, keys);
 }
 
 /// All that needs the model.
@@ -337,28 +222,19 @@ void read_contents(const StudyReader& reader, StudyRun& run, const TomlEntry& en
                    const RunKeys& keys) {
     Mistakes mistakes;
     mistakes.attempt([&] { read_beginning(reader, run, defaults, keys); });
-    with_key(mistakes, keys, "section", [&](const TomlEntry& section) {
-        run.attractor.section = run.model.sections[section_index(reader, run.model, section)].name;
-    });
-    // Where a branch or a curve lies is what one asks; a sweep is a motion, which can go one way only.
-    if (run.kind == RunKind::follow || run.kind == RunKind::curve)
-        run.direction = SweepDirection::both;
-    const bool settings = mistakes.attempt([&] { read_settings(reader, run, keys); });
-    bool random = false;
-    if (mistakes.attempt([&] { random = read_axes(reader, run, keys); }) && settings)
-        mistakes.attempt([&] { check_draws(reader, run, random, entry, keys); });
-    if (run.kind == RunKind::simulate || run.kind == RunKind::sweep || run.kind == RunKind::basin)
+    set_standards(run);
+    const KeyReader fields(reader, run, keys, mistakes);
+    describe(fields, run);
+    if (run.has_points())
         with_key(mistakes, keys, "from", [&](const TomlEntry& from) { read_following_states(reader, run, from); });
-    with_key(mistakes, keys, "start", [&](const TomlEntry& start) { read_start(reader, run, start); });
-    with_key(mistakes, keys, "parameters", [&](const TomlEntry& from) { read_parameters(reader, run, from); });
-    with_key(mistakes, keys, "sample", [&](const TomlEntry& sample) { read_samplings(reader, run, sample); });
-    if (keys.contains("values"))
-        mistakes.attempt([&] { read_values(reader, run, keys.at("values")); });
-    else if (defaults.values)
+    if (!keys.contains("values") && defaults.values)
         mistakes.attempt([&] { read_values(reader, run, *defaults.values); });
-    if (run.is_branch())
-        mistakes.attempt([&] { read_branch(reader, run, keys); });
     mistakes.throw_noted();
+    check_draws(reader, run, entry, keys);
+    if (keys.contains("vary"))
+        check_points(reader, run, keys.at("vary"));
+    if (run.is_branch())
+        complete_branch(run, keys);
 }
 
 } // namespace

@@ -28,19 +28,19 @@ void AttractorOptions::validate(const Model& model) const {
     if (section.empty())
         refuse("no section says what a return is", "name one that the model declares under [sections]");
     section_probe(model, section);
-    if (cycles < 1 || cycles > 100'000'000)
+    if (cycles < 1 || cycles > most_cycles)
         refuse(fmt::format("{} cycles are out of range", cycles), "give 1 to 100 million");
-    if (lyapunov_cycles > 100'000'000)
+    if (lyapunov_cycles > most_cycles)
         refuse(fmt::format("{} cycles of an exponent are out of range", lyapunov_cycles), "give up to 100 million");
-    if (chaos_cycles > 100'000'000)
+    if (chaos_cycles > most_cycles)
         refuse(fmt::format("{} cycles of chaos are out of range", chaos_cycles), "give up to 100 million");
-    if (keep < 1 || keep > 1'000'000)
+    if (keep < 1 || keep > most_kept)
         refuse(fmt::format("{} kept returns are out of range", keep), "give 1 to a million");
-    if (largest_period < 1 || largest_period > 1000)
+    if (largest_period < 1 || largest_period > most_returns)
         refuse(fmt::format("a largest period of {} returns is out of range", largest_period), "give 1 to 1000");
-    if (!(recurrence > 0 && recurrence <= 0.1))
+    if (!(recurrence > 0 && recurrence <= most_distance))
         refuse(fmt::format("a recurrence of {} is out of range", recurrence), "give more than 0, up to 0.1");
-    if (!(disturbance >= 0 && disturbance <= 0.1))
+    if (!(disturbance >= 0 && disturbance <= most_distance))
         refuse(fmt::format("a disturbance of {} is out of range", disturbance), "give 0 to 0.1");
     if (!(longest_return >= 0))
         refuse("the longest time of a return is negative", "give a positive time, or 0 for no bound");

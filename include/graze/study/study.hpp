@@ -112,6 +112,12 @@ struct StudyRun {
     std::vector<Expression> values;     ///< in states and parameters
     std::vector<PointName> point_names; ///< of special points of a branch; no part of what is computed
 
+    /// How many points there are, and how many of them begin by themselves: a sweep carries states along its first
+    /// axis.
+    double points() const;
+    double chains() const;
+    /// Whether its points are motions.
+    bool has_points() const { return kind == RunKind::simulate || kind == RunKind::sweep || kind == RunKind::basin; }
     /// Whether its points are records, or what was found from them: nothing is simulated by the study itself.
     bool is_measured() const { return kind == RunKind::record || kind == RunKind::identify; }
     /// Names of the runs that have to be there before, with where that is said.

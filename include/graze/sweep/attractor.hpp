@@ -43,6 +43,11 @@ void validate_bounds(const Model& model, std::span<const StateBounds> bounds);
 
 /// How attractors are looked for. Returns are passages of `section`.
 struct AttractorOptions {
+    /// Limits of `cycles`, `lyapunov_cycles` and `chaos_cycles`; of `keep`, whose returns are in memory; of
+    /// `largest_period`; of `recurrence` and `disturbance`.
+    static constexpr std::size_t most_cycles = 100'000'000, most_kept = 1'000'000, most_returns = 1000;
+    static constexpr double most_distance = 0.1;
+
     std::string section;            ///< of the model
     std::size_t cycles = 150;       ///< returns after which the search gives up
     std::size_t keep = 100;         ///< last returns that are sampled when the motion is not periodic

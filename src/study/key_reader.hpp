@@ -1,0 +1,79 @@
+#pragma once
+
+#include "study/run_key.hpp"
+#include "study/study_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace graze {
+
+/// Reads the keys of a run from a study, those that it has: others keep their values. A mistake is noted, and leaves
+/// the others to be read.
+class KeyReader : public KeysAlone {
+public:
+    KeyReader(const StudyReader& reader, StudyRun& run, const RunKeys& keys, Mistakes& mistakes)
+        : reader_(reader), run_(run), keys_(keys), mistakes_(mistakes) {}
+
+    template <class Count>
+    void count(const Key& key, Count& value, CountRange range = {}) const {
+        read(key, [&](const TomlEntry& e) { value = static_cast<Count>(reader_.count(e, range.least, range.most)); });
+    }
+    void number(const Key& key, double& value, const NumberRange& range) const {
+        read(key, [&](const TomlEntry& e) { value = reader_.number(run_.model, e, range); });
+    }
+    void truth(const Key& key, bool& value) const {
+        read(key, [&](const TomlEntry& e) { value = reader_.toml().boolean(e); });
+    }
+    /// The opposite of what is stored.
+    void denied(const Key& key, const char*, bool& value) const {
+        read(key, [&](const TomlEntry& e) { value = !reader_.toml().boolean(e); });
+    }
+    template <class Choice>
+    void choice(const Key& key, Choice& value, const std::vector<std::string>& words) const {
+        read(key, [&](const TomlEntry& e) { value = static_cast<Choice>(reader_.choice(e, words)); });
+    }
+    void line(const Key& key, std::string& value) const {
+        read(key, [&](const TomlEntry& e) { value = reader_.toml().line(e); });
+    }
+    void lines(const Key& key, std::vector<std::string>& value) const {
+        read(key, [&](const TomlEntry& e) { value = reader_.strings(e); });
+    }
+    /// A number, or an expression in parameters as they will be when other runs have found them.
+    void later_number(const Key& key, std::string& value) const {
+        read(key, [&](const TomlEntry& e) { value = reader_.number_text(run_.model, e); });
+    }
+    void form(const Key& key, const char*, FormReader read_form) const {
+        read(key, [&](const TomlEntry& e) {
+            if (read_form)
+                read_form(reader_, run_, e);
+        });
+    }
+
+    /// Keys that are stored together stand in the run one by one.
+    template <class Describe>
+    void object(std::string_view, Describe describe) const {
+        describe(*this);
+    }
+
+private:
+    template <class Work>
+    void read(const Key& key, const Work& work) const {
+        if (key.offered)
+            with_key(mistakes_, keys_, key.name, [&](const TomlEntry& entry) {
+                if (!key.idle.empty())
+                    reader_.fail(entry, fmt::format("`{}` {}", key.name, key.idle), "leave it out");
+                work(entry);
+            });
+    }
+
+    const StudyReader& reader_;
+    StudyRun& run_;
+    const RunKeys& keys_;
+    Mistakes& mistakes_;
+};
+
+} // namespace graze

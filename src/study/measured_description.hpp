@@ -1,0 +1,282 @@
+#pragma once
+
+#include "graze/model/model_file.hpp"
+#include "graze/study/study.hpp"
+#include "study/run_forms.hpp"
+#include "study/settings_fields.hpp"
+
+#include <algorithm>
+#include <initializer_list>
+
+namespace graze {
+
+// The keys of runs of records, and of what is found from them, as run_description.hpp has those of others.
+
+template <class Fields, class One>
+void describe_record_sampling(Fields& fields, One& sampling) {
+    fields.field("name", sampling.name);
+    fields.number("kind", sampling.kind, static_cast<std::size_t>(RecordSampling::Kind::impacts) + 1);
+    fields.field("phase", sampling.phase);
+    fields.field("negated", sampling.negated);
+    fields.field("channel", sampling.channel);
+    fields.field("displacement", sampling.displacement);
+    fields.field("window", sampling.window);
+    fields.field("transition", sampling.transition);
+    fields.field("least_jump", sampling.least_jump);
+}
+
+template <class Fields, class Processing>
+void describe_processing(Fields& fields, Processing& processing) {
+    fields.line({"columns", "what the columns of a text are called, if it does not say"}, processing.layout.columns);
+    fields.line({"group", "the group of HDF5"}, processing.layout.group);
+    fields.form({"lines",
+                 "of an instrument's text, where what is found by itself is not what is meant: how many lines to "
+                 "pass over, and the lines that have the names and the units, from 1 on"},
+                "{ skip = 3, names = 4, units = 5 }", &read_lines);
+    for (auto [name, number] :
+         {std::pair{"skipped_lines", &processing.layout.skip}, std::pair{"names_line", &processing.layout.names_line},
+          std::pair{"units_line", &processing.layout.units_line}})
+        if (fields.has(name, *number > 0))
+            fields.field(name, *number);
+    fields.form({"scale", "factors, offsets and units of channels"}, "{ q = 2.011, I = { factor, offset, unit } }",
+                &read_scales);
+    fields.list("scales", processing.scales, [](auto& one, auto& scale) {
+        one.field("channel", scale.channel);
+        one.field("factor", scale.factor);
+        one.field("offset", scale.offset);
+        one.optional("unit", scale.unit);
+    });
+    fields.form({"part", "of the record, from one time to another"}, "[t0, t1]", &read_part);
+    fields.field("begin", processing.begin);
+    fields.field("end", processing.end);
+    fields.form({"filter", "a low-pass filter: frequencies up to which all passes, and from which nothing does"},
+                "{ pass, stop }", &read_filter);
+    fields.field("pass", processing.pass);
+    fields.field("stop", processing.stop);
+    fields.count({"every", "keep every so many-th sample"}, processing.every, {1, 1'000'000});
+    fields.form({"derivative", "a channel more: the rate of change of this one"}, "\"q\" or { channel, half_width }",
+                &read_derivative);
+    fields.field("derivative", processing.derivative);
+    fields.field("half_width", processing.half_width);
+}
+
+template <class Fields, class Bench>
+void describe_bench(Fields& fields, Bench& bench) {
+    if constexpr (Fields::reading) {
+        std::string text;
+        fields.field("model", text);
+        bench.model = parse_model(text, "model of a bench");
+    } else {
+        fields.field("model", write_model(bench.model));
+    }
+    fields.field("parameter", bench.parameter);
+    fields.field("levels", bench.levels);
+    fields.field("directions", bench.directions);
+    fields.field("repeats", bench.repeats);
+    fields.field("carry", bench.carry);
+    fields.field("settle", bench.settle);
+    fields.field("time", bench.time);
+    fields.field("rate", bench.rate);
+    fields.field("time_unit", bench.time_unit);
+    fields.list("channels", bench.channels, [&](auto& one, auto& channel) {
+        one.field("name", channel.value.name);
+        one.field("unit", channel.value.unit);
+        if constexpr (Fields::reading) {
+            std::string text;
+            one.field("value", text);
+            const std::string name = channel.value.name, unit = channel.value.unit;
+            channel.value = named_value(bench.model, text, Place{"channel of a bench", 0, 0});
+            channel.value.name = name;
+            channel.value.unit = unit;
+        } else {
+            one.field("value", to_string(channel.value.value));
+        }
+        one.field("noise", channel.noise);
+        one.field("offset", channel.offset);
+        one.field("drift", channel.drift);
+        one.field("range", channel.range);
+    });
+    fields.field("bits", bench.bits);
+    fields.field("anti_alias", bench.anti_alias);
+    fields.field("seed", bench.seed);
+}
+
+/// What only the levels of a virtual bench have.
+template <class Fields, class Run>
+void describe_levels(Fields& fields, Run& run) {
+    if constexpr (!Fields::stored) {
+        fields.form({"set", "parameters of the model on a virtual bench"}, "{ V = 1 }", read_apart);
+        fields.form({"from", "its initial states"}, "{ x = 0.1 }", read_apart);
+        fields.form({"mode", "its initial mode"}, "\"NAME\"", read_apart);
+        fields.form({"vary", "the parameter that a virtual bench steps, with its levels"}, "{ V = { from, to, step } }",
+                    &read_vary);
+        fields.choice({"direction", "how it steps them"}, run.direction, {"up", "down", "both"});
+        fields.truth({"carry", "the motion goes on from level to level; `false`: each begins at the initial state"},
+                     run.carry);
+        fields.count({"seed", "of the noise of a virtual bench"}, run.seed, any_seed);
+    }
+}
+
+template <class Fields, class Request>
+void describe_record(Fields& fields, Request& request) {
+    fields.form({"files", "names relative to the study, in its folder or below it; `*` in the last part means all that "
+                          "fit, in the order of their names"},
+                "\"NAME.csv\", [...] or { up = [...], down = [...] }", read_apart);
+    fields.form({"bench", "a virtual bench in place of files: what it measures, how often and how long"},
+                "{ channels, rate, time, settle, repeats, bits, anti_alias, time_unit }", read_apart);
+    fields.list("inputs", request.inputs, [](auto& one, auto& input) {
+        one.field("name", input.name);
+        one.field("bytes", input.bytes);
+        one.field("hash", input.hash);
+        one.field("direction", input.direction);
+    });
+    if constexpr (Fields::stored)
+        if (fields.has("bench", request.bench.has_value())) {
+            if constexpr (Fields::reading)
+                request.bench.emplace();
+            fields.object("bench", [&](auto& one) { describe_bench(one, *request.bench); });
+        }
+    fields.field("directions", request.directions);
+    fields.object("processing", [&](auto& one) { describe_processing(one, request.processing); });
+    fields.form({"channels", "those that are there for values, as they are called or under names that expressions can "
+                             "use (all)"},
+                "[\"V\"] or { v = \"dq/dt\" }", read_apart);
+    fields.list("channels", request.channels, [](auto& one, auto& kept) {
+        one.field("name", kept.name);
+        one.field("channel", kept.channel);
+    });
+    fields.form({"reference", "the channel whose rising crossings begin periods"},
+                "\"V\" or { channel, level, hysteresis }", read_apart);
+    fields.field("reference", request.reference);
+    fields.field("level", request.level);
+    fields.field("hysteresis", request.hysteresis);
+    fields.line({"coordinate", "what the amplitude of the reference, averaged over the record, is called (amplitude): "
+                               "what diagrams are drawn over"},
+                request.coordinate);
+    fields.form({"sample", "named samplings (`record`: all rows; with a reference also `section`, at its crossings)"},
+                "{ NAME = { ... } }", read_apart);
+    fields.list("samplings", request.samplings,
+                [](auto& one, auto& sampling) { describe_record_sampling(one, sampling); });
+    fields.count(
+        {"keep", "rows of a record that are kept. Of a longer one there is what was taken from it, and its hash"},
+        request.keep, {0, 10'000'000});
+}
+
+const std::vector<std::string>& kinds_of_estimates();
+
+/// Keys that have no effect on an estimate are refused by its name.
+template <class Request>
+class KeyOfEstimate {
+public:
+    explicit KeyOfEstimate(const Request& request) : what_(request.what) {}
+    Key operator()(const char* name, const char* meaning, std::initializer_list<IdentifyRequest::What> of) const {
+        const bool used = std::find(of.begin(), of.end(), what_) != of.end();
+        return {name, meaning, true,
+                used ? "" : "has no effect on a " + kinds_of_estimates()[static_cast<std::size_t>(what_)]};
+    }
+
+private:
+    IdentifyRequest::What what_;
+};
+
+template <class Fields, class Request>
+void describe_fit(Fields& fields, Request& request) {
+    const KeyOfEstimate key(request);
+    const auto of_fits = {IdentifyRequest::What::fit};
+    fields.form(key("unknowns", "parameters that are found: names, or with a guess and bounds", of_fits),
+                "[\"c\"] or { c = { guess, bounds } }", &read_unknowns);
+    fields.list("unknowns", request.unknowns, [](auto& one, auto& unknown) {
+        one.field("name", unknown.name);
+        one.field("guess", unknown.guess);
+        one.field("least", unknown.least);
+        one.field("greatest", unknown.greatest);
+    });
+    fields.form(key("readings", "channels, and what they are in terms of the model", of_fits),
+                "[\"q\"] or { q = { value, gain, offset, noise } }", &read_readings);
+    fields.list("readings", request.readings, [](auto& one, auto& reading) {
+        one.field("channel", reading.channel);
+        one.field("value", reading.value);
+        one.field("gain_unknown", reading.gain_unknown);
+        one.field("offset_unknown", reading.offset_unknown);
+        one.field("gain", reading.gain);
+        one.field("offset", reading.offset);
+        one.field("noise", reading.noise);
+    });
+    fields.form(key("known", "states that begin as the model says, or `true`: all (none)", of_fits), "[\"x\"] or true",
+                &read_known);
+    fields.field("known", request.known);
+    fields.field("all_known", request.all_known);
+    fields.choice(key("loss", "how large residuals count", of_fits), request.loss, {"squares", "huber", "cauchy"});
+    fields.number(key("piece", "time of a piece of the motion that is fitted by itself", of_fits), request.piece,
+                  positive_number);
+}
+
+template <class Fields, class Request>
+void describe_identify(Fields& fields, Request& request) {
+    using What = IdentifyRequest::What;
+    const KeyOfEstimate key(request);
+    if constexpr (!Fields::stored)
+        fields.form({"what", "what is found"}, "\"decrement\", \"restitution\", \"coupling\", \"impedance\" or \"fit\"",
+                    read_apart);
+    else
+        fields.number("what", request.what, kinds_of_estimates().size());
+    fields.form({"records", "runs of kind `record`"}, "\"RUN\" or [\"RUN\"]", &read_records);
+    fields.field("records", request.records);
+    fields.form({"gives", "which parameters the numbers that are found are"}, "{ damping_ratio = \"zeta\" }",
+                &read_gives);
+    fields.list("gives", request.gives, [](auto& one, auto& gives) {
+        one.field("name", gives.first);
+        one.field("parameter", gives.second);
+    });
+    fields.line(key("channel", "channel of the velocity", {What::decrement, What::restitution}), request.channel);
+    fields.line(key("displacement", "channel of the displacement", {What::restitution, What::coupling}),
+                request.displacement);
+    fields.line(key("voltage", "channel of the voltage", {What::impedance}), request.voltage);
+    fields.line(key("current", "channel of the current", {What::coupling, What::impedance}), request.current);
+    fields.later_number(key("gap", "of the transducer (needed for a coupling)", {What::coupling, What::impedance}),
+                        request.gap);
+    fields.later_number(key("stiffness", "of the suspension (needed)", {What::coupling}), request.stiffness);
+    fields.later_number(key("beta1",
+                            "coupling that has been found before: with beta2 and the gap it gives the leakage "
+                            "inductance",
+                            {What::impedance}),
+                        request.beta1);
+    fields.later_number(key("beta2", "the second number of that coupling", {What::impedance}), request.beta2);
+    fields.later_number(key("clamped", "displacement at which the mass was held", {What::impedance}), request.clamped);
+    fields.later_number(
+        key("frequency", "about that of the voltage, by unit of time (found by itself)", {What::impedance}),
+        request.frequency);
+    fields.count(key("peaks", "at most, from the first", {What::decrement}), request.peaks, {2, 100'000});
+    fields.count(key("window", "samples on each side of an impact that lines are fitted to", {What::restitution}),
+                 request.window, {5, 100'000});
+    fields.count(key("transition", "samples beside an impact that are left out", {What::restitution}),
+                 request.transition, {0, 100'000});
+    fields.number(key("least_jump", "of the velocity at an impact (by the noise)", {What::restitution}),
+                  request.least_jump, positive_number);
+    fields.form(key("noise", "standard deviations that are known", {What::coupling}), "{ displacement, current }",
+                &read_noise);
+    fields.field("displacement_noise", request.displacement_noise);
+    fields.field("current_noise", request.current_noise);
+    if (fields.has("fit", request.what == What::fit))
+        fields.object("fit", [&](auto& one) { describe_fit(one, request); });
+}
+
+/// All of a run that finds something in records.
+template <class Fields, class Run>
+void describe_found_by(Fields& fields, Run& run) {
+    const KeyOfEstimate key(run.identify);
+    if constexpr (!Fields::stored) {
+        fields.form({"set", "more parameters, for this run"}, "{ V = 1 }", read_apart);
+        fields.form(key("from", "initial states", {IdentifyRequest::What::fit}), "{ x = 0.1 }", read_apart);
+        fields.form(key("mode", "the initial mode", {IdentifyRequest::What::fit}), "\"NAME\"", read_apart);
+    }
+    fields.object("identify", [&](auto& one) { describe_identify(one, run.identify); });
+    fields.form({"parameters", "other runs of kind `identify`: what they have found takes the place of what is set"},
+                "\"RUN\" or [\"RUN\"]", &read_parameters);
+    fields.field("parameters", run.parameters);
+    fields.number(
+        key("tolerance", "of the integration, for each step relative to each state", {IdentifyRequest::What::fit}),
+        run.simulation.tolerance, positive_number);
+}
+
+} // namespace graze

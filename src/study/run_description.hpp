@@ -1,0 +1,395 @@
+#pragma once
+
+#include "graze/base/text_file.hpp"
+#include "study/measured_description.hpp"
+#include "study/point_limits.hpp"
+#include "study/run_forms.hpp"
+#include "study/settings_fields.hpp"
+
+#include <string>
+#include <vector>
+
+namespace graze {
+
+// All that a run is: its keys, and what is stored of them. Each is said here once, to whatever is given as `fields`:
+// KeyReader reads studies, SettingsWriter and SettingsReader store what was asked for and read it again, KeyList lists
+// the keys. Of what writes, runs are constant. What follows in the order of the fields is what is stored, whose texts
+// are compared: new fields are written only where they differ from what holds without them.
+
+std::vector<std::string> short_names_of_points();
+/// The contents of a run's table. Empty when it cannot be read, which is told when the run reads it.
+std::string text_of_table(const BranchRequest& branch);
+
+template <class Fields, class Axis>
+void describe_axis(Fields& fields, Axis& axis) {
+    fields.field("name", axis.name);
+    if (fields.has("values", !axis.values.empty())) {
+        fields.field("values", axis.values);
+        return;
+    }
+    fields.field("low", axis.low);
+    fields.field("high", axis.high);
+    fields.field("logarithmic", axis.logarithmic);
+    fields.field("offset", axis.offset);
+}
+
+template <class Fields, class Bounds>
+void describe_bounds(Fields& fields, Bounds& bounds, const Model& model) {
+    fields.list("bounds", bounds, [names = names_of(model.states)](auto& one, auto& bound) {
+        one.named("state", bound.state, names);
+        one.field("least", bound.least);
+        one.field("greatest", bound.greatest);
+    });
+}
+
+template <class Fields, class One>
+void describe_sampling(Fields& fields, One& sampling, const Model& model) {
+    fields.field("name", sampling.name);
+    if (fields.has("section", sampling.at == Sampling::At::section)) {
+        fields.follows(sampling.at, Sampling::At::section);
+        fields.field("section", sampling.section);
+    }
+    if (fields.has("extrema", sampling.at == Sampling::At::extremum)) {
+        fields.follows(sampling.at, Sampling::At::extremum);
+        fields.expression("extrema", sampling.expression);
+        fields.number("direction", sampling.direction, 3);
+    }
+    if (fields.has("events", sampling.at == Sampling::At::contact)) {
+        fields.follows(sampling.at, Sampling::At::contact);
+        fields.field("events", sampling.events);
+    }
+    if (fields.has("image", sampling.symmetry.has_value())) {
+        fields.follows(sampling.symmetry, std::optional<std::size_t>(0));
+        fields.named("image", *sampling.symmetry, names_of(model.symmetries));
+    }
+}
+
+template <class Fields, class One>
+void describe_monitor(Fields& fields, One& monitor) {
+    fields.field("name", monitor.name);
+    fields.number("kind", monitor.kind, static_cast<std::size_t>(Monitor::Kind::multiplier) + 1);
+    fields.field("segment", monitor.segment);
+    if (monitor.kind == Monitor::Kind::multiplier)
+        fields.field("place", monitor.place);
+    else if (monitor.kind != Monitor::Kind::duration)
+        fields.expression("expression", monitor.expression);
+    fields.field("fixed", monitor.fixed);
+    fields.field("crossings", monitor.crossings);
+    fields.optional("held", monitor.held);
+    fields.optional("least", monitor.least);
+    fields.optional("greatest", monitor.greatest);
+}
+
+/// Along which parameters, and how far.
+template <class Fields, class Run>
+void describe_way(Fields& fields, Run& run, const std::vector<std::string>& parameters) {
+    auto& branch = run.branch.settings;
+    const bool plane = run.kind == RunKind::curve, ladder = run.kind == RunKind::ladder;
+    fields.form(
+        {"along", plane ? "both parameters, with their bounds" : "the parameter that is followed, and its bounds"},
+        plane    ? "{ omega = [0, 3], V = [0, 1] }"
+        : ladder ? "{ V = [0, 1] }"
+                 : "{ V = [0, 1] } or \"V\"",
+        &read_along);
+    fields.named("along", branch.parameter, parameters);
+    fields.count({"steps", "steps at most, each way"}, branch.steps, {1, most_branch_steps});
+    if (fields.has("work", branch.work != BranchSettings().work))
+        fields.field("work", branch.work);
+    fields.form({"free",
+                 plane
+                     ? "further parameters, one for each monitor that is fixed, and one for a point VS. Where monitors "
+                       "are fixed and none is freed besides, they are held instead of what the point is"
+                     : "further parameters that vary, one for each monitor that is fixed; the branch ends where one "
+                       "leaves its range. A list of names: without ranges",
+                 !ladder},
+                "{ omega = [0.1, 10] } or [\"omega\"]", &read_free);
+    fields.named("free", branch.free, parameters);
+    if (fields.has("free_bounds", !branch.free_bounds.empty()))
+        fields.list("free_bounds", branch.free_bounds, [&parameters](auto& one, auto& bounds) {
+            one.named("parameter", bounds.parameter, parameters);
+            one.optional("least", bounds.least);
+            one.optional("greatest", bounds.greatest);
+        });
+    fields.form({"stop", "types of points at which the branch ends", !ladder}, "[\"GR\", \"SN\"]", &read_stop);
+    fields.words("stop", branch.stop_at, short_names_of_points());
+}
+
+template <class Fields, class Run>
+void describe_continuation(Fields& fields, Run& run) {
+    auto& branch = run.branch.settings;
+    describe_way(fields, run, run.model.independent_parameters());
+    fields.denied(
+        {"unphysical", "go on where the model itself would not follow (drawn faint)", run.kind != RunKind::ladder},
+        "stop_when_unphysical", branch.stop_when_unphysical);
+    fields.field("reorder", branch.reorder);
+    fields.optional("least", branch.least);
+    fields.optional("greatest", branch.greatest);
+    fields.form({"step",
+                 "of the continuation: first, smallest and largest step, in units of the orbit's size (0.01, "
+                 "1e-8, 0.05), and the largest angle in radians (0.35). Where the branch is straight, steps are "
+                 "up to ten times as long as `largest`, if states are larger than what they vary by"},
+                "{ first, smallest, largest, angle }", &read_step);
+    auto& step = branch.continuation;
+    fields.field("first_step", step.first_step);
+    fields.field("smallest_step", step.smallest_step);
+    fields.field("largest_step", step.largest_step);
+    fields.field("step_accuracy", step.accuracy);
+    fields.field("largest_angle", step.largest_angle);
+    fields.field("step_iterations", step.iterations);
+    if (run.kind == RunKind::ladder)
+        fields.count({"rungs", "grazings at most, the first one included"}, run.branch.rungs, {2, most_rungs});
+    if (fields.has("grazing", run.branch.touches))
+        fields.truth({"grazing",
+                      "tell of orbits that touch what becomes of them, as `graze grazing` does: of grazings, "
+                      "and of all points of curves of touches"},
+                     run.branch.touches);
+    fields.form({"point_names",
+                 "what special points are called besides their labels, in pictures, tables and wherever a "
+                 "point is asked for. Another name is no reason to compute anything again"},
+                "{ GR1 = \"G-1\" }", &read_point_names);
+}
+
+template <class Fields, class Run>
+void describe_branch(Fields& fields, Run& run) {
+    auto& branch = run.branch.settings;
+    const bool begins = run.kind == RunKind::orbit || run.kind == RunKind::follow;
+    fields.form({"signature",
+                 "segments of the orbit: labels of transitions or names of sections. The motion from the "
+                 "initial state is followed until a piece of it with these segments leads to an orbit",
+                 begins},
+                "\"J1 J8\"", &read_signature);
+    fields.field("signature", run.branch.signature);
+    fields.form({"table",
+                 "file with a motion that the orbit is like: a CSV file with columns `segment`, `t` and the "
+                 "states, of which the first and the last row of each segment count",
+                 begins},
+                "\"FILE.csv\"", &read_orbit_table);
+    if constexpr (Fields::reading)
+        fields.field("table", run.branch.table_text);
+    else
+        fields.field("table", text_of_table(run.branch));
+    fields.form({"monitors", "numbers of each orbit, by name (the period and the maxima of the states)"},
+                "{ NAME = { ... } }", &read_monitors);
+    fields.list("monitors", branch.monitors, [](auto& one, auto& monitor) { describe_monitor(one, monitor); });
+    fields.number({"accuracy", "of Newton's last correction, of orbits and along branches, relative to each unknown"},
+                  branch.orbit.accuracy, positive_number);
+    fields.field("orbit_tolerance", branch.orbit.tolerance);
+    fields.field("orbit_iterations", branch.orbit.iterations);
+    fields.field("error_estimate", branch.orbit.error_estimate);
+    // Of an orbit too: when it does not settle, what is not admissible may do.
+    if (run.is_followed())
+        describe_continuation(fields, run);
+    else
+        fields.denied({"unphysical", "take an orbit of this signature that is not admissible"}, "stop_when_unphysical",
+                      branch.stop_when_unphysical);
+}
+
+template <class Fields, class Transient>
+void describe_transient(Fields& fields, Transient& transient) {
+    fields.form(
+        {"section", "whose passages are returns and periods (the first section of a phase, or the first of all)"},
+        "\"NAME\"", &read_section);
+    fields.field("section", transient.section);
+    fields.form({"skip", "let this pass first, of which nothing is sampled"}, "{ time = T } or { periods = N }",
+                &read_skip);
+    fields.field("skip_time", transient.skip_time);
+    fields.number({"time", "how long, in units of the model's time: time, periods or contacts, whichever end first"},
+                  transient.time, positive_number);
+    fields.field("skip_periods", transient.skip_periods);
+    fields.count({"periods", "how many passages of the section"}, transient.periods, {1});
+    fields.count({"contacts",
+                  "how many contacts. Without a time the motion is given up as `failed` after a million steps "
+                  "in which nothing happens that is counted"},
+                 transient.contacts, {1});
+    fields.form({"events", "whose contacts count (all barriers)"}, "[\"NAME\"] or true", &read_counted);
+    fields.field("counted", transient.counted);
+    fields.number({"greatest_speed", "of approach at a counted contact, after which the motion is ended"},
+                  transient.greatest_speed, positive_number);
+}
+
+template <class Fields, class Attractor>
+void describe_attractor(Fields& fields, Attractor& attractor, RunKind kind) {
+    const bool labels = kind == RunKind::sweep || kind == RunKind::basin;
+    const bool settles = labels || kind == RunKind::orbit || kind == RunKind::follow;
+    fields.form({"section",
+                 "whose passages are returns and periods (the first section of a phase, or the first of all)", settles},
+                "\"NAME\"", &read_section);
+    fields.field("section", attractor.section);
+    fields.count({"cycles", "returns after which the search gives up", settles}, attractor.cycles,
+                 {1, AttractorOptions::most_cycles});
+    fields.count({"keep", "last returns that are sampled where the motion is not periodic", labels}, attractor.keep,
+                 {1, AttractorOptions::most_kept});
+    fields.count({"largest_period", "longest period that is looked for, in returns", settles}, attractor.largest_period,
+                 {1, AttractorOptions::most_returns});
+    fields.number({"recurrence",
+                   "how close to an earlier return, relative to the extent of the states, Newton's method "
+                   "is tried",
+                   settles},
+                  attractor.recurrence, {0, AttractorOptions::most_distance, false});
+    fields.number({"disturbance",
+                   "by which a motion that sits on an unstable orbit or equilibrium, or looks chaotic and "
+                   "lies on a plane, is displaced: relative to the extent of the states or, where nothing "
+                   "moves, to the length over which the field is linear. 0: never; such a motion is "
+                   "`unsettled`, and `detail` says so",
+                   settles},
+                  attractor.disturbance, {0, AttractorOptions::most_distance});
+    fields.count({"lyapunov_cycles",
+                  "the last of `cycles`, over which the Lyapunov exponent is averaged at least: over "
+                  "the second half of `cycles` if that is more, and over all returns that come behind. "
+                  "0: none, and no chaos told apart",
+                  labels},
+                 attractor.lyapunov_cycles, {0, AttractorOptions::most_cycles});
+    fields.count({"chaos_cycles",
+                  "returns for which a motion must remain chaotic, once it looks so, before it is called "
+                  "so; `cycles` if that is more",
+                  labels},
+                 attractor.chaos_cycles, {0, AttractorOptions::most_cycles});
+    fields.number({"longest_return",
+                   "time without a return after which a point is given up, however many steps that "
+                   "takes (without it after 100,000 steps)",
+                   settles},
+                  attractor.longest_return, positive_number);
+}
+
+template <class Fields, class Start>
+void describe_start(Fields& fields, Start& start) {
+    fields.field("run", start.run);
+    fields.optional("coordinate", start.coordinate);
+    fields.field("value", start.value);
+    fields.optional("direction", start.direction);
+    fields.field("point", start.point);
+    fields.field("onto", start.onto);
+}
+
+/// What varies from point to point.
+template <class Fields, class Run>
+void describe_axes(Fields& fields, Run& run) {
+    const bool points = run.has_points();
+    fields.form(
+        {"vary", "what changes from point to point: parameters or initial states. Several lists make a grid", points},
+        "{ V = { from, to, step } }", &read_vary);
+    fields.list("vary", run.axes, [](auto& one, auto& axis) { describe_axis(one, axis); });
+    fields.form({"from",
+                 points ? "initial states (those of the model). They may be expressions in what varies, "
+                          "parameters or other initial states: then they have another value at each point"
+                        : "initial states (those of the model)",
+                 points || run.kind == RunKind::orbit || run.kind == RunKind::follow},
+                "{ x = 0.1 }", read_apart);
+    if (fields.has("following", !run.following.empty()))
+        fields.list("following", run.following, [&](auto& one, auto& following) {
+            one.named("state", following.state, names_of(run.model.states));
+            one.expression("value", following.value);
+        });
+    fields.form({"mode", "the initial mode (that of the model)",
+                 points || run.kind == RunKind::orbit || run.kind == RunKind::follow},
+                "\"NAME\"", read_apart);
+    fields.form({"set", "more parameters, for this run", run.kind != RunKind::ladder}, "{ V = 1 }", read_apart);
+    fields.named("set", run.branch.set, run.model.independent_parameters());
+    if (fields.has("draws", run.draws > 0)) {
+        fields.count({"draws", "how many points are drawn at random for each combination of the other values", points},
+                     run.draws, {1});
+        fields.count({"seed", "from which they are drawn", points}, run.seed, any_seed);
+    }
+    if (run.kind == RunKind::sweep)
+        fields.choice({"direction", "how the first of what varies goes: `both` is up, then down from where that ended"},
+                      run.direction, {"up", "down", "both"});
+    else if (run.is_followed())
+        fields.choice({"direction",
+                       "how the parameter changes at first, for the branch turns at folds. Where a start at "
+                       "a point leads onto another branch that branch has ways of its own, and `direction` "
+                       "says nothing"},
+                      run.direction, {"up", "down", "both"});
+    if (run.kind == RunKind::sweep)
+        fields.truth({"carry", "every point begins where the one before ended; `false`: at the initial state"},
+                     run.carry);
+}
+
+template <class Fields, class Run>
+void describe_integration(Fields& fields, Run& run) {
+    const bool chosen = run.has_points() || run.kind == RunKind::orbit || run.kind == RunKind::follow;
+    auto& simulation = run.simulation;
+    fields.number({"tolerance",
+                   run.is_branch() ? "of the integration, for each step relative to each state (1e-12; of orbits 1e-13)"
+                                   : "of the integration, for each step relative to each state"},
+                  simulation.tolerance, positive_number);
+    fields.count({"order", "of the Taylor polynomials (0: by tolerance)", chosen}, simulation.order);
+    fields.number({"largest_step", "of the integration, in units of the model's time (no bound)", chosen},
+                  simulation.largest_step, positive_number);
+    fields.field("step_limit", simulation.step_limit);
+    fields.field("contacts_at_once", simulation.contacts_at_once);
+    fields.field("touch", simulation.touch);
+}
+
+template <class Fields, class Run>
+void describe_simulated(Fields& fields, Run& run) {
+    const bool points = run.has_points(), begins = points || run.kind == RunKind::orbit || run.kind == RunKind::follow;
+    describe_axes(fields, run);
+    if (run.is_branch())
+        fields.object("branch", [&](auto& one) { describe_branch(one, run); });
+    const bool transient = run.kind == RunKind::simulate;
+    if (transient)
+        describe_transient(fields, run.transient);
+    else
+        describe_attractor(fields, run.attractor, run.kind);
+    fields.form({"bounds", "a motion that leaves them has escaped", begins}, "{ q = [-1, 1] }", &read_bounds);
+    describe_bounds(fields, transient ? run.transient.bounds : run.attractor.bounds, run.model);
+    fields.form({"sample", "where values are taken (at the section)", points}, "\"SECTION\" or { NAME = { ... } }",
+                &read_samplings);
+    fields.list("samplings", run.samplings,
+                [&](auto& one, auto& sampling) { describe_sampling(one, sampling, run.model); });
+    fields.form({"values",
+                 "states, quantities, definitions, parameters or expressions; \"name = expression\" gives a "
+                 "name (all states but phases and drifting ones)",
+                 points},
+                "[\"q\", \"speed = 2*v\"]", &read_values);
+    fields.expressions("values", run.values);
+    fields.field("value_names", run.value_names);
+    fields.form({"start", run.is_branch() ? "the orbit that it begins with: a point of another run"
+                                          : "begin where a point of another run of the same model ended"},
+                "{ run, at, direction, point, onto }", &read_start);
+    if constexpr (Fields::stored)
+        if (fields.has("start", run.start.has_value())) {
+            fields.follows(run.start, std::optional(StartFrom{}));
+            fields.object("start", [&](auto& one) { describe_start(one, *run.start); });
+        }
+    fields.form({"parameters",
+                 "runs of kind `identify`: what they have found takes the place of what is set (but what "
+                 "the run varies)",
+                 run.kind != RunKind::ladder},
+                "\"RUN\" or [\"RUN\"]", &read_parameters);
+    if (fields.has("parameters", !run.parameters.empty()))
+        fields.field("parameters", run.parameters);
+    describe_integration(fields, run);
+}
+
+/// Runs that simulate nothing themselves.
+template <class Fields, class Run>
+void describe_measured(Fields& fields, Run& run) {
+    fields.field("value_names", run.value_names);
+    if (run.kind == RunKind::record) {
+        describe_levels(fields, run);
+        fields.object("record", [&](auto& one) { describe_record(one, run.record); });
+        fields.form({"values", "channels or expressions of them, as of other runs (all channels)"}, "[\"q\"]",
+                    read_apart);
+        fields.expressions("values", run.values);
+        return;
+    }
+    describe_found_by(fields, run);
+}
+
+template <class Fields, class Run>
+void describe(Fields& fields, Run& run) {
+    if constexpr (!Fields::stored) {
+        fields.form({"kind", "what the run does"}, "\"KIND\"", read_apart);
+        fields.form({"text", "what it is for, in words"}, "text", read_apart);
+        fields.form({"model", "another model"}, "\"NAME\" or \"./FILE.toml\"", read_apart);
+    } else {
+        fields.word("kind", run.kind, kinds_of_runs());
+    }
+    if (run.is_measured())
+        describe_measured(fields, run);
+    else
+        describe_simulated(fields, run);
+}
+
+} // namespace graze
