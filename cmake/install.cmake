@@ -19,6 +19,7 @@ if(TARGET graze_executable)
     install(DIRECTORY ${PROJECT_BINARY_DIR}/manual/man1 TYPE MAN FILES_MATCHING PATTERN "*.1")
     install(FILES ${PROJECT_BINARY_DIR}/manual/graze DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
     install(FILES ${PROJECT_BINARY_DIR}/manual/_graze DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+    install(FILES ${PROJECT_BINARY_DIR}/manual/study.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/graze)
     install(FILES ${PROJECT_BINARY_DIR}/manual/graze.fish
             DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
     )

@@ -37,6 +37,7 @@ if(TARGET graze_executable AND GRAZE_INSTALL)
         COMMAND ${CMAKE_COMMAND} -E rm -rf ${pages}
         COMMAND ${CMAKE_COMMAND} -E make_directory ${pages}
         COMMAND graze_executable help --write ${pages}/man1 > ${pages}/list
+        COMMAND graze_executable run --schema > ${pages}/study.schema.json
         COMMAND graze_executable completion bash --output ${pages}/graze
         COMMAND graze_executable completion zsh --output ${pages}/_graze
         COMMAND graze_executable completion fish --output ${pages}/graze.fish

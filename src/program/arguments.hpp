@@ -67,10 +67,11 @@ struct SimulateArguments {
 };
 
 struct RunArguments {
-    std::string study, folder;
+    std::string study, folder, keys;
     std::vector<std::string> only, set;
     int jobs = 0; ///< 0: as many as there are cores
-    bool progress = false, quiet = false, list = false, show = false, no_pictures = false, steps = false;
+    bool progress = false, quiet = false, list = false, show = false, no_pictures = false, steps = false,
+         schema = false;
     OutputArguments output;
 };
 

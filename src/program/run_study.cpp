@@ -3,9 +3,11 @@
 #include "graze/study/runner.hpp"
 #include "graze/study/stored_study.hpp"
 #include "graze/study/study_catalogue.hpp"
+#include "graze/study/study_schema.hpp"
 #include "program/commands.hpp"
 #include "program/interrupt.hpp"
 #include "program/kept_inputs.hpp"
+#include "program/listed_studies.hpp"
 #include "program/output_file.hpp"
 #include "program/progress_line.hpp"
 #include "program/step_lines.hpp"
@@ -247,18 +249,6 @@ void check_names(const Study& study, const std::vector<std::string>& only) {
                              name_advice(name, known, "it has none"));
 }
 
-int list_studies(const RunArguments& arguments, const Console& console) {
-    Table table({{"study", ""}, {"runs", ""}, {"what it does", ""}});
-    for (const std::string& name : shipped_studies()) {
-        const Study study = load_study(name);
-        table.add(name);
-        table.add(static_cast<double>(study.runs.size()));
-        table.add(study.text);
-    }
-    deliver(table, arguments.output, {}, console);
-    return exit_success;
-}
-
 /// A study, and where its results go.
 struct AskedFor {
     Study study;
@@ -332,6 +322,12 @@ AskedFor asked_for(const RunArguments& arguments) {
 int run_command(const RunArguments& arguments, const Console& console) {
     if (arguments.list)
         return list_studies(arguments, console);
+    if (!arguments.keys.empty())
+        return list_study_keys(arguments, console);
+    if (arguments.schema) {
+        console.out << study_schema();
+        return exit_success;
+    }
     if (arguments.study.empty())
         throw InputError("no study is named", "graze run --list names those that come with graze");
     if (arguments.show) {

@@ -1,5 +1,6 @@
 #include "program/study_arguments.hpp"
 
+#include "graze/study/study_keys.hpp"
 #include "program/declared_option.hpp"
 
 #include <map>
@@ -22,7 +23,9 @@ constexpr const char* run_examples = R"(Examples:
   graze run my-study.toml --set k=50              for another value; into the folder my-study-k=50
   graze run results                               go on with what is in results/results.sqlite
   graze run results --output again                do all of it again, elsewhere
-  graze run mems-switch --show > my-switch.toml)";
+  graze run mems-switch --show > my-switch.toml
+  graze run --keys sweep                          what can be said of a sweep
+  graze run --schema > study.schema.json          for an editor that completes TOML)";
 
 constexpr const char* info_text = R"(Tell what is in a file.
 Of results: the study, its runs with their points, when they were made, how, and by which version of graze; of a model
@@ -74,6 +77,11 @@ void declare_run(CLI::App& app, RunArguments& arguments) {
         "Only these runs, with those that they start from, and pictures of nothing else");
     command.add_flag("--list", arguments.list, "List the shipped studies");
     command.add_flag("--show", arguments.show, "Print the study instead of running it");
+    std::vector<std::string> kinds = kinds_of_runs();
+    kinds.emplace_back("all");
+    add(command, "--keys", arguments.keys, "KIND", "List the keys of runs of this kind, such as sweep, or of all")
+        ->check(one_of(kinds));
+    command.add_flag("--schema", arguments.schema, "Print what studies may consist of, for editors: a JSON Schema");
     command.add_flag("--steps", arguments.steps, "Print a line for each orbit of a branch as it is found");
     command.add_flag("--no-pictures", arguments.no_pictures, "Compute only");
     command.add_flag("--progress", arguments.progress, "Show progress even if standard error is no terminal");

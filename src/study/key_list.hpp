@@ -26,7 +26,7 @@ public:
         one->least = static_cast<double>(range.least);
         one->most = static_cast<double>(range.most);
         if (static_cast<std::size_t>(value) >= range.least)
-            one->standard = fmt::format("{}", value);
+            say(key, *one, fmt::format("{}", value));
     }
     void number(const Key& key, double& value, const NumberRange& range) {
         StudyKey* one = add(key, "number");
@@ -37,7 +37,7 @@ public:
         if (std::isfinite(range.most))
             one->most = range.most;
         if (value > range.least || (range.includes_least && value == range.least))
-            one->standard = fmt::format("{:g}", value);
+            say(key, *one, without_zeros(fmt::format("{:g}", value)));
     }
     void truth(const Key& key, bool& value) {
         if (StudyKey* one = add(key, "true or false"))
@@ -68,6 +68,15 @@ public:
     }
 
 private:
+    static void say(const Key& key, StudyKey& one, std::string standard) {
+        one.standard = key.standard ? key.standard : std::move(standard);
+    }
+    /// "1e-6" of "1e-06"
+    static std::string without_zeros(std::string number) {
+        if (const std::size_t at = number.find("e-0"); at != std::string::npos)
+            number.erase(at + 2, 1);
+        return number;
+    }
     StudyKey* add(const Key& key, std::string type) {
         if (!key.offered)
             return nullptr;

@@ -171,7 +171,7 @@ public:
     explicit KeyOfEstimate(const Request& request) : what_(request.what) {}
     Key operator()(const char* name, const char* meaning, std::initializer_list<IdentifyRequest::What> of) const {
         const bool used = std::find(of.begin(), of.end(), what_) != of.end();
-        return {name, meaning, true,
+        return {name, meaning, true, nullptr,
                 used ? "" : "has no effect on a " + kinds_of_estimates()[static_cast<std::size_t>(what_)]};
     }
 
@@ -183,7 +183,7 @@ template <class Fields, class Request>
 void describe_fit(Fields& fields, Request& request) {
     const KeyOfEstimate key(request);
     const auto of_fits = {IdentifyRequest::What::fit};
-    fields.form(key("unknowns", "parameters that are found: names, or with a guess and bounds", of_fits),
+    fields.form(key("unknowns", "parameters to be found, by name, or with guesses and bounds", of_fits),
                 "[\"c\"] or { c = { guess, bounds } }", &read_unknowns);
     fields.list("unknowns", request.unknowns, [](auto& one, auto& unknown) {
         one.field("name", unknown.name);
@@ -191,7 +191,9 @@ void describe_fit(Fields& fields, Request& request) {
         one.field("least", unknown.least);
         one.field("greatest", unknown.greatest);
     });
-    fields.form(key("readings", "channels, and what they are in terms of the model", of_fits),
+    fields.form(key("readings",
+                    "what values of the records are in the model; `true` for a gain or offset that is to be found",
+                    of_fits),
                 "[\"q\"] or { q = { value, gain, offset, noise } }", &read_readings);
     fields.list("readings", request.readings, [](auto& one, auto& reading) {
         one.field("channel", reading.channel);
@@ -202,40 +204,50 @@ void describe_fit(Fields& fields, Request& request) {
         one.field("offset", reading.offset);
         one.field("noise", reading.noise);
     });
-    fields.form(key("known", "states that begin as the model says, or `true`: all (none)", of_fits), "[\"x\"] or true",
-                &read_known);
+    fields.form(key("known",
+                    "states that begin as the model (or `from`) says, or `true`: all of them. Others are found",
+                    of_fits),
+                "[\"x\"] or true", &read_known);
     fields.field("known", request.known);
     fields.field("all_known", request.all_known);
     fields.choice(key("loss", "how large residuals count", of_fits), request.loss, {"squares", "huber", "cauchy"});
-    fields.number(key("piece", "time of a piece of the motion that is fitted by itself", of_fits), request.piece,
-                  positive_number);
+    fields.number(key("piece",
+                      "length of the pieces that records are cut into, in the model's time: shorter ones bear worse "
+                      "guesses (by itself)",
+                      of_fits),
+                  request.piece, positive_number);
 }
 
 template <class Fields, class Request>
 void describe_identify(Fields& fields, Request& request) {
     using What = IdentifyRequest::What;
     const KeyOfEstimate key(request);
-    if constexpr (!Fields::stored)
-        fields.form({"what", "what is found"}, "\"decrement\", \"restitution\", \"coupling\", \"impedance\" or \"fit\"",
-                    read_apart);
-    else
-        fields.number("what", request.what, kinds_of_estimates().size());
-    fields.form({"records", "runs of kind `record`"}, "\"RUN\" or [\"RUN\"]", &read_records);
+    fields.choice({"what", "what is found"}, request.what, kinds_of_estimates());
+    fields.form({"records", "runs of kind `record`, all of whose records count"}, "\"RUN\" or [\"RUN\"]",
+                &read_records);
     fields.field("records", request.records);
-    fields.form({"gives", "which parameters the numbers that are found are"}, "{ damping_ratio = \"zeta\" }",
+    fields.form({"gives", "which parameters of the model are what is found"}, "{ damping_ratio = \"zeta\" }",
                 &read_gives);
     fields.list("gives", request.gives, [](auto& one, auto& gives) {
         one.field("name", gives.first);
         one.field("parameter", gives.second);
     });
-    fields.line(key("channel", "channel of the velocity", {What::decrement, What::restitution}), request.channel);
-    fields.line(key("displacement", "channel of the displacement", {What::restitution, What::coupling}),
-                request.displacement);
-    fields.line(key("voltage", "channel of the voltage", {What::impedance}), request.voltage);
-    fields.line(key("current", "channel of the current", {What::coupling, What::impedance}), request.current);
-    fields.later_number(key("gap", "of the transducer (needed for a coupling)", {What::coupling, What::impedance}),
+    fields.line(key("channel", "value of the records that is looked at", {What::decrement, What::restitution}),
+                request.channel);
+    fields.line(
+        key("displacement", "value of the records that is the displacement", {What::restitution, What::coupling}),
+        request.displacement);
+    fields.line(key("voltage", "value of the records that is the voltage", {What::impedance}), request.voltage);
+    fields.line(key("current", "value of the records that is the current", {What::coupling, What::impedance}),
+                request.current);
+    fields.later_number(key("gap",
+                            "of the transducer: a number or an expression of the model, the errors of whose parameters "
+                            "count. Couplings need it",
+                            {What::coupling, What::impedance}),
                         request.gap);
-    fields.later_number(key("stiffness", "of the suspension (needed)", {What::coupling}), request.stiffness);
+    fields.later_number(
+        key("stiffness", "of the suspension, likewise, such as \"m*w0^2\". Couplings need it", {What::coupling}),
+        request.stiffness);
     fields.later_number(key("beta1",
                             "coupling that has been found before: with beta2 and the gap it gives the leakage "
                             "inductance",
@@ -246,15 +258,20 @@ void describe_identify(Fields& fields, Request& request) {
     fields.later_number(
         key("frequency", "about that of the voltage, by unit of time (found by itself)", {What::impedance}),
         request.frequency);
-    fields.count(key("peaks", "at most, from the first", {What::decrement}), request.peaks, {2, 100'000});
-    fields.count(key("window", "samples on each side of an impact that lines are fitted to", {What::restitution}),
+    fields.count(key("peaks", "peaks that count at most, from the first", {What::decrement}), request.peaks,
+                 {2, 100'000});
+    fields.count(key("window",
+                     "samples that tell the velocities at an impact. Records with fewer than three impacts are passed "
+                     "over, unless all are so",
+                     {What::restitution}),
                  request.window, {5, 100'000});
     fields.count(key("transition", "samples beside an impact that are left out", {What::restitution}),
                  request.transition, {0, 100'000});
-    fields.number(key("least_jump", "of the velocity at an impact (by the noise)", {What::restitution}),
-                  request.least_jump, positive_number);
-    fields.form(key("noise", "standard deviations that are known", {What::coupling}), "{ displacement, current }",
-                &read_noise);
+    fields.number(
+        key("least_jump", "by which the velocity changes at an impact at least (by the noise)", {What::restitution}),
+        request.least_jump, positive_number);
+    fields.form(key("noise", "standard deviations of the readings, where they are known", {What::coupling}),
+                "{ displacement, current }", &read_noise);
     fields.field("displacement_noise", request.displacement_noise);
     fields.field("current_noise", request.current_noise);
     if (fields.has("fit", request.what == What::fit))
@@ -267,11 +284,12 @@ void describe_found_by(Fields& fields, Run& run) {
     const KeyOfEstimate key(run.identify);
     if constexpr (!Fields::stored) {
         fields.form({"set", "more parameters, for this run"}, "{ V = 1 }", read_apart);
-        fields.form(key("from", "initial states", {IdentifyRequest::What::fit}), "{ x = 0.1 }", read_apart);
+        fields.form(key("from", "guesses of states at the beginning", {IdentifyRequest::What::fit}), "{ x = 0.1 }",
+                    read_apart);
         fields.form(key("mode", "the initial mode", {IdentifyRequest::What::fit}), "\"NAME\"", read_apart);
     }
     fields.object("identify", [&](auto& one) { describe_identify(one, run.identify); });
-    fields.form({"parameters", "other runs of kind `identify`: what they have found takes the place of what is set"},
+    fields.form({"parameters", "other runs of this kind, whose parameters are known, with their errors"},
                 "\"RUN\" or [\"RUN\"]", &read_parameters);
     fields.field("parameters", run.parameters);
     fields.number(

@@ -308,11 +308,10 @@ template <class Fields, class Run>
 void describe_integration(Fields& fields, Run& run) {
     const bool chosen = run.has_points() || run.kind == RunKind::orbit || run.kind == RunKind::follow;
     auto& simulation = run.simulation;
-    fields.number({"tolerance",
-                   run.is_branch() ? "of the integration, for each step relative to each state (1e-12; of orbits 1e-13)"
-                                   : "of the integration, for each step relative to each state"},
+    fields.number({"tolerance", "of the integration, for each step relative to each state", true,
+                   run.is_branch() ? "1e-13 of orbits, 1e-12 of what leads to them" : nullptr},
                   simulation.tolerance, positive_number);
-    fields.count({"order", "of the Taylor polynomials (0: by tolerance)", chosen}, simulation.order);
+    fields.count({"order", "of the Taylor polynomials", chosen, "by tolerance"}, simulation.order);
     fields.number({"largest_step", "of the integration, in units of the model's time (no bound)", chosen},
                   simulation.largest_step, positive_number);
     fields.field("step_limit", simulation.step_limit);

@@ -20,6 +20,7 @@ struct Key {
     const char* meaning; ///< one phrase, with the unit if there is one
     /// Whether runs of this kind offer it. What they do not may be stored with their settings all the same.
     bool offered = true;
+    const char* standard = nullptr; ///< what holds without it, in words; null: the value that it has then
     std::string idle = {}; ///< why it has no effect in this run, such as "has no effect on a fit"; empty: it has one
 };
 

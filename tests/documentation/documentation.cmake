@@ -12,6 +12,11 @@ foreach(page IN LISTS pages)
                                          "PATH=path_list_prepend:$<TARGET_FILE_DIR:graze_executable>"
     )
 endforeach()
+if(Python3_FOUND)
+    add_test(NAME documentation.keys COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_LIST_DIR}/check_keys.py
+                                             $<TARGET_FILE:graze_executable> ${PROJECT_SOURCE_DIR}/docs/study-format.md
+    )
+endif()
 add_test(NAME documentation.links COMMAND bash ${CMAKE_CURRENT_LIST_DIR}/check_links.sh ${PROJECT_SOURCE_DIR})
 
 # The runner itself: pages named bad_* each hold one mistake, which it must find.

@@ -23,7 +23,5 @@ struct StudyKey {
 std::vector<StudyKey> study_keys(RunKind kind);
 /// All kinds, in the order of RunKind, by the names that studies give them.
 const std::vector<std::string>& kinds_of_runs();
-/// What a study may consist of, as a JSON Schema (draft 7), from which editors complete and check what is typed.
-std::string study_schema();
 
 } // namespace graze

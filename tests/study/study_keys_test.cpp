@@ -1,0 +1,136 @@
+#include "graze/study/study_keys.hpp"
+
+#include "graze/study/study_schema.hpp"
+#include "study/json.hpp"
+#include "study/refusal.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace graze {
+namespace {
+
+using ::testing::Contains;
+using ::testing::Field;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::vector<RunKind> all_kinds() {
+    std::vector<RunKind> kinds;
+    for (std::size_t kind = 0; kind < kinds_of_runs().size(); ++kind)
+        kinds.push_back(static_cast<RunKind>(kind));
+    return kinds;
+}
+
+std::string standard_of(RunKind kind, const std::string& name) {
+    for (const StudyKey& key : study_keys(kind))
+        if (key.name == name)
+            return key.standard;
+    return "there is no such key";
+}
+
+/// A sweep with one more line.
+std::string sweep_with(const std::string& line) {
+    return "name = \"s\"\nmodel = \"impact-oscillator\"\n[runs.a]\nkind = \"sweep\"\n"
+           "vary = { omega = [2.7, 2.8] }\n" +
+           line + "\n";
+}
+
+TEST(StudyKeys, each_is_listed_once_with_a_meaning) {
+    for (const RunKind kind : all_kinds()) {
+        std::set<std::string> names;
+        for (const StudyKey& key : study_keys(kind)) {
+            EXPECT_TRUE(names.insert(key.name).second) << name_of(kind) << " " << key.name;
+            EXPECT_NE(key.meaning, "") << key.name;
+            EXPECT_NE(key.type, "") << key.name;
+        }
+        EXPECT_TRUE(names.contains("kind"));
+    }
+}
+
+TEST(StudyKeys, are_those_of_the_kind) {
+    EXPECT_THAT(study_keys(RunKind::sweep), Contains(Field(&StudyKey::name, "chaos_cycles")));
+    EXPECT_THAT(study_keys(RunKind::orbit), Not(Contains(Field(&StudyKey::name, "chaos_cycles"))));
+    EXPECT_THAT(study_keys(RunKind::ladder), Contains(Field(&StudyKey::name, "rungs")));
+    EXPECT_THAT(study_keys(RunKind::identify), Not(Contains(Field(&StudyKey::name, "vary"))));
+}
+
+TEST(StudyKeys, tell_what_holds_without_them) {
+    EXPECT_EQ(standard_of(RunKind::sweep, "cycles"), "150");
+    EXPECT_EQ(standard_of(RunKind::sweep, "direction"), "up");
+    EXPECT_EQ(standard_of(RunKind::follow, "direction"), "both");
+    EXPECT_EQ(standard_of(RunKind::follow, "unphysical"), "false");
+    EXPECT_EQ(standard_of(RunKind::sweep, "disturbance"), "1e-6");
+    EXPECT_EQ(standard_of(RunKind::simulate, "time"), ""); // without end
+}
+
+TEST(StudyKeys, no_other_kind_takes_a_key) {
+    for (const StudyKey& key : study_keys(RunKind::record)) {
+        const std::vector<StudyKey> of_sweeps = study_keys(RunKind::sweep);
+        if (std::any_of(of_sweeps.begin(), of_sweeps.end(), [&](const auto& one) { return one.name == key.name; }))
+            continue;
+        const std::string refusal = refusal_of([&] {
+            parse_study(sweep_with(key.name + " = 1"), "s.toml");
+            return std::vector<RunReport>{};
+        });
+        EXPECT_THAT(refusal, HasSubstr("runs of kind \"sweep\" have no `" + key.name + "`"));
+    }
+}
+
+// What is listed is what the reader does: it takes the ends of each range, and nothing beyond.
+TEST(StudyKeys, of_a_sweep_are_taken_in_their_ranges_and_refused_beyond) {
+    const std::set<std::string> needs_others{"draws", "seed"};
+    for (const StudyKey& key : study_keys(RunKind::sweep)) {
+        const auto takes = [&](const std::string& value) {
+            try {
+                parse_study(sweep_with(key.name + " = " + value), "s.toml");
+                return true;
+            } catch (const InputError&) {
+                return false;
+            }
+        };
+        if (needs_others.contains(key.name))
+            continue;
+        if (key.type == "whole number" && key.name != "order") { // whose range depends on its other options
+            EXPECT_TRUE(takes(fmt::format("{:.0f}", *key.least))) << key.name;
+            EXPECT_TRUE(takes(fmt::format("{:.0f}", *key.most))) << key.name;
+            EXPECT_FALSE(takes(fmt::format("{:.0f}", *key.least - 1))) << key.name;
+            EXPECT_FALSE(takes(fmt::format("{:.0f}", *key.most + 1))) << key.name;
+        } else if (key.type == "number" && key.name != "tolerance") {
+            EXPECT_EQ(takes(fmt::format("{}", *key.least)), key.includes_least) << key.name;
+            EXPECT_FALSE(takes(fmt::format("{}", *key.least - 1e-3))) << key.name;
+            if (key.most) {
+                EXPECT_TRUE(takes(fmt::format("{}", *key.most))) << key.name;
+                EXPECT_FALSE(takes(fmt::format("{}", *key.most * 1.001))) << key.name;
+            }
+        } else if (key.type == "one of") {
+            for (const std::string& word : key.words)
+                EXPECT_TRUE(takes('"' + word + '"')) << key.name;
+            EXPECT_FALSE(takes("\"sideways\"")) << key.name;
+        } else if (key.type == "true or false") {
+            EXPECT_TRUE(takes("false")) << key.name;
+            EXPECT_FALSE(takes("0")) << key.name;
+        }
+    }
+}
+
+TEST(StudySchema, has_the_keys_of_every_kind) {
+    const Json schema = parse_json(study_schema(), Place{"schema", 0, 0});
+    const Json* run = schema.find("properties")->find("runs")->find("additionalProperties");
+    ASSERT_NE(run, nullptr);
+    const std::vector<Json>& kinds = run->find("allOf")->items;
+    ASSERT_EQ(kinds.size(), kinds_of_runs().size());
+    for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+        EXPECT_EQ(kinds[kind].find("if")->find("properties")->find("kind")->find("const")->text, kinds_of_runs()[kind]);
+        std::vector<std::string> names;
+        for (const StudyKey& key : study_keys(static_cast<RunKind>(kind)))
+            names.push_back(key.name);
+        EXPECT_EQ(kinds[kind].find("then")->find("properties")->names, names);
+    }
+}
+
+} // namespace
+} // namespace graze
