@@ -3,6 +3,7 @@
 #include "graze/base/file_name.hpp"
 #include "graze/base/printable.hpp"
 #include "graze/results/name_advice.hpp"
+#include "graze/results/run_kind.hpp"
 #include "results/point_columns.hpp"
 #include "results/result_file_state.hpp"
 #include "results/run_columns.hpp"
@@ -11,7 +12,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -28,9 +28,7 @@ constexpr std::size_t longest_failure = 4000; ///< bytes that are shown
 void require_names(const RunRecord& run, const std::string& path) {
     const Place place{path, 0, 0};
     require_file_name(run.name, "name of a run", place);
-    const std::array<std::string_view, 9> kinds{"simulate", "sweep",  "basin",  "orbit",   "continue",
-                                                "curve",    "ladder", "record", "identify"};
-    if (std::find(kinds.begin(), kinds.end(), run.kind) == kinds.end())
+    if (!run_kind(run.kind))
         throw InputError(place, fmt::format("run '{}' is of unknown kind '{}'", run.name, run.kind),
                          "use the version of graze that wrote it");
     if ((run.kind == "sweep" && run.coordinates.empty()) || (!run.is_branch() && run.directions.empty()))
@@ -50,6 +48,16 @@ void require_names(const RunRecord& run, const std::string& path) {
 }
 
 } // namespace
+
+bool RunRecord::is_branch() const {
+    const auto known = run_kind(kind);
+    return known && graze::is_branch(*known);
+}
+
+bool RunRecord::is_followed() const {
+    const auto known = run_kind(kind);
+    return known && graze::is_followed(*known);
+}
 
 std::string result_path(const std::string& file_or_folder) {
     std::error_code error;

@@ -264,7 +264,7 @@ void describe_start(Fields& fields, Start& start) {
 /// What varies from point to point.
 template <class Fields, class Run>
 void describe_axes(Fields& fields, Run& run) {
-    const bool points = run.has_points();
+    const bool points = run.has_motions();
     fields.form(
         {"vary", "what changes from point to point: parameters or initial states. Several lists make a grid", points},
         "{ V = { from, to, step } }", &read_vary);
@@ -306,7 +306,7 @@ void describe_axes(Fields& fields, Run& run) {
 
 template <class Fields, class Run>
 void describe_integration(Fields& fields, Run& run) {
-    const bool chosen = run.has_points() || run.kind == RunKind::orbit || run.kind == RunKind::follow;
+    const bool chosen = run.has_motions() || run.kind == RunKind::orbit || run.kind == RunKind::follow;
     auto& simulation = run.simulation;
     fields.number({"tolerance", "of the integration, for each step relative to each state", true,
                    run.is_branch() ? "1e-13 of orbits, 1e-12 of what leads to them" : nullptr},
@@ -321,7 +321,7 @@ void describe_integration(Fields& fields, Run& run) {
 
 template <class Fields, class Run>
 void describe_simulated(Fields& fields, Run& run) {
-    const bool points = run.has_points(), begins = points || run.kind == RunKind::orbit || run.kind == RunKind::follow;
+    const bool points = run.has_motions(), begins = points || run.kind == RunKind::orbit || run.kind == RunKind::follow;
     describe_axes(fields, run);
     if (run.is_branch())
         fields.object("branch", [&](auto& one) { describe_branch(one, run); });

@@ -11,17 +11,6 @@
 
 namespace graze {
 
-const std::vector<std::string>& kinds_of_runs() {
-    static const std::vector<std::string> kinds{"simulate", "sweep",  "basin",  "orbit",   "continue",
-                                                "curve",    "ladder", "record", "identify"};
-    return kinds;
-}
-
-std::string_view name_of(RunKind kind) {
-    const auto index = static_cast<std::size_t>(kind);
-    return index < kinds_of_runs().size() ? std::string_view(kinds_of_runs()[index]) : "unknown";
-}
-
 std::vector<std::pair<std::string, Place>> StudyRun::needs() const {
     std::vector<std::pair<std::string, Place>> needed;
     if (start)

@@ -37,8 +37,7 @@ std::vector<std::string> names_in(const Expression& expression) {
 } // namespace
 
 bool follows_what_varies(const StudyReader& reader, const StudyRun& run, const TomlEntry& item) {
-    const bool has_points = run.kind == RunKind::simulate || run.kind == RunKind::sweep || run.kind == RunKind::basin;
-    if (!has_points || !item.node->is_string())
+    if (!run.has_motions() || !item.node->is_string())
         return false;
     try {
         Model scratch = run.model;

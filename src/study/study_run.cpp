@@ -225,7 +225,7 @@ void read_contents(const StudyReader& reader, StudyRun& run, const TomlEntry& en
     set_standards(run);
     const KeyReader fields(reader, run, keys, mistakes);
     describe(fields, run);
-    if (run.has_points())
+    if (run.has_motions())
         with_key(mistakes, keys, "from", [&](const TomlEntry& from) { read_following_states(reader, run, from); });
     if (!keys.contains("values") && defaults.values)
         mistakes.attempt([&] { read_values(reader, run, *defaults.values); });

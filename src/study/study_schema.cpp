@@ -61,10 +61,7 @@ void describe_runs(SettingsWriter& runs) {
             all.object("kind", [](SettingsWriter& kind) { kind.field("enum", kinds_of_runs()); });
         });
         run.list("allOf", kinds_of_runs(), [](SettingsWriter& one, const std::string& kind) {
-            std::size_t index = 0;
-            while (kinds_of_runs()[index] != kind)
-                ++index;
-            describe_kind(one, kind, study_keys(static_cast<RunKind>(index)));
+            describe_kind(one, kind, study_keys(*run_kind(kind)));
         });
     });
 }

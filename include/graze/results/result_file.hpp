@@ -59,10 +59,9 @@ struct RunRecord {
     std::string failure = {}; ///< why it failed, and what to do; on one line, without what controls a terminal
     std::vector<PointName> point_names = {}; ///< of its special points, as the study calls them
 
-    /// Whether its points are orbits.
-    bool is_branch() const { return kind == "orbit" || is_followed(); }
-    /// Whether orbits are followed: along a branch, or a curve.
-    bool is_followed() const { return kind == "continue" || kind == "curve" || kind == "ladder"; }
+    /// As of the kind of this name.
+    bool is_branch() const;
+    bool is_followed() const;
     /// What people are shown in the place of a label: the point's name, if it has one.
     const std::string& point_name(const std::string& label) const;
     /// The label of the point with this name; empty: none has it.

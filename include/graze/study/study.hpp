@@ -4,6 +4,7 @@
 #include "graze/branch/orbit_branch.hpp"
 #include "graze/model/model.hpp"
 #include "graze/results/result_file.hpp"
+#include "graze/results/run_kind.hpp"
 #include "graze/study/figure_style.hpp"
 #include "graze/study/identify_request.hpp"
 #include "graze/study/record_request.hpp"
@@ -19,19 +20,6 @@
 #include <vector>
 
 namespace graze {
-
-enum class RunKind {
-    simulate,
-    sweep,
-    basin,
-    orbit,
-    follow,
-    curve,
-    ladder,
-    record,  ///< measured records
-    identify ///< parameters from them
-};           ///< `follow` is called "continue" in studies
-std::string_view name_of(RunKind kind);
 
 /// Something that varies from point to point: a parameter or an initial state.
 struct Variation {
@@ -116,18 +104,14 @@ struct StudyRun {
     /// axis.
     double points() const;
     double chains() const;
-    /// Whether its points are motions.
-    bool has_points() const { return kind == RunKind::simulate || kind == RunKind::sweep || kind == RunKind::basin; }
-    /// Whether its points are records, or what was found from them: nothing is simulated by the study itself.
-    bool is_measured() const { return kind == RunKind::record || kind == RunKind::identify; }
     /// Names of the runs that have to be there before, with where that is said.
     std::vector<std::pair<std::string, Place>> needs() const;
     /// Of what its points are sampled.
     std::vector<std::string> sampling_names() const;
-    /// Whether its points are orbits.
-    bool is_branch() const { return kind == RunKind::orbit || is_followed(); }
-    /// Whether orbits are followed: along branches, or a curve.
-    bool is_followed() const { return kind == RunKind::follow || kind == RunKind::curve || kind == RunKind::ladder; }
+    bool has_motions() const { return graze::has_motions(kind); }
+    bool is_branch() const { return graze::is_branch(kind); }
+    bool is_followed() const { return graze::is_followed(kind); }
+    bool is_measured() const { return graze::is_measured(kind); }
 };
 
 /// One picture or table made from runs. What is not said is chosen by `kind` and the run.

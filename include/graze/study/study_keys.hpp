@@ -21,7 +21,5 @@ struct StudyKey {
 
 /// The keys of runs of a kind, in the order in which the pages of the format have them.
 std::vector<StudyKey> study_keys(RunKind kind);
-/// All kinds, in the order of RunKind, by the names that studies give them.
-const std::vector<std::string>& kinds_of_runs();
 
 } // namespace graze

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace graze {
+
+/// What a run of a study computes. `follow` is called "continue" in studies and results.
+enum class RunKind { simulate, sweep, basin, orbit, follow, curve, ladder, record, identify };
+
+/// The names of all kinds, in the order of RunKind.
+const std::vector<std::string>& kinds_of_runs();
+/// The name of a kind; "unknown" for what is none.
+std::string_view name_of(RunKind kind);
+/// The kind of this name.
+std::optional<RunKind> run_kind(std::string_view name);
+
+/// Whether points of runs of a kind are motions: simulated from a state, alone or many of them.
+bool has_motions(RunKind kind);
+/// Whether orbits are followed: along a branch, a curve or a ladder.
+bool is_followed(RunKind kind);
+/// Whether points are periodic orbits.
+bool is_branch(RunKind kind);
+/// Whether points are records, or what was found from them: such runs simulate nothing themselves.
+bool is_measured(RunKind kind);
+
+} // namespace graze
