@@ -1,10 +1,10 @@
 #include "graze/bench/bench_service.hpp"
 
+#include "base/random_number.hpp"
 #include "bench/descriptor.hpp"
 #include "bench/line_cutter.hpp"
 #include "bench/terminal.hpp"
 #include "graze/bench/sample_protocol.hpp"
-#include "symbolic/random_number.hpp"
 
 #include <fmt/format.h>
 

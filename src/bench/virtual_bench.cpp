@@ -1,8 +1,8 @@
 #include "graze/bench/virtual_bench.hpp"
 
+#include "base/random_number.hpp"
 #include "bench/anti_alias.hpp"
 #include "bench/bench_motion.hpp"
-#include "symbolic/random_number.hpp"
 
 #include <fmt/format.h>
 

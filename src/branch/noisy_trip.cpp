@@ -1,9 +1,9 @@
+#include "base/random_number.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/branch/disturbed_trip.hpp"
 #include "graze/model/driven_parameter.hpp"
 #include "graze/trajectory/ensemble.hpp"
 #include "grazing/end_watch.hpp"
-#include "symbolic/random_number.hpp"
 
 #include <fmt/format.h>
 
