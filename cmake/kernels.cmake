@@ -14,6 +14,9 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     list(APPEND kernel_sets avx2 avx512)
 endif()
 foreach(kernel_set IN LISTS kernel_sets)
-    set_source_files_properties(src/tape/jet_${kernel_set}.cpp PROPERTIES
-                                COMPILE_OPTIONS "${kernel_flags_${kernel_set}}")
+    # What was parsed for other instructions cannot be used here.
+    set_source_files_properties(
+        src/tape/jet_${kernel_set}.cpp PROPERTIES COMPILE_OPTIONS "${kernel_flags_${kernel_set}}"
+                                                  SKIP_PRECOMPILE_HEADERS ON
+    )
 endforeach()
