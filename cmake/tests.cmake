@@ -36,7 +36,7 @@ if(GRAZE_SANITIZERS STREQUAL "thread")
     set(test_folders threads)
     set(before_threads ${GRAZE_FOLDERS})
     set(test_threads sweep/plan study/run_schedule study/runner study/shared_model study/side_by_side branch/yield
-                     branch/disturbed_trip design/value_map)
+                     trip/disturbed_trip design/value_map)
 endif()
 
 foreach(folder IN LISTS test_folders)

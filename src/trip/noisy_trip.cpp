@@ -1,9 +1,9 @@
+#include "graze/trip/noisy_trip.hpp"
 #include "base/random_number.hpp"
 #include "graze/base/input_error.hpp"
-#include "graze/branch/disturbed_trip.hpp"
 #include "graze/model/driven_parameter.hpp"
 #include "graze/trajectory/ensemble.hpp"
-#include "grazing/end_watch.hpp"
+#include "trip/end_watch.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,7 @@
-#include "program/loss_point.hpp"
+#include "program/asked_trip.hpp"
 
 #include "graze/base/input_error.hpp"
 #include "graze/base/rounded.hpp"
-#include "graze/branch/curve_start.hpp"
 #include "program/quantity.hpp"
 #include "program/values.hpp"
 
@@ -17,15 +16,6 @@ namespace graze {
 namespace {
 
 constexpr std::size_t most_numbers = 1000;
-
-/// A point of another kind may be on a curve of folds. Touches come first.
-bool is_fold(const SpecialPoint& point) {
-    if (point.type == PointType::fold)
-        return true;
-    const std::vector<PointType> known = curves_at(point);
-    const auto has = [&](PointType type) { return std::find(known.begin(), known.end(), type) != known.end(); };
-    return point.type != PointType::branch_point && has(PointType::fold) && !has(PointType::grazing);
-}
 
 [[noreturn]] void refuse(const std::string& option, const std::string& text, const std::string& what,
                          const char* example) {
@@ -48,71 +38,9 @@ void add_decades(std::vector<double>& values, double first, double last, const s
     }
 }
 
-LossPoint of_fold(StoredOrbit stored, const std::string& asked) {
-    System system(stored.run.model);
-    const std::vector<ParameterId> candidates = moving_parameters(stored.run, asked);
-    if (candidates.empty())
-        throw InputError("nothing is said to move the orbit from its fold", "name a parameter by --parameter NAME");
-    std::optional<FoldPassage> fold;
-    for (const ParameterId one : candidates)
-        try {
-            fold = fold_passage(system, stored.record.point, one);
-            break;
-        } catch (const InputError&) {
-            if (one == candidates.back())
-                throw;
-        }
-    if (!fold->attracting)
-        throw InputError("neither of the two orbits that meet there is stable: no motion is lost",
-                         "choose a fold at which a stable branch ends");
-    LossPoint point{
-        .stored = std::move(stored), .system = system, .parameter = fold->parameter, .name = {}, .unit = {}};
-    point.value = fold->value;
-    point.side = fold->side;
-    point.cycle = fold->cycle;
-    point.fold = std::move(fold);
-    return point;
-}
-
-LossPoint of_touch(StoredOrbit stored, const std::string& asked) {
-    TouchingOrbit found = touching_orbit(std::move(stored), asked);
-    Verdict verdict = verdict_of(found.map);
-    const double level = level_of_map(found.map, verdict);
-    if (!found.parameter || !found.map.clearance_rate || *found.map.clearance_rate == 0)
-        throw InputError(Place{}, "nothing is said to move the orbit from its touch",
-                         "name a parameter by --parameter NAME");
-    System system(found.stored.run.model);
-    LossPoint point{.stored = std::move(found.stored),
-                    .system = std::move(system),
-                    .parameter = *found.parameter,
-                    .name = {},
-                    .unit = {}};
-    point.value = found.map.contact.touch.parameters[found.parameter->place()];
-    point.side = *found.map.clearance_rate < 0 ? 1 : -1;
-    point.cycle = found.map.time;
-    point.level = level;
-    point.map = std::move(found.map);
-    point.verdict = std::move(verdict);
-    return point;
-}
-
 } // namespace
 
-LossPoint loss_point(const ResultFile& file, const std::string& point, const std::string& parameter,
-                     const std::string& option) {
-    StoredOrbit stored = find_stored_orbit(file, point, {option, 0, 0});
-    try {
-        LossPoint found = is_fold(stored.record.point) ? of_fold(std::move(stored), parameter)
-                                                       : of_touch(std::move(stored), parameter);
-        found.name = found.model().independent_parameters()[found.parameter.place()];
-        found.unit = found.model().parameters[*found.model().find_parameter(found.name)].unit;
-        return found;
-    } catch (const InputError& error) {
-        if (!error.place().file.empty() && error.place().file != "POINT")
-            throw;
-        throw InputError(Place{option, 0, 0}, error.problem(), error.remedy());
-    }
-}
+namespace {
 
 AskedEnd end_of(const LossPoint& point, const TripArguments& arguments) {
     if (arguments.greatest_speed && point.fold)
@@ -134,6 +62,17 @@ AskedEnd end_of(const LossPoint& point, const TripArguments& arguments) {
     asked.end.quantity = requested_quantity(point.model(), arguments.until.substr(0, equals), "--until").value;
     asked.end.level = value_of(point.model(), arguments.until.substr(equals + 1), "--until");
     return asked;
+}
+
+} // namespace
+
+AskedTrip asked_trip(const ResultFile& file, const std::string& point, const TripArguments& arguments,
+                     const std::string& option) {
+    const Place place{option, 0, 0};
+    StoredOrbit stored = find_stored_orbit(file, point, place);
+    LossPoint loss = loss_point(stored, arguments.parameter, place, {"--parameter", 0, 0});
+    AskedEnd end = end_of(loss, arguments);
+    return {std::move(stored), std::move(loss), std::move(end)};
 }
 
 std::vector<double> numbers_by_decades(const Model& model, const std::vector<std::string>& asked,
@@ -168,13 +107,14 @@ void tell_lacks(const std::vector<std::string>& lacks, const Console& console) {
         console.err << fmt::format("graze: {} more are like that\n", lacks.size() - most);
 }
 
-JsonObject heading_of(const ResultFile& file, const LossPoint& point, const AskedEnd& end) {
-    const OrbitRecord& record = point.stored.record;
+JsonObject heading_of(const ResultFile& file, const AskedTrip& asked) {
+    const OrbitRecord& record = asked.stored.record;
+    const LossPoint& point = asked.point;
     JsonObject heading;
     heading.add("graze", GRAZE_VERSION);
     heading.add("file", file.path());
     heading.add("model", point.model().name);
-    heading.add("run", point.stored.run.record.name);
+    heading.add("run", asked.stored.run.record.name);
     heading.add("number", static_cast<double>(record.number));
     heading.add("label", record.label);
     heading.add("parameter", point.name);
@@ -184,9 +124,9 @@ JsonObject heading_of(const ResultFile& file, const LossPoint& point, const Aske
         heading.add("coefficient", point.fold->coefficient);
         heading.add("rate", point.fold->rate);
     } else {
-        heading.add("speed", end.end.speed > 0 ? std::min(point.level, end.end.speed) : point.level);
+        heading.add("speed", level_until(point, asked.end.end));
     }
-    heading.add("end", end.words);
+    heading.add("end", asked.end.words);
     return heading;
 }
 

@@ -1,11 +1,12 @@
-#include "graze/branch/disturbed_trip.hpp"
+#include "graze/trip/disturbed_trip.hpp"
 
 #include "graze/base/input_error.hpp"
 #include "graze/model/driven_parameter.hpp"
-#include "grazing/end_watch.hpp"
+#include "trip/end_watch.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -35,6 +36,15 @@ const std::string name_of(const System& system, const TripOrigin& origin) {
 }
 
 } // namespace
+
+double beginning_of_ramp(const LossPoint& point, double rate) {
+    constexpr double cycles = 100, delays = 5, tellable = 10;
+    double way = cycles * std::abs(rate) * point.cycle;
+    if (point.fold)
+        way = std::max(way, delays * std::abs(delay_of_ramp(*point.fold, rate)));
+    const double least = point.fold ? least_overshoot(*point.fold) : least_overshoot(point.map, point.parameter);
+    return point.value - point.side * std::max(way, tellable * least);
+}
 
 RampedTrip ramped_trip(const System& system, const TripOrigin& origin, double rate, const TripEnd& end,
                        const TripOptions& options) {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "graze/grazing/trip_time.hpp"
 #include "graze/trajectory/trajectory.hpp"
+#include "graze/trip/simulated_trip.hpp"
 #include "orbit/newton.hpp"
 
 #include <cmath>

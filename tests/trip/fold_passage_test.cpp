@@ -1,8 +1,8 @@
 // How long motions linger where a fold has taken their orbits away: normal form, simulation, closed forms.
 
-#include "graze/branch/fold_passage.hpp"
+#include "graze/trip/fold_passage.hpp"
 
-#include "maps.hpp"
+#include "branch/maps.hpp"
 
 #include <gtest/gtest.h>
 

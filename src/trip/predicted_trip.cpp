@@ -1,9 +1,9 @@
-#include "graze/grazing/trip_time.hpp"
+#include "graze/trip/predicted_trip.hpp"
 
 #include "graze/base/input_error.hpp"
 #include "graze/base/rounded.hpp"
-#include "grazing/trip_start.hpp"
 #include "orbit/eigen_index.hpp"
+#include "trip/trip_start.hpp"
 
 #include <Eigen/Core>
 #include <fmt/format.h>

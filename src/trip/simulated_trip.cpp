@@ -1,10 +1,10 @@
-#include "graze/grazing/trip_time.hpp"
+#include "graze/trip/simulated_trip.hpp"
 
 #include "graze/base/input_error.hpp"
-#include "grazing/end_watch.hpp"
 #include "grazing/pass_times.hpp"
-#include "grazing/trip_start.hpp"
 #include "orbit/certify.hpp"
+#include "trip/end_watch.hpp"
+#include "trip/trip_start.hpp"
 
 #include <fmt/format.h>
 
@@ -126,6 +126,20 @@ TripTime continued_trip(const System& system, const CycleMap& map, ParameterId p
     trip.time += predicted.handed_cycles * map.time;
     trip.cycles = trip.time / map.time;
     trip.contacts += predicted.handed_contacts;
+    return trip;
+}
+
+TripTime simulate_until(const System& system, std::span<const double> parameters, std::span<const double> state,
+                        std::size_t mode, double cycle, const TripEnd& end, const TripOptions& options) {
+    options.validate();
+    const Simulation simulation = simulation_until(system, end, options);
+    // It is no matter of one touched surface: any hard contact will do.
+    const auto counts = [&](const Contact& contact) {
+        return system.model().events[contact.event].kind == EventKind::barrier;
+    };
+    EndWatch watch(end, counts, options.interrupted);
+    TripTime trip = run_until(simulation, parameters, state, mode, options.cycles * cycle, watch);
+    trip.cycles = trip.time / cycle;
     return trip;
 }
 

@@ -1,26 +1,12 @@
 #pragma once
 
 #include "graze/grazing/verdict.hpp"
-#include "graze/symbolic/expression.hpp"
+#include "graze/trip/trip_time.hpp"
 
 #include <cstddef>
-#include <functional>
-#include <optional>
-#include <string>
 #include <vector>
 
 namespace graze {
-
-/// How long a motion takes that begins where the orbit touches, with the parameter moved beyond.
-struct TripTime {
-    bool ended = false; ///< the end that was asked for has come, or one of the motion's own
-    std::string ending; ///< "speed", "level", or as trajectories end: "singular", "terminal", ...
-    double cycles = 0;  ///< until then: passes of the touch by the map, time over that of a cycle by simulation
-    double time = 0;
-    std::size_t contacts = 0; ///< with the touched surface until then, that at the end included
-    double speed = 0;         ///< approach speed of the last of these
-    std::string detail{};     ///< of a simulation that could not go on: what happened and what to do
-};
 
 /// A trip as the map has it. Cycles are passes of the touch, of which the beginning is number 0.
 struct PredictedTrip : TripTime {
@@ -66,38 +52,5 @@ double level_of_map(const CycleMap& map, const Verdict& verdict);
 ///         there is no contact, and numbers that do not fit or are not finite
 PredictedTrip predicted_trip(const CycleMap& map, const Verdict& verdict, double overshoot,
                              const PredictionOptions& options = {});
-
-/// What ends a simulation, besides the motion's own end (a singular one, a transition to the end).
-struct TripEnd {
-    double speed = 0;                   ///< approach speed at the touched surface; 0: any
-    std::optional<Expression> quantity; ///< its level, passed in either direction
-    double level = 0;
-};
-
-struct TripOptions {
-    double cycles = 2000;     ///< that are simulated at most
-    double tolerance = 1e-14; ///< of the integration; 1e-16 .. 1e-2
-    std::size_t step_limit = 20'000'000;
-    std::vector<double> disturbance; ///< of each state where the motion begins; empty: none
-    std::function<bool()> interrupted;
-    /// @throws InputError naming the option that is out of range
-    void validate() const;
-};
-
-/// The least overshoot that a simulation can tell from none: the parameter and the states are numbers of sixteen
-/// digits.
-double least_overshoot(const CycleMap& map, ParameterId parameter);
-
-/// The same by simulation of the model from the state of the touch, with the parameter moved. The motion begins a
-/// little earlier where it would begin beyond the surface.
-/// @param map with respect to the parameter
-/// @throws InputError as above
-TripTime simulated_trip(const System& system, const CycleMap& map, ParameterId parameter, double overshoot,
-                        const TripEnd& end, const TripOptions& options = {});
-
-/// By the map as long as contacts are soft, and by simulation from then on: the time until any end, also after an
-/// overshoot far below the digits of the parameter.
-TripTime continued_trip(const System& system, const CycleMap& map, ParameterId parameter, double overshoot,
-                        const PredictedTrip& predicted, const TripEnd& end, const TripOptions& options = {});
 
 } // namespace graze

@@ -1,14 +1,15 @@
 // Times until motions are lost: by the map, by simulation, and by closed forms.
 
-#include "graze/grazing/trip_time.hpp"
+#include "graze/trip/simulated_trip.hpp"
 
+#include "branch/belt.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/flow/mode_flow.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/model/named_value.hpp"
 #include "graze/orbit/solve.hpp"
-#include "grazing/end_watch.hpp"
-#include "linear_oscillator.hpp"
+#include "grazing/linear_oscillator.hpp"
+#include "trip/end_watch.hpp"
 
 #include <gtest/gtest.h>
 
@@ -449,6 +450,39 @@ TEST(TripTime, TheLevelOfAStopIsReachedAtTheFirstContact) {
         EXPECT_NEAR(trip.time, first.time, 1e-12) << i;
     }
     EXPECT_GT(contacts, 100);
+}
+
+/// From one time to the next it slides deeper by a factor, which counts cycles by logarithms. Contacts that the orbit
+/// has anyway are far harder, and do not count.
+TEST(TripTime, OfSlidingOnABeltGoesByLogarithms) {
+    Model model = testing::belt();
+    model.set_parameter("nu", 2.2);
+    const BranchSettings settings = testing::along(model, "nu", -1, 2, 2.4);
+    const Branch branch = follow_branch(model, testing::settled(model, "phase0").orbit, settings);
+    std::size_t folds = 0;
+    for (const SpecialPoint& point : testing::of_type(branch, PointType::grazing)) {
+        CycleMapOptions options;
+        options.parameter = settings.parameter;
+        const CycleMap map =
+            cycle_map(model, point.solution.orbit, {point.segment, point.event, point.time, point.at_end}, options);
+        const Verdict verdict = verdict_of(map);
+        if (verdict.outcome == GrazingOutcome::undecided)
+            continue;
+        ++folds;
+        for (const double overshoot : {-1e-5, -1e-7, -1e-9}) {
+            const PredictedTrip predicted = predicted_trip(map, verdict, overshoot);
+            ASSERT_TRUE(predicted.ended) << predicted.ending;
+            TripEnd end;
+            end.speed = predicted.level;
+            const TripTime simulated = simulated_trip(model, map, settings.parameter, overshoot, end);
+            EXPECT_EQ(simulated.ending, "speed");
+            EXPECT_NEAR(simulated.cycles, predicted.cycles, 1.1) << overshoot;
+            const double log_growth = std::log(*verdict.leading),
+                         deep = predicted.level * predicted.level / (2 * map.contact.acceleration);
+            EXPECT_NEAR(predicted.cycles, std::log(deep / std::abs(overshoot)) / log_growth, 5);
+        }
+    }
+    EXPECT_GE(folds, 1U);
 }
 
 } // namespace

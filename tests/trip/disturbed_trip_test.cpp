@@ -1,9 +1,10 @@
 // Trips under ramps, waves and noise, against closed forms and plain recursions.
 
-#include "graze/branch/disturbed_trip.hpp"
+#include "graze/trip/disturbed_trip.hpp"
+#include "graze/trip/noisy_trip.hpp"
 
+#include "branch/maps.hpp"
 #include "graze/model/named_value.hpp"
-#include "maps.hpp"
 
 #include <gtest/gtest.h>
 

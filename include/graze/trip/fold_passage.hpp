@@ -1,7 +1,7 @@
 #pragma once
 
 #include "graze/branch/special_point.hpp"
-#include "graze/grazing/trip_time.hpp"
+#include "graze/trip/simulated_trip.hpp"
 
 #include <cstddef>
 #include <vector>

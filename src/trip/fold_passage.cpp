@@ -1,11 +1,11 @@
-#include "graze/branch/fold_passage.hpp"
+#include "graze/trip/fold_passage.hpp"
 
 #include "branch/normal_form.hpp"
 #include "flow/cyclic.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/branch/curve_start.hpp"
-#include "grazing/end_watch.hpp"
 #include "orbit/shooting.hpp"
+#include "trip/end_watch.hpp"
 
 #include <fmt/format.h>
 

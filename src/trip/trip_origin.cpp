@@ -1,4 +1,4 @@
-#include "graze/branch/disturbed_trip.hpp"
+#include "graze/trip/trip_origin.hpp"
 
 #include "graze/base/input_error.hpp"
 #include "graze/flow/mode_flow.hpp"
@@ -129,6 +129,11 @@ TripOrigin trip_origin(const System& system, const FoldPassage& fold, double val
     if (first.outcome == OrbitOutcome::converged)
         guess = first.orbit;
     return beginning_on(system, followed_to(system, guess, fold.parameter, value).orbit, fold.parameter, fold.value);
+}
+
+TripOrigin trip_origin(const LossPoint& point, double value) {
+    return point.fold ? trip_origin(point.system, *point.fold, value)
+                      : trip_origin(point.system, point.orbit, point.map, point.parameter, value);
 }
 
 } // namespace graze
