@@ -1,6 +1,6 @@
 #pragma once
 
-#include "graze/bench/virtual_bench.hpp"
+#include "instrument/scpi_bench.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -31,7 +31,7 @@ class BenchService {
 public:
     /// @param bench must outlive this
     /// @throws InputError for settings out of range, and when the port's name is taken or a connection cannot be made
-    BenchService(VirtualBench& bench, const ServiceSettings& settings);
+    BenchService(ScpiBench& bench, const ServiceSettings& settings);
     /// Takes the name away again.
     ~BenchService();
     BenchService(const BenchService&) = delete;

@@ -1,4 +1,4 @@
-#include "graze/bench/sample_protocol.hpp"
+#include "instrument/sample_protocol.hpp"
 
 #include "graze/base/printable.hpp"
 

@@ -1,4 +1,4 @@
-#include "graze/acquire/bench_lines.hpp"
+#include "instrument/bench_lines.hpp"
 
 namespace graze {
 

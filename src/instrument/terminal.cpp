@@ -1,4 +1,4 @@
-#include "bench/terminal.hpp"
+#include "instrument/terminal.hpp"
 
 #include "graze/base/input_error.hpp"
 

@@ -1,9 +1,9 @@
-#include "graze/bench/function_generator.hpp"
+#include "instrument/function_generator.hpp"
 
-#include "bench/generator_unit.hpp"
-#include "bench/scpi_text.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/trimmed.hpp"
+#include "instrument/generator_unit.hpp"
+#include "instrument/scpi_text.hpp"
 
 #include <fmt/format.h>
 
@@ -19,8 +19,8 @@ namespace {
 
 constexpr std::size_t most_errors = 20;
 constexpr double least_frequency = 1e-4, most_frequency = 15e6; // of a sine
-constexpr double least_amplitude = 0.05, most_amplitude = 10;   // V from peak to peak, into 50 ohm
-constexpr double most_voltage = 5;                              // of offset and half of the amplitude together
+constexpr double least_amplitude = GeneratorOutput::least_amplitude, most_amplitude = GeneratorOutput::most_amplitude;
+constexpr double most_voltage = 5; // of offset and half of the amplitude together
 constexpr std::string_view identity = "HEWLETT-PACKARD,33120A,0,8.0-5.0-2.0";
 
 // Of the register of standard events (IEEE 488.2).
@@ -37,6 +37,8 @@ int event_of(int error) {
 } // namespace
 
 FunctionGenerator::FunctionGenerator(const GeneratorSettings& settings) : settings_(settings) {
+    if (!(settings.clip > 0))
+        throw InputError(fmt::format("the generator cuts down to {} V", settings.clip), "give a positive amplitude");
     if (settings.left_as.empty())
         return;
     remote_ = true;
@@ -245,10 +247,7 @@ bool FunctionGenerator::read_number(const std::string& text, bool is_frequency, 
 /// Of what is shown. The amplitude comes first: an offset for which there is no room any more gives way.
 bool FunctionGenerator::set_voltages(double amplitude, double offset) {
     const double factor = load_factor();
-    // What the unit's conversion loses must not put a limit out of reach.
-    constexpr double roundoff = 1e-12;
-    if (!(amplitude >= least_amplitude * factor * (1 - roundoff) &&
-          amplitude <= most_amplitude * factor * (1 + roundoff))) {
+    if (!GeneratorOutput::reaches(amplitude / factor)) {
         raise(-222);
         return false;
     }

@@ -1,7 +1,7 @@
-#include "bench/scpi_text.hpp"
+#include "instrument/scpi_text.hpp"
 
 #include "graze/base/trimmed.hpp"
-#include "graze/bench/function_generator.hpp"
+#include "instrument/function_generator.hpp"
 
 #include <algorithm>
 #include <array>

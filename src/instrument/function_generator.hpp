@@ -1,5 +1,7 @@
 #pragma once
 
+#include "graze/bench/generator_output.hpp"
+
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -9,22 +11,8 @@
 
 namespace graze {
 
-enum class WaveShape { sine, square, triangle, ramp, dc };
 /// In which amplitudes are told and shown: from peak to peak, root mean square, or power at 50 ohm above a milliwatt.
 enum class VoltageUnit { vpp, vrms, dbm };
-
-/// A wave, as the display of a function generator shows it.
-struct GeneratorOutput {
-    double frequency = 1000; ///< in Hz
-    double amplitude = 0.1;  ///< from peak to peak, in V; dc has none
-    double offset = 0;       ///< in V
-    WaveShape shape = WaveShape::sine;
-
-    /// From peak to peak, of the part of the wave at its frequency, which drives a model that knows of sines only.
-    double fundamental() const;
-
-    bool operator==(const GeneratorOutput&) const = default;
-};
 
 /// In what a generator differs from a whole one.
 struct GeneratorSettings {
@@ -46,7 +34,7 @@ struct GeneratorSettings {
 /// a line. A value out of range (-222) changes nothing. Modulations are switches here that do nothing else.
 class FunctionGenerator {
 public:
-    /// @throws InputError when it has an error after the line that it was left by
+    /// @throws InputError for a clip that is not positive, and when it has an error after the line that it was left by
     explicit FunctionGenerator(const GeneratorSettings& settings = {});
 
     /// Does what a line asks for. @return its answer without a terminator, answers to several queries separated by

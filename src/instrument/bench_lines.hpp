@@ -1,8 +1,8 @@
 #pragma once
 
 #include "graze/acquire/instrument_line.hpp"
-#include "graze/bench/sample_protocol.hpp"
-#include "graze/bench/virtual_bench.hpp"
+#include "instrument/sample_protocol.hpp"
+#include "instrument/scpi_bench.hpp"
 
 #include <deque>
 #include <string>
@@ -13,14 +13,14 @@ namespace graze {
 class BenchGeneratorLine : public InstrumentLine {
 public:
     /// @param bench must outlive this
-    explicit BenchGeneratorLine(VirtualBench& bench) : bench_(&bench) {}
+    explicit BenchGeneratorLine(ScpiBench& bench) : bench_(&bench) {}
     void send(std::string_view line) override;
     std::optional<std::string> receive(double wait) override;
     void discard() override { answers_.clear(); }
     void reopen() override { answers_.clear(); }
 
 private:
-    VirtualBench* bench_;
+    ScpiBench* bench_;
     std::deque<std::string> answers_;
 };
 

@@ -1,4 +1,4 @@
-#include "bench/generator_unit.hpp"
+#include "instrument/generator_unit.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -31,23 +31,6 @@ double peaks_of(double value, VoltageUnit unit, WaveShape shape) {
 }
 
 } // namespace
-
-double GeneratorOutput::fundamental() const {
-    constexpr double pi = std::numbers::pi;
-    switch (shape) {
-    case WaveShape::sine:
-        return amplitude;
-    case WaveShape::square:
-        return 4 / pi * amplitude;
-    case WaveShape::triangle:
-        return 8 / (pi * pi) * amplitude;
-    case WaveShape::ramp:
-        return 2 / pi * amplitude;
-    case WaveShape::dc:
-        break;
-    }
-    return 0;
-}
 
 double shown_voltage(double peaks, VoltageUnit unit, WaveShape shape) {
     if (unit == VoltageUnit::vpp)

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "graze/bench/function_generator.hpp"
+#include "instrument/function_generator.hpp"
 
 #include <optional>
 #include <string_view>

@@ -1,4 +1,4 @@
-#include "graze/bench/bench_service.hpp"
+#include "instrument/bench_service.hpp"
 
 #include "graze/model/catalogue.hpp"
 
@@ -85,7 +85,7 @@ public:
 
 private:
     std::filesystem::path folder_;
-    VirtualBench bench_{testbed()};
+    ScpiBench bench_{testbed()};
     std::optional<BenchService> service_;
     std::atomic<bool> stop_{false};
     std::thread thread_;
@@ -157,7 +157,7 @@ TEST(BenchService, TakesNobodysName) {
     const std::filesystem::path file =
         std::filesystem::temp_directory_path() / ("graze-taken-" + std::to_string(getpid()));
     std::ofstream(file) << "mine";
-    VirtualBench bench(testbed());
+    ScpiBench bench(testbed());
     ServiceSettings settings;
     settings.port = file.string();
     EXPECT_THROW(BenchService service(bench, settings), InputError);

@@ -1,4 +1,4 @@
-#include "graze/bench/function_generator.hpp"
+#include "instrument/function_generator.hpp"
 
 #include "graze/base/input_error.hpp"
 

@@ -1,10 +1,10 @@
-#include "graze/bench/bench_service.hpp"
+#include "instrument/bench_service.hpp"
 
 #include "base/random_number.hpp"
-#include "bench/descriptor.hpp"
-#include "bench/line_cutter.hpp"
-#include "bench/terminal.hpp"
-#include "graze/bench/sample_protocol.hpp"
+#include "instrument/descriptor.hpp"
+#include "instrument/line_cutter.hpp"
+#include "instrument/sample_protocol.hpp"
+#include "instrument/terminal.hpp"
 
 #include <fmt/format.h>
 
@@ -68,10 +68,10 @@ void ServiceSettings::validate() const {
 struct BenchService::State {
     using Clock = std::chrono::steady_clock;
 
-    State(VirtualBench& b, const ServiceSettings& s)
+    State(ScpiBench& b, const ServiceSettings& s)
         : bench(b), settings(s), terminal(std::in_place, s.port), listening(listener(s.tcp)), protocol(b) {}
 
-    VirtualBench& bench;
+    ScpiBench& bench;
     ServiceSettings settings;
     std::optional<Terminal> terminal;
     Descriptor listening, client{};
@@ -244,7 +244,7 @@ void BenchService::State::turn() {
     write_client();
 }
 
-BenchService::BenchService(VirtualBench& bench, const ServiceSettings& settings) {
+BenchService::BenchService(ScpiBench& bench, const ServiceSettings& settings) {
     settings.validate();
     state_ = std::make_unique<State>(bench, settings);
     state_->began_at = bench.time();
