@@ -1,16 +1,15 @@
-#include "study/chatter_curve.hpp"
+#include "graze/branch/chatter_curve.hpp"
 
-#include "graze/branch/chatter_limit.hpp"
-#include "study/branch_run.hpp"
-#include "study/ladder_run.hpp"
+#include "graze/base/input_error.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
-#include <string>
+#include <utility>
 #include <vector>
 
 namespace graze {
@@ -18,12 +17,12 @@ namespace graze {
 namespace {
 
 /// The curve in the plane of two parameters, each in units of the largest step in it.
-class ChatterCurve {
+class ChatterPlane {
 public:
     using Place = std::array<double, 2>;
 
-    ChatterCurve(const StudyRun& run, const System& system, std::size_t event, const Orbit& first)
-        : settings_(run.branch.settings), system_(system),
+    ChatterPlane(const System& system, std::size_t event, const Orbit& first, const BranchSettings& settings)
+        : settings_(settings), system_(system),
           event_(event), parameters_{settings_.parameter, settings_.free.front()} {
         bounds_[0] = {parameters_[0], settings_.least, settings_.greatest};
         bounds_[1] = {parameters_[1], std::nullopt, std::nullopt};
@@ -34,7 +33,7 @@ public:
             units_[k] = largest_step(bounds_[k], first.parameters[parameters_[k].place()]);
     }
 
-    const System& system() const { return system_; }
+    const BranchSettings& settings() const { return settings_; }
     Place place_of(const Orbit& orbit) const {
         return {orbit.parameters[parameters_[0].place()] / units_[0],
                 orbit.parameters[parameters_[1].place()] / units_[1]};
@@ -121,7 +120,7 @@ private:
         return reached.limit.direct ? std::optional(std::move(reached)) : std::nullopt;
     }
 
-    const BranchSettings& settings_;
+    BranchSettings settings_;
     System system_;
     std::size_t event_;
     std::array<ParameterId, 2> parameters_;
@@ -129,128 +128,157 @@ private:
     Place units_{};
 };
 
-/// @param again whether the other part of the run has the same first point
-SpecialPoint point_of(const ChatterLimit& limit, const StudyRun& run, const System& system, std::size_t event,
-                      std::size_t step, bool again) {
-    SpecialPoint point;
-    point.type = step == 0 && !again ? PointType::chatter : PointType::regular;
-    point.detail = fmt::format("{}+- {:.1e}", step == 0 ? "start; " : "", limit.direct->second);
-    point.event = event;
-    point.solution.orbit = limit.orbit;
-    point.solution.outcome = OrbitOutcome::converged;
-    point.solution.residual = limit.gap;
-    point.solution.certificate.admissible = true;
-    point.parameter = limit.orbit.parameters[run.branch.settings.parameter.place()];
-    point.bracket = {unknown_value, unknown_value};
-    point.step = step;
-    point.monitors = monitors_of(system, limit.orbit, run);
-    return point;
-}
-
 /// Angle between two directions in the plane.
-double angle_between(const ChatterCurve::Place& one, const ChatterCurve::Place& other) {
+double angle_between(const ChatterPlane::Place& one, const ChatterPlane::Place& other) {
     return std::abs(std::atan2(one[0] * other[1] - one[1] * other[0], one[0] * other[0] + one[1] * other[1]));
-}
-
-/// Steps along the secant, in which the parameter that changes more is held and the other one solved for: turns in
-/// either are passed (W. C. Rheinboldt, "Numerical Analysis of Parametrized Nonlinear Equations", 1986).
-/// @return false when interrupted
-bool follow_one_way(const StudyRun& run, const ChatterCurve& curve, const std::string& part, bool again,
-                    const ChatterLimit& first, std::size_t event, PointWriter& writer, const RunnerOptions& options) {
-    using Place = ChatterCurve::Place;
-    constexpr double growth = 1.5, smallest = 1e-4, largest_angle = 0.4; // of the largest step, which is 1
-    double step = 0.25;
-    Orbit here = first.orbit;
-    std::optional<Orbit> before;
-    double way_before = 1;
-    Place direction{part == "down" ? -1.0 : 1.0, 0};
-    writer.add(part, point_of(first, run, curve.system(), event, 0, again), false);
-    std::string why = std::string(name_of(BranchOutcome::steps)), problem;
-    const auto tell_bound = [&](std::size_t which) {
-        why = fmt::format("bound: {} = {:.9g}", curve.name_of(which), here.parameters[curve.place_in_model(which)]);
-    };
-    if (curve.is_on_bound(0, here, direction[0])) {
-        tell_bound(0);
-        writer.end(why);
-        return true;
-    }
-    for (std::size_t made = 1; made <= run.branch.settings.steps;) {
-        if (options.interrupted && options.interrupted())
-            return false;
-        const Place from = curve.place_of(here), ahead{step * direction[0], step * direction[1]};
-        const auto reached = curve.go(here, ahead, before ? &*before : nullptr, way_before, problem);
-        Place moved{};
-        if (reached) {
-            const Place to = curve.place_of(reached->limit.orbit);
-            moved = {to[0] - from[0], to[1] - from[1]};
-        }
-        const double way = std::hypot(moved[0], moved[1]);
-        const bool bends = reached && before && angle_between(direction, moved) > largest_angle;
-        if (!reached || !(way > 0) || bends || (!before && way > 1)) {
-            step /= 2;
-            if (step >= smallest)
-                continue;
-            why = reached ? std::string(name_of(BranchOutcome::no_convergence)) : problem;
-            break;
-        }
-        before = here;
-        way_before = way;
-        here = reached->limit.orbit;
-        direction = {moved[0] / way, moved[1] / way};
-        writer.add(part, point_of(reached->limit, run, curve.system(), event, made++, again), false);
-        if (reached->bound) {
-            tell_bound(*reached->bound);
-            break;
-        }
-        step = std::min(growth * step, 1.0);
-    }
-    writer.end(why);
-    return true;
-}
-
-/// What has no meaning for the onset of chatter is refused, not left out.
-void require_plain(const StudyRun& run, const SpecialPoint& first) {
-    const auto refuse = [&](const std::string& problem, const std::string& remedy) {
-        throw InputError(run.start->place, fmt::format("run '{}' follows an onset of chatter: {}", run.name, problem),
-                         remedy);
-    };
-    const BranchSettings& settings = run.branch.settings;
-    if (!run.start->onto.empty())
-        refuse(fmt::format("it is no point of type {}", run.start->onto), "leave `onto` out");
-    if (settings.free.size() > 1)
-        refuse("it needs no further free parameters", "leave `free` out");
-    for (const Monitor& monitor : settings.monitors)
-        if (monitor.fixed || !monitor.crossings.empty() || monitor.least || monitor.greatest)
-            refuse(fmt::format("monitor '{}' cannot be fixed, reported or bounded", monitor.name), "leave that out");
-    if (!settings.stop_at.empty())
-        refuse("it meets no other points", "leave `stop` out");
-    const double value = first.solution.orbit.parameters[settings.parameter.place()];
-    if ((settings.least && value < *settings.least) || (settings.greatest && value > *settings.greatest))
-        refuse(fmt::format("its start, {:.9g}, lies outside of the bounds of '{}'", value,
-                           run.model.independent_parameters()[settings.parameter.place()]),
-               "give wider bounds in `along`");
 }
 
 } // namespace
 
-bool run_chatter_curve(const StudyRun& run, const System& system, const SpecialPoint& first, PointWriter& writer,
-                       const RunnerOptions& options) {
-    require_plain(run, first);
-    const Orbit& orbit = first.solution.orbit;
-    const ChatterCurve curve(run, system, first.event, orbit);
-    std::string why;
-    const auto begin = at_place(run.start->place, run, [&] { return curve.at(orbit, why); });
-    if (!begin)
-        throw InputError(run.start->place,
-                         fmt::format("run '{}': no onset of chatter is found at its start: {}", run.name, why),
-                         "choose another point, or wider bounds");
-    bool again = false;
-    for (const std::string& part : direction_names(run)) {
-        if (!follow_one_way(run, curve, part, again, *begin, first.event, writer, options))
-            return false;
-        again = true;
+struct ChatterCurve::State {
+    State(ChatterPlane in, std::size_t at, ChatterLimit begin)
+        : plane(std::move(in)), event(at), first(std::move(begin)), here(first) {}
+
+    void tell_bound(std::size_t which) {
+        ending =
+            fmt::format("bound: {} = {:.9g}", plane.name_of(which), here.orbit.parameters[plane.place_in_model(which)]);
     }
+    /// One attempt. @return whether it has led on
+    bool attempt(std::string& problem);
+
+    ChatterPlane plane;
+    std::size_t event;
+    ChatterLimit first, here;
+    std::optional<Orbit> before;
+    ChatterPlane::Place direction{};
+    double length = 0, way_before = 1; ///< of the next step and of the last, in largest steps
+    std::size_t made = 0;
+    bool interrupted = false;
+    std::string ending;
+};
+
+ChatterCurve::ChatterCurve(const System& system, const SpecialPoint& first, const BranchSettings& settings) {
+    require_chatter_curve(system.model(), first, settings);
+    ChatterPlane plane(system, first.event, first.solution.orbit, settings);
+    std::string why;
+    auto begin = plane.at(first.solution.orbit, why);
+    if (!begin)
+        throw InputError(fmt::format("no onset of chatter is found at its start: {}", why),
+                         "choose another point, or wider bounds");
+    state_ = std::make_unique<State>(std::move(plane), first.event, std::move(*begin));
+}
+
+ChatterCurve::~ChatterCurve() = default;
+ChatterCurve::ChatterCurve(ChatterCurve&&) noexcept = default;
+
+void ChatterCurve::start(int direction) {
+    constexpr double first_length = 0.25;
+    State& state = *state_;
+    state.here = state.first;
+    state.before.reset();
+    state.direction = {direction < 0 ? -1.0 : 1.0, 0};
+    state.length = first_length;
+    state.way_before = 1;
+    state.made = 0;
+    state.interrupted = false;
+    state.ending.clear();
+    if (state.plane.is_on_bound(0, state.here.orbit, state.direction[0]))
+        state.tell_bound(0);
+}
+
+bool ChatterCurve::State::attempt(std::string& problem) {
+    using Place = ChatterPlane::Place;
+    constexpr double growth = 1.5, largest_angle = 0.4;
+    const Place from = plane.place_of(here.orbit), ahead{length * direction[0], length * direction[1]};
+    auto reached = plane.go(here.orbit, ahead, before ? &*before : nullptr, way_before, problem);
+    if (!reached)
+        return false;
+    problem = name_of(BranchOutcome::no_convergence);
+    const Place to = plane.place_of(reached->limit.orbit), moved{to[0] - from[0], to[1] - from[1]};
+    const double way = std::hypot(moved[0], moved[1]);
+    const bool bends = before && angle_between(direction, moved) > largest_angle;
+    if (!(way > 0) || bends || (!before && way > 1))
+        return false;
+    before = std::move(here.orbit);
+    way_before = way;
+    here = std::move(reached->limit);
+    direction = {moved[0] / way, moved[1] / way};
+    ++made;
+    if (reached->bound)
+        tell_bound(*reached->bound);
+    length = std::min(growth * length, 1.0);
     return true;
+}
+
+bool ChatterCurve::step(const std::function<bool()>& interrupted) {
+    constexpr double shortest = 1e-4;
+    State& state = *state_;
+    if (state.ending.empty() && state.made >= state.plane.settings().steps)
+        state.ending = name_of(BranchOutcome::steps);
+    while (state.ending.empty()) {
+        if (interrupted && interrupted()) {
+            state.interrupted = true;
+            return false;
+        }
+        std::string problem;
+        if (state.attempt(problem))
+            return true;
+        state.length /= 2;
+        if (state.length < shortest)
+            state.ending = problem;
+    }
+    return false;
+}
+
+const ChatterLimit& ChatterCurve::limit() const {
+    return state_->here;
+}
+
+std::size_t ChatterCurve::steps() const {
+    return state_->made;
+}
+
+bool ChatterCurve::interrupted() const {
+    return state_->interrupted;
+}
+
+const std::string& ChatterCurve::ending() const {
+    return state_->ending;
+}
+
+SpecialPoint ChatterCurve::point() const {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    const ChatterLimit& limit = state_->here;
+    SpecialPoint point;
+    point.type = PointType::regular;
+    point.detail = fmt::format("{}+- {:.1e}", state_->made == 0 ? "start; " : "", limit.direct->second);
+    point.event = state_->event;
+    point.solution.orbit = limit.orbit;
+    point.solution.outcome = OrbitOutcome::converged;
+    point.solution.residual = limit.gap;
+    point.solution.certificate.admissible = true;
+    point.parameter = limit.orbit.parameters[state_->plane.settings().parameter.place()];
+    point.bracket = {unknown, unknown};
+    point.step = state_->made;
+    return point;
+}
+
+void require_chatter_curve(const Model& model, const SpecialPoint& first, const BranchSettings& settings) {
+    if (settings.free.empty())
+        throw InputError("it needs a second parameter", "name one in `free`");
+    if (settings.free.size() > 1)
+        throw InputError("it needs no further free parameters", "leave `free` out");
+    for (const Monitor& monitor : settings.monitors)
+        if (monitor.fixed || !monitor.crossings.empty() || monitor.least || monitor.greatest)
+            throw InputError(fmt::format("monitor '{}' cannot be fixed, reported or bounded", monitor.name),
+                             "leave that out");
+    if (!settings.stop_at.empty())
+        throw InputError("it meets no other points", "leave `stop` out");
+    const double value = first.solution.orbit.parameters[settings.parameter.place()];
+    if ((settings.least && value < *settings.least) || (settings.greatest && value > *settings.greatest))
+        throw InputError(fmt::format("its start, {:.9g}, lies outside of the bounds of '{}'", value,
+                                     model.independent_parameters()[settings.parameter.place()]),
+                         "give wider bounds in `along`");
 }
 
 } // namespace graze
