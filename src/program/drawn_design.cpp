@@ -1,6 +1,8 @@
 #include "program/drawn_design.hpp"
 
 #include "graze/base/input_error.hpp"
+#include "graze/design/design_folder.hpp"
+#include "graze/design/trip_location.hpp"
 #include "graze/design/trip_times.hpp"
 #include "graze/design/wishes.hpp"
 #include "graze/layout/lumped_model.hpp"
@@ -8,12 +10,11 @@
 #include "graze/model/model_file.hpp"
 #include "graze/model/parameter_file.hpp"
 #include "program/commands.hpp"
-#include "program/design_folder.hpp"
+#include "program/design_progress.hpp"
 #include "program/interrupt.hpp"
 #include "program/kept_inputs.hpp"
 #include "program/output_file.hpp"
 #include "program/process.hpp"
-#include "program/trip_location.hpp"
 
 #include <fmt/format.h>
 
@@ -167,7 +168,7 @@ void write_numbers(const DesignedDevice& designed) {
 
 DesignedDevice matched_device(const DeviceFile& file, const std::string& design, const std::string& folder) {
     const Design own = load_design(design);
-    require_device_of(own, folder);
+    require_device_of(own, folder, {"--from-design", 0, 0});
     const std::string path = path_in(folder, device_model_name);
     DesignedDevice result{folder, own, read_model(path), {}};
     keep_inputs_of(result.own);

@@ -1,16 +1,17 @@
 #include "program/layout_yield.hpp"
-#include "program/drawing.hpp"
 
 #include "graze/base/input_error.hpp"
 #include "graze/design/design.hpp"
+#include "graze/design/trip_location.hpp"
 #include "graze/picture/wafer_map.hpp"
 #include "program/commands.hpp"
+#include "program/design_progress.hpp"
+#include "program/drawing.hpp"
 #include "program/interrupt.hpp"
 #include "program/json_rows.hpp"
 #include "program/kept_inputs.hpp"
 #include "program/output_file.hpp"
 #include "program/process.hpp"
-#include "program/trip_location.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "program/design_folder.hpp"
+#include "graze/design/design_folder.hpp"
 
 #include "graze/base/input_error.hpp"
 
@@ -32,8 +32,7 @@ std::string device_heading(const Design& design) {
     return fmt::format("{}{}' ({})\n", heading_begin, design.name, design.fingerprint);
 }
 
-void require_device_of(const Design& design, const std::string& folder) {
-    const Place place{"--from-design", 0, 0};
+void require_device_of(const Design& design, const std::string& folder, const Place& place) {
     const std::string remedy = fmt::format("make it by: graze design {} --output {}", design.file, folder);
     const std::filesystem::path in(folder), device = in / device_model_name;
     if (!std::filesystem::is_regular_file(device))

@@ -1,4 +1,4 @@
-#include "program/time_left.hpp"
+#include "graze/base/time_left.hpp"
 
 #include "program/progress_line.hpp"
 

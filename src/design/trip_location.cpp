@@ -1,8 +1,6 @@
-#include "program/trip_location.hpp"
+#include "graze/design/trip_location.hpp"
 
 #include "graze/study/runner.hpp"
-#include "program/arguments.hpp"
-#include "program/interrupt.hpp"
 
 #include <fmt/format.h>
 
@@ -27,17 +25,6 @@ bool follow(const Study& study, ResultFile& file, const DesignReportOptions& opt
 }
 
 } // namespace
-
-DesignReportOptions interactive_options(int jobs, StatusLine& line) {
-    DesignReportOptions options;
-    options.jobs = threads_for(jobs);
-    options.interrupted = [] { return InterruptGuard::requested(); };
-    options.progress = [&line](const std::string& what) {
-        if (line.is_due())
-            line.show(what);
-    };
-    return options;
-}
 
 std::optional<TripPoint> locate_trip(const Design& design, const std::string& path,
                                      const DesignReportOptions& options) {

@@ -1,35 +1,11 @@
-#include "program/run_control.hpp"
-
-#include "program/interrupt.hpp"
-
-#include <fmt/format.h>
+#include "graze/trajectory/run_control.hpp"
 
 #include <algorithm>
 
 namespace graze {
 
-namespace {
-
-constexpr int calls_between_looks = 64; ///< at the clock
-
-} // namespace
-
-void Progress::update(std::optional<double> fraction, double time) {
-    if (!line_.wanted() || ++calls_ < calls_between_looks)
-        return;
-    calls_ = 0;
-    if (!line_.is_due())
-        return;
-    const double elapsed = line_.elapsed();
-    std::string line = fmt::format("time {:.6g}", time);
-    if (fraction && *fraction > 0)
-        line += fmt::format(", {:.0f} %, {:.0f} s left", 100 * *fraction, elapsed * (1 - *fraction) / *fraction);
-    line_.show(line);
-}
-
-RunControl::RunControl(Observer& recorders, Progress& progress, std::optional<std::size_t> period_probe,
-                       std::vector<bool> counted)
-    : recorders_(&recorders), progress_(&progress), period_probe_(period_probe), counted_(std::move(counted)) {}
+RunControl::RunControl(Observer& recorders, std::optional<std::size_t> period_probe, std::vector<bool> counted)
+    : recorders_(&recorders), period_probe_(period_probe), counted_(std::move(counted)) {}
 
 void RunControl::begin(const LegEnd& end, double time, bool shown) {
     end_ = end;
@@ -73,8 +49,9 @@ bool RunControl::stop() {
         fraction = std::min(1.0, (time_ - start_) / *end_.expected);
     else if (end_.contacts > 0)
         fraction = static_cast<double>(contacts_) / static_cast<double>(end_.contacts);
-    progress_->update(fraction, time_);
-    return is_reached() || InterruptGuard::requested() || is_full_();
+    if (progress_)
+        progress_(fraction, time_);
+    return is_reached() || (ends_ && ends_());
 }
 
 } // namespace graze

@@ -1,4 +1,4 @@
-#include "program/file_facts.hpp"
+#include "graze/study/file_facts.hpp"
 
 #include "graze/results/stored_run.hpp"
 #include "graze/study/run_times.hpp"

@@ -16,8 +16,9 @@ constexpr const char* unfinished_name = "design-unfinished.txt";
 std::string unfinished_text(const Design& design);
 /// The first line of `device.toml`, a comment by which it is known whose device it is.
 std::string device_heading(const Design& design);
+/// @param place where the folder was named
 /// @throws InputError where the folder has no device, one of a design whose work has not come to its end, or one of
 /// another design; of a device without a heading nobody can tell
-void require_device_of(const Design& design, const std::string& folder);
+void require_device_of(const Design& design, const std::string& folder, const Place& place);
 
 } // namespace graze

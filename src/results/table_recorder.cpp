@@ -1,4 +1,4 @@
-#include "program/table_recorder.hpp"
+#include "graze/results/table_recorder.hpp"
 
 #include "graze/trajectory/recorder.hpp"
 

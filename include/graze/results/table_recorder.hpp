@@ -1,9 +1,8 @@
 #pragma once
 
+#include "graze/results/state_columns.hpp"
 #include "graze/trajectory/observer.hpp"
 #include "graze/trajectory/trajectory.hpp"
-#include "program/quantity.hpp"
-#include "program/table.hpp"
 
 #include <memory>
 #include <optional>
@@ -47,10 +46,10 @@ private:
 /// What tables are made from.
 struct TableRequest {
     TableKind kind = TableKind::samples;
-    std::vector<RequestedQuantity> quantities;
-    std::vector<RequestedQuantity> extrema; ///< of the extremum probes
-    std::size_t first_extremum = 0;         ///< probes before it are sections
-    std::vector<bool> events;               ///< which ones' contacts are shown
+    std::vector<NamedValue> quantities;
+    std::vector<NamedValue> extrema; ///< of the extremum probes
+    std::size_t first_extremum = 0;  ///< probes before it are sections
+    std::vector<bool> events;        ///< which ones' contacts are shown
     std::size_t samples = 500;
     std::optional<double> every; ///< distance of samples, instead of their number
     std::size_t most_cells = graze::most_cells;

@@ -1,11 +1,9 @@
-#include "program/table_recorder.hpp"
+#include "graze/results/table_recorder.hpp"
 
 #include "graze/model/model_file.hpp"
-#include "program/run_control.hpp"
+#include "graze/trajectory/run_control.hpp"
 
 #include <gtest/gtest.h>
-
-#include <sstream>
 
 namespace graze {
 namespace {
@@ -46,9 +44,7 @@ TEST(TableRecorder, TheRunEndsWhenTheTableIsFull) {
         request.events = {true, true};
         request.most_cells = 1000;
         const auto table = make_table_recorder(simulation, request);
-        std::ostringstream out;
-        Progress progress({out, out}, false);
-        RunControl control(*table, progress, std::nullopt, request.events);
+        RunControl control(*table, std::nullopt, request.events);
         control.end_when([&] { return table->is_full(); });
         Trajectory trajectory(simulation, {}, control);
         trajectory.start(model.initial_state(), 0, 0, 1e9);

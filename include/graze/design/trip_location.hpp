@@ -2,7 +2,6 @@
 
 #include "graze/design/design_report.hpp"
 #include "graze/design/trip_point.hpp"
-#include "program/status_line.hpp"
 
 #include <optional>
 #include <string>
@@ -21,9 +20,6 @@ auto said_of(const Design& design, const Work& work) {
         throw InputError(design.approach.place, error.problem(), error.remedy());
     }
 }
-
-/// Ends when the program is told to, and shows what is done on a line, which must outlive it.
-DesignReportOptions interactive_options(int jobs, StatusLine& line);
 
 /// Where a device trips; its way there is kept in the file. @return none when interrupted
 std::optional<TripPoint> locate_trip(const Design& design, const std::string& path, const DesignReportOptions& options);
