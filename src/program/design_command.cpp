@@ -10,7 +10,6 @@
 #include "program/design_progress.hpp"
 #include "program/drawing.hpp"
 #include "program/interrupt.hpp"
-#include "program/json_rows.hpp"
 #include "program/kept_inputs.hpp"
 #include "program/output_file.hpp"
 #include "program/process.hpp"

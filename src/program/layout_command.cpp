@@ -2,6 +2,7 @@
 #include "graze/layout/device_measures.hpp"
 #include "graze/layout/gds_stream.hpp"
 #include "graze/layout/layout.hpp"
+#include "graze/layout/lumped_table.hpp"
 #include "graze/layout/process_recipe.hpp"
 #include "graze/layout/process_steps.hpp"
 #include "graze/picture/fabrication_picture.hpp"
