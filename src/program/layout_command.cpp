@@ -9,10 +9,10 @@
 #include "graze/picture/layout_picture.hpp"
 #include "program/commands.hpp"
 #include "program/drawing.hpp"
-#include "program/drawn_design.hpp"
 #include "program/layout_model.hpp"
 #include "program/layout_yield.hpp"
 #include "program/output_file.hpp"
+#include "program/tell_drawn_design.hpp"
 #include "program/values.hpp"
 
 #include <fmt/format.h>
@@ -188,7 +188,7 @@ int layout_command(const LayoutArguments& arguments, const Console& console) {
         return code == exit_success && !ruled ? exit_irregular : code;
     }
     if (designed) {
-        const int code = tell_drawn_design(*designed, arguments, console);
+        const int code = tell_drawn_design(*designed, arguments.from_design, arguments, console);
         return code == exit_success && !ruled ? exit_irregular : code;
     }
     JsonObject heading;

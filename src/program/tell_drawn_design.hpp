@@ -1,22 +1,12 @@
 #pragma once
 
-#include "graze/design/design.hpp"
-#include "graze/layout/device_file.hpp"
-#include "graze/layout/matched_drawing.hpp"
+#include "graze/layout/drawn_design.hpp"
 #include "program/arguments.hpp"
 #include "program/program.hpp"
 
 #include <string>
 
 namespace graze {
-
-/// What `graze design DESIGN --output FOLDER` has found, and the drawing that gives it.
-struct DesignedDevice {
-    std::string folder;
-    Design own;   ///< as the file has it
-    Model device; ///< that was found, at its trip value
-    MatchedDrawing matched;
-};
 
 /// Reads the device of a design's folder, and solves for the drawing.
 /// @throws InputError when there is none in the folder, or one of another model
@@ -26,6 +16,7 @@ DesignedDevice matched_device(const DeviceFile& file, const std::string& design,
 /// designed. Prints it, and leaves in the folder: the table (drawn.csv), the numbers of the drawing (drawing.toml) and
 /// the parameters of the model (drawn.toml), both for `--set @FILE`, and the way to the trip point (drawn.sqlite).
 /// @return whether the device is as designed, and has what is wanted; otherwise the exit code says so
-int tell_drawn_design(const DesignedDevice& designed, const LayoutArguments& arguments, const Console& console);
+int tell_drawn_design(const DesignedDevice& designed, const std::string& folder, const LayoutArguments& arguments,
+                      const Console& console);
 
 } // namespace graze

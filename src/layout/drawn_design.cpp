@@ -1,28 +1,18 @@
-#include "program/drawn_design.hpp"
+#include "graze/layout/drawn_design.hpp"
 
 #include "graze/base/input_error.hpp"
-#include "graze/design/design_folder.hpp"
 #include "graze/design/trip_location.hpp"
 #include "graze/design/trip_times.hpp"
-#include "graze/design/wishes.hpp"
 #include "graze/layout/lumped_model.hpp"
 #include "graze/layout/wafer_yield.hpp"
-#include "graze/model/model_file.hpp"
-#include "graze/model/parameter_file.hpp"
-#include "program/commands.hpp"
-#include "program/design_progress.hpp"
-#include "program/interrupt.hpp"
-#include "program/kept_inputs.hpp"
-#include "program/output_file.hpp"
-#include "program/process.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
+#include <functional>
 #include <limits>
-#include <optional>
+#include <utility>
 #include <vector>
 
 namespace graze {
@@ -30,10 +20,6 @@ namespace graze {
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); // an empty cell
-
-std::string path_in(const std::string& folder, const char* name) {
-    return (std::filesystem::path(folder) / name).string();
-}
 
 /// The design whose device is that of the folder, whatever its file begins with.
 Design with_device(const Design& own, const Model& device) {
@@ -135,14 +121,13 @@ void add_wants(Comparison& rows, const MetWishes& drawn, const std::optional<Met
     }
 }
 
-void add_time(Comparison& rows, const Design& design, const TripPoint& drawn,
-              const std::optional<TripPoint>& designed) {
+void add_time(Comparison& rows, const Design& design, const TripPoint& drawn, const std::optional<TripPoint>& designed,
+              const std::function<bool()>& interrupted) {
     TripRequest request = design.trip;
     if (!request.overshoots.empty())
         request.overshoots = {*std::max_element(request.overshoots.begin(), request.overshoots.end())};
     const auto time_of = [&](const TripPoint& trip) {
-        const TripTimes times = trip_times(trip, trip.point.solution.orbit, class_at(trip), request,
-                                           [] { return InterruptGuard::requested(); });
+        const TripTimes times = trip_times(trip, trip.point.solution.orbit, class_at(trip), request, interrupted);
         const TripTime* best = times.rows.empty() ? nullptr : times.rows.front().best();
         return std::pair(best ? best->time : nothing, times.rows.empty() ? 0 : times.rows.front().overshoot);
     };
@@ -152,50 +137,16 @@ void add_time(Comparison& rows, const Design& design, const TripPoint& drawn,
                  time, drawn.system.model().time_unit, "at that overshoot");
 }
 
-void write_numbers(const DesignedDevice& designed) {
-    ParameterFile numbers;
-    numbers.text =
-        fmt::format("What graze layout has solved for, for its --set @FILE: the design {}.", designed.own.name);
-    for (const MatchedQuantity& one : designed.matched.quantities)
-        numbers.set.emplace_back(one.number.substr(one.number.find('.') + 1), one.after);
-    write_file(path_in(designed.folder, "drawing.toml"), write_parameter_file(numbers));
-    ParameterFile parameters = parameters_of(lumped_model_of(designed.matched.file), designed.own.model);
-    parameters.text = fmt::format("The device of the design {}, as it is drawn and after the etch.", designed.own.name);
-    write_file(path_in(designed.folder, "drawn.toml"), write_parameter_file(parameters));
-}
-
 } // namespace
 
-DesignedDevice matched_device(const DeviceFile& file, const std::string& design, const std::string& folder) {
-    const Design own = load_design(design);
-    require_device_of(own, folder, {"--from-design", 0, 0});
-    const std::string path = path_in(folder, device_model_name);
-    DesignedDevice result{folder, own, read_model(path), {}};
-    keep_inputs_of(result.own);
-    KeptInputs::add("the designed device", path);
-    if (result.device.name != result.own.model.name)
-        throw InputError({"--from-design", 0, 0},
-                         fmt::format("the device of {} is one of the model {}, and the design {} has the model {}",
-                                     folder, result.device.name, design, result.own.model.name),
-                         "name the design from which the folder comes");
-    result.matched = match_drawing(file, result.device);
-    return result;
-}
-
-int tell_drawn_design(const DesignedDevice& designed, const LayoutArguments& arguments, const Console& console) {
+std::optional<DrawnDesign> drawn_design(const DesignedDevice& designed, const std::string& results,
+                                        const DesignReportOptions& options) {
     const Design found = with_device(designed.own, designed.device);
     Design drawn = said_of(found, [&] { return design_of_device(found, designed.matched.file); });
     drawn.dimensions = found.dimensions; // of which wishes tell
-    const InterruptGuard guard;
-    StatusLine line(console, console.terminal);
-    const DesignReportOptions options = interactive_options(arguments.jobs, line);
-    const std::optional<TripPoint> trip = locate_trip(drawn, path_in(designed.folder, "drawn.sqlite"), options);
-    const auto interrupted = [&] {
-        console.err << "graze: interrupted; nothing but the way to the trip point is kept\n";
-        return InterruptGuard::exit_code();
-    };
+    const std::optional<TripPoint> trip = locate_trip(drawn, results, options);
     if (!trip)
-        return interrupted();
+        return std::nullopt;
     const std::optional<TripPoint> before = designed_trip(*trip, found);
     WishesOptions wishing;
     wishing.jobs = options.jobs;
@@ -213,19 +164,26 @@ int tell_drawn_design(const DesignedDevice& designed, const LayoutArguments& arg
              fmt::format("of {}, at {} of run '{}'", designed.own.control, trip->label, trip->run));
     rows.add("class", before ? std::string(class_name(class_at(*before).outcome)) : "not found",
              std::string(class_name(outcome)), "");
-    add_time(rows, designed.own, *trip, before);
+    add_time(rows, designed.own, *trip, before, options.interrupted);
     add_wants(rows, wishes, wishes_before);
-    if (InterruptGuard::requested())
-        return interrupted();
-    write_numbers(designed);
-    write_file(path_in(designed.folder, "drawn.csv"), csv_text(rows.table()));
-    JsonObject heading;
-    heading.add("design", designed.own.name);
-    deliver(rows.table(), arguments.output, heading, console);
-    if (arguments.output.format == TableFormat::table)
-        for (const char* name : {"drawing.toml", "drawn.toml", "drawn.csv"})
-            console.out << path_in(designed.folder, name) << '\n';
-    return designed.matched.is_met() && has_what_is_wanted(wishes) ? exit_success : exit_irregular;
+    if (options.interrupted && options.interrupted())
+        return std::nullopt;
+    return DrawnDesign{rows.table(), designed.matched.is_met() && has_what_is_wanted(wishes)};
+}
+
+ParameterFile solved_numbers(const DesignedDevice& designed) {
+    ParameterFile numbers;
+    numbers.text =
+        fmt::format("What graze layout has solved for, for its --set @FILE: the design {}.", designed.own.name);
+    for (const MatchedQuantity& one : designed.matched.quantities)
+        numbers.set.emplace_back(one.number.substr(one.number.find('.') + 1), one.after);
+    return numbers;
+}
+
+ParameterFile drawn_parameters(const DesignedDevice& designed) {
+    ParameterFile parameters = parameters_of(lumped_model_of(designed.matched.file), designed.own.model);
+    parameters.text = fmt::format("The device of the design {}, as it is drawn and after the etch.", designed.own.name);
+    return parameters;
 }
 
 } // namespace graze
