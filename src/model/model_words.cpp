@@ -9,8 +9,12 @@ namespace graze {
 
 std::string formula(const Expression& expression) {
     constexpr std::size_t longest = 100;
-    const std::string text = to_string(expression);
-    return text.size() <= longest ? text : text.substr(0, longest - 4) + " ...";
+    std::string text = to_string(expression);
+    if (text.size() > longest) {
+        text.resize(longest - 4);
+        text += " ...";
+    }
+    return text;
 }
 
 std::string way_of(const Model& model, const Transition& transition) {
