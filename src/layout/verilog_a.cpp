@@ -66,10 +66,10 @@ double value_of(const Model& model, const ModuleParameter& one) {
 /// No word of the language ends like that.
 std::string module_name(const std::string& name) {
     std::string result;
+    if (name.empty() || std::isdigit(static_cast<unsigned char>(name.front())))
+        result += '_';
     for (const char letter : name)
         result += std::isalnum(static_cast<unsigned char>(letter)) ? letter : '_';
-    if (result.empty() || std::isdigit(static_cast<unsigned char>(result.front())))
-        result.insert(0, "_");
     return result + "_va";
 }
 
