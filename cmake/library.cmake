@@ -1,6 +1,6 @@
 # One folder per word of the architecture; each may use only those before it. Each is compiled once, as objects of which
 # the library consists and on which its tests are linked together with the folders before it.
-set(GRAZE_FOLDERS base symbolic model tape flow trajectory record bench acquire identify sweep orbit grazing branch results study design layout picture)
+set(GRAZE_FOLDERS base symbolic model tape flow trajectory record bench acquire identify sweep orbit grazing branch trip results study design layout picture)
 
 # What a folder needs besides.
 set(GRAZE_NEEDS_sweep Threads::Threads)
@@ -14,7 +14,7 @@ set(GRAZE_NEEDS_design NLopt::nlopt)
 # short tests.
 set(computing base tape flow trajectory sweep)
 if(NOT GRAZE_SANITIZERS STREQUAL "thread")
-    list(APPEND computing symbolic identify orbit grazing branch design)
+    list(APPEND computing symbolic identify orbit grazing branch trip design)
 endif()
 if(NOT GRAZE_SANITIZERS)
     list(APPEND computing model record bench acquire layout)

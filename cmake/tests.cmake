@@ -30,13 +30,16 @@ endif()
 # Wrong uses of the library are tried on all of it.
 set(before_misuse ${GRAZE_FOLDERS})
 
+# Instruments that are not there are tried with the clients of those that are.
+set(before_instrument ${before_acquire})
+
 # What runs in several threads is tried under the thread sanitizer, and nothing else: it would tell nothing of the rest.
-set(test_folders ${GRAZE_FOLDERS} program misuse)
+set(test_folders ${GRAZE_FOLDERS} instrument program misuse)
 if(GRAZE_SANITIZERS STREQUAL "thread")
     set(test_folders threads)
     set(before_threads ${GRAZE_FOLDERS})
     set(test_threads sweep/plan study/run_schedule study/runner study/shared_model study/side_by_side branch/yield
-                     branch/disturbed_trip design/value_map)
+                     trip/disturbed_trip design/value_map)
 endif()
 
 foreach(folder IN LISTS test_folders)
@@ -53,6 +56,9 @@ foreach(folder IN LISTS test_folders)
         target_link_libraries(test_${folder} PRIVATE graze_program)
         add_dependencies(test_${folder} graze_executable)
     else()
+        if(folder MATCHES "^(acquire|instrument)$")
+            target_link_libraries(test_${folder} PRIVATE graze_instrument)
+        endif()
         foreach(part IN LISTS before_${folder})
             target_link_libraries(test_${folder} PRIVATE graze_${part})
         endforeach()
@@ -88,7 +94,7 @@ endforeach()
 
 add_test(
     NAME layers COMMAND bash ${PROJECT_SOURCE_DIR}/tests/layers/check_layers.sh ${PROJECT_SOURCE_DIR} ${GRAZE_FOLDERS}
-                        program
+                        instrument program
 )
 
 find_package(Python3 COMPONENTS Interpreter QUIET)

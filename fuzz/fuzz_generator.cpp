@@ -1,6 +1,6 @@
 // Whatever lines a function generator is sent, it stays within what it can give, and answers in lines.
 
-#include "graze/bench/function_generator.hpp"
+#include "instrument/function_generator.hpp"
 
 #include <cmath>
 #include <cstddef>

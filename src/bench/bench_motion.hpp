@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graze/bench/bench_settings.hpp"
+#include "graze/bench/generator_output.hpp"
 #include "graze/trajectory/jet_set.hpp"
 #include "graze/trajectory/recorder.hpp"
 #include "graze/trajectory/trajectory.hpp"

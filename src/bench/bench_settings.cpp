@@ -46,8 +46,6 @@ void BenchSettings::validate() const {
                          fmt::format("give from 1 to {}", most_bits));
     if (!(anti_alias >= 0) || !std::isfinite(anti_alias))
         throw InputError(fmt::format("the corner of the filter is {}", anti_alias), "give a frequency, or 0 for none");
-    if (!(clip > 0))
-        throw InputError(fmt::format("the generator cuts down to {} V", clip), "give a positive amplitude");
     require_positive(tolerance, "the tolerance");
 }
 

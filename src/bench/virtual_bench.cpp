@@ -1,8 +1,8 @@
 #include "graze/bench/virtual_bench.hpp"
 
+#include "base/random_number.hpp"
 #include "bench/anti_alias.hpp"
 #include "bench/bench_motion.hpp"
-#include "symbolic/random_number.hpp"
 
 #include <fmt/format.h>
 
@@ -40,7 +40,6 @@ struct VirtualBench::State {
     };
 
     BenchSettings settings;
-    FunctionGenerator generator;
     BenchMotion motion;
     RecordHeader header{};
     double rate = usual_rate;
@@ -72,9 +71,7 @@ struct VirtualBench::State {
 
 VirtualBench::VirtualBench(const BenchSettings& settings) {
     settings.validate();
-    state_ = std::make_unique<State>(
-        State{settings, FunctionGenerator({settings.offset.has_value(), settings.clip, settings.left_as}),
-              BenchMotion(settings)});
+    state_ = std::make_unique<State>(State{settings, BenchMotion(settings)});
     state_->header.time = {"t", "s"};
     for (const BenchChannel& channel : settings.channels)
         state_->header.channels.push_back({channel.value.name, channel.value.unit});
@@ -83,18 +80,8 @@ VirtualBench::VirtualBench(const BenchSettings& settings) {
 
 VirtualBench::~VirtualBench() = default;
 
-std::string VirtualBench::command(std::string_view line) {
-    std::string answer = state_->generator.execute(line);
-    state_->motion.drive(state_->generator.output());
-    return answer;
-}
-
-const FunctionGenerator& VirtualBench::generator() const {
-    return state_->generator;
-}
-
-FunctionGenerator& VirtualBench::generator() {
-    return state_->generator;
+void VirtualBench::drive(const GeneratorOutput& output) {
+    state_->motion.drive(output);
 }
 
 const RecordHeader& VirtualBench::header() const {

@@ -1,8 +1,8 @@
 #include "graze/branch/yield.hpp"
 
+#include "base/random_number.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
-#include "symbolic/random_number.hpp"
 
 #include <fmt/format.h>
 

@@ -75,7 +75,7 @@ void add_earlier(FactRows& facts, const TripPoint& trip, const DesignReport& rep
 void add_times(FactRows& facts, const DesignReport& report, const Model& model, const std::string& until) {
     if (!report.times.reason.empty())
         facts.add("trip_time", "none", report.times.reason);
-    for (const TripTimeRow& row : report.times.rows)
+    for (const OvershootTrip& row : report.times.rows)
         if (const TripTime* best = row.best())
             facts.add(
                 fmt::format("trip_time_{:.3g}", std::abs(row.overshoot)), best->time, model.time_unit,
@@ -208,7 +208,7 @@ Table times_table(const DesignReport& report, const std::string& unit, const std
                  {"end_time", time_unit},
                  {"ending", ""},
                  {"simulated_time", time_unit}});
-    for (const TripTimeRow& row : report.times.rows) {
+    for (const OvershootTrip& row : report.times.rows) {
         table.add(row.overshoot);
         table.add(row.continued ? row.predicted->first_speed : nothing);
         const bool ended = row.predicted && row.predicted->ended;

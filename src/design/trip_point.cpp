@@ -1,9 +1,9 @@
 #include "graze/design/trip_point.hpp"
 
+#include "base/json_text.hpp"
 #include "graze/base/input_errors.hpp"
 #include "graze/results/stored_orbit.hpp"
 #include "graze/study/study_catalogue.hpp"
-#include "study/json.hpp"
 
 #include <fmt/format.h>
 

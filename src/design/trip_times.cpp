@@ -1,8 +1,6 @@
 #include "graze/design/trip_times.hpp"
 
 #include "graze/base/input_error.hpp"
-#include "graze/branch/fold_passage.hpp"
-#include "grazing/end_watch.hpp"
 
 #include <fmt/format.h>
 
@@ -12,19 +10,6 @@
 namespace graze {
 
 namespace {
-
-void add_touch_row(TripTimes& times, const TripPoint& trip, const TripClass& found, const TripRequest& request,
-                   double overshoot, double level, const TripOptions& options) {
-    PredictionOptions prediction;
-    prediction.level = level;
-    TripTimeRow& row = times.rows.emplace_back();
-    row.overshoot = overshoot;
-    row.predicted = predicted_trip(*found.map, found.verdict, overshoot, prediction);
-    row.continued =
-        continued_trip(trip.system, *found.map, trip.control, overshoot, *row.predicted, request.end, options);
-    if (std::abs(overshoot) >= least_overshoot(*found.map, trip.control))
-        row.simulated = simulated_trip(trip.system, *found.map, trip.control, overshoot, request.end, options);
-}
 
 /// The motion that begins on the orbit as it was at the trip point.
 TripTime simulated_from_orbit(const TripPoint& trip, const Orbit& orbit, double overshoot, const TripEnd& end,
@@ -36,14 +21,6 @@ TripTime simulated_from_orbit(const TripPoint& trip, const Orbit& orbit, double 
 }
 
 } // namespace
-
-const TripTime* TripTimeRow::best() const {
-    if (simulated && simulated->ended)
-        return &*simulated;
-    if (continued && continued->ended)
-        return &*continued;
-    return nullptr;
-}
 
 std::vector<double> overshoots_of(const TripRequest& request, double value, int side) {
     const double sign = side < 0 ? -1 : 1;
@@ -58,20 +35,6 @@ std::vector<double> overshoots_of(const TripRequest& request, double value, int 
         result.push_back(sign * one);
     }
     return result.empty() ? usual_overshoots(value, side) : result;
-}
-
-TripTime simulate_until(const System& system, std::span<const double> parameters, std::span<const double> state,
-                        std::size_t mode, double cycle, const TripEnd& end, const TripOptions& options) {
-    options.validate();
-    const Simulation simulation = simulation_until(system, end, options);
-    // It is no matter of one touched surface: any hard contact will do.
-    const auto counts = [&](const Contact& contact) {
-        return system.model().events[contact.event].kind == EventKind::barrier;
-    };
-    EndWatch watch(end, counts, options.interrupted);
-    TripTime trip = run_until(simulation, parameters, state, mode, options.cycles * cycle, watch);
-    trip.cycles = trip.time / cycle;
-    return trip;
 }
 
 namespace {
@@ -91,7 +54,7 @@ void add_fold_rows(TripTimes& times, const TripPoint& trip, const Orbit& orbit, 
     for (const double overshoot : overshoots_of(request, value, side)) {
         if (options.interrupted && options.interrupted())
             return;
-        TripTimeRow& row = times.rows.emplace_back();
+        OvershootTrip& row = times.rows.emplace_back();
         row.overshoot = overshoot;
         if (fold && fold->attracting && overshoot * fold->side > 0) {
             PredictedTrip& predicted = row.predicted.emplace();
@@ -134,10 +97,11 @@ TripTimes trip_times(const TripPoint& trip, const Orbit& orbit, const TripClass&
         if (interrupted && interrupted())
             break;
         if (mapped) {
-            add_touch_row(times, trip, found, request, overshoot,
-                          request.end.speed > 0 ? std::min(level, request.end.speed) : level, options);
+            times.rows.push_back(trip_of_touch(trip.system, *found.map, found.verdict, trip.control, overshoot,
+                                               request.end.speed > 0 ? std::min(level, request.end.speed) : level,
+                                               request.end, options));
         } else { // the contact itself ends the motion
-            TripTimeRow& row = times.rows.emplace_back();
+            OvershootTrip& row = times.rows.emplace_back();
             row.overshoot = overshoot;
             row.simulated = simulated_from_orbit(trip, orbit, overshoot, request.end, options);
         }

@@ -1,7 +1,7 @@
 #include "graze/layout/process_spread.hpp"
 
+#include "base/random_number.hpp"
 #include "graze/base/input_error.hpp"
-#include "symbolic/random_number.hpp"
 
 #include <Eigen/Dense>
 #include <fmt/format.h>

@@ -16,8 +16,11 @@ constexpr double half_marker = 5; ///< um, half of a marker's side
 /// As KLayout quotes words.
 std::string quoted_word(const std::string& text) {
     std::string result = "'";
-    for (const char letter : text)
-        result += (letter == '\'' || letter == '\\' ? "\\" : "") + std::string(1, letter);
+    for (const char letter : text) {
+        if (letter == '\'' || letter == '\\')
+            result += '\\';
+        result += letter;
+    }
     return result + "'";
 }
 

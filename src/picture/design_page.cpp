@@ -69,7 +69,7 @@ private:
     std::string title() const {
         std::string text = fmt::format("{}: {} at {} = {:.6g}{}{}", design_.name, class_name(report_.found.outcome),
                                        design_.control, report_.value, unit_.empty() ? "" : " ", unit_);
-        for (const TripTimeRow& row : report_.times.rows)
+        for (const OvershootTrip& row : report_.times.rows)
             if (const TripTime* best = row.best()) {
                 text += fmt::format(", in {:.4g}{}{} at {:.2g} beyond", best->time, time_unit_.empty() ? "" : " ",
                                     time_unit_, std::abs(row.overshoot));
@@ -200,7 +200,7 @@ private:
         simulated.title = "simulation alone";
         simulated.style = FigureSeries::Style::circles;
         simulated.colour = 2;
-        for (const TripTimeRow& row : report_.times.rows) {
+        for (const OvershootTrip& row : report_.times.rows) {
             if (row.continued && row.continued->ended)
                 best.emplace_back(std::abs(row.overshoot), *row.continued);
             if (row.simulated && row.simulated->ended)

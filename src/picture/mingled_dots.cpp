@@ -1,6 +1,6 @@
 #include "picture/mingled_dots.hpp"
 
-#include "symbolic/random_number.hpp"
+#include "base/random_number.hpp"
 
 #include <algorithm>
 #include <cstdint>

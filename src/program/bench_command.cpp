@@ -1,6 +1,6 @@
 #include "graze/base/input_error.hpp"
-#include "graze/bench/bench_service.hpp"
 #include "graze/model/catalogue.hpp"
+#include "instrument/bench_service.hpp"
 #include "program/commands.hpp"
 #include "program/interrupt.hpp"
 #include "program/values.hpp"
@@ -63,9 +63,6 @@ BenchSettings bench_settings(const BenchArguments& arguments) {
     settings.bits = arguments.bits;
     settings.anti_alias = arguments.anti_alias;
     settings.seed = arguments.seed;
-    if (arguments.clip)
-        settings.clip = *arguments.clip;
-    settings.left_as = arguments.left_as;
     return settings;
 }
 
@@ -74,7 +71,11 @@ BenchSettings bench_settings(const BenchArguments& arguments) {
 int bench_command(const BenchArguments& arguments, const Console& console) {
     if (arguments.port.empty())
         throw InputError("the serial line has no name", "give one by --port PATH");
-    VirtualBench bench(bench_settings(arguments));
+    GeneratorSettings generator;
+    if (arguments.clip)
+        generator.clip = *arguments.clip;
+    generator.left_as = arguments.left_as;
+    ScpiBench bench(bench_settings(arguments), generator);
     ServiceSettings settings;
     settings.port = arguments.port;
     settings.tcp = static_cast<std::uint16_t>(arguments.tcp);

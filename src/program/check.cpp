@@ -1,6 +1,7 @@
 #include "graze/model/check.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/model/catalogue.hpp"
+#include "graze/results/model_table.hpp"
 #include "graze/trajectory/trajectory.hpp"
 #include "program/commands.hpp"
 #include "program/describe.hpp"
@@ -98,7 +99,7 @@ int check_command(const CheckArguments& arguments, const Console& console) {
     if (arguments.output.format != TableFormat::table) {
         JsonObject heading;
         heading.add("model", model.name);
-        deliver(describe_in_table(model), arguments.output, heading, console);
+        deliver(model_table(model), arguments.output, heading, console);
     } else if (arguments.output.file.empty()) {
         console.out << describe(model, console.width);
     } else {

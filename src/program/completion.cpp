@@ -6,10 +6,10 @@
 #include "graze/model/catalogue.hpp"
 #include "graze/results/name_advice.hpp"
 #include "graze/results/result_table.hpp"
+#include "graze/results/table_recorder.hpp"
 #include "graze/study/study_catalogue.hpp"
 #include "program/identify_arguments.hpp"
 #include "program/record_arguments.hpp"
-#include "program/table_recorder.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,18 +1,18 @@
 #include "graze/base/input_error.hpp"
+#include "graze/design/design_folder.hpp"
 #include "graze/design/design_report.hpp"
+#include "graze/design/trip_location.hpp"
 #include "graze/layout/verilog_a.hpp"
 #include "graze/model/model_file.hpp"
 #include "graze/picture/design_page.hpp"
 #include "graze/picture/figure_script.hpp"
 #include "program/commands.hpp"
-#include "program/design_folder.hpp"
+#include "program/design_progress.hpp"
 #include "program/drawing.hpp"
 #include "program/interrupt.hpp"
-#include "program/json_rows.hpp"
 #include "program/kept_inputs.hpp"
 #include "program/output_file.hpp"
 #include "program/process.hpp"
-#include "program/trip_location.hpp"
 
 #include <fmt/format.h>
 

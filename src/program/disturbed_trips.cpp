@@ -1,12 +1,13 @@
 #include "program/disturbed_trips.hpp"
-#include "program/drawing.hpp"
 
 #include "graze/base/input_error.hpp"
-#include "graze/branch/disturbed_trip.hpp"
 #include "graze/picture/figure_script.hpp"
+#include "graze/trip/disturbed_trip.hpp"
+#include "graze/trip/noisy_trip.hpp"
+#include "program/asked_trip.hpp"
 #include "program/commands.hpp"
+#include "program/drawing.hpp"
 #include "program/interrupt.hpp"
-#include "program/loss_point.hpp"
 #include "program/status_line.hpp"
 #include "program/values.hpp"
 
@@ -30,8 +31,8 @@ constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); // an empty
 struct AskedTrips {
     const TripArguments& arguments;
     const Console& console;
-    LossPoint point;
-    AskedEnd end;
+    AskedTrip trip;
+    const LossPoint& point = trip.point;
     Table table{};
     Figure figure{};
     std::vector<std::string> lacks{}; ///< what has not come to an end that says something
@@ -48,9 +49,7 @@ struct AskedTrips {
 TripOrigin origin_at(const AskedTrips& asked, double value) {
     const LossPoint& point = asked.point;
     try {
-        if (point.fold)
-            return trip_origin(point.system, *point.fold, value);
-        return trip_origin(point.system, point.stored.record.point.solution.orbit, point.map, point.parameter, value);
+        return trip_origin(point, value);
     } catch (const InputError& error) {
         if (asked.arguments.at.empty()) // a ramp begins as far before the point as its rate says
             throw InputError(Place{"--ramp", 0, 0},
@@ -105,16 +104,6 @@ void for_each_of(AskedTrips& asked, const std::vector<double>& values, const cha
     }
 }
 
-/// Where a ramp begins that is not told where: so far before the point that the beginning is forgotten.
-double beginning_of_ramp(const LossPoint& point, double rate) {
-    constexpr double cycles = 100, delays = 5, tellable = 10;
-    double way = cycles * std::abs(rate) * point.cycle;
-    if (point.fold)
-        way = std::max(way, delays * std::abs(delay_of_ramp(*point.fold, rate)));
-    const double least = point.fold ? least_overshoot(*point.fold) : least_overshoot(point.map, point.parameter);
-    return point.value - point.side * std::max(way, tellable * least);
-}
-
 void ramp(AskedTrips& asked) {
     const LossPoint& point = asked.point;
     const std::string& time = point.model().time_unit;
@@ -130,7 +119,7 @@ void ramp(AskedTrips& asked) {
     asked.table = Table(std::move(columns));
     FigurePanel panel = panel_of("rate of " + point.name, rate_unit, "delay of " + point.name, point.unit);
     panel.logarithmic_y = true;
-    FigureSeries simulated = series_of("simulation, until " + asked.end.words, FigureSeries::Style::circles, 1),
+    FigureSeries simulated = series_of("simulation, until " + asked.trip.end.words, FigureSeries::Style::circles, 1),
                  predicted = series_of("normal form", FigureSeries::Style::dashed, 0);
     for_each_of(asked, numbers_by_decades(point.model(), asked.arguments.ramps, "--ramp"), "ramp", [&](double rate) {
         if (!(rate * point.side > 0))
@@ -141,7 +130,7 @@ void ramp(AskedTrips& asked) {
         const double from =
             asked.arguments.at.empty() ? beginning_of_ramp(point, rate) : asked.number(asked.arguments.at, "at");
         const RampedTrip ramped =
-            ramped_trip(point.system, origin_at(asked, from), rate, asked.end.end, options_of(asked));
+            ramped_trip(point.system, origin_at(asked, from), rate, asked.trip.end.end, options_of(asked));
         if (InterruptGuard::requested())
             return false;
         const double delay = ramped.trip.ended ? ramped.value - point.value : nothing;
@@ -177,10 +166,11 @@ void wave(AskedTrips& asked) {
     asked.table = Table(
         {{"amplitude", point.unit}, {"trips", ""}, {"cycles", ""}, {"time", point.model().time_unit}, {"ending", ""}});
     FigurePanel panel = panel_of("amplitude of " + point.name, point.unit, "time", point.model().time_unit);
-    FigureSeries times = series_of("until " + asked.end.words, FigureSeries::Style::circles, 1);
+    FigureSeries times = series_of("until " + asked.trip.end.words, FigureSeries::Style::circles, 1);
     for_each_of(
         asked, numbers_by_decades(point.model(), asked.arguments.waves, "--wave"), "wave", [&](double amplitude) {
-            const TripTime trip = swung_trip(point.system, origin, amplitude, period, asked.end.end, options_of(asked));
+            const TripTime trip =
+                swung_trip(point.system, origin, amplitude, period, asked.trip.end.end, options_of(asked));
             if (InterruptGuard::requested())
                 return false;
             if (!(trip.ended || trip.ending == "end-time"))
@@ -241,7 +231,7 @@ void noise(AskedTrips& asked) {
                                   settings.motions));
     };
     for_each_of(asked, levels, "noise", [&](double level) {
-        const NoisyTrips trips = noisy_trips(point.system, origin, level, asked.end.end, settings);
+        const NoisyTrips trips = noisy_trips(point.system, origin, level, asked.trip.end.end, settings);
         if (trips.interrupted)
             return false;
         const double share = static_cast<double>(trips.beyond) / static_cast<double>(trips.motions);
@@ -269,7 +259,7 @@ void noise(AskedTrips& asked) {
 }
 
 JsonObject heading_of(const ResultFile& file, const AskedTrips& asked) {
-    JsonObject heading = heading_of(file, asked.point, asked.end);
+    JsonObject heading = heading_of(file, asked.trip);
     const TripArguments& arguments = asked.arguments;
     if (!arguments.at.empty())
         heading.add("at", asked.number(arguments.at, "at"));
@@ -317,12 +307,11 @@ bool is_disturbed(const TripArguments& arguments) {
 
 int disturbed_trips(const ResultFile& file, const TripArguments& arguments, const Console& console) {
     require_together(arguments);
-    LossPoint point = loss_point(file, arguments.point, arguments.parameter, "POINT");
-    AskedEnd end = end_of(point, arguments);
-    if (point.fold && !end.given)
+    AskedTrip trip = asked_trip(file, arguments.point, arguments, "POINT");
+    if (trip.point.fold && !trip.end.given)
         throw InputError(Place{"POINT", 0, 0}, "nothing says where a motion ends that has left a fold",
                          "give --until EXPR=LEVEL or --until end");
-    AskedTrips asked{.arguments = arguments, .console = console, .point = std::move(point), .end = std::move(end)};
+    AskedTrips asked{.arguments = arguments, .console = console, .trip = std::move(trip)};
     const InterruptGuard guard;
     if (!arguments.ramps.empty())
         ramp(asked);

@@ -1,8 +1,8 @@
 #include "graze/base/input_error.hpp"
 #include "graze/grazing/map_motion.hpp"
 #include "graze/grazing/trial.hpp"
+#include "graze/results/touching_orbit.hpp"
 #include "program/commands.hpp"
-#include "program/touching_orbit.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -226,7 +226,10 @@ JsonObject heading_of(const ResultFile& file, const Findings& found, const Grazi
 
 int grazing_command(const GrazingArguments& arguments, const Console& console) {
     const ResultFile file(result_path(arguments.file), ResultFile::Access::read);
-    Findings found{find_touching_orbit(file, arguments.point, arguments.parameter), {}, {}};
+    Findings found{
+        find_touching_orbit(file, arguments.point, arguments.parameter, {"POINT", 0, 0}, {"--parameter", 0, 0}),
+        {},
+        {}};
     const System system(found.stored.run.model);
     found.verdict = verdict_of(found.map);
     if (arguments.verify) {

@@ -2,10 +2,10 @@
 #include "graze/model/catalogue.hpp"
 #include "graze/model/microbeam.hpp"
 #include "graze/results/name_advice.hpp"
+#include "graze/study/file_facts.hpp"
 #include "graze/study/study_catalogue.hpp"
 #include "program/commands.hpp"
 #include "program/describe.hpp"
-#include "program/file_facts.hpp"
 #include "program/output_file.hpp"
 #include "program/table_fit.hpp"
 

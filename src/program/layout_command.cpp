@@ -2,16 +2,17 @@
 #include "graze/layout/device_measures.hpp"
 #include "graze/layout/gds_stream.hpp"
 #include "graze/layout/layout.hpp"
+#include "graze/layout/lumped_table.hpp"
 #include "graze/layout/process_recipe.hpp"
 #include "graze/layout/process_steps.hpp"
 #include "graze/picture/fabrication_picture.hpp"
 #include "graze/picture/layout_picture.hpp"
 #include "program/commands.hpp"
 #include "program/drawing.hpp"
-#include "program/drawn_design.hpp"
 #include "program/layout_model.hpp"
 #include "program/layout_yield.hpp"
 #include "program/output_file.hpp"
+#include "program/tell_drawn_design.hpp"
 #include "program/values.hpp"
 
 #include <fmt/format.h>
@@ -187,7 +188,7 @@ int layout_command(const LayoutArguments& arguments, const Console& console) {
         return code == exit_success && !ruled ? exit_irregular : code;
     }
     if (designed) {
-        const int code = tell_drawn_design(*designed, arguments, console);
+        const int code = tell_drawn_design(*designed, arguments.from_design, arguments, console);
         return code == exit_success && !ruled ? exit_irregular : code;
     }
     JsonObject heading;

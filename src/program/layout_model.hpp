@@ -1,15 +1,11 @@
 #pragma once
 
 #include "graze/layout/fabrication_rules.hpp"
-#include "graze/results/table.hpp"
 #include "program/program.hpp"
 
 #include <string>
 
 namespace graze {
-
-/// Adds rows with the lumped model of a device: cell, what, value, unit.
-void add_lumped_rows(Table& table, const DeviceFile& file, const DrawnDevice& device);
 
 /// Writes the parameters of the device for other commands' `--set @FILE`.
 void write_device_parameters(const DeviceFile& file, const DrawnDevice& device, const std::string& path);

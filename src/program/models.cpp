@@ -2,6 +2,7 @@
 #include "graze/model/catalogue.hpp"
 #include "graze/model/microbeam.hpp"
 #include "graze/model/model_file.hpp"
+#include "graze/results/model_table.hpp"
 #include "program/commands.hpp"
 #include "program/describe.hpp"
 #include "program/output_file.hpp"
@@ -70,7 +71,7 @@ int models_command(const ModelsArguments& arguments, const Console& console) {
         if (arguments.output.format == TableFormat::table)
             console.out << describe(model, console.width);
         else
-            deliver(describe_in_table(model), arguments.output, {}, console);
+            deliver(model_table(model), arguments.output, {}, console);
     }
     return exit_success;
 }

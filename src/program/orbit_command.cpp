@@ -2,6 +2,7 @@
 #include "graze/picture/figure_script.hpp"
 #include "graze/picture/result_picture.hpp"
 #include "graze/results/orbit_motion.hpp"
+#include "graze/results/state_columns.hpp"
 #include "graze/results/stored_orbit.hpp"
 #include "program/commands.hpp"
 #include "program/drawing.hpp"

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "graze/base/time_left.hpp"
 #include "graze/results/orbit_record.hpp"
 #include "graze/study/runner.hpp"
 #include "program/status_line.hpp"
-#include "program/time_left.hpp"
 
 #include <string>
 

@@ -2,24 +2,12 @@
 
 #include "graze/model/model.hpp"
 #include "graze/trajectory/probe.hpp"
+#include "graze/trajectory/run_control.hpp"
 #include "program/arguments.hpp"
 
-#include <cstddef>
-#include <limits>
 #include <optional>
 
 namespace graze {
-
-/// What ends one leg of a run: whichever comes first.
-struct LegEnd {
-    double duration = std::numeric_limits<double>::infinity();
-    std::size_t periods = 0;  ///< 0: not counted
-    std::size_t contacts = 0; ///< 0: not counted
-    /// Time that the leg takes, if it is known beforehand.
-    std::optional<double> expected;
-
-    bool empty() const { return duration == std::numeric_limits<double>::infinity() && periods == 0 && contacts == 0; }
-};
 
 /// How long to run: first a leg of which nothing is shown (it may be empty), then one that is.
 struct RunLength {

@@ -1,5 +1,4 @@
-#include "graze/results/stored_run.hpp"
-#include "graze/study/escape_rates.hpp"
+#include "graze/study/run_summary.hpp"
 #include "graze/study/runner.hpp"
 #include "graze/study/stored_study.hpp"
 #include "graze/study/study_catalogue.hpp"
@@ -19,96 +18,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 
 namespace graze {
 
 namespace {
-
-using Counts = std::vector<std::pair<std::string, std::size_t>>;
-
-/// How many points have which label, such as "periodic", or of branches of which type special points are, such as "GR".
-Counts label_counts(const StoredRun& run) {
-    if (!run.record.is_branch())
-        return run.label_counts();
-    std::map<std::string, std::size_t> of_types;
-    auto rows = run.rows({.columns = {"type", "located"}});
-    while (rows.next())
-        // An end that was not located is an orbit that was not found.
-        if (const std::string type = rows.text(0); type == "EP" && rows.integer(1) == 0)
-            ++of_types["not found"];
-        else if (type != "RG" && type != "EP")
-            ++of_types[type];
-    return {of_types.begin(), of_types.end()};
-}
-
-/// What the first point says that ended as nobody wants, with what to do.
-std::string first_remedy(const StoredRun& run, const Counts& counts) {
-    for (const Label label : {Label::failed, Label::chattering, Label::unsettled}) {
-        const std::string name(name_of(label));
-        if (std::none_of(counts.begin(), counts.end(), [&](const auto& one) { return one.first == name; }))
-            continue;
-        auto rows = run.rows({.columns = {"number", "label", "detail"}});
-        while (rows.next())
-            if (rows.text(1) == name && !rows.text(2).empty())
-                return fmt::format("point {}: {}", rows.integer(0), rows.text(2));
-        if (label == Label::unsettled)
-            return "what has not settled may do so after more returns: raise `cycles`";
-    }
-    return "";
-}
-
-/// How the parts of a branch ended: what the last point of each says.
-std::vector<std::pair<std::string, std::string>> ends_of(const StoredRun& run) {
-    std::vector<std::pair<std::string, std::string>> ends; // parts in the order in which they ended
-    if (!run.record.is_followed())
-        return ends;
-    auto rows = run.rows({.columns = {"part", "detail"}});
-    while (rows.next()) {
-        std::erase_if(ends, [part = rows.text(0)](const auto& end) { return end.first == part; });
-        if (run.record.kind == name_of(RunKind::ladder))
-            ends.clear(); // each rung ends where the next begins
-        ends.emplace_back(rows.text(0), rows.text(1));
-    }
-    const bool unfinished = run.record.status == RunStatus::unfinished; // of which only the last part can be
-    for (std::size_t p = 0; p < ends.size(); ++p)
-        if (ends[p].second.empty())
-            ends[p].second = unfinished && p + 1 == ends.size() ? "interrupted; the same command begins the run again"
-                                                                : "a point that was asked for";
-    return ends;
-}
-
-/// What there is to say of a run.
-struct ListedRun {
-    Counts labels;
-    std::string remedy; ///< or what went wrong
-    std::vector<std::pair<std::string, std::string>> ends;
-    std::string escapes; ///< the rate at which motions leave a transient, if there is one
-};
-
-/// "0.00051 +- 0.00007 per return after 400", of parameters at which a run has a law of escape.
-std::string escapes_of(const StoredRun& run) {
-    std::string text;
-    const std::vector<EscapeRate> rates = escape_rates(run);
-    for (const EscapeRate& rate : rates)
-        text += fmt::format("{}{:.3g} +- {:.1g} per return after {}", text.empty() ? "" : ", ", rate.law.rate,
-                            rate.law.error, rate.law.from);
-    constexpr std::size_t most = 3; ///< that fit into a line
-    return rates.size() > most ? "" : text;
-}
-
-ListedRun listed(const RunReport& report, const ResultFile& file) {
-    const StoredRun run(file, report.name, {});
-    ListedRun result{label_counts(run), report.problem, {}, ""};
-    if (!report.problem.empty())
-        return result;
-    result.ends = ends_of(run);
-    if (!run.record.is_branch()) {
-        result.remedy = first_remedy(run, result.labels);
-        result.escapes = escapes_of(run);
-    }
-    return result;
-}
 
 std::string status_of(const RunReport& report) {
     switch (report.outcome) {
@@ -158,9 +71,9 @@ Table table_of(const std::vector<RunReport>& reports, const ResultFile& file) {
         table.add(static_cast<double>(report.points));
         table.add(report.seconds);
         table.add(status_of(report));
-        const ListedRun run = listed(report, file);
+        const RunSummary run = summary_of(report, file);
         std::string results = found_by(report.name, file);
-        for (const auto& [label, count] : results.empty() ? run.labels : Counts())
+        for (const auto& [label, count] : results.empty() ? run.labels : LabelCounts())
             results += fmt::format("{}{} {}", results.empty() ? "" : ", ", label, count);
         const auto add = [&](const std::string& text) { results += (results.empty() ? "" : "; ") + text; };
         if (!run.escapes.empty())
@@ -176,11 +89,11 @@ Table table_of(const std::vector<RunReport>& reports, const ResultFile& file) {
 
 /// For machines: each number and each text in a cell of its own.
 Table cells_of(const std::vector<RunReport>& reports, const ResultFile& file) {
-    std::vector<ListedRun> runs;
+    std::vector<RunSummary> runs;
     std::vector<std::string> labels;
     std::size_t parts = 0;
     for (const RunReport& report : reports) {
-        runs.push_back(listed(report, file));
+        runs.push_back(summary_of(report, file));
         parts = std::max(parts, runs.back().ends.size());
         for (const auto& one : runs.back().labels)
             if (std::find(labels.begin(), labels.end(), one.first) == labels.end())

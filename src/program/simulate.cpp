@@ -1,16 +1,17 @@
 #include "graze/base/input_error.hpp"
 #include "graze/base/name_list.hpp"
 #include "graze/model/catalogue.hpp"
+#include "graze/results/model_table.hpp"
+#include "graze/results/table_recorder.hpp"
 #include "graze/trajectory/recorder.hpp"
 #include "graze/trajectory/trajectory.hpp"
 #include "program/commands.hpp"
-#include "program/describe.hpp"
 #include "program/interrupt.hpp"
 #include "program/output_file.hpp"
 #include "program/plot.hpp"
-#include "program/run_control.hpp"
+#include "program/quantity.hpp"
 #include "program/run_length.hpp"
-#include "program/table_recorder.hpp"
+#include "program/status_line.hpp"
 #include "program/values.hpp"
 
 #include <fmt/format.h>
@@ -152,6 +153,32 @@ std::vector<Probe> probes_for(const Model& model, const SimulateArguments& argum
     return probes;
 }
 
+constexpr int calls_between_looks = 64; ///< at the clock
+
+/// A line on standard error about how far a long run has come and how long it will take.
+class Progress {
+public:
+    Progress(const Console& console, bool wanted) : line_(console, wanted) {}
+
+    /// @param fraction done so far; empty when the end is not known
+    void update(std::optional<double> fraction, double time) {
+        if (!line_.wanted() || ++calls_ < calls_between_looks)
+            return;
+        calls_ = 0;
+        if (!line_.is_due())
+            return;
+        const double elapsed = line_.elapsed();
+        std::string line = fmt::format("time {:.6g}", time);
+        if (fraction && *fraction > 0)
+            line += fmt::format(", {:.0f} %, {:.0f} s left", 100 * *fraction, elapsed * (1 - *fraction) / *fraction);
+        line_.show(line);
+    }
+
+private:
+    StatusLine line_;
+    int calls_ = 0;
+};
+
 /// Everything that one run needs and leaves behind.
 class SimulateCommand {
 public:
@@ -207,8 +234,9 @@ private:
             observers.push_back(curves_.get());
         Relay recorders(std::move(observers));
         Progress progress(console_, arguments_.progress || console_.terminal);
-        RunControl control(recorders, progress, period_probe_, request_.events);
-        control.end_when([this] { return table_->is_full(); });
+        RunControl control(recorders, period_probe_, request_.events);
+        control.tell([&](std::optional<double> fraction, double time) { progress.update(fraction, time); });
+        control.end_when([this] { return InterruptGuard::requested() || table_->is_full(); });
         trajectory_ = std::make_unique<Trajectory>(*simulation_, model_.parameter_values(), control);
         const LegEnd& first = length_.transient.empty() ? length_.shown : length_.transient;
         const InterruptGuard guard;

@@ -2,7 +2,6 @@
 
 #include "graze/base/printable.hpp"
 #include "program/wrapped_text.hpp"
-#include "study/json.hpp"
 
 #include <fmt/format.h>
 
@@ -16,64 +15,9 @@ namespace graze {
 
 namespace {
 
-std::string number_text(double value, int digits) {
-    return fmt::format("{:.{}g}", value, digits);
-}
-
-std::string json_number(double value, int digits) {
-    return std::isfinite(value) ? number_text(value, digits) : "null";
-}
-
-std::string csv_text(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos)
-        return text;
-    std::string result = "\"";
-    for (const char c : text)
-        result += c == '"' ? "\"\"" : std::string(1, c);
-    return result + '"';
-}
-
-std::string cell_text(const Table& table, std::size_t row, std::size_t column, int digits) {
-    if (table.is_text(row, column))
-        return table.text(row, column);
-    return table.is_missing(row, column) ? "" : number_text(table.number(row, column), digits);
-}
-
 std::string padded(const std::string& text, std::size_t width, bool right) {
     const std::string blanks(width - std::min(width, width_of(text)), ' ');
     return right ? blanks + text : text + blanks;
-}
-
-void write_csv(std::ostream& out, const Table& table, int digits) {
-    const std::size_t columns = table.columns().size();
-    for (std::size_t column = 0; column < columns; ++column)
-        out << (column > 0 ? "," : "") << csv_text(table.columns()[column].name);
-    out << '\n';
-    for (std::size_t row = 0; row < table.rows(); ++row) {
-        for (std::size_t column = 0; column < columns; ++column)
-            out << (column > 0 ? "," : "") << csv_text(cell_text(table, row, column, digits));
-        out << '\n';
-    }
-}
-
-void write_json(std::ostream& out, const Table& table, int digits, const JsonObject& heading) {
-    const std::size_t columns = table.columns().size();
-    out << '{' << heading.members() << (heading.members().empty() ? "" : ",") << "\n\"columns\":[";
-    for (std::size_t column = 0; column < columns; ++column)
-        out << (column > 0 ? "," : "") << json_text(table.columns()[column].name);
-    out << "],\n\"units\":[";
-    for (std::size_t column = 0; column < columns; ++column)
-        out << (column > 0 ? "," : "") << json_text(table.columns()[column].unit);
-    out << "],\n\"rows\":[";
-    for (std::size_t row = 0; row < table.rows(); ++row) {
-        out << (row > 0 ? ",\n[" : "\n[");
-        for (std::size_t column = 0; column < columns; ++column)
-            out << (column > 0 ? "," : "")
-                << (table.is_text(row, column) ? json_text(table.text(row, column))
-                                               : json_number(table.number(row, column), digits));
-        out << ']';
-    }
-    out << "]}\n";
 }
 
 /// A line feed in a text would begin a row.
@@ -116,33 +60,6 @@ void write_aligned(std::ostream& out, const Table& table, int digits, std::size_
 
 } // namespace
 
-void JsonObject::begin(std::string_view name) {
-    members_ += (members_.empty() ? "" : ",\n") + json_text(name) + ':';
-}
-
-void JsonObject::add(std::string_view name, std::string_view text) {
-    begin(name);
-    members_ += json_text(text);
-}
-
-void JsonObject::add(std::string_view name, double number) {
-    begin(name);
-    members_ += json_number(number, std::numeric_limits<double>::max_digits10);
-}
-
-void JsonObject::add(std::string_view name, const JsonObject& object) {
-    begin(name);
-    members_ += '{' + object.members_ + '}';
-}
-
-void JsonObject::add(std::string_view name, const std::vector<JsonObject>& objects) {
-    begin(name);
-    members_ += '[';
-    for (std::size_t i = 0; i < objects.size(); ++i)
-        members_ += (i > 0 ? ",\n{" : "{") + objects[i].members_ + '}';
-    members_ += ']';
-}
-
 std::vector<std::size_t> column_widths(const Table& table, int digits) {
     std::vector<std::size_t> widths;
     for (std::size_t column = 0; column < table.columns().size(); ++column) {
@@ -164,12 +81,6 @@ void write_table(std::ostream& out, const Table& table, TableFormat format, int 
     case TableFormat::json:
         return write_json(out, table, digits, heading);
     }
-}
-
-std::string csv_text(const Table& table) {
-    std::ostringstream text;
-    write_table(text, table, TableFormat::csv, 17, {});
-    return text.str();
 }
 
 } // namespace graze

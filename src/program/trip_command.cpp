@@ -1,11 +1,12 @@
 #include "graze/base/input_error.hpp"
 #include "graze/picture/figure_script.hpp"
 #include "graze/picture/trip_series.hpp"
+#include "graze/trip/overshoot_trip.hpp"
+#include "program/asked_trip.hpp"
 #include "program/commands.hpp"
 #include "program/disturbed_trips.hpp"
 #include "program/drawing.hpp"
 #include "program/interrupt.hpp"
-#include "program/loss_point.hpp"
 #include "program/values.hpp"
 
 #include <fmt/format.h>
@@ -24,23 +25,11 @@ namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); // an empty cell
 
-/// What is known of one overshoot.
-struct TripRow {
-    double overshoot = 0;
-    // Of a touch.
-    PredictedTrip predicted;           ///< until the map's level
-    TripTime continued;                ///< until the end that was asked for
-    std::optional<TripTime> simulated; ///< likewise
-    // Of a fold.
-    double cycles = nothing, gate_cycles = nothing;
-    std::optional<SimulatedPassage> passage;
-};
-
-/// All rows of one point.
+/// All rows of one point: of a touch, or of a fold.
 struct Trips {
-    LossPoint point;
-    AskedEnd end;
-    std::vector<TripRow> rows{};
+    AskedTrip asked;
+    std::vector<OvershootTrip> of_touch{};
+    std::vector<FoldTrip> of_fold{};
     std::vector<std::string> lacks{}; ///< what has not come to its end
 };
 
@@ -66,39 +55,26 @@ TripOptions options_of(const LossPoint& point, const TripArguments& arguments) {
 
 /// One more row. @return false when it was interrupted
 bool add_row(Trips& trips, double overshoot, const TripOptions& options) {
-    const LossPoint& point = trips.point;
-    TripRow row;
-    row.overshoot = overshoot;
-    std::string lack;
-    constexpr const char* longer = "give more --cycles, or another end by --until";
+    const auto& [stored, point, end] = trips.asked;
+    const TripTime* unfinished = nullptr;
     if (point.fold) {
-        row.cycles = cycles_of_passage(*point.fold, overshoot);
-        row.gate_cycles = cycles_of_passage(*point.fold, overshoot, -point.fold->gate, point.fold->gate);
-        if (row.cycles < options.cycles && std::abs(overshoot) >= least_overshoot(*point.fold)) {
-            row.passage =
-                simulated_passage(point.system, *point.fold, overshoot, trips.end.end, !trips.end.given, options);
-            if (!(trips.end.given ? row.passage->trip.ended : row.passage->passed))
-                lack = why_not(row.passage->trip, longer);
-        }
+        trips.of_fold.push_back(trip_of_fold(point.system, *point.fold, overshoot, end.end, !end.given, options));
+        const std::optional<SimulatedPassage>& passage = trips.of_fold.back().passage;
+        if (passage && !(end.given ? passage->trip.ended : passage->passed))
+            unfinished = &passage->trip;
     } else {
-        PredictionOptions prediction;
-        const double speed = trips.end.end.speed;
-        prediction.level = speed > 0 ? std::min(point.level, speed) : point.level;
-        prediction.disturbance = options.disturbance;
-        row.predicted = predicted_trip(point.map, point.verdict, overshoot, prediction);
-        row.continued =
-            continued_trip(point.system, point.map, point.parameter, overshoot, row.predicted, trips.end.end, options);
-        if (overshoot == 0 || std::abs(overshoot) >= least_overshoot(point.map, point.parameter))
-            row.simulated = simulated_trip(point.system, point.map, point.parameter, overshoot, trips.end.end, options);
-        if (!row.continued.ended)
-            lack = why_not(row.continued, longer);
+        trips.of_touch.push_back(trip_of_touch(point.system, point.map, point.verdict, point.parameter, overshoot,
+                                               level_until(point, end.end), end.end, options));
+        if (!trips.of_touch.back().continued->ended)
+            unfinished = &*trips.of_touch.back().continued;
     }
-    if (InterruptGuard::requested())
+    if (InterruptGuard::requested()) {
+        point.fold ? trips.of_fold.pop_back() : trips.of_touch.pop_back();
         return false;
-    if (!lack.empty())
-        trips.lacks.push_back(
-            fmt::format("the trip at the overshoot {:g} has not come to its end: {}", overshoot, lack));
-    trips.rows.push_back(std::move(row));
+    }
+    if (unfinished)
+        trips.lacks.push_back(fmt::format("the trip at the overshoot {:g} has not come to its end: {}", overshoot,
+                                          why_not(*unfinished, "give more --cycles, or another end by --until")));
     return true;
 }
 
@@ -108,8 +84,9 @@ double if_ended(const TripTime& trip, double value) {
 }
 
 Table table_of_touch(const Trips& trips) {
-    const std::string& time = trips.point.model().time_unit;
-    Table table({{"overshoot", trips.point.unit},
+    const LossPoint& point = trips.asked.point;
+    const std::string& time = point.model().time_unit;
+    Table table({{"overshoot", point.unit},
                  {"first_speed", ""},
                  {"cycles", ""},
                  {"time", time},
@@ -117,37 +94,38 @@ Table table_of_touch(const Trips& trips) {
                  {"end_time", time},
                  {"ending", ""},
                  {"simulated_time", time}});
-    for (const TripRow& row : trips.rows) {
+    for (const OvershootTrip& row : trips.of_touch) {
         table.add(row.overshoot);
-        table.add(row.predicted.first_speed);
-        table.add(if_ended(row.predicted, row.predicted.cycles));
-        table.add(if_ended(row.predicted, row.predicted.time));
-        table.add(if_ended(row.continued, row.continued.cycles));
-        table.add(if_ended(row.continued, row.continued.time));
-        table.add(row.continued.ending);
+        table.add(row.predicted->first_speed);
+        table.add(if_ended(*row.predicted, row.predicted->cycles));
+        table.add(if_ended(*row.predicted, row.predicted->time));
+        table.add(if_ended(*row.continued, row.continued->cycles));
+        table.add(if_ended(*row.continued, row.continued->time));
+        table.add(row.continued->ending);
         table.add(row.simulated ? if_ended(*row.simulated, row.simulated->time) : nothing);
     }
     return table;
 }
 
 Table table_of_fold(const Trips& trips) {
-    const std::string& time = trips.point.model().time_unit;
-    std::vector<Table::Column> columns{
-        {"overshoot", trips.point.unit}, {"cycles", ""},          {"time", time}, {"gate_cycles", ""},
-        {"simulated_cycles", ""},        {"simulated_time", time}};
-    if (trips.end.given) {
+    const LossPoint& point = trips.asked.point;
+    const bool until_end = trips.asked.end.given;
+    const std::string& time = point.model().time_unit;
+    std::vector<Table::Column> columns{{"overshoot", point.unit}, {"cycles", ""},           {"time", time},
+                                       {"gate_cycles", ""},       {"simulated_cycles", ""}, {"simulated_time", time}};
+    if (until_end) {
         columns.push_back({"end_time", time});
         columns.push_back({"ending", ""});
     }
     Table table(std::move(columns));
-    for (const TripRow& row : trips.rows) {
+    for (const FoldTrip& row : trips.of_fold) {
         table.add(row.overshoot);
         table.add(row.cycles);
-        table.add(row.cycles * trips.point.cycle);
+        table.add(row.cycles * point.cycle);
         table.add(row.gate_cycles);
         table.add(row.passage && row.passage->passed ? row.passage->cycles : nothing);
         table.add(row.passage && row.passage->passed ? row.passage->time : nothing);
-        if (!trips.end.given)
+        if (!until_end)
             continue;
         table.add(row.passage ? if_ended(row.passage->trip, row.passage->trip.time) : nothing);
         table.add(row.passage ? row.passage->trip.ending : "");
@@ -157,33 +135,38 @@ Table table_of_fold(const Trips& trips) {
 
 /// What a row says first of all, of a touch as of a fold: by the map or the normal form, and by simulation.
 struct Summary {
-    double cycles = nothing, time = nothing, end_time = nothing;
+    double overshoot = 0, cycles = nothing, time = nothing, end_time = nothing;
 };
-Summary summary_of(const Trips& trips, const TripRow& row) {
-    if (!trips.point.fold)
-        return {if_ended(row.predicted, row.predicted.cycles), if_ended(row.predicted, row.predicted.time),
-                if_ended(row.continued, row.continued.time)};
-    Summary result{row.cycles, row.cycles * trips.point.cycle, nothing};
-    if (row.passage && trips.end.given)
-        result.end_time = if_ended(row.passage->trip, row.passage->trip.time);
-    else if (row.passage && row.passage->passed)
-        result.end_time = row.passage->time;
+std::vector<Summary> summaries_of(const Trips& trips) {
+    std::vector<Summary> result;
+    for (const OvershootTrip& row : trips.of_touch)
+        result.push_back({row.overshoot, if_ended(*row.predicted, row.predicted->cycles),
+                          if_ended(*row.predicted, row.predicted->time),
+                          if_ended(*row.continued, row.continued->time)});
+    for (const FoldTrip& row : trips.of_fold) {
+        Summary& one =
+            result.emplace_back(Summary{row.overshoot, row.cycles, row.cycles * trips.asked.point.cycle, nothing});
+        if (row.passage && trips.asked.end.given)
+            one.end_time = if_ended(row.passage->trip, row.passage->trip.time);
+        else if (row.passage && row.passage->passed)
+            one.end_time = row.passage->time;
+    }
     return result;
 }
 
 Table table_of_both(const Trips& one, const Trips& other) {
-    const std::string &time = one.point.model().time_unit, &other_time = other.point.model().time_unit;
-    Table table({{"overshoot", one.point.unit},
+    const std::string &time = one.asked.point.model().time_unit, &other_time = other.asked.point.model().time_unit;
+    Table table({{"overshoot", one.asked.point.unit},
                  {"cycles", ""},
                  {"time", time},
                  {"end_time", time},
                  {"beside_cycles", ""},
                  {"beside_time", other_time},
                  {"beside_end_time", other_time}});
-    for (std::size_t i = 0; i < std::min(one.rows.size(), other.rows.size()); ++i) {
-        table.add(one.rows[i].overshoot);
-        for (const Trips* trips : {&one, &other}) {
-            const Summary summary = summary_of(*trips, trips->rows[i]);
+    const std::vector<Summary> rows = summaries_of(one), others = summaries_of(other);
+    for (std::size_t i = 0; i < std::min(rows.size(), others.size()); ++i) {
+        table.add(rows[i].overshoot);
+        for (const Summary& summary : {rows[i], others[i]}) {
             table.add(summary.cycles);
             table.add(summary.time);
             table.add(summary.end_time);
@@ -193,20 +176,19 @@ Table table_of_both(const Trips& one, const Trips& other) {
 }
 
 void add_touch(FigurePanel& panel, const Trips& trips, const std::string& which) {
-    const double speed = trips.end.end.speed;
-    const std::string level =
-        fmt::format("speed {:.4g}", speed > 0 ? std::min(trips.point.level, speed) : trips.point.level);
-    const std::string& end = trips.end.words;
+    const AskedTrip& asked = trips.asked;
+    const std::string level = fmt::format("speed {:.4g}", level_until(asked.point, asked.end.end));
+    const std::string& end = asked.end.words;
     std::vector<std::pair<double, TripTime>> map, continued;
     FigureSeries simulated = series_of(which + "simulation alone, until " + end, FigureSeries::Style::circles, 2);
-    for (const TripRow& row : trips.rows) {
+    for (const OvershootTrip& row : trips.of_touch) {
         const double x = std::abs(row.overshoot);
         if (x == 0) // has no place on the axis
             continue;
-        if (row.predicted.ended)
-            map.emplace_back(x, row.predicted);
-        if (row.continued.ended)
-            continued.emplace_back(x, row.continued);
+        if (row.predicted->ended)
+            map.emplace_back(x, *row.predicted);
+        if (row.continued->ended)
+            continued.emplace_back(x, *row.continued);
         if (row.simulated && row.simulated->ended)
             simulated.points.push_back({x, row.simulated->time});
     }
@@ -219,19 +201,20 @@ void add_touch(FigurePanel& panel, const Trips& trips, const std::string& which)
 void add_fold(FigurePanel& panel, const Trips& trips, const std::string& which) {
     FigureSeries form = series_of(which + "normal form, from far away", FigureSeries::Style::dashed, 3);
     FigureSeries gated = series_of(which + "normal form, from gate to gate", FigureSeries::Style::line, 3);
-    FigureSeries simulated = series_of(which + "simulation, until " + trips.end.words, FigureSeries::Style::circles, 4);
-    for (const TripRow& row : trips.rows) {
-        const Summary summary = summary_of(trips, row);
-        form.points.push_back({std::abs(row.overshoot), summary.time});
-        gated.points.push_back({std::abs(row.overshoot), row.gate_cycles * trips.point.cycle});
+    FigureSeries simulated =
+        series_of(which + "simulation, until " + trips.asked.end.words, FigureSeries::Style::circles, 4);
+    for (const Summary& summary : summaries_of(trips)) {
+        form.points.push_back({std::abs(summary.overshoot), summary.time});
         if (std::isfinite(summary.end_time))
-            simulated.points.push_back({std::abs(row.overshoot), summary.end_time});
+            simulated.points.push_back({std::abs(summary.overshoot), summary.end_time});
     }
+    for (const FoldTrip& row : trips.of_fold)
+        gated.points.push_back({std::abs(row.overshoot), row.gate_cycles * trips.asked.point.cycle});
     panel.series.insert(panel.series.end(), {form, gated, simulated});
 }
 
 Figure figure_of(const std::vector<Trips>& all) {
-    const LossPoint& point = all.front().point;
+    const LossPoint& point = all.front().asked.point;
     FigurePanel panel;
     panel.x_label = point.name + (point.side > 0 ? " beyond its " : " short of its ") + point.kind();
     if (all.size() > 1)
@@ -242,9 +225,9 @@ Figure figure_of(const std::vector<Trips>& all) {
     panel.logarithmic_x = true;
     panel.roomy_x = panel.roomy_y = true;
     for (const Trips& trips : all) {
-        const std::string which = all.size() > 1 ? std::string(trips.point.kind()) + ": " : "";
-        panel.logarithmic_y = panel.logarithmic_y || trips.point.fold;
-        if (trips.point.fold)
+        const std::string which = all.size() > 1 ? std::string(trips.asked.point.kind()) + ": " : "";
+        panel.logarithmic_y = panel.logarithmic_y || trips.asked.point.fold;
+        if (trips.asked.point.fold)
             add_fold(panel, trips, which);
         else
             add_touch(panel, trips, which);
@@ -271,41 +254,38 @@ int trip_command(const TripArguments& arguments, const Console& console) {
     if (!arguments.at.empty())
         throw InputError(Place{"--at", 0, 0}, "nothing changes in time", "give --ramp, --wave or --noise too");
     std::vector<Trips> all;
-    const auto add = [&](const std::string& name, const std::string& option) {
-        LossPoint point = loss_point(file, name, arguments.parameter, option);
-        AskedEnd end = end_of(point, arguments);
-        all.push_back({std::move(point), std::move(end)});
-    };
-    add(arguments.point, "POINT");
+    all.push_back({asked_trip(file, arguments.point, arguments, "POINT")});
     if (!arguments.beside.empty())
-        add(arguments.beside, "--beside");
-    const std::vector<double> overshoots = overshoots_of(all.front().point, arguments.overshoots);
+        all.push_back({asked_trip(file, arguments.beside, arguments, "--beside")});
+    const LossPoint& first = all.front().asked.point;
+    const std::vector<double> overshoots = overshoots_of(first, arguments.overshoots);
     if (!arguments.plot.empty())
         require_drawable(overshoots);
     const InterruptGuard guard;
     bool interrupted = false;
     std::vector<std::string> lacks;
     for (Trips& trips : all) {
-        const TripOptions options = options_of(trips.point, arguments);
+        const LossPoint& point = trips.asked.point;
+        const TripOptions options = options_of(point, arguments);
         for (std::size_t i = 0; i < overshoots.size() && !interrupted; ++i) {
             const bool own = &trips == &all.front();
-            interrupted = !add_row(trips, own ? overshoots[i] : trips.point.side * std::abs(overshoots[i]), options);
+            interrupted = !add_row(trips, own ? overshoots[i] : point.side * std::abs(overshoots[i]), options);
         }
         lacks.insert(lacks.end(), trips.lacks.begin(), trips.lacks.end());
     }
     if (arguments.plot.empty() || interrupted) {
         const Trips& one = all.front();
-        const Table table = all.size() > 1   ? table_of_both(one, all.back())
-                            : one.point.fold ? table_of_fold(one)
-                                             : table_of_touch(one);
-        deliver(table, arguments.output, heading_of(file, one.point, one.end), console);
+        const Table table = all.size() > 1 ? table_of_both(one, all.back())
+                            : first.fold   ? table_of_fold(one)
+                                           : table_of_touch(one);
+        deliver(table, arguments.output, heading_of(file, one.asked), console);
     } else {
         draw_figure(figure_of(all), arguments.plot, arguments.data);
         console.out << arguments.plot << '\n';
     }
     if (interrupted) {
-        console.err << fmt::format("graze: interrupted; {} of {} overshoots are done\n", all.back().rows.size(),
-                                   overshoots.size());
+        console.err << fmt::format("graze: interrupted; {} of {} overshoots are done\n",
+                                   all.back().of_touch.size() + all.back().of_fold.size(), overshoots.size());
         return InterruptGuard::exit_code();
     }
     tell_lacks(lacks, console);

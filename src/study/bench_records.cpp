@@ -43,20 +43,27 @@ void BenchRecords::begin(std::size_t number) {
     instrument_ = std::make_unique<VirtualBench>(settings);
     instrument_->set_rate(bench_->rate);
     header_ = instrument_->header();
-    instrument_->command("SYST:REM");
     if (!bench_->carry)
-        instrument_->command(fmt::format("VOLT {:.17g}", 2 * largest_amplitude));
+        drive(2 * largest_amplitude);
     next_ = number;
+}
+
+void BenchRecords::drive(double amplitude) {
+    GeneratorOutput output;
+    output.frequency = generator_frequency;
+    output.amplitude = amplitude;
+    instrument_->drive(output);
 }
 
 bool BenchRecords::take(std::size_t number, const std::function<bool()>& interrupted, Samples& samples) {
     const double level = bench_->levels[number % bench_->levels.size()];
     if (bench_->carry) {
-        instrument_->command(fmt::format("VOLT {:.17g}", factor_ > 0 ? 2 * level / factor_ : 0));
-        if (!instrument_->generator().errors().empty())
+        const double amplitude = factor_ > 0 ? 2 * level / factor_ : 0;
+        if (!GeneratorOutput::reaches(amplitude))
             throw InputError(
                 fmt::format("the generator of the bench cannot be set to {} = {}", bench_->parameter, level),
                 "levels may be from 1/200 of the largest one up to it; with carry = false any");
+        drive(amplitude);
     }
     // In parts as long as those of the samples, so that one can break off.
     const double stretch = static_cast<double>(part) / bench_->rate;

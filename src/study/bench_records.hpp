@@ -24,6 +24,7 @@ public:
 
 private:
     void begin(std::size_t number);
+    void drive(double amplitude);
     bool take(std::size_t level, const std::function<bool()>& interrupted, Samples& samples);
 
     const RecordBench* bench_;

@@ -1,11 +1,11 @@
 #include "study/branch_run.hpp"
 
+#include "graze/branch/chatter_curve.hpp"
 #include "graze/branch/curve_start.hpp"
 #include "graze/branch/impacting_curve.hpp"
 #include "graze/branch/switching.hpp"
 #include "graze/orbit/orbit_file.hpp"
 #include "study/branch_part.hpp"
-#include "study/chatter_curve.hpp"
 #include "study/ladder_run.hpp"
 #include "study/start_point.hpp"
 
@@ -298,6 +298,42 @@ bool compute_orbit(const Study& study, const StudyRun& run, const System& system
     return true;
 }
 
+/// Follows an onset of chatter in two parameters. @return whether it was finished rather than interrupted
+bool follow_chatter(const StudyRun& run, const System& system, const SpecialPoint& first, PointWriter& writer,
+                    const RunnerOptions& options) {
+    const auto refuse = [&](const std::string& problem, const std::string& remedy) {
+        throw InputError(run.start->place, fmt::format("run '{}' follows an onset of chatter: {}", run.name, problem),
+                         remedy);
+    };
+    if (!run.start->onto.empty())
+        refuse(fmt::format("it is no point of type {}", run.start->onto), "leave `onto` out");
+    const BranchSettings& settings = run.branch.settings;
+    try {
+        require_chatter_curve(run.model, first, settings);
+    } catch (const InputError& error) {
+        refuse(error.problem(), error.remedy());
+    }
+    ChatterCurve curve = at_place(run.start->place, run, [&] { return ChatterCurve(system, first, settings); });
+    const std::vector<std::string> parts = direction_names(run);
+    for (const std::string& part : parts) {
+        const auto write = [&] {
+            SpecialPoint point = curve.point();
+            if (curve.steps() == 0 && part == parts.front()) // the other part has the same first point
+                point.type = PointType::chatter;
+            point.monitors = monitors_of(system, point.solution.orbit, run);
+            writer.add(part, point, false);
+        };
+        curve.start(part == "down" ? -1 : 1);
+        write();
+        while (curve.step(options.interrupted))
+            write();
+        if (curve.interrupted())
+            return false;
+        writer.end(curve.ending());
+    }
+    return true;
+}
+
 } // namespace
 
 bool run_branch(const Study& study, const StudyRun& run, SharedFile& file, const RunnerOptions& options,
@@ -315,7 +351,7 @@ bool run_branch(const Study& study, const StudyRun& run, SharedFile& file, const
         return run_ladder(run, system, *first, writer, options);
     }
     if (run.kind == RunKind::curve && first && run.branch.keeps_point() && first->point.type == PointType::chatter)
-        return run_chatter_curve(run, system, first->point, writer, options);
+        return follow_chatter(run, system, first->point, writer, options);
     const std::vector<BranchPart> parts = parts_of(study, run, system, file, first, options);
     if (parts.empty())
         return false;

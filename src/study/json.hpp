@@ -26,7 +26,4 @@ struct Json {
 /// @throws InputError when the text is no JSON, or nested deeper than anything that graze writes
 Json parse_json(std::string_view text, const Place& place);
 
-/// A text between JSON's quotes.
-std::string json_text(std::string_view text);
-
 } // namespace graze

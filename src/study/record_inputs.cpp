@@ -1,10 +1,10 @@
 #include "study/record_inputs.hpp"
 
+#include "base/random_number.hpp"
 #include "graze/base/file_name.hpp"
 #include "graze/base/printable.hpp"
 #include "graze/model/model_file.hpp"
 #include "graze/symbolic/parser.hpp"
-#include "symbolic/random_number.hpp"
 
 #include <fmt/format.h>
 

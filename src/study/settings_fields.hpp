@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/json_text.hpp"
 #include "graze/base/require.hpp"
 #include "graze/model/named_value.hpp"
 #include "graze/symbolic/transform.hpp"

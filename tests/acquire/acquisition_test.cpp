@@ -1,8 +1,8 @@
 #include "graze/acquire/acquisition.hpp"
 
 #include "acquire/bench_experiment.hpp"
-#include "graze/acquire/bench_lines.hpp"
 #include "graze/record/record_file.hpp"
+#include "instrument/bench_lines.hpp"
 
 #include <chrono>
 #include <gmock/gmock.h>
@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 using testing::TemporaryFolder;
 using testing::testbed_bench;
 
-AcquisitionReport run_on(VirtualBench& bench, const std::string& text, const std::string& folder,
+AcquisitionReport run_on(ScpiBench& bench, const std::string& text, const std::string& folder,
                          const AcquisitionOptions& options = {}) {
     const Experiment experiment = parse_experiment(text, "sweep.toml");
     BenchGeneratorLine line(bench);
@@ -34,7 +34,7 @@ AcquisitionReport run_on(VirtualBench& bench, const std::string& text, const std
 
 TEST(Acquisition, RecordsAllLevelsAndLeavesTheOutputSafe) {
     const TemporaryFolder folder;
-    VirtualBench bench(testbed_bench());
+    ScpiBench bench(testbed_bench());
     std::size_t told = 0;
     AcquisitionOptions options;
     options.recorded = [&](const RecordEntry& entry) { EXPECT_EQ(entry.level.number, ++told); };
@@ -61,9 +61,9 @@ TEST(Acquisition, RecordsAllLevelsAndLeavesTheOutputSafe) {
 
 TEST(Acquisition, GoesOnWithTheSameRecords) {
     const TemporaryFolder folder;
-    VirtualBench whole(testbed_bench());
+    ScpiBench whole(testbed_bench());
     run_on(whole, experiment_text(), folder / "whole");
-    VirtualBench bench(testbed_bench());
+    ScpiBench bench(testbed_bench());
     std::size_t runs = 0, asked = 0;
     AcquisitionReport report;
     do { // broken off at another place each time
@@ -91,10 +91,10 @@ TEST(Acquisition, GoesOnWithTheSameRecords) {
 TEST(Acquisition, GoesOnWithTheSameRecordsInHdf5) {
     const TemporaryFolder folder;
     const std::string text = experiment_text("format = \"h5\"\n");
-    VirtualBench whole(testbed_bench());
+    ScpiBench whole(testbed_bench());
     EXPECT_EQ(run_on(whole, text, folder / "whole").ending, AcquisitionEnding::complete);
     std::this_thread::sleep_for(std::chrono::milliseconds(1100)); // HDF5 knows times to the second
-    VirtualBench bench(testbed_bench());
+    ScpiBench bench(testbed_bench());
     for (int runs = 0; runs < 3; ++runs) {
         std::size_t recorded = 0;
         AcquisitionOptions options;
@@ -108,7 +108,7 @@ TEST(Acquisition, GoesOnWithTheSameRecordsInHdf5) {
 
 TEST(Acquisition, SetsNothingOfAForeignInstrument) {
     const TemporaryFolder folder;
-    VirtualBench bench(testbed_bench());
+    ScpiBench bench(testbed_bench());
     const GeneratorOutput before = bench.generator().output();
     std::string text = experiment_text();
     text.replace(text.find("33120A"), 6, "DS345");
@@ -124,13 +124,13 @@ TEST(Acquisition, SetsNothingOfAForeignInstrument) {
 
 TEST(Acquisition, WalksThroughAllAgainWhereTheBenchIsANewOne) {
     const TemporaryFolder folder;
-    VirtualBench whole(testbed_bench());
+    ScpiBench whole(testbed_bench());
     run_on(whole, experiment_text(), folder / "whole");
     std::size_t recorded = 0;
     AcquisitionOptions options;
     options.recorded = [&](const RecordEntry&) { ++recorded; };
     options.interrupted = [&] { return recorded == 4; };
-    VirtualBench first(testbed_bench()), second(testbed_bench());
+    ScpiBench first(testbed_bench()), second(testbed_bench());
     EXPECT_EQ(run_on(first, experiment_text(), folder / "parts", options).ending, AcquisitionEnding::interrupted);
     const AcquisitionReport report = run_on(second, experiment_text("[resume]\nwalk = \"whole\"\n"), folder / "parts");
     EXPECT_EQ(report.before, 4U);
@@ -140,9 +140,7 @@ TEST(Acquisition, WalksThroughAllAgainWhereTheBenchIsANewOne) {
 
 TEST(Acquisition, DetectsAGeneratorThatGivesLess) {
     const TemporaryFolder folder;
-    BenchSettings settings = testbed_bench();
-    settings.clip = 9.5;
-    VirtualBench bench(settings);
+    ScpiBench bench(testbed_bench(), {.clip = 9.5});
     const AcquisitionReport report = run_on(bench, experiment_text(), folder / "records");
     EXPECT_EQ(report.ending, AcquisitionEnding::clipped);
     EXPECT_THAT(report.detail, HasSubstr("gives an amplitude of 9.5 V instead of 9.6 V"));
@@ -152,7 +150,7 @@ TEST(Acquisition, DetectsAGeneratorThatGivesLess) {
 
 TEST(Acquisition, NoticesAKnobThatIsTurned) {
     const TemporaryFolder folder;
-    VirtualBench bench(testbed_bench());
+    ScpiBench bench(testbed_bench());
     AcquisitionOptions options;
     options.progress = [&](const AcquisitionProgress& progress) {
         if (progress.stage == AcquisitionStage::recording && progress.level.number == 2)
@@ -168,7 +166,7 @@ TEST(Acquisition, NoticesAKnobThatIsTurned) {
 
 TEST(Acquisition, IsSafeWhenAnExceptionPassesThrough) {
     const TemporaryFolder folder;
-    VirtualBench bench(testbed_bench());
+    ScpiBench bench(testbed_bench());
     AcquisitionOptions options;
     options.recorded = [](const RecordEntry&) { throw std::runtime_error("of the caller"); };
     EXPECT_THROW(run_on(bench, experiment_text(), folder / "records", options), std::runtime_error);
@@ -179,7 +177,7 @@ TEST(Acquisition, IsSafeWhenAnExceptionPassesThrough) {
 TEST(Acquisition, WaitsUntilSectionsRepeat) {
     const TemporaryFolder folder;
     BenchSettings settings = testbed_bench();
-    VirtualBench bench(settings);
+    ScpiBench bench(settings);
     std::string text = experiment_text("", "none");
     text.replace(
         text.find("time = 0.5"), 10,
@@ -190,7 +188,7 @@ TEST(Acquisition, WaitsUntilSectionsRepeat) {
     EXPECT_EQ(report.unsettled, 0U);
     const std::string list = contents(folder / "records/manifest.txt");
     EXPECT_THAT(list, HasSubstr("a2000mV_up.csv"));
-    VirtualBench chaotic(settings); // where nothing repeats so closely
+    ScpiBench chaotic(settings); // where nothing repeats so closely
     std::string noisy = text;
     noisy.replace(noisy.find("v = 0.01"), 8, "v = 1e-6");
     noisy.replace(noisy.find("most = 20"), 9, "most = 2");
@@ -201,7 +199,7 @@ TEST(Acquisition, WaitsUntilSectionsRepeat) {
 
 TEST(Acquisition, AsksTheDeviceForItsChannelsBeforeAnythingIsSent) {
     const TemporaryFolder folder;
-    VirtualBench bench(testbed_bench());
+    ScpiBench bench(testbed_bench());
     std::string text = experiment_text();
     text.replace(text.find("rate = 500"), 10, "rate = 500\nchannels = [\"V\", \"vv\"]");
     EXPECT_THROW(run_on(bench, text, folder / "records"), InputError);

@@ -2,8 +2,8 @@
 
 #include "base/temporary_folder.hpp"
 #include "graze/acquire/experiment.hpp"
-#include "graze/bench/virtual_bench.hpp"
 #include "graze/model/catalogue.hpp"
+#include "instrument/scpi_bench.hpp"
 
 #include <filesystem>
 #include <map>

@@ -3,7 +3,7 @@
 #include "acquire/scripted_line.hpp"
 #include "acquire/stranger_generator.hpp"
 #include "graze/base/input_error.hpp"
-#include "graze/bench/function_generator.hpp"
+#include "instrument/function_generator.hpp"
 
 #include <algorithm>
 #include <gmock/gmock.h>

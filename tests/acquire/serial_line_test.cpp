@@ -2,9 +2,9 @@
 
 #include "acquire/bench_experiment.hpp"
 #include "graze/acquire/acquisition.hpp"
-#include "graze/acquire/bench_lines.hpp"
-#include "graze/bench/bench_service.hpp"
 #include "graze/record/record_file.hpp"
+#include "instrument/bench_lines.hpp"
+#include "instrument/bench_service.hpp"
 
 #include <atomic>
 #include <chrono>
@@ -68,7 +68,7 @@ private:
 /// The generator of a bench that another thread takes samples of.
 class SharedGenerator : public BenchGeneratorLine {
 public:
-    SharedGenerator(VirtualBench& bench, std::mutex& one) : BenchGeneratorLine(bench), one_(&one) {}
+    SharedGenerator(ScpiBench& bench, std::mutex& one) : BenchGeneratorLine(bench), one_(&one) {}
     void send(std::string_view line) override {
         const std::lock_guard lock(*one_);
         BenchGeneratorLine::send(line);
@@ -81,7 +81,7 @@ private:
 /// A device of samples at the end of a serial line: that of a bench, in a thread of its own.
 class SerialDevice {
 public:
-    SerialDevice(VirtualBench& bench, std::mutex& one) : one_(&one), protocol_(bench) {
+    SerialDevice(ScpiBench& bench, std::mutex& one) : one_(&one), protocol_(bench) {
         settings = end_.settings;
         settings.baud = 115200;
         settings.stop_bits = StopBits::one;
@@ -163,7 +163,7 @@ public:
 
 private:
     TemporaryFolder folder_;
-    VirtualBench bench_;
+    ScpiBench bench_;
     std::optional<BenchService> service_;
     std::atomic<bool> stop_{false};
     std::thread thread_;
@@ -273,7 +273,7 @@ TEST(Acquisition, TakesSamplesOverASerialLine) {
     const TemporaryFolder folder;
     const Experiment experiment = parse_experiment(experiment_text(), "sweep.toml");
     std::mutex one_at_a_time;
-    const auto recorded = [&](VirtualBench& bench, InstrumentLine& samples, const std::string& name) {
+    const auto recorded = [&](ScpiBench& bench, InstrumentLine& samples, const std::string& name) {
         SharedGenerator generator(bench, one_at_a_time);
         TextSampleDevice device(samples, 5, {});
         RecordFolder records(folder / name, experiment, 0);
@@ -281,7 +281,7 @@ TEST(Acquisition, TakesSamplesOverASerialLine) {
         EXPECT_EQ(report.ending, AcquisitionEnding::complete) << report.detail;
         EXPECT_EQ(report.recorded, 6U);
     };
-    VirtualBench one(testbed_bench()), other(testbed_bench());
+    ScpiBench one(testbed_bench()), other(testbed_bench());
     BenchSampleLine direct(one);
     recorded(one, direct, "direct");
     SerialDevice serial(other, one_at_a_time);

@@ -49,15 +49,14 @@ Samples taken(VirtualBench& bench, std::size_t count) {
 
 TEST(VirtualBench, GivesTheWaveThatIsSetWithItsPhaseGoingOn) {
     VirtualBench bench(wave());
-    bench.command("SYST:REM");
-    bench.command("APPL:SIN 5, 2, 0");
+    bench.drive({5, 2});
     bench.set_rate(200);
     const Samples first = taken(bench, 333);
     for (std::size_t i = 0; i < 333; ++i) {
         EXPECT_NEAR(first.times[i], static_cast<double>(i) / 200, 1e-12);
         EXPECT_NEAR(first.values[0][i], 3 * std::sin(2 * std::numbers::pi * 5 * first.times[i]), 1e-9);
     }
-    bench.command("VOLT 4;:FREQ 10");
+    bench.drive({10, 4});
     const double phase = 2 * std::numbers::pi * 5 * 333 / 200;
     const Samples second = taken(bench, 100);
     for (std::size_t i = 0; i < 100; ++i)
@@ -92,7 +91,7 @@ TEST(VirtualBench, ConvertsToWholeStepsWithinTheRange) {
     BenchSettings settings = wave();
     settings.channels[0].range = 2;
     VirtualBench bench(settings);
-    bench.command("SYST:REM;:APPL:SIN 7, 2, 0"); // a sine of amplitude 3
+    bench.drive({7, 2}); // a sine of amplitude 3
     const Samples samples = taken(bench, 1000);
     double least = 0, most = 0;
     for (const double value : samples.values[0]) {
@@ -108,14 +107,14 @@ TEST(VirtualBench, TakesAwayWhatWouldAppearAsAnotherFrequency) {
     BenchSettings settings = wave();
     settings.anti_alias = 40;
     VirtualBench bench(settings);
-    bench.command("SYST:REM;:APPL:SIN 990, 2, 0"); // of 1000 samples in a second seen as 10 Hz
+    bench.drive({990, 2}); // of 1000 samples in a second seen as 10 Hz
     bench.set_rate(1000);
     taken(bench, 500);
     const Samples samples = taken(bench, 500);
     // What is left is (tan(pi 40/8000)/tan(pi 990/8000))^4 of 3 V: 5e-6 V.
     for (const double value : samples.values[0])
         EXPECT_LT(std::abs(value), 1e-5);
-    bench.command("FREQ 4");
+    bench.drive({4, 2});
     taken(bench, 500);
     double most = 0;
     const Samples slow = taken(bench, 500);
@@ -131,16 +130,16 @@ TEST(VirtualBench, GivesTheSameAgainAfterItHasReturned) {
     for (BenchChannel& channel : settings.channels)
         channel.noise = 1e-3;
     VirtualBench bench(settings);
-    bench.command("SYST:REM;:APPL:SIN 6.1, 9.6, 0"); // with impacts
+    bench.drive({6.1, 9.6}); // with impacts
     taken(bench, 1500);
     bench.mark(7);
-    bench.command("VOLT 9.7");
+    bench.drive({6.1, 9.7});
     const Samples first = taken(bench, 2000);
-    bench.command("VOLT 1;:FREQ 20");
+    bench.drive({20, 1});
     taken(bench, 321);
     ASSERT_TRUE(bench.return_to(7));
-    bench.command("APPL:SIN 6.1, 0.1, 0");
-    bench.command("VOLT 9.7");
+    bench.drive({6.1, 0.1});
+    bench.drive({6.1, 9.7});
     const Samples second = taken(bench, 2000);
     EXPECT_EQ(first.times, second.times);
     EXPECT_EQ(first.values, second.values);
@@ -149,10 +148,10 @@ TEST(VirtualBench, GivesTheSameAgainAfterItHasReturned) {
         bench.mark(i);
     EXPECT_FALSE(bench.return_to(7)) << "only the last four are kept";
     VirtualBench another(settings);
-    another.command("SYST:REM;:APPL:SIN 6.1, 9.6, 0");
+    another.drive({6.1, 9.6});
     taken(another, 1500);
     another.mark(0);
-    another.command("VOLT 9.7");
+    another.drive({6.1, 9.7});
     EXPECT_EQ(taken(another, 2000).values, first.values) << "the same calls, the same samples";
 }
 

@@ -154,7 +154,7 @@ TEST(ChatterLimit, of_contacts_that_hardly_lose_speed) {
     // The state in which the force stops holding the mass: x = s, v = 0, cos(theta) = s.
     const Segment contact{0, SegmentEnd::event, 0};
     const Orbit guess{
-        {contact}, {guessed}, {{guessed, 0, std::acos(guessed)}}, {2 * std::numbers::pi / omega}, std::nullopt};
+        {contact}, {guessed, 1}, {{guessed, 0, std::acos(guessed)}}, {2 * std::numbers::pi / omega}, std::nullopt};
     const ChatterLimit limit = chatter_limit_near(model, guess, 0, model.independent_parameter("s"));
     ASSERT_TRUE(limit.direct) << limit.problem;
     EXPECT_GT(limit.orbit.segments(), 200U);

@@ -17,12 +17,13 @@ inline Model chattering_oscillator(double restitution, double length, double tim
     return model_from(fmt::format(R"toml(
 [parameters]
 s = {:.17g}
+force = 1
 [states]
 x = 0
 v = 0
 theta = {{ initial = 0, period = "2*pi" }}
 [modes.free]
-rates = {{ x = "v", v = "({:.17g}*cos(theta) - x)/{:.17g} - 2*{:.17g}*v", theta = "{:.17g}" }}
+rates = {{ x = "v", v = "({:.17g}*force*cos(theta) - x)/{:.17g} - 2*{:.17g}*v", theta = "{:.17g}" }}
 watch = ["stop"]
 [events.stop]
 function = "s - x"

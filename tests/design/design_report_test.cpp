@@ -27,7 +27,7 @@ TEST(DesignReport, OfTheMemsSwitchHasThePublishedValues) {
     EXPECT_NEAR(report.value, 0.2013662121541341, 1e-12);
     EXPECT_EQ(report.found.outcome, GrazingOutcome::lost);
     const auto row = std::find_if(report.times.rows.begin(), report.times.rows.end(),
-                                  [](const TripTimeRow& one) { return one.overshoot == 1e-4; });
+                                  [](const OvershootTrip& one) { return one.overshoot == 1e-4; });
     ASSERT_NE(row, report.times.rows.end());
     ASSERT_TRUE(row->best());
     EXPECT_NEAR(row->best()->time, 27.31773570163, 1e-8 * 27);

@@ -1,5 +1,7 @@
 #include "study/json.hpp"
 
+#include "base/json_text.hpp"
+
 #include <gtest/gtest.h>
 
 #include <string>

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "graze/bench/function_generator.hpp"
 #include "graze/model/model.hpp"
 #include "graze/model/named_value.hpp"
 
@@ -34,12 +33,10 @@ struct BenchSettings {
     std::optional<DrivenInput> offset{};
     double time_unit = 1; ///< seconds that a unit of the model's time lasts
     std::vector<BenchChannel> channels{};
-    int bits = 16;          ///< of converters
-    double anti_alias = 0;  ///< corner of a low-pass filter in each channel, in Hz; 0: none
-    std::uint64_t seed = 1; ///< of noise
-    double clip = std::numeric_limits<double>::infinity(); ///< of the generator, see GeneratorSettings
-    std::string left_as{};                                 ///< what the generator stands at, see GeneratorSettings
-    double tolerance = 1e-10;                              ///< of the simulation
+    int bits = 16;            ///< of converters
+    double anti_alias = 0;    ///< corner of a low-pass filter in each channel, in Hz; 0: none
+    std::uint64_t seed = 1;   ///< of noise
+    double tolerance = 1e-10; ///< of the simulation
     /// @throws InputError naming the setting that is out of range
     void validate() const;
 };

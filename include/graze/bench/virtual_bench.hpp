@@ -1,13 +1,13 @@
 #pragma once
 
 #include "graze/bench/bench_settings.hpp"
+#include "graze/bench/generator_output.hpp"
 #include "graze/record/samples.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <string_view>
 
 namespace graze {
 
@@ -22,10 +22,8 @@ public:
     VirtualBench(const VirtualBench&) = delete;
     VirtualBench& operator=(const VirtualBench&) = delete;
 
-    /// A line for the generator; see FunctionGenerator::execute.
-    std::string command(std::string_view line);
-    const FunctionGenerator& generator() const;
-    FunctionGenerator& generator();
+    /// What the generator gives from now on.
+    void drive(const GeneratorOutput& output);
 
     const RecordHeader& header() const;
     double rate() const; ///< samples in a second

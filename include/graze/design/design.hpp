@@ -2,10 +2,10 @@
 
 #include "graze/base/input_error.hpp"
 #include "graze/branch/yield.hpp"
-#include "graze/grazing/trip_time.hpp"
 #include "graze/grazing/verdict.hpp"
 #include "graze/model/model.hpp"
 #include "graze/study/study.hpp"
+#include "graze/trip/trip_time.hpp"
 
 #include <cstddef>
 #include <cstdint>

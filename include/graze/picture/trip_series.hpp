@@ -1,7 +1,7 @@
 #pragma once
 
-#include "graze/grazing/trip_time.hpp"
 #include "graze/picture/figure.hpp"
+#include "graze/trip/trip_time.hpp"
 
 #include <utility>
 #include <vector>

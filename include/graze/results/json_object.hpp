@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace graze {
+
+/// Members of a JSON object, in their order.
+class JsonObject {
+public:
+    void add(std::string_view name, std::string_view text);
+    void add(std::string_view name, double number);
+    void add(std::string_view name, const JsonObject& object);
+    void add(std::string_view name, const std::vector<JsonObject>& objects);
+    /// The members, without the braces.
+    const std::string& members() const { return members_; }
+
+private:
+    void begin(std::string_view name);
+    std::string members_;
+};
+
+} // namespace graze

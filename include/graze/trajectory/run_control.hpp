@@ -1,0 +1,60 @@
+#pragma once
+
+#include "graze/trajectory/observer.hpp"
+
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace graze {
+
+/// What ends one leg of a run: whichever comes first.
+struct LegEnd {
+    double duration = std::numeric_limits<double>::infinity();
+    std::size_t periods = 0;  ///< 0: not counted
+    std::size_t contacts = 0; ///< 0: not counted
+    /// Time that the leg takes, if it is known beforehand.
+    std::optional<double> expected;
+
+    bool empty() const { return duration == std::numeric_limits<double>::infinity() && periods == 0 && contacts == 0; }
+};
+
+/// Decides when a leg of a run is over, and lets recorders see the leg that is to be shown.
+class RunControl : public Observer {
+public:
+    /// @param period_probe index of the probe whose passages are periods
+    /// @param counted whether contacts at each event count
+    RunControl(Observer& recorders, std::optional<std::size_t> period_probe, std::vector<bool> counted);
+
+    void begin(const LegEnd& end, double time, bool shown);
+    /// Asked after every step whether the run is to end in any case.
+    void end_when(std::function<bool()> ends) { ends_ = std::move(ends); }
+    /// Told after every step how much of the leg is done, if that is known, and the time.
+    void tell(std::function<void(std::optional<double> fraction, double time)> progress) {
+        progress_ = std::move(progress);
+    }
+
+    void step(const Step& step) override;
+    void contact(const Contact& contact) override;
+    void passage(const Passage& passage) override;
+    void minimum(const StepMinimum& minimum) override;
+    bool stop() override;
+
+private:
+    bool is_reached() const;
+
+    Observer* recorders_;
+    std::optional<std::size_t> period_probe_;
+    std::vector<bool> counted_;
+    std::function<bool()> ends_;
+    std::function<void(std::optional<double>, double)> progress_;
+    LegEnd end_;
+    double start_ = 0, time_ = 0;
+    std::size_t periods_ = 0, contacts_ = 0;
+    bool shown_ = false;
+};
+
+} // namespace graze

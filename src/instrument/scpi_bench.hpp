@@ -1,0 +1,27 @@
+#pragma once
+
+#include "graze/bench/virtual_bench.hpp"
+#include "instrument/function_generator.hpp"
+
+#include <string>
+#include <string_view>
+
+namespace graze {
+
+/// A virtual bench whose generator is told what to give by lines of SCPI.
+class ScpiBench : public VirtualBench {
+public:
+    /// @param generator takes offsets if the bench has a parameter for them, whatever is said here
+    /// @throws InputError for settings out of range, and for a model that cannot be run
+    explicit ScpiBench(const BenchSettings& settings, const GeneratorSettings& generator = {});
+
+    /// A line for the generator; see FunctionGenerator::execute.
+    std::string command(std::string_view line);
+    const FunctionGenerator& generator() const { return generator_; }
+    FunctionGenerator& generator() { return generator_; }
+
+private:
+    FunctionGenerator generator_;
+};
+
+} // namespace graze

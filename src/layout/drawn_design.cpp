@@ -1,0 +1,189 @@
+#include "graze/layout/drawn_design.hpp"
+
+#include "graze/base/input_error.hpp"
+#include "graze/design/trip_location.hpp"
+#include "graze/design/trip_times.hpp"
+#include "graze/layout/lumped_model.hpp"
+#include "graze/layout/wafer_yield.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace graze {
+
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); // an empty cell
+
+/// The design whose device is that of the folder, whatever its file begins with.
+Design with_device(const Design& own, const Model& device) {
+    Design result = own;
+    result.set.clear();
+    for (const Parameter& one : device.parameters) {
+        if (!one.value)
+            continue;
+        result.model.set_parameter(one.name, *one.value);
+        if (one.name != own.control)
+            result.set.emplace_back(one.name, *one.value);
+    }
+    return result;
+}
+
+/// The designed device's trip point, which follows from that of the drawn one.
+std::optional<TripPoint> designed_trip(const TripPoint& drawn, const Design& designed) {
+    const std::vector<ParameterId> others = parameters_but(drawn.system.model(), drawn.control);
+    const std::vector<std::string> names = drawn.system.model().independent_parameters();
+    std::vector<double> values;
+    const std::vector<double> all = designed.model.parameter_values();
+    for (const ParameterId one : others)
+        values.push_back(all[designed.model.independent_parameter(names[one.place()]).place()]);
+    const LocatedSolution found = LocatedValue(drawn.system, drawn.point, drawn.control, others)(values);
+    if (!found.found || !found.admissible)
+        return std::nullopt;
+    return moved_to(drawn, found.orbit);
+}
+
+/// Rows of what was designed and what is drawn.
+class Comparison {
+public:
+    void add(const std::string& name, double designed, double drawn, const std::string& unit, const std::string& text) {
+        table_.add(name);
+        table_.add(designed);
+        table_.add(drawn);
+        constexpr double percent = 100;
+        table_.add(designed != 0 ? percent * (drawn / designed - 1) : nothing);
+        table_.add(unit);
+        table_.add(text);
+    }
+    void add(const std::string& name, const std::string& designed, const std::string& drawn, const std::string& text) {
+        table_.add(name);
+        table_.add(designed);
+        table_.add(drawn);
+        table_.add(nothing);
+        table_.add("");
+        table_.add(text);
+    }
+    const Table& table() const { return table_; }
+
+private:
+    Table table_{{{"quantity", ""}, {"designed", ""}, {"drawn", ""}, {"percent", ""}, {"unit", ""}, {"meaning", ""}}};
+};
+
+void add_quantities(Comparison& rows, const DesignedDevice& designed) {
+    for (const MatchedQuantity& one : designed.matched.quantities)
+        rows.add(one.parameter, one.designed, one.drawn, one.unit,
+                 one.met ? fmt::format("by {} = {:.9g} {}", one.number, one.after, one.number_unit)
+                         : "not as designed: " + one.reason);
+    // What is not drawn but chosen, as the drive's frequency.
+    for (const DesignDimension& one : designed.own.dimensions) {
+        bool is_drawn = false;
+        for (const MatchedQuantity& quantity : designed.matched.quantities)
+            is_drawn = is_drawn || quantity.parameter == one.name;
+        if (is_drawn)
+            continue;
+        const double value =
+            designed.device.parameter_values()[designed.device.independent_parameter(one.name).place()];
+        rows.add(one.name, value, value, one.unit, "not drawn: as designed");
+    }
+}
+
+/// The drawn device has what is wanted. Of values to be met exactly the grid keeps it, by far less than a share of
+/// them.
+bool has_what_is_wanted(const MetWishes& wishes) {
+    constexpr double grid = 1e-2;
+    for (std::size_t i = 0; i < wishes.found.wants.size(); ++i) {
+        const Want& want = wishes.list.wants[i];
+        const FoundWant& found = wishes.found.wants[i];
+        const bool is_exact = want.least == want.most;
+        if (!found.met &&
+            !(is_exact && found.value && std::abs(*found.value - want.least) <= grid * std::abs(want.least)))
+            return false;
+    }
+    return true;
+}
+
+void add_wants(Comparison& rows, const MetWishes& drawn, const std::optional<MetWishes>& designed) {
+    for (std::size_t i = 0; i < drawn.found.wants.size(); ++i) {
+        const Want& want = drawn.list.wants[i];
+        const FoundWant& one = drawn.found.wants[i];
+        double before = nothing;
+        if (designed)
+            for (std::size_t k = 0; k < designed->found.wants.size(); ++k)
+                if (designed->list.wants[k].name == want.name)
+                    before = designed->found.wants[k].value.value_or(nothing);
+        rows.add("want_" + want.name, before, one.value.value_or(nothing), "", words_of(want, one));
+    }
+}
+
+void add_time(Comparison& rows, const Design& design, const TripPoint& drawn, const std::optional<TripPoint>& designed,
+              const std::function<bool()>& interrupted) {
+    TripRequest request = design.trip;
+    if (!request.overshoots.empty())
+        request.overshoots = {*std::max_element(request.overshoots.begin(), request.overshoots.end())};
+    const auto time_of = [&](const TripPoint& trip) {
+        const TripTimes times = trip_times(trip, trip.point.solution.orbit, class_at(trip), request, interrupted);
+        const TripTime* best = times.rows.empty() ? nullptr : times.rows.front().best();
+        return std::pair(best ? best->time : nothing, times.rows.empty() ? 0 : times.rows.front().overshoot);
+    };
+    const auto [time, overshoot] = time_of(drawn);
+    if (std::isfinite(time))
+        rows.add(fmt::format("trip_time_{:.3g}", std::abs(overshoot)), designed ? time_of(*designed).first : nothing,
+                 time, drawn.system.model().time_unit, "at that overshoot");
+}
+
+} // namespace
+
+std::optional<DrawnDesign> drawn_design(const DesignedDevice& designed, const std::string& results,
+                                        const DesignReportOptions& options) {
+    const Design found = with_device(designed.own, designed.device);
+    Design drawn = said_of(found, [&] { return design_of_device(found, designed.matched.file); });
+    drawn.dimensions = found.dimensions; // of which wishes tell
+    const std::optional<TripPoint> trip = locate_trip(drawn, results, options);
+    if (!trip)
+        return std::nullopt;
+    const std::optional<TripPoint> before = designed_trip(*trip, found);
+    WishesOptions wishing;
+    wishing.jobs = options.jobs;
+    wishing.interrupted = options.interrupted;
+    const MetWishes wishes = said_of(drawn, [&] { return wishes_at(drawn, *trip, wishing); });
+    std::optional<MetWishes> wishes_before;
+    if (before)
+        wishes_before = said_of(found, [&] { return wishes_at(found, *before, wishing); });
+    Comparison rows;
+    add_quantities(rows, designed);
+    const Model& model = trip->system.model();
+    const std::string unit = model.parameters[*model.find_parameter(designed.own.control)].unit;
+    const GrazingOutcome outcome = class_at(*trip).outcome;
+    rows.add("trip_value", before ? before->value() : nothing, trip->value(), unit,
+             fmt::format("of {}, at {} of run '{}'", designed.own.control, trip->label, trip->run));
+    rows.add("class", before ? std::string(class_name(class_at(*before).outcome)) : "not found",
+             std::string(class_name(outcome)), "");
+    add_time(rows, designed.own, *trip, before, options.interrupted);
+    add_wants(rows, wishes, wishes_before);
+    if (options.interrupted && options.interrupted())
+        return std::nullopt;
+    return DrawnDesign{rows.table(), designed.matched.is_met() && has_what_is_wanted(wishes)};
+}
+
+ParameterFile solved_numbers(const DesignedDevice& designed) {
+    ParameterFile numbers;
+    numbers.text =
+        fmt::format("What graze layout has solved for, for its --set @FILE: the design {}.", designed.own.name);
+    for (const MatchedQuantity& one : designed.matched.quantities)
+        numbers.set.emplace_back(one.number.substr(one.number.find('.') + 1), one.after);
+    return numbers;
+}
+
+ParameterFile drawn_parameters(const DesignedDevice& designed) {
+    ParameterFile parameters = parameters_of(lumped_model_of(designed.matched.file), designed.own.model);
+    parameters.text = fmt::format("The device of the design {}, as it is drawn and after the etch.", designed.own.name);
+    return parameters;
+}
+
+} // namespace graze

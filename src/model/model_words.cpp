@@ -1,0 +1,58 @@
+#include "model/model_words.hpp"
+
+#include "graze/symbolic/transform.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace graze {
+
+std::string formula(const Expression& expression) {
+    constexpr std::size_t longest = 100;
+    std::string text = to_string(expression);
+    if (text.size() > longest) {
+        text.resize(longest - 4);
+        text += " ...";
+    }
+    return text;
+}
+
+std::string way_of(const Model& model, const Transition& transition) {
+    const auto through = [&](std::size_t jump) { return jump == 0 ? std::string() : " / " + model.jumps[jump].name; };
+    std::vector<std::string> ways;
+    for (const Alternative& alternative : transition.next)
+        ways.push_back((alternative.mode ? model.modes[*alternative.mode].name : "end") +
+                       (alternative.when.empty() ? "" : fmt::format(" [{}]", alternative.when_text)));
+    std::string way = fmt::format("{}: {}{} -> {}", model.modes[transition.mode].name,
+                                  model.events[transition.event].name, through(transition.jump), fmt::join(ways, ", "));
+    if (transition.chatter)
+        way += fmt::format("; chatter{} -> {}", through(transition.chatter->jump),
+                           model.modes[transition.chatter->mode].name);
+    return way;
+}
+
+std::string watched_by(const Model& model, const Mode& mode) {
+    std::vector<std::string> names;
+    for (const std::size_t event : mode.watched)
+        names.push_back(model.events[event].name);
+    return names.empty() ? "" : fmt::format("watches {}", fmt::join(names, ", "));
+}
+
+std::string section_text(const Model& model, const Section& section) {
+    if (section.state)
+        return fmt::format("{} = {}", model.states[*section.state].name, formula(section.value));
+    const char* direction = section.direction == Direction::both      ? ""
+                            : section.direction == Direction::falling ? ", falling"
+                                                                      : ", rising";
+    return formula(section.function) + " = 0" + direction;
+}
+
+std::vector<std::string> images_of(const Model& model, const Symmetry& symmetry) {
+    std::vector<std::string> images;
+    for (std::size_t i = 0; i < model.states.size(); ++i)
+        if (symmetry.map[i] != model.symbol(model.states[i].name))
+            images.push_back(fmt::format("{} -> {}", model.states[i].name, formula(symmetry.map[i])));
+    return images;
+}
+
+} // namespace graze

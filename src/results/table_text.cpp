@@ -1,0 +1,90 @@
+#include "graze/results/table_text.hpp"
+
+#include "base/json_text.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace graze {
+
+namespace {
+
+std::string number_text(double value, int digits) {
+    return fmt::format("{:.{}g}", value, digits);
+}
+
+std::string json_number(double value, int digits) {
+    return std::isfinite(value) ? number_text(value, digits) : "null";
+}
+
+std::string csv_cell(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos)
+        return text;
+    std::string result = "\"";
+    for (const char c : text)
+        result += c == '"' ? "\"\"" : std::string(1, c);
+    return result + '"';
+}
+
+} // namespace
+
+std::string cell_text(const Table& table, std::size_t row, std::size_t column, int digits) {
+    if (table.is_text(row, column))
+        return table.text(row, column);
+    return table.is_missing(row, column) ? "" : number_text(table.number(row, column), digits);
+}
+
+void write_csv(std::ostream& out, const Table& table, int digits) {
+    const std::size_t columns = table.columns().size();
+    for (std::size_t column = 0; column < columns; ++column)
+        out << (column > 0 ? "," : "") << csv_cell(table.columns()[column].name);
+    out << '\n';
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        for (std::size_t column = 0; column < columns; ++column)
+            out << (column > 0 ? "," : "") << csv_cell(cell_text(table, row, column, digits));
+        out << '\n';
+    }
+}
+
+std::string csv_text(const Table& table) {
+    std::ostringstream text;
+    write_csv(text, table, 17);
+    return text.str();
+}
+
+void write_json(std::ostream& out, const Table& table, int digits, const JsonObject& heading) {
+    const std::size_t columns = table.columns().size();
+    out << '{' << heading.members() << (heading.members().empty() ? "" : ",") << "\n\"columns\":[";
+    for (std::size_t column = 0; column < columns; ++column)
+        out << (column > 0 ? "," : "") << json_text(table.columns()[column].name);
+    out << "],\n\"units\":[";
+    for (std::size_t column = 0; column < columns; ++column)
+        out << (column > 0 ? "," : "") << json_text(table.columns()[column].unit);
+    out << "],\n\"rows\":[";
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        out << (row > 0 ? ",\n[" : "\n[");
+        for (std::size_t column = 0; column < columns; ++column)
+            out << (column > 0 ? "," : "")
+                << (table.is_text(row, column) ? json_text(table.text(row, column))
+                                               : json_number(table.number(row, column), digits));
+        out << ']';
+    }
+    out << "]}\n";
+}
+
+std::vector<JsonObject> json_rows(const Table& table) {
+    std::vector<JsonObject> rows;
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        JsonObject& object = rows.emplace_back();
+        for (std::size_t column = 0; column < table.columns().size(); ++column)
+            if (table.is_text(row, column))
+                object.add(table.columns()[column].name, table.text(row, column));
+            else if (!table.is_missing(row, column))
+                object.add(table.columns()[column].name, table.number(row, column));
+    }
+    return rows;
+}
+
+} // namespace graze

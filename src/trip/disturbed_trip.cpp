@@ -1,0 +1,81 @@
+#include "graze/trip/disturbed_trip.hpp"
+
+#include "graze/base/input_error.hpp"
+#include "graze/model/driven_parameter.hpp"
+#include "trip/end_watch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace graze {
+
+namespace {
+
+/// A motion in a model whose parameter changes, from the origin.
+TripTime follow(const TripOrigin& origin, const DrivenParameter& driven, const std::vector<double>& further,
+                double longest, const TripEnd& end, const TripOptions& options) {
+    TripEnd here = end;
+    if (end.quantity)
+        here.quantity = driven.of(*end.quantity);
+    const Simulation simulation = simulation_until(System(driven.model), here, options);
+    std::vector<double> parameters = origin.parameters, state = origin.state;
+    parameters.insert(parameters.end(), further.begin(), further.end());
+    state.push_back(0);
+    const auto counts = [&](const Contact& contact) { return origin.counts(contact); };
+    EndWatch watch(here, counts, options.interrupted);
+    TripTime trip = run_until(simulation, parameters, state, origin.mode, longest, watch);
+    trip.cycles = trip.time / origin.cycle;
+    return trip;
+}
+
+const std::string name_of(const System& system, const TripOrigin& origin) {
+    return system.model().independent_parameters().at(origin.parameter.place());
+}
+
+} // namespace
+
+double beginning_of_ramp(const LossPoint& point, double rate) {
+    constexpr double cycles = 100, delays = 5, tellable = 10;
+    double way = cycles * std::abs(rate) * point.cycle;
+    if (point.fold)
+        way = std::max(way, delays * std::abs(delay_of_ramp(*point.fold, rate)));
+    const double least = point.fold ? least_overshoot(*point.fold) : least_overshoot(point.map, point.parameter);
+    return point.value - point.side * std::max(way, tellable * least);
+}
+
+RampedTrip ramped_trip(const System& system, const TripOrigin& origin, double rate, const TripEnd& end,
+                       const TripOptions& options) {
+    options.validate();
+    const double way = origin.point - origin.value;
+    if (!(rate * way > 0 && std::isfinite(rate)))
+        throw InputError(fmt::format("with the rate {} the parameter does not come to the point", rate),
+                         way > 0 ? "give a positive rate" : "give a negative rate");
+    const DrivenParameter driven = drive_parameter(system.model(), name_of(system, origin), DriveKind::shift);
+    RampedTrip result;
+    result.trip = follow(origin, driven, {rate}, way / rate + options.cycles * origin.cycle, end, options);
+    result.value = origin.value + rate * result.trip.time;
+    return result;
+}
+
+double delay_of_ramp(const FoldPassage& fold, double rate) {
+    constexpr double first_zero = 2.338107410459767; // of the Airy function, without its sign
+    const double of_cycle = std::abs(rate) * fold.cycle;
+    return std::copysign(first_zero, rate) * std::pow(of_cycle, 2.0 / 3) /
+           std::cbrt(fold.coefficient * std::abs(fold.rate));
+}
+
+TripTime swung_trip(const System& system, const TripOrigin& origin, double amplitude, double period, const TripEnd& end,
+                    const TripOptions& options) {
+    options.validate();
+    if (!(period > 0 && std::isfinite(period)) || !std::isfinite(amplitude))
+        throw InputError(fmt::format("nothing swings by {} with the period {}", amplitude, period),
+                         "give finite numbers, and a positive period");
+    const DrivenParameter driven = drive_parameter(system.model(), name_of(system, origin), DriveKind::wave);
+    return follow(origin, driven, {2 * std::numbers::pi / period, amplitude}, options.cycles * origin.cycle, end,
+                  options);
+}
+
+} // namespace graze

@@ -1,0 +1,77 @@
+#include "graze/trip/loss_point.hpp"
+
+#include "graze/base/input_error.hpp"
+#include "graze/branch/curve_start.hpp"
+#include "graze/trip/predicted_trip.hpp"
+#include "graze/trip/touching_map.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace graze {
+
+namespace {
+
+/// A point of another kind may be on a curve of folds. Touches come first.
+bool is_fold(const SpecialPoint& point) {
+    if (point.type == PointType::fold)
+        return true;
+    const std::vector<PointType> known = curves_at(point);
+    const auto has = [&](PointType type) { return std::find(known.begin(), known.end(), type) != known.end(); };
+    return point.type != PointType::branch_point && has(PointType::fold) && !has(PointType::grazing);
+}
+
+LossPoint of_fold(const System& system, const SpecialPoint& special, const std::vector<ParameterId>& candidates) {
+    if (candidates.empty())
+        throw InputError("nothing is said to move the orbit from its fold", "name a parameter by --parameter NAME");
+    std::optional<FoldPassage> fold;
+    for (const ParameterId one : candidates)
+        try {
+            fold = fold_passage(system, special, one);
+            break;
+        } catch (const InputError&) {
+            if (one == candidates.back())
+                throw;
+        }
+    if (!fold->attracting)
+        throw InputError("neither of the two orbits that meet there is stable: no motion is lost",
+                         "choose a fold at which a stable branch ends");
+    LossPoint point{
+        .system = system, .orbit = special.solution.orbit, .parameter = fold->parameter, .name = {}, .unit = {}};
+    point.value = fold->value;
+    point.side = fold->side;
+    point.cycle = fold->cycle;
+    point.fold = std::move(fold);
+    return point;
+}
+
+LossPoint of_touch(const System& system, const SpecialPoint& special, const std::vector<ParameterId>& candidates,
+                   std::string_view orbit) {
+    TouchingMap found = touching_map(system, special, candidates, orbit);
+    Verdict verdict = verdict_of(found.map);
+    const double level = level_of_map(found.map, verdict);
+    if (!found.parameter || !found.map.clearance_rate || *found.map.clearance_rate == 0)
+        throw InputError("nothing is said to move the orbit from its touch", "name a parameter by --parameter NAME");
+    LossPoint point{
+        .system = system, .orbit = special.solution.orbit, .parameter = *found.parameter, .name = {}, .unit = {}};
+    point.value = found.map.contact.touch.parameters[found.parameter->place()];
+    point.side = *found.map.clearance_rate < 0 ? 1 : -1;
+    point.cycle = found.map.time;
+    point.level = level;
+    point.map = std::move(found.map);
+    point.verdict = std::move(verdict);
+    return point;
+}
+
+} // namespace
+
+LossPoint loss_point(const System& system, const SpecialPoint& point, const std::vector<ParameterId>& candidates,
+                     std::string_view orbit) {
+    LossPoint found = is_fold(point) ? of_fold(system, point, candidates) : of_touch(system, point, candidates, orbit);
+    const Model& model = system.model();
+    found.name = model.independent_parameters()[found.parameter.place()];
+    found.unit = model.parameters[*model.find_parameter(found.name)].unit;
+    return found;
+}
+
+} // namespace graze

@@ -1,0 +1,239 @@
+#include "graze/trip/noisy_trip.hpp"
+#include "base/random_number.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/model/driven_parameter.hpp"
+#include "graze/trajectory/ensemble.hpp"
+#include "trip/end_watch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace graze {
+
+namespace {
+
+/// Noise of unit size, value after value.
+class Noise {
+public:
+    Noise(const NoiseSettings& settings, std::size_t motion)
+        : seed_(settings.seed), motion_(motion), keeps_(settings.memory > 0 ? std::exp(-1 / settings.memory) : 0),
+          gains_(std::sqrt(1 - keeps_ * keeps_)), value_(drawn_normal(seed_, motion, 0)) {}
+    double value() const { return value_; }
+    void step() { value_ = keeps_ * value_ + gains_ * drawn_normal(seed_, motion_, ++count_); }
+
+private:
+    std::uint64_t seed_;
+    std::size_t motion_, count_ = 0;
+    double keeps_, gains_, value_;
+};
+
+enum class Fate { not_made, rests, trips, fails };
+struct Motion {
+    Fate fate = Fate::not_made;
+    double cycles = 0;                ///< until it has tripped
+    Ending ending = Ending::end_time; ///< of its simulation
+};
+
+/// All motions at one level of the noise.
+class NoisyMotions {
+public:
+    NoisyMotions(const TripOrigin& origin, const Simulation& simulation, double level, const TripEnd& end,
+                 const NoiseSettings& settings)
+        : origin_(origin), simulation_(simulation), level_(level), end_(end), settings_(settings),
+          parameters_(origin.parameters), motions_(settings.motions) {
+        parameters_.push_back(0); // the rate of what is shifted in steps
+    }
+
+    std::vector<Motion> make() {
+        constexpr std::size_t enough = 16; // motions, for which a thread is worth its start
+        const std::size_t jobs =
+            std::clamp<std::size_t>(settings_.motions / enough, 1, static_cast<std::size_t>(settings_.jobs));
+        {
+            std::vector<std::jthread> threads;
+            for (std::size_t i = 1; i < jobs; ++i)
+                threads.emplace_back([&] { work(false); });
+            work(true);
+        }
+        if (error_)
+            std::rethrow_exception(error_);
+        return std::move(motions_);
+    }
+    bool stopped() const { return stopped_; }
+
+private:
+    /// One place in which a motion after another is followed, cycle by cycle.
+    struct Slot {
+        Slot(const NoisyMotions& all)
+            : watch(all.end_, [&all](const Contact& contact) { return all.origin_.counts(contact); }, {}),
+              trajectory(all.simulation_, all.parameters_, watch), noise(all.settings_, 0) {}
+        EndWatch watch;
+        Trajectory trajectory;
+        Noise noise;
+        std::size_t motion = 0, cycle = 0;
+        bool used = false;
+    };
+
+    void work(bool tells) {
+        try {
+            Ensemble ensemble(simulation_);
+            std::vector<std::unique_ptr<Slot>> slots;
+            std::vector<Trajectory*> places(static_cast<std::size_t>(ensemble.lanes()), nullptr);
+            for (std::size_t i = 0; i < places.size(); ++i) {
+                slots.push_back(std::make_unique<Slot>(*this));
+                if (begin(*slots[i]))
+                    places[i] = &slots[i]->trajectory;
+            }
+            ensemble.run(places, [&](std::size_t i) -> Trajectory* {
+                Slot& slot = *slots[i];
+                if (goes_on(slot))
+                    return &slot.trajectory;
+                if (tells && settings_.progress)
+                    settings_.progress(done_);
+                return begin(slot) ? &slot.trajectory : nullptr;
+            });
+        } catch (...) {
+            const std::lock_guard lock(mutex_);
+            if (!error_)
+                error_ = std::current_exception();
+            stopped_ = true;
+        }
+    }
+
+    /// The next motion that nobody has begun, if there is one.
+    bool begin(Slot& slot) {
+        if (settings_.interrupted && settings_.interrupted())
+            stopped_ = true;
+        if (stopped_ || (slot.motion = next_++) >= settings_.motions)
+            return false;
+        slot.cycle = 0;
+        slot.noise = Noise(settings_, slot.motion);
+        slot.watch.forget();
+        std::vector<double> state = origin_.state;
+        state.push_back(0);
+        start(slot, std::move(state), origin_.mode);
+        return true;
+    }
+    void start(Slot& slot, std::vector<double> state, std::size_t mode) {
+        const auto cycle = static_cast<double>(slot.cycle);
+        state.back() = level_ * slot.noise.value();
+        slot.trajectory.start(state, mode, cycle * origin_.cycle, (cycle + 1) * origin_.cycle);
+    }
+    /// @return false when the motion is over, after it has been noted
+    bool goes_on(Slot& slot) {
+        const Outcome& outcome = slot.trajectory.outcome();
+        Motion& motion = motions_[slot.motion];
+        const TripTime trip = slot.watch.trip(outcome);
+        if (trip.ended) {
+            motion = {Fate::trips, trip.time / origin_.cycle, outcome.ending};
+        } else if (outcome.ending != Ending::end_time) {
+            motion = {Fate::fails, 0, outcome.ending};
+        } else if (++slot.cycle == settings_.cycles) {
+            motion.fate = Fate::rests;
+        } else {
+            slot.noise.step();
+            const std::span<const double> state = slot.trajectory.state();
+            start(slot, {state.begin(), state.end()}, slot.trajectory.mode());
+            return true;
+        }
+        ++done_;
+        return false;
+    }
+
+    const TripOrigin& origin_;
+    const Simulation& simulation_;
+    double level_;
+    const TripEnd& end_;
+    const NoiseSettings& settings_;
+    std::vector<double> parameters_;
+    std::vector<Motion> motions_;
+    std::atomic<std::size_t> next_{0}, done_{0};
+    std::atomic<bool> stopped_{false};
+    std::mutex mutex_; ///< of the error
+    std::exception_ptr error_;
+};
+
+/// How many motions have the parameter beyond the point at any time, whether they trip or not.
+std::size_t count_beyond(const TripOrigin& origin, double level, const NoiseSettings& settings) {
+    std::size_t count = 0;
+    const double margin = origin.point - origin.value;
+    for (std::size_t motion = 0; motion < settings.motions; ++motion) {
+        Noise noise(settings, motion);
+        bool beyond = false;
+        for (std::size_t cycle = 0; cycle < settings.cycles && !beyond; ++cycle, noise.step())
+            beyond = level * noise.value() * std::copysign(1.0, margin) > std::abs(margin);
+        count += beyond ? 1 : 0;
+    }
+    return count;
+}
+
+} // namespace
+
+void NoiseSettings::validate() const {
+    constexpr std::size_t most = 100'000'000;
+    if (!(memory >= 0 && memory <= 1e9))
+        throw InputError(fmt::format("noise cannot remember {} cycles", memory), "give 0 to 1e9");
+    if (motions == 0 || motions > most)
+        throw InputError(fmt::format("{} motions are out of range", motions), fmt::format("choose from 1 to {}", most));
+    if (cycles == 0 || cycles > most)
+        throw InputError(fmt::format("{} cycles are out of range", cycles), fmt::format("choose from 1 to {}", most));
+    if (jobs < 1)
+        throw InputError(fmt::format("{} jobs cannot do anything", jobs), "give at least one");
+    if (!(tolerance >= 1e-16 && tolerance <= 1e-2))
+        throw InputError(fmt::format("the tolerance {} is out of range", tolerance), "give 1e-16 to 1e-2");
+    wilson_interval(0, 1, confidence); // refuses what is no share
+}
+
+NoisyTrips noisy_trips(const System& system, const TripOrigin& origin, double level, const TripEnd& end,
+                       const NoiseSettings& settings) {
+    settings.validate();
+    if (!(level >= 0 && std::isfinite(level)))
+        throw InputError(fmt::format("the level of noise {} is out of range", level), "give a standard deviation");
+    const std::string name = system.model().independent_parameters().at(origin.parameter.place());
+    const DrivenParameter driven = drive_parameter(system.model(), name, DriveKind::shift);
+    TripEnd here = end;
+    if (end.quantity)
+        here.quantity = driven.of(*end.quantity);
+    TripOptions options;
+    options.tolerance = settings.tolerance;
+    const Simulation simulation = simulation_until(System(driven.model), here, options);
+    NoisyMotions work(origin, simulation, level, here, settings);
+    const std::vector<Motion> motions = work.make();
+    NoisyTrips result;
+    result.interrupted = work.stopped();
+    std::vector<double> cycles;
+    std::map<std::string, std::size_t> failures;
+    for (const Motion& one : motions) {
+        result.motions += one.fate != Fate::not_made ? 1 : 0;
+        result.failed += one.fate == Fate::fails ? 1 : 0;
+        if (one.fate == Fate::fails)
+            ++failures[std::string(name_of(one.ending))];
+        if (one.fate == Fate::trips)
+            cycles.push_back(one.cycles);
+    }
+    result.failures.assign(failures.begin(), failures.end());
+    result.trips = cycles.size();
+    result.beyond = count_beyond(origin, level, settings);
+    const std::size_t decided = result.motions - result.failed;
+    if (decided > 0)
+        result.probability = wilson_interval(result.trips, decided, settings.confidence);
+    else
+        result.probability = {0, 0, 1}; // nothing is known
+    const std::size_t half = (decided + 1) / 2;
+    if (half > 0 && cycles.size() >= half) {
+        std::nth_element(cycles.begin(), cycles.begin() + static_cast<std::ptrdiff_t>(half - 1), cycles.end());
+        result.half = cycles[half - 1];
+    }
+    return result;
+}
+
+} // namespace graze

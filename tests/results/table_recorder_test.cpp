@@ -1,0 +1,63 @@
+#include "graze/results/table_recorder.hpp"
+
+#include "graze/model/model_file.hpp"
+#include "graze/trajectory/run_control.hpp"
+
+#include <gtest/gtest.h>
+
+namespace graze {
+namespace {
+
+/// A ball between two walls: two contacts in each unit of time, for ever.
+constexpr const char* ball = R"(
+[states]
+x = 0
+v = 2
+[modes.flight]
+rates = { x = "v", v = "0" }
+watch = ["left", "right"]
+[events]
+left = "x"
+right = "1 - x"
+[jumps.turn]
+v = "-v"
+[[transitions]]
+mode = "flight"
+event = "left"
+jump = "turn"
+next = "flight"
+[[transitions]]
+mode = "flight"
+event = "right"
+jump = "turn"
+next = "flight"
+)";
+
+TEST(TableRecorder, TheRunEndsWhenTheTableIsFull) {
+    const Model model = parse_model(ball, "ball.toml");
+    for (const TableKind kind : {TableKind::contacts, TableKind::minima}) {
+        SimulationOptions options;
+        options.minima = kind == TableKind::minima;
+        const Simulation simulation(model, {}, {}, options);
+        TableRequest request;
+        request.kind = kind;
+        request.events = {true, true};
+        request.most_cells = 1000;
+        const auto table = make_table_recorder(simulation, request);
+        RunControl control(*table, std::nullopt, request.events);
+        control.end_when([&] { return table->is_full(); });
+        Trajectory trajectory(simulation, {}, control);
+        trajectory.start(model.initial_state(), 0, 0, 1e9);
+        control.begin({}, 0, true);
+        JetSet jets(simulation, LaneKind::single);
+        run(trajectory, jets);
+        EXPECT_EQ(trajectory.outcome().ending, Ending::stopped);
+        EXPECT_TRUE(table->is_full());
+        const std::size_t cells = table->table().rows() * table->table().columns().size();
+        EXPECT_GE(cells, 1000u);
+        EXPECT_LT(cells, 1100u) << "it stops at once";
+    }
+}
+
+} // namespace
+} // namespace graze

@@ -1,0 +1,84 @@
+#include "graze/trajectory/run_control.hpp"
+
+#include "graze/model/model_file.hpp"
+#include "graze/trajectory/trajectory.hpp"
+
+#include <gtest/gtest.h>
+
+namespace graze {
+namespace {
+
+/// A ball between two walls: a contact every half unit of time.
+Model ball() {
+    return parse_model(R"(
+[states]
+x = 0.5
+v = 2
+[modes.flight]
+rates = { x = "v", v = "0" }
+watch = ["left", "right"]
+[events]
+left = "x"
+right = "1 - x"
+[jumps.turn]
+v = "-v"
+[[transitions]]
+mode = "flight"
+event = "left"
+jump = "turn"
+next = "flight"
+[[transitions]]
+mode = "flight"
+event = "right"
+jump = "turn"
+next = "flight"
+)",
+                       "ball.toml");
+}
+
+struct Seen : Observer {
+    void contact(const Contact& contact) override { times.push_back(contact.time); }
+    std::vector<double> times;
+};
+
+/// Runs a leg that is not shown and one that is. @return the contacts of the latter
+std::vector<double> contacts_of(const LegEnd& first, const LegEnd& second, RunControl& control, const Seen& seen) {
+    const Model model = ball();
+    const Simulation simulation(model, {}, {}, {});
+    Trajectory trajectory(simulation, {}, control);
+    trajectory.start(model.initial_state(), 0, 0, 1e3);
+    JetSet jets(simulation, LaneKind::single);
+    control.begin(first, 0, false);
+    run(trajectory, jets);
+    trajectory.extend(1e3);
+    control.begin(second, trajectory.time(), true);
+    run(trajectory, jets);
+    return seen.times;
+}
+
+TEST(RunControl, CountsContactsThatCountAndShowsTheirLegAlone) {
+    Seen seen;
+    RunControl control(seen, std::nullopt, {true, false}); // those at the left
+    LegEnd first, second;
+    first.contacts = 2;
+    second.contacts = 3;
+    double most = 0;
+    control.tell([&](std::optional<double> fraction, double) { most = std::max(most, fraction.value_or(0)); });
+    const std::vector<double> times = contacts_of(first, second, control, seen);
+    ASSERT_EQ(times.size(), 6U); // three at the left, and as many at the right before them
+    EXPECT_NEAR(times.front(), 2.25, 1e-12);
+    EXPECT_NEAR(times.back(), 4.75, 1e-12);
+    EXPECT_EQ(most, 1);
+}
+
+TEST(RunControl, EndsWhenToldTo) {
+    Seen seen;
+    RunControl control(seen, std::nullopt, {true, true});
+    LegEnd first;
+    first.contacts = 1;
+    control.end_when([&] { return seen.times.size() >= 4; });
+    EXPECT_EQ(contacts_of(first, {}, control, seen).size(), 4U);
+}
+
+} // namespace
+} // namespace graze

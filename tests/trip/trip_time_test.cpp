@@ -1,0 +1,489 @@
+// Times until motions are lost: by the map, by simulation, and by closed forms.
+
+#include "graze/trip/simulated_trip.hpp"
+
+#include "branch/belt.hpp"
+#include "graze/base/input_error.hpp"
+#include "graze/flow/mode_flow.hpp"
+#include "graze/model/catalogue.hpp"
+#include "graze/model/named_value.hpp"
+#include "graze/orbit/solve.hpp"
+#include "grazing/linear_oscillator.hpp"
+#include "trip/end_watch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+#include <numbers>
+#include <random>
+
+namespace graze {
+namespace {
+
+using testing::LinearOscillator;
+
+struct Touching {
+    Touching(const Model& model, const Orbit& orbit, const char* name)
+        : system(model), parameter(model.independent_parameter(name)) {
+        const std::vector<OrbitTouch> touches = touches_of(system, orbit);
+        EXPECT_EQ(touches.size(), 1U);
+        CycleMapOptions options;
+        options.parameter = parameter;
+        map = cycle_map(system, orbit, touches.front(), options);
+        verdict = verdict_of(map);
+    }
+    System system;
+    ParameterId parameter;
+    CycleMap map;
+    Verdict verdict;
+};
+
+Touching touching(const LinearOscillator& one) {
+    const Model model = one.model();
+    return {model, one.orbit(model), "force"};
+}
+
+/// The switch of chapter 6, at the voltage at which its free motion just reaches the stop.
+Touching mems_switch() {
+    constexpr double voltage = 0.2013662121541341, phase = 0.7306205700512591, pi = std::numbers::pi;
+    Model model = load_model("mems-switch");
+    model.set_parameter("V", voltage);
+    const System system(model);
+    Orbit guess;
+    guess.signature = parse_signature(model, "on:switch_off off:switch_on");
+    guess.parameters = model.parameter_values();
+    ModeFlow flow(system, 1e-14);
+    flow.set_parameters(guess.parameters);
+    std::vector<double> state{-0.6, 0, phase};
+    flow.run(0, state, -phase);
+    guess.starts.push_back(state);
+    flow.run(0, state, pi);
+    guess.starts.push_back(state);
+    guess.durations = {pi, pi};
+    const OrbitSolution solution = solve_orbit(system, guess);
+    EXPECT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
+    return {model, solution.orbit, "V"};
+}
+
+/// What a prediction and a simulation say of the time until the same approach speed.
+void expect_agreement(const Touching& one, double overshoot, double speeds_alike, double cycles_alike) {
+    SCOPED_TRACE(overshoot);
+    const PredictedTrip predicted = predicted_trip(one.map, one.verdict, overshoot);
+    ASSERT_TRUE(predicted.ended);
+    TripEnd end;
+    end.speed = predicted.level;
+    const TripTime simulated = simulated_trip(one.system, one.map, one.parameter, overshoot, end);
+    ASSERT_TRUE(simulated.ended) << simulated.ending;
+    EXPECT_EQ(simulated.ending, "speed");
+    EXPECT_EQ(simulated.contacts, predicted.contacts);
+    EXPECT_NEAR(simulated.speed, predicted.speed, speeds_alike * predicted.speed);
+    EXPECT_NEAR(simulated.time, predicted.time, cycles_alike * one.map.time);
+}
+
+TEST(TripTime, of_the_switch_is_that_of_simulation_and_of_the_published_motion) {
+    const Touching mems = mems_switch();
+    // The map's error is of the order of the last speed but one, over its reach, and the phase of the motion at a
+    // contact moves by about as much.
+    for (const double overshoot : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10})
+        expect_agreement(mems, overshoot, 0.03, 0.02);
+    PredictionOptions options;
+    options.level = 1e-9;
+    const PredictedTrip first = predicted_trip(mems.map, mems.verdict, 1e-4, options);
+    EXPECT_EQ(first.cycles, 1);
+    EXPECT_NEAR(first.time, 6.267394614702, 1e-4); // to leading order
+    // The motion begins at a touch that is known to 1e-13 or so.
+    const TripTime published = simulated_trip(mems.system, mems.map, mems.parameter, 1e-4, {});
+    EXPECT_TRUE(published.ended);
+    EXPECT_EQ(published.ending, "singular");
+    EXPECT_EQ(published.contacts, 4U);
+    EXPECT_NEAR(published.time, 27.31773570163, 1e-8);
+    TripEnd end;
+    end.speed = 1e-3;
+    EXPECT_NEAR(simulated_trip(mems.system, mems.map, mems.parameter, 1e-4, end).time, 6.267394614702, 1e-9);
+}
+
+TEST(TripTime, goes_on_by_simulation_after_an_overshoot_that_none_could_see) {
+    const Touching mems = mems_switch();
+    // Where both are possible; the last is at the limit of what the digits of the voltage tell.
+    for (const double overshoot : {1e-9, 1e-10, 1e-11}) {
+        const PredictedTrip predicted = predicted_trip(mems.map, mems.verdict, overshoot);
+        const TripTime whole = simulated_trip(mems.system, mems.map, mems.parameter, overshoot, {});
+        const TripTime continued = continued_trip(mems.system, mems.map, mems.parameter, overshoot, predicted, {});
+        ASSERT_TRUE(whole.ended && continued.ended);
+        EXPECT_EQ(continued.contacts, whole.contacts);
+        EXPECT_NEAR(continued.time, whole.time, 5e-3);
+    }
+    EXPECT_LT(least_overshoot(mems.map, mems.parameter), 1e-10);
+    EXPECT_GT(least_overshoot(mems.map, mems.parameter), 1e-14);
+    double before = 0;
+    for (const double overshoot : {1e-12, 1e-20, 1e-40, 1e-80, 1e-160, 1e-300}) {
+        const PredictedTrip predicted = predicted_trip(mems.map, mems.verdict, overshoot);
+        EXPECT_GT(predicted.handed_cycles, 0);
+        const TripTime trip = continued_trip(mems.system, mems.map, mems.parameter, overshoot, predicted, {});
+        ASSERT_TRUE(trip.ended) << overshoot;
+        EXPECT_TRUE(trip.ending == "singular" || trip.ending == "terminal");
+        // The root of a speed again and again: each doubling of the decades costs one cycle of 2 pi.
+        if (before > 0) {
+            EXPECT_NEAR(trip.time - before, 2 * std::numbers::pi, 1.0);
+        }
+        before = trip.time;
+    }
+}
+
+TEST(TripTime, is_not_told_by_the_map_far_from_the_touch) {
+    const Touching mems = mems_switch();
+    const PredictedTrip far = predicted_trip(mems.map, mems.verdict, 1);
+    EXPECT_FALSE(far.ended);
+    EXPECT_EQ(far.ending, "too-far");
+    EXPECT_EQ(far.handed_cycles, 0);
+    EXPECT_TRUE(continued_trip(mems.system, mems.map, mems.parameter, 1, far, {}).ended); // all by simulation
+}
+
+TEST(TripTime, ends_at_a_level_of_a_quantity) {
+    const Touching mems = mems_switch();
+    TripEnd end;
+    end.quantity = named_value(mems.system.model(), "q", {}).value;
+    end.level = 0.9;
+    const TripTime level = simulated_trip(mems.system, mems.map, mems.parameter, 1e-4, end);
+    EXPECT_EQ(level.ending, "level");
+    // From there to the end of the gap it is short.
+    EXPECT_LT(level.time, 27.31773570163);
+    EXPECT_GT(level.time, 27.0);
+    TripOptions options;
+    options.cycles = 2;
+    const TripTime cut = simulated_trip(mems.system, mems.map, mems.parameter, 1e-4, end, options);
+    EXPECT_FALSE(cut.ended);
+    EXPECT_EQ(cut.ending, "end-time");
+}
+
+/// Passes of an oscillator by its matrix, which owes nothing to the map: from the touch, the force moved by a share.
+struct ClosedForm {
+    std::vector<double> cycles, speeds;
+};
+ClosedForm closed_form(const LinearOscillator& one, double overshoot, double level) {
+    const Eigen::MatrixXd once = one.return_map();
+    const Eigen::Index n = one.force.size();
+    // The steady motion without stop, where q_1 is greatest, is in proportion to the force. All in units of overshoot.
+    const Eigen::VectorXcd amplitude = one.amplitude();
+    Eigen::VectorXd free(2 * n), impacts = Eigen::VectorXd::Zero(2 * n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const std::complex<double> turned = amplitude[i] * std::conj(amplitude[0]) / std::abs(amplitude[0]);
+        free[i] = -turned.real();
+        free[n + i] = one.omega * turned.imag();
+    }
+    ClosedForm result;
+    for (int k = 1; k < 3000; ++k) {
+        free = (once * free).eval();
+        impacts = (once * impacts).eval();
+        const double gap = overshoot * (-one.stop() - free[0]) - impacts[0];
+        if (gap >= 0)
+            continue;
+        result.cycles.push_back(k);
+        result.speeds.push_back(std::sqrt(-2 * one.acceleration() * gap));
+        if (result.speeds.back() >= level)
+            break;
+        impacts[n] -= (1 + one.restitution) * result.speeds.back();
+    }
+    return result;
+}
+
+TEST(TripTime, of_linear_oscillators_is_that_of_their_closed_form_in_all_units) {
+    int several = 0;
+    for (const double length : {1.0, 1e-9, 1e6})
+        for (const double clock : {1.0, 1e-9, 1e6})
+            for (LinearOscillator linear :
+                 {testing::one_degree(0.05, 1.3, 0.8), testing::one_degree(0.02, 2.7, 0.5),
+                  testing::one_degree(0.01, 0.77, 0.9), testing::two_degrees(0.3, 0.04, 1.1, 0.8, 0.4),
+                  testing::two_degrees(2.1, 0.3, 2.7, 0, -0.7)}) {
+                linear.length = length;
+                linear.clock = clock;
+                const Touching one = touching(linear);
+                ASSERT_EQ(one.verdict.outcome, GrazingOutcome::lost) << one.verdict.reason;
+                const double level = level_of_map(one.map, one.verdict);
+                // Clearances of the last ones, in these units, are hardly numbers any more.
+                for (const double overshoot : {1e-2, 1e-6, 1e-13, 1e-20, 1e-100, 1e-250}) {
+                    SCOPED_TRACE(fmt::format("length {} clock {} omega {} overshoot {}", length, clock, linear.omega,
+                                             overshoot));
+                    const PredictedTrip trip = predicted_trip(one.map, one.verdict, overshoot);
+                    const ClosedForm closed = closed_form(linear, overshoot, level * clock / length);
+                    ASSERT_TRUE(trip.ended);
+                    ASSERT_EQ(trip.contacts, closed.cycles.size());
+                    EXPECT_EQ(trip.cycles, closed.cycles.back());
+                    EXPECT_EQ(trip.first_cycles, closed.cycles.front());
+                    // The return map is integrated to 1e-13, of which a gap may be a small part.
+                    EXPECT_NEAR(trip.first_speed * clock / length, closed.speeds.front(), 1e-8 * closed.speeds.front());
+                    EXPECT_NEAR(trip.speed * clock / length, closed.speeds.back(), 1e-7 * closed.speeds.back());
+                    several += trip.contacts > 4 ? 1 : 0;
+                }
+            }
+    EXPECT_GT(several, 50);
+}
+
+TEST(TripTime, of_oscillators_and_of_the_shaker_is_that_of_simulation) {
+    for (const LinearOscillator& linear :
+         {testing::one_degree(0.05, 1.3, 0.8), testing::two_degrees(0.3, 0.04, 1.1, 0.8, 0.4)}) {
+        const Touching one = touching(linear);
+        for (const double overshoot : {1e-4, 1e-6, 1e-8})
+            expect_agreement(one, overshoot, 0.1, 0.1);
+    }
+    // The head itself is moved: the motion would begin beyond it.
+    for (const double f : {6.0, 10.0, 14.0, 18.0, 22.0}) {
+        Model model = load_model("ball-and-shaker");
+        model.set_parameter("a", 0.65);
+        model.set_parameter("f", f);
+        Orbit orbit;
+        orbit.signature = parse_signature(model, "free:phase0");
+        orbit.parameters = model.parameter_values();
+        orbit.starts = {{0, 0, 0}};
+        orbit.durations = {1 / f};
+        const Touching one(model, orbit, "a");
+        for (const double overshoot : {1e-6, 1e-8, 1e-10}) {
+            SCOPED_TRACE(f);
+            EXPECT_EQ(predicted_trip(one.map, one.verdict, overshoot).first_cycles, 0);
+            expect_agreement(one, overshoot, 0.1, 0.1);
+        }
+    }
+}
+
+/// A map of two states that do not act on each other, of which contacts change the second.
+CycleMap two_states(double slow) {
+    CycleMap map;
+    map.contact.order = MapOrder::square_root;
+    map.contact.acceleration = 0.5;
+    map.contact.gradient = {1, 1};
+    map.contact.rate_gradient = {0, 0};
+    map.contact.touch.state = {0, 0};
+    map.contact.touch.parameters = {1};
+    map.contact.touch.scales = {1, 1};
+    map.time = 2;
+    map.active = {0, 1};
+    map.scales = {1, 1};
+    map.matrix = {slow, 0, 0, 0.5};
+    map.impact = {0, -1};
+    map.gradient = {1, 1};
+    map.multipliers = {slow, 0.5};
+    map.clearance_rate = -1;
+    map.steady = {0, -1};
+    return map;
+}
+
+TEST(TripTime, counts_free_cycles_as_their_closed_form_however_many) {
+    for (const double slow : {0.9, 1 - 1e-3, 1 - 1e-6, 1 - 1e-8})
+        for (const double overshoot : {1e-2, 1e-6, 1e-20, 1e-300}) {
+            SCOPED_TRACE(fmt::format("multiplier 1 - {} overshoot {}", 1 - slow, overshoot));
+            const CycleMap map = two_states(slow);
+            PredictionOptions options;
+            options.disturbance = {1, 0};
+            const PredictedTrip trip = predicted_trip(map, verdict_of(map), overshoot, options);
+            ASSERT_TRUE(trip.ended);
+            // slow^k falls below the overshoot. Squares of the multiplier lose as many digits as they count.
+            const double free = std::log(overshoot) / std::log(slow);
+            EXPECT_NEAR(trip.first_cycles, free, 1 + 1e-6 * free);
+        }
+}
+
+TEST(TripTime, grows_by_the_root_of_the_speed) {
+    const CycleMap map = two_states(0.1);
+    const Verdict verdict = verdict_of(map);
+    ASSERT_EQ(verdict.next_contact, 1U);
+    EXPECT_NEAR(*verdict.reach, 0.5, 1e-15); // -2 a g P B
+    for (const double overshoot : {1e-8, 1e-20, 1e-100, 1e-300}) {
+        const PredictedTrip trip = predicted_trip(map, verdict, overshoot);
+        // Logarithms of speed over reach halve from one contact to the next. The first contact is at 1/2 of the
+        // overshoot, since half of the touch's own state is left; then the earlier contacts add to the later ones a
+        // little.
+        EXPECT_NEAR(trip.first_speed, std::sqrt(0.5 * overshoot), 1e-12 * trip.first_speed);
+        const double first = std::log(trip.first_speed / *verdict.reach), level = std::log(trip.level / *verdict.reach);
+        const double contacts = std::ceil(std::log2(first / level)) + 1;
+        EXPECT_NEAR(static_cast<double>(trip.contacts), contacts, 1);
+        EXPECT_NEAR(std::log(trip.speed / *verdict.reach),
+                    first / std::pow(2.0, static_cast<double>(trip.contacts) - 1), 0.3);
+        EXPECT_EQ(trip.cycles, static_cast<double>(trip.contacts));
+    }
+}
+
+TEST(TripTime, counts_halves_of_an_orbit_that_is_given_by_its_half) {
+    constexpr double zeta = 0.02, omega = 1.2, pi = std::numbers::pi;
+    constexpr double in_phase = 1 - omega * omega, out_of_phase = 2 * zeta * omega,
+                     square = in_phase * in_phase + out_of_phase * out_of_phase;
+    Model model = load_model("impact-oscillator-two-stops");
+    model.set_parameter("sigma", 1 / std::sqrt(square));
+    Orbit orbit;
+    orbit.signature = parse_signature(model, "free:phase0");
+    orbit.parameters = model.parameter_values();
+    orbit.starts = {{in_phase / square, omega * out_of_phase / square, 0}};
+    orbit.durations = {pi / omega};
+    orbit.symmetry = 0;
+    const Touching one(model, orbit, "amplitude");
+    ASSERT_TRUE(one.map.half);
+    ASSERT_EQ(one.verdict.outcome, GrazingOutcome::lost);
+    for (const double overshoot : {1e-3, 1e-5, 1e-7, 1e-9}) {
+        expect_agreement(one, overshoot, 0.1, 0.1);
+        const PredictedTrip predicted = predicted_trip(one.map, one.verdict, overshoot);
+        TripEnd end;
+        end.speed = predicted.level;
+        const TripTime whole = simulated_trip(one.system, one.map, one.parameter, overshoot, end);
+        const TripTime continued = continued_trip(one.system, one.map, one.parameter, overshoot, predicted, end);
+        EXPECT_EQ(std::fmod(predicted.handed_cycles, 2), 0);
+        EXPECT_EQ(continued.contacts, whole.contacts);
+        EXPECT_NEAR(continued.time, whole.time, 1e-2);
+    }
+    const PredictedTrip tiny = predicted_trip(one.map, one.verdict, 1e-20);
+    EXPECT_GT(tiny.handed_cycles, 0);
+    EXPECT_EQ(std::fmod(tiny.handed_cycles, 2), 0);
+    TripEnd end;
+    end.speed = tiny.level;
+    EXPECT_NEAR(continued_trip(one.system, one.map, one.parameter, 1e-20, tiny, end).time, tiny.time,
+                0.1 * one.map.time);
+}
+
+TEST(TripTime, agrees_with_simulation_on_random_oscillators) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    int compared = 0, alike = 0, continued_alike = 0;
+    for (int trial = 0; trial < 150; ++trial) {
+        const double zeta = std::pow(10, -2.5 + 2.5 * uniform(random)), omega = 0.4 + 5 * uniform(random),
+                     e = 0.95 * uniform(random);
+        const LinearOscillator linear =
+            trial % 2 == 0 ? testing::one_degree(zeta, omega, e)
+                           : testing::two_degrees(3 * uniform(random), zeta, omega, e, 2 * uniform(random) - 1);
+        const Touching one = touching(linear);
+        if (one.verdict.outcome != GrazingOutcome::lost)
+            continue;
+        for (const double overshoot : {1e-5, 1e-8}) {
+            const PredictedTrip predicted = predicted_trip(one.map, one.verdict, overshoot);
+            TripEnd end;
+            end.speed = predicted.level;
+            const TripTime whole = simulated_trip(one.system, one.map, one.parameter, overshoot, end);
+            const TripTime continued = continued_trip(one.system, one.map, one.parameter, overshoot, predicted, end);
+            ++compared;
+            alike += whole.ended && std::abs(whole.time - predicted.time) < 0.2 * one.map.time ? 1 : 0;
+            continued_alike +=
+                whole.ended && continued.ended && std::abs(whole.time - continued.time) < 0.05 * one.map.time ? 1 : 0;
+        }
+    }
+    std::cout << compared << " compared, " << alike << " by the map and " << continued_alike
+              << " from there on alike\n";
+    EXPECT_GE(compared, 200);
+    // A contact that is within some percent of the level, or of being none, counts here and not there.
+    EXPECT_GE(alike, 0.97 * compared);
+    EXPECT_EQ(continued_alike, compared);
+}
+
+TEST(TripTime, begins_with_a_disturbance_alone) {
+    const Touching one = touching(testing::one_degree(0.05, 1.3, 0.8));
+    PredictionOptions predicted;
+    predicted.disturbance = {0, 1e-5, 0}; // towards the stop
+    TripOptions simulated;
+    simulated.disturbance = predicted.disturbance;
+    const PredictedTrip map = predicted_trip(one.map, one.verdict, 0, predicted);
+    EXPECT_EQ(map.first_cycles, 0);
+    EXPECT_NEAR(map.first_speed, 1e-5, 1e-10);
+    TripEnd end;
+    end.speed = map.level;
+    const TripTime motion = simulated_trip(one.system, one.map, one.parameter, 0, end, simulated);
+    EXPECT_TRUE(map.ended && motion.ended);
+    EXPECT_EQ(motion.contacts, map.contacts);
+    EXPECT_NEAR(motion.time, map.time, 0.1 * one.map.time);
+}
+
+TEST(TripTime, is_refused_where_there_is_none) {
+    const Touching one = touching(testing::one_degree(0.05, 1.3, 0.8));
+    EXPECT_THROW(predicted_trip(one.map, one.verdict, -1e-6), InputError);
+    EXPECT_THROW(predicted_trip(one.map, one.verdict, 0), InputError);
+    EXPECT_THROW(predicted_trip(one.map, one.verdict, std::nan("")), InputError);
+    EXPECT_THROW(simulated_trip(one.system, one.map, one.parameter, -1e-6, {}), InputError);
+    PredictionOptions wrong;
+    wrong.disturbance = {1};
+    EXPECT_THROW(predicted_trip(one.map, one.verdict, 1e-6, wrong), InputError);
+    TripOptions none;
+    none.cycles = 0;
+    EXPECT_THROW(simulated_trip(one.system, one.map, one.parameter, 1e-6, {}, none), InputError);
+    const Touching calm = touching(testing::one_degree(1.3, 3, 0.8));
+    ASSERT_EQ(calm.verdict.outcome, GrazingOutcome::persists);
+    try {
+        predicted_trip(calm.map, calm.verdict, 1e-6);
+        ADD_FAILURE();
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("the verdict is persists"), std::string::npos) << error.what();
+    }
+    CycleMap without = one.map;
+    without.clearance_rate.reset();
+    EXPECT_THROW(predicted_trip(without, one.verdict, 1e-6), InputError);
+}
+
+/// The level of a stop is reached where the motion turns round at it, whichever way round-off leaves it there.
+TEST(TripTime, TheLevelOfAStopIsReachedAtTheFirstContact) {
+    struct FirstContact : Observer {
+        double time = -1;
+        void contact(const Contact& contact) override {
+            if (time < 0)
+                time = contact.time;
+        }
+        bool stop() override { return time >= 0; }
+    };
+    const Model model = load_model("impact-oscillator");
+    const System system(model);
+    TripEnd end;
+    end.quantity = model.events[0].function;
+    const Simulation simulation = simulation_until(system, end, TripOptions{});
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> number(-1, 1);
+    int contacts = 0;
+    for (int i = 0; i < 300; ++i) {
+        std::vector<double> state = model.initial_state();
+        state[0] -= std::abs(number(random));
+        state[1] = number(random);
+        const std::vector<double> parameters = model.parameter_values();
+        FirstContact first;
+        Trajectory trajectory(simulation, parameters, first);
+        trajectory.start(state, model.initial_mode, 0, 50);
+        JetSet jets(simulation, LaneKind::single);
+        run(trajectory, jets);
+        EndWatch watch(end, {}, nullptr);
+        const TripTime trip = run_until(simulation, parameters, state, model.initial_mode, 50, watch);
+        if (first.time <= 0)
+            continue;
+        ++contacts;
+        EXPECT_EQ(trip.ending, "level");
+        EXPECT_NEAR(trip.time, first.time, 1e-12) << i;
+    }
+    EXPECT_GT(contacts, 100);
+}
+
+/// From one time to the next it slides deeper by a factor, which counts cycles by logarithms. Contacts that the orbit
+/// has anyway are far harder, and do not count.
+TEST(TripTime, OfSlidingOnABeltGoesByLogarithms) {
+    Model model = testing::belt();
+    model.set_parameter("nu", 2.2);
+    const BranchSettings settings = testing::along(model, "nu", -1, 2, 2.4);
+    const Branch branch = follow_branch(model, testing::settled(model, "phase0").orbit, settings);
+    std::size_t folds = 0;
+    for (const SpecialPoint& point : testing::of_type(branch, PointType::grazing)) {
+        CycleMapOptions options;
+        options.parameter = settings.parameter;
+        const CycleMap map =
+            cycle_map(model, point.solution.orbit, {point.segment, point.event, point.time, point.at_end}, options);
+        const Verdict verdict = verdict_of(map);
+        if (verdict.outcome == GrazingOutcome::undecided)
+            continue;
+        ++folds;
+        for (const double overshoot : {-1e-5, -1e-7, -1e-9}) {
+            const PredictedTrip predicted = predicted_trip(map, verdict, overshoot);
+            ASSERT_TRUE(predicted.ended) << predicted.ending;
+            TripEnd end;
+            end.speed = predicted.level;
+            const TripTime simulated = simulated_trip(model, map, settings.parameter, overshoot, end);
+            EXPECT_EQ(simulated.ending, "speed");
+            EXPECT_NEAR(simulated.cycles, predicted.cycles, 1.1) << overshoot;
+            const double log_growth = std::log(*verdict.leading),
+                         deep = predicted.level * predicted.level / (2 * map.contact.acceleration);
+            EXPECT_NEAR(predicted.cycles, std::log(deep / std::abs(overshoot)) / log_growth, 5);
+        }
+    }
+    EXPECT_GE(folds, 1U);
+}
+
+} // namespace
+} // namespace graze
