@@ -34,7 +34,7 @@ set(before_misuse ${GRAZE_FOLDERS})
 set(test_folders ${GRAZE_FOLDERS} program misuse)
 if(GRAZE_SANITIZERS STREQUAL "thread")
     set(test_folders threads)
-    set(before_threads ${GRAZE_FOLDERS})
+    set(before_threads ${before_design})
     set(test_threads sweep/plan study/run_schedule study/runner study/shared_model study/side_by_side branch/yield
                      branch/disturbed_trip design/value_map)
 endif()
