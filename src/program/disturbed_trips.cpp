@@ -5,6 +5,7 @@
 #include "graze/branch/disturbed_trip.hpp"
 #include "graze/picture/figure_script.hpp"
 #include "program/commands.hpp"
+#include "program/empty_cell.hpp"
 #include "program/interrupt.hpp"
 #include "program/loss_point.hpp"
 #include "program/status_line.hpp"
@@ -15,7 +16,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,8 +23,6 @@
 namespace graze {
 
 namespace {
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); // an empty cell
 
 /// What a disturbance is asked about, and what has been found.
 struct AskedTrips {

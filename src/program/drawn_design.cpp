@@ -9,6 +9,7 @@
 #include "graze/model/parameter_file.hpp"
 #include "program/commands.hpp"
 #include "program/design_folder.hpp"
+#include "program/empty_cell.hpp"
 #include "program/interrupt.hpp"
 #include "program/kept_inputs.hpp"
 #include "program/output_file.hpp"
@@ -20,15 +21,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <optional>
 #include <vector>
 
 namespace graze {
 
 namespace {
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); // an empty cell
 
 std::string path_in(const std::string& folder, const char* name) {
     return (std::filesystem::path(folder) / name).string();

@@ -5,6 +5,7 @@
 #include "graze/design/design.hpp"
 #include "graze/picture/wafer_map.hpp"
 #include "program/commands.hpp"
+#include "program/empty_cell.hpp"
 #include "program/interrupt.hpp"
 #include "program/json_rows.hpp"
 #include "program/kept_inputs.hpp"
@@ -16,14 +17,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <map>
 
 namespace graze {
 
 namespace {
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); // a cell without a number
 
 std::string unit_of(const Model& model, const std::string& parameter) {
     const auto place = model.find_parameter(parameter);

@@ -6,6 +6,7 @@
 #include "graze/results/stored_orbit.hpp"
 #include "graze/results/stored_run.hpp"
 #include "program/commands.hpp"
+#include "program/empty_cell.hpp"
 #include "program/values.hpp"
 
 #include <fmt/format.h>
@@ -350,7 +351,6 @@ private:
         return text;
     }
 
-    static constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
     const PointList& list_;
     bool for_people_, brief_, with_run_, with_symmetry_, with_reason_, with_bracket_, with_detail_, with_verdict_,
         with_name_, with_type_, with_parameter_;

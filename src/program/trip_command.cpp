@@ -4,6 +4,7 @@
 #include "program/commands.hpp"
 #include "program/disturbed_trips.hpp"
 #include "program/drawing.hpp"
+#include "program/empty_cell.hpp"
 #include "program/interrupt.hpp"
 #include "program/loss_point.hpp"
 #include "program/values.hpp"
@@ -12,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -21,8 +21,6 @@
 namespace graze {
 
 namespace {
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); // an empty cell
 
 /// What is known of one overshoot.
 struct TripRow {
