@@ -37,6 +37,14 @@ add_library(graze_options INTERFACE)
 target_compile_options(graze_options INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wno-psabi)
 # g++ 12 sees an overlapping copy in every `"text" + string` (its bug 105651).
 target_compile_options(graze_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+# g++ collects garbage less often: a tenth less time for a fifth more memory, 1.5 GB in the largest file.
+option(GRAZE_MEMORY_FOR_TIME "Let g++ take more memory and less time" ON)
+if(GRAZE_MEMORY_FOR_TIME)
+    target_compile_options(
+        graze_options
+        INTERFACE "$<$<CXX_COMPILER_ID:GNU>:SHELL:--param ggc-min-expand=1000 --param ggc-min-heapsize=2000000>"
+    )
+endif()
 if(GRAZE_WARNINGS_AS_ERRORS)
     target_compile_options(graze_options INTERFACE -Werror)
 endif()

@@ -17,8 +17,8 @@ endfunction()
 
 set(headers <algorithm> <array> <cmath> <complex> <filesystem> <functional> <map> <memory> <numeric> <optional> <span>
            <sstream> <string> <vector> <fmt/format.h> <fmt/ranges.h>)
-add_prefix(graze_prefix_computing ${headers} <Eigen/Dense>)
-add_prefix(graze_prefix_fast ${headers})
+add_prefix(graze_prefix_computing ${headers} <Eigen/Core> <Eigen/LU> <Eigen/QR>)
+add_prefix(graze_prefix_fast ${headers} <Eigen/Core>)
 if(TARGET graze_prefix_fast)
     target_compile_options(graze_prefix_fast PRIVATE ${GRAZE_COMPILED_FAST})
 endif()

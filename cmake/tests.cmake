@@ -37,7 +37,7 @@ set(before_instrument ${before_acquire})
 set(test_folders ${GRAZE_FOLDERS} instrument program misuse)
 if(GRAZE_SANITIZERS STREQUAL "thread")
     set(test_folders threads)
-    set(before_threads ${GRAZE_FOLDERS})
+    set(before_threads ${before_design})
     set(test_threads sweep/plan study/run_schedule study/runner study/shared_model study/side_by_side branch/yield
                      trip/disturbed_trip design/value_map)
 endif()

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace graze {
 
@@ -40,17 +41,31 @@ SingularValues singular_values(const Eigen::MatrixXd& matrix, SingularVectors ve
     return result;
 }
 
-SingularValues singular_values_of_large(const Eigen::MatrixXd& matrix) {
-    const Eigen::BDCSVD<Eigen::MatrixXd> factors(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    return {factors.singularValues(), factors.matrixU(), factors.matrixV()};
+namespace {
+
+/// What a complex matrix does, to real and imaginary parts one below the other.
+Eigen::MatrixXd real_form(const Eigen::MatrixXcd& matrix) {
+    Eigen::MatrixXd result(2 * matrix.rows(), 2 * matrix.cols());
+    result << matrix.real(), -matrix.imag(), matrix.imag(), matrix.real();
+    return result;
 }
 
+} // namespace
+
+// Of the real form each singular value is there twice.
 Eigen::VectorXd singular_values(const Eigen::MatrixXcd& matrix) {
-    return Eigen::JacobiSVD<Eigen::MatrixXcd>(matrix).singularValues();
+    const Eigen::VectorXd twice = singular_values(real_form(matrix), SingularVectors::none).values;
+    return Eigen::VectorXd::NullaryExpr(twice.size() / 2, [&](Eigen::Index i) { return twice[2 * i]; });
 }
 
 Eigen::VectorXcd null_vector(const Eigen::MatrixXcd& matrix) {
-    return Eigen::JacobiSVD<Eigen::MatrixXcd>(matrix, Eigen::ComputeFullV).matrixV().rightCols<1>();
+    if (matrix.imag().isZero(0)) // then it is real as well
+        return singular_values(matrix.real(), SingularVectors::right).right.rightCols<1>().cast<std::complex<double>>();
+    const Eigen::MatrixXd right = singular_values(real_form(matrix), SingularVectors::right).right;
+    Eigen::VectorXcd result(matrix.cols());
+    result.real() = right.col(right.cols() - 1).head(matrix.cols());
+    result.imag() = right.col(right.cols() - 1).tail(matrix.cols());
+    return result;
 }
 
 std::optional<Eigensystem> eigensystem(const Eigen::MatrixXd& matrix) {
@@ -69,6 +84,12 @@ std::optional<Eigen::VectorXcd> eigenvalues(const Eigen::MatrixXd& matrix) {
     if (solver.info() != Eigen::Success)
         return std::nullopt;
     return solver.eigenvalues();
+}
+
+Eigen::VectorXcd eigenvalues_or_nan(const Eigen::MatrixXd& matrix) {
+    auto found = eigenvalues(matrix);
+    return found ? std::move(*found)
+                 : Eigen::VectorXcd::Constant(matrix.rows(), std::numeric_limits<double>::quiet_NaN());
 }
 
 std::optional<Eigen::VectorXd> symmetric_eigenvalues(const Eigen::MatrixXd& matrix) {
@@ -97,6 +118,32 @@ OrthogonalFactors orthogonal_factors(const Eigen::MatrixXd& matrix) {
     const Eigen::Index rows = std::min(matrix.rows(), matrix.cols());
     return {factors.householderQ() * Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()),
             factors.matrixQR().topRows(rows).triangularView<Eigen::Upper>()};
+}
+
+Eigen::MatrixXd orthogonal_complement(const Eigen::VectorXd& vector) {
+    const Eigen::Index n = vector.size();
+    const Eigen::HouseholderQR<Eigen::MatrixXd> factors(vector);
+    const Eigen::MatrixXd all = factors.householderQ() * Eigen::MatrixXd::Identity(n, n);
+    return all.rightCols(n - 1);
+}
+
+NearlyNull nearly_null(const Eigen::MatrixXd& matrix) {
+    const Eigen::Index rows = matrix.rows();
+    const Eigen::MatrixXd transposed = matrix.transpose();
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(transposed);
+    const Eigen::MatrixXd all = factors.householderQ() * Eigen::MatrixXd::Identity(rows + 1, rows + 1);
+    NearlyNull result;
+    result.right = all.rightCols(2);
+    // The combination of rows of which the last pivot alone is left.
+    Eigen::VectorXd weights(rows);
+    weights[rows - 1] = 1;
+    weights.head(rows - 1) = -factors.matrixQR().col(rows - 1).head(rows - 1);
+    factors.matrixQR()
+        .topLeftCorner(rows - 1, rows - 1)
+        .triangularView<Eigen::Upper>()
+        .solveInPlace(weights.head(rows - 1));
+    result.left = (factors.colsPermutation() * weights).normalized();
+    return result;
 }
 
 } // namespace graze

@@ -26,8 +26,6 @@ enum class SingularVectors {
     thin   ///< as many of both sides as the shorter side of the matrix is long
 };
 SingularValues singular_values(const Eigen::MatrixXd& matrix, SingularVectors vectors);
-/// Full ones by division of the matrix, which takes less time where it is large.
-SingularValues singular_values_of_large(const Eigen::MatrixXd& matrix);
 /// The same values of a complex matrix.
 Eigen::VectorXd singular_values(const Eigen::MatrixXcd& matrix);
 /// The right singular vector of the least singular value of a complex matrix.
@@ -56,11 +54,24 @@ struct SchurForm {
 };
 std::optional<SchurForm> schur_form(const Eigen::MatrixXd& matrix);
 
+/// The same; where the method does not converge, numbers that are not any.
+Eigen::VectorXcd eigenvalues_or_nan(const Eigen::MatrixXd& matrix);
+
 /// matrix = orthogonal * triangle, by Householder's reflections.
 struct OrthogonalFactors {
     Eigen::MatrixXd orthogonal; ///< with as many columns as the matrix
     Eigen::MatrixXd triangle;
 };
 OrthogonalFactors orthogonal_factors(const Eigen::MatrixXd& matrix);
+/// Orthonormal basis of what is orthogonal to a vector that is not zero, in columns.
+Eigen::MatrixXd orthogonal_complement(const Eigen::VectorXd& vector);
+
+/// What a matrix with one column more than it has rows, and nearly a rank less than it has rows, takes to nearly
+/// nothing from either side, by pivoted reflections.
+struct NearlyNull {
+    Eigen::MatrixXd right; ///< two orthonormal columns
+    Eigen::VectorXd left;  ///< of length 1
+};
+NearlyNull nearly_null(const Eigen::MatrixXd& matrix);
 
 } // namespace graze

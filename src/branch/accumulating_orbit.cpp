@@ -1,12 +1,13 @@
 #include "branch/accumulating_orbit.hpp"
 
+#include "base/linear_systems.hpp"
 #include "flow/lie_derivative.hpp"
 #include "orbit/eigen_index.hpp"
 #include "orbit/newton.hpp"
 #include "orbit/orbit_flow.hpp"
 #include "orbit/shooting.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -121,9 +122,8 @@ bool AccumulatingOrbit::project(VectorXd& state) const {
         const VectorXd sizes = rows.rowwise().norm();
         if (!(sizes.minCoeff() > 0))
             return false;
-        const VectorXd move = (sizes.cwiseInverse().asDiagonal() * rows)
-                                  .completeOrthogonalDecomposition()
-                                  .solve(-heights(state).head(3).cwiseQuotient(sizes));
+        const VectorXd move =
+            shortest_solution(sizes.cwiseInverse().asDiagonal() * rows, -heights(state).head(3).cwiseQuotient(sizes));
         const double size = move.cwiseAbs().maxCoeff();
         if (!std::isfinite(size))
             return false;
@@ -169,7 +169,7 @@ bool AccumulatingOrbit::accumulate(const VectorXd& before, const VectorXd& after
         for (int k = 0; k < 3; ++k) {
             const MatrixXd rows = slopes(rest.state).topRows(2) * movable.asDiagonal();
             const VectorXd missing = -heights(rest.state).head(2);
-            rest.state += movable.cwiseProduct(rows.completeOrthogonalDecomposition().solve(missing));
+            rest.state += movable.cwiseProduct(shortest_solution(rows, missing));
         }
         const VectorXd values = heights(rest.state);
         const double change = -values[2] / values[3];
@@ -288,7 +288,7 @@ bool AccumulatingOrbit::solve() {
         return false;
     double last = std::numeric_limits<double>::infinity();
     for (int iteration = 0; iteration < iterations; ++iteration) {
-        const VectorXd step = scales_.cwiseProduct(jacobian_.completeOrthogonalDecomposition().solve(-values));
+        const VectorXd step = scales_.cwiseProduct(shortest_solution(jacobian_, -values));
         const double size = size_of_step(step);
         if (!(size < far))
             return false;

@@ -1,9 +1,10 @@
 #include "branch/branch_point_problem.hpp"
 
 #include "base/decompositions.hpp"
+#include "base/linear_systems.hpp"
 #include "orbit/eigen_index.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -51,11 +52,11 @@ bool BranchPointProblem::evaluate(std::span<const double> u) {
     return true;
 }
 
-/// The singular vectors of what is singular.
+/// What is nearly singular.
 bool BranchPointProblem::choose_borders() {
-    const SingularValues factors = singular_values_of_large(matrix_.leftCols(matrix_.cols() - 1));
-    right_ = factors.right.rightCols(2);
-    border_ = factors.left.rightCols(1);
+    const NearlyNull near = nearly_null(matrix_.leftCols(matrix_.cols() - 1));
+    right_ = near.right;
+    border_ = near.left;
     return right_.allFinite() && border_.allFinite();
 }
 
@@ -66,13 +67,13 @@ bool BranchPointProblem::complete() {
     bordered.topLeftCorner(rows, columns) = matrix_.leftCols(columns);
     bordered.topRightCorner(rows, 1) = border_;
     bordered.bottomLeftCorner(2, columns) = right_.transpose();
-    const Eigen::PartialPivLU<MatrixXd> lu(bordered);
+    const PartialLU<double> lu(bordered);
     MatrixXd sides = MatrixXd::Zero(rows + 2, 2);
     sides.bottomRows(2).setIdentity();
-    null_ = lu.solve(sides).topRows(columns);
+    null_ = lu.solve_columns(sides).topRows(columns);
     VectorXd side = VectorXd::Zero(rows + 2);
     side[rows + 1] = 1;
-    const VectorXd whole = lu.transpose().solve(side);
+    const VectorXd whole = lu.solve_transposed(side);
     left_ = whole.head(rows);
     values_ = {whole[rows], whole[rows + 1]};
     return null_.allFinite() && whole.allFinite();
@@ -116,8 +117,8 @@ bool BranchPointProblem::solve(std::span<const double> row, double right, bool h
         sides[rows + 1] = -values_[1];
     }
     sides[rows + 2] = right;
-    const Eigen::FullPivLU<MatrixXd> lu(whole);
-    if (!lu.isInvertible())
+    const FullLU<double> lu(whole);
+    if (!lu.is_invertible())
         return false;
     const VectorXd solution = lu.solve(sides);
     if (!solution.allFinite())

@@ -1,8 +1,10 @@
 #include "graze/base/input_error.hpp"
+
+#include "base/linear_systems.hpp"
 #include "graze/base/require.hpp"
 #include "graze/branch/continuation.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -81,10 +83,10 @@ bool DenseProblem::solve(std::span<const double> row, double right, bool homogen
     if (!homogeneous)
         values.head(n - 1) = -Eigen::Map<const Eigen::VectorXd>(values_.data(), n - 1);
     values[n - 1] = right;
-    const Eigen::FullPivLU<Eigen::MatrixXd> lu(matrix);
+    const FullLU<double> lu(matrix);
     if (determinant)
         *determinant = lu.determinant();
-    if (!lu.isInvertible())
+    if (!lu.is_invertible())
         return false;
     Eigen::Map<Eigen::VectorXd>(step.data(), n) = lu.solve(values).cwiseProduct(scales);
     return all_finite(step);

@@ -1,5 +1,6 @@
 #include "branch/grazing_switch.hpp"
 
+#include "base/linear_systems.hpp"
 #include "branch/inserted_contact.hpp"
 #include "branch/orbit_problem.hpp"
 #include "branch/orbit_quantity.hpp"
@@ -14,7 +15,7 @@
 #include "orbit/orbit_flow.hpp"
 #include "orbit/shooting.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -78,7 +79,7 @@ public:
                 rows.row(k) /= unit;
                 wanted[k] /= unit;
             }
-        const Eigen::VectorXd step = rows.completeOrthogonalDecomposition().solve(wanted);
+        const Eigen::VectorXd step = shortest_solution(rows, wanted);
         std::vector<double> result = state_;
         for (std::size_t i = 0; i < n; ++i)
             result[i] += step[index(i)] * shooting_.scales()[index(i)];

@@ -1,9 +1,10 @@
 #include "branch/hopf_point.hpp"
 
 #include "base/decompositions.hpp"
+#include "base/linear_systems.hpp"
 #include "orbit/eigen_index.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +40,7 @@ public:
         double before = std::numeric_limits<double>::infinity();
         for (int i = 0; i < most; ++i) {
             evaluate(state);
-            const VectorXd step = matrix_.completeOrthogonalDecomposition().solve(-values_);
+            const VectorXd step = shortest_solution(matrix_, -values_);
             const double size = step.norm();
             if (!std::isfinite(size))
                 return std::nullopt;

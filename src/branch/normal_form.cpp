@@ -1,10 +1,11 @@
 #include "branch/normal_form.hpp"
 
+#include "base/linear_systems.hpp"
 #include "orbit/cyclic_matrix.hpp"
 #include "orbit/eigen_index.hpp"
 #include "orbit/second_variation.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <cmath>
 
@@ -140,8 +141,8 @@ void null_vectors(const MatrixXcd& matrix, VectorXcd& right, VectorXcd& left) {
     }
     const VectorXcd last = VectorXcd::Unit(count + 1, count);
     for (int repetition = 0; repetition < 2; ++repetition) { // the second with borders that are far from singular
-        right = bordered.partialPivLu().solve(last).head(count).normalized();
-        left = bordered.transpose().partialPivLu().solve(last).head(count).normalized();
+        right = PartialLU<Complex>(bordered).solve(last).head(count).normalized();
+        left = PartialLU<Complex>(bordered.transpose()).solve(last).head(count).normalized();
         bordered.col(count).head(count) = left.conjugate();
         bordered.row(count).head(count) = right.adjoint();
     }
@@ -178,8 +179,7 @@ std::optional<Cubic> cubic_coefficient(const OrbitEquations& equations, const Or
     if (!q.allFinite() || !expansion.second(q, with_q) || !expansion.third(left, q.real(), with_real, parts) ||
         (multiplier.imag() != 0 && !expansion.third(left, q.imag(), with_imaginary, parts)))
         return std::nullopt;
-    const Eigen::PartialPivLU<MatrixXcd> at_rest(expansion.closed_by(1)),
-        twice(expansion.closed_by(multiplier * multiplier));
+    const PartialLU<Complex> at_rest(expansion.closed_by(1)), twice(expansion.closed_by(multiplier * multiplier));
     const VectorXcd square = with_q * q, modulus = with_q * conjugate;
     const VectorXcd mean = -at_rest.solve(modulus), second = -twice.solve(square);
     // q q q* = (a a + b b) (a + i b) for q = a + i b; and F_2 is real.
@@ -188,8 +188,7 @@ std::optional<Cubic> cubic_coefficient(const OrbitEquations& equations, const Or
     // What round-off of F_2(q, q) and F_2(q, q*) becomes by the mean and the second harmonic, and what it is itself.
     const double size = with_q.norm() * q.norm();
     const VectorXcd by_mean = with_q.transpose() * left, by_second = with_q.adjoint() * left;
-    const VectorXcd mean_spread = at_rest.transpose().solve(by_mean),
-                    second_spread = twice.transpose().solve(by_second);
+    const VectorXcd mean_spread = at_rest.solve_transposed(by_mean), second_spread = twice.solve_transposed(by_second);
     const double spread = 2 * mean_spread.norm() + second_spread.norm();
     const double error = spread * size + with_q.norm() * (second.norm() + 2 * mean.norm()) + parts * q.norm();
     const bool is_simple = std::abs(product) > least_product * left.norm() * (expansion.closing() * q).norm();
@@ -285,7 +284,7 @@ std::optional<double> cusp_coefficient(const OrbitEquations& equations, const Or
     bordered.row(count).head(count) = fold.right.transpose();
     VectorXd square = VectorXd::Zero(count + 1);
     square.head(count) = -with_right.real() * fold.right;
-    const VectorXd beside = bordered.partialPivLu().solve(square).head(count);
+    const VectorXd beside = PartialLU<double>(bordered).solve(square).head(count);
     const double cubic = third.real().dot(fold.right.transpose()) + 3 * fold.left.dot(with_right.real() * beside);
     const double result = -cubic / (6 * fold.product);
     return std::isfinite(result) ? std::optional(result) : std::nullopt;

@@ -1,8 +1,9 @@
 #include "design/balance.hpp"
 
+#include "base/linear_systems.hpp"
 #include "orbit/eigen_index.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <vector>
@@ -33,7 +34,7 @@ Eigen::VectorXd nonnegative(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) 
             break;
         used.push_back(best);
         while (!used.empty()) {
-            const Eigen::VectorXd solved = damped(Eigen::all, used).colPivHouseholderQr().solve(right);
+            const Eigen::VectorXd solved = PivotedQR(damped(Eigen::all, used)).solve(right);
             double part = 1;
             for (std::size_t k = 0; k < used.size(); ++k)
                 if (solved[index(k)] <= 0)
@@ -54,7 +55,7 @@ Eigen::VectorXd nonnegative(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) 
         return x;
     // Without damping, of those that are needed.
     const Eigen::MatrixXd needed = damped.topRows(a.rows())(Eigen::all, used);
-    const Eigen::VectorXd exact = needed.completeOrthogonalDecomposition().solve(b);
+    const Eigen::VectorXd exact = shortest_solution(needed, b);
     if (exact.minCoeff() >= 0)
         for (std::size_t k = 0; k < used.size(); ++k)
             x[used[k]] = exact[index(k)];

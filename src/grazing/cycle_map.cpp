@@ -1,5 +1,7 @@
 #include "graze/grazing/cycle_map.hpp"
 
+#include "base/decompositions.hpp"
+#include "base/linear_systems.hpp"
 #include "flow/cyclic.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
@@ -10,7 +12,7 @@
 #include "orbit/newton.hpp"
 #include "orbit/shooting.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -55,7 +57,7 @@ std::vector<double> list_of(const Eigen::VectorXd& vector) {
 std::vector<std::complex<double>> multipliers_of(const CycleMap& map) {
     const Eigen::Map<const Eigen::VectorXd> scales(map.scales.data(), index(map.scales.size()));
     const Eigen::MatrixXd scaled = scales.cwiseInverse().asDiagonal() * matrix_of(map) * scales.asDiagonal();
-    const Eigen::VectorXcd values = scaled.eigenvalues();
+    const Eigen::VectorXcd values = eigenvalues_or_nan(scaled);
     std::vector<std::complex<double>> result(values.begin(), values.end());
     std::sort(result.begin(), result.end(), [](const auto& one, const auto& other) {
         return std::abs(one) != std::abs(other) ? std::abs(one) > std::abs(other) : one.imag() > other.imag();
@@ -72,8 +74,8 @@ void add_parameter(CycleMap& map, const ReturnMap& back, double explicit_rate) {
     const Eigen::Map<const Eigen::VectorXd> scales(map.scales.data(), index(map.scales.size()));
     const Eigen::MatrixXd system = Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()) -
                                    Eigen::MatrixXd(scales.cwiseInverse().asDiagonal() * matrix * scales.asDiagonal());
-    const Eigen::FullPivLU<Eigen::MatrixXd> factored(system);
-    if (!(factored.rcond() > singular))
+    const FullLU<double> factored(system);
+    if (!(factored.reciprocal_condition() > singular))
         return;
     const Eigen::VectorXd steady =
         factored.solve(chosen(map.active, back.parameter).cwiseQuotient(scales)).cwiseProduct(scales);
@@ -319,7 +321,7 @@ double CycleMap::sum_of_projections(int sign) const {
         return 0;
     Eigen::MatrixXd bordered(n + 1, n + 1);
     bordered << Eigen::MatrixXd::Identity(n, n) - sign * once, gained / size, row.transpose() / steepness, 0.0;
-    return -bordered.fullPivLu().determinant() * size * steepness;
+    return -FullLU<double>(bordered).determinant() * size * steepness;
 }
 
 } // namespace graze

@@ -1,5 +1,6 @@
 #include "graze/grazing/discontinuity_map.hpp"
 
+#include "base/linear_systems.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 #include "grazing/compliant_contact.hpp"
@@ -10,7 +11,7 @@
 #include "grazing/touch_geometry.hpp"
 #include "orbit/eigen_index.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -87,7 +88,7 @@ void settle(const TouchFunctions& functions, TouchState& touch, TouchGeometry& g
             rows.row(i) /= size;
             lack[i] /= size;
         }
-        const Eigen::VectorXd step = rows.completeOrthogonalDecomposition().solve(lack);
+        const Eigen::VectorXd step = shortest_solution(rows, lack);
         if (!step.allFinite())
             return;
         for (Eigen::Index i = 0; i < n; ++i)

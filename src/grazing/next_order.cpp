@@ -4,7 +4,7 @@
 #include "graze/symbolic/transform.hpp"
 #include "orbit/eigen_index.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <vector>
 

@@ -1,10 +1,11 @@
 #include "graze/grazing/verdict.hpp"
 
 #include "base/decompositions.hpp"
+#include "base/linear_systems.hpp"
 #include "graze/grazing/map_motion.hpp"
 #include "orbit/eigen_index.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -50,7 +51,7 @@ Modes modes_of(const Scaled& map, const std::vector<double>& projections) {
     if (!system)
         return modes;
     const Eigen::MatrixXcd& vectors = system->vectors;
-    const Eigen::VectorXcd amounts = vectors.fullPivLu().solve(map.impact.cast<Complex>());
+    const Eigen::VectorXcd amounts = FullLU<Complex>(vectors).solve(map.impact.cast<Complex>());
     const Eigen::RowVectorXcd seen = map.gradient.cast<Complex>().transpose() * vectors;
     std::vector<Eigen::Index> order(static_cast<std::size_t>(amounts.size()));
     for (std::size_t i = 0; i < order.size(); ++i)
@@ -186,7 +187,7 @@ Complex largest_multiplier(const Scaled& map, double root) {
     constexpr double three_halves = 1.5;
     const Eigen::MatrixXd here = map.matrix * (Eigen::MatrixXd::Identity(map.matrix.rows(), map.matrix.cols()) -
                                                three_halves * root * map.impact * map.gradient.transpose());
-    const Eigen::VectorXcd values = here.eigenvalues();
+    const Eigen::VectorXcd values = eigenvalues_or_nan(here);
     return *std::max_element(values.begin(), values.end(),
                              [](Complex one, Complex other) { return std::abs(one) < std::abs(other); });
 }
@@ -216,7 +217,7 @@ void judge_compliant(const CycleMap& map, Verdict& verdict) {
     const Scaled scaled(map);
     const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(scaled.matrix.rows(), scaled.matrix.cols());
     const Eigen::VectorXd passed = scaled.matrix * scaled.impact;
-    const Eigen::VectorXd settled = (identity - scaled.matrix).fullPivLu().solve(passed);
+    const Eigen::VectorXd settled = FullLU<double>(identity - scaled.matrix).solve(passed);
     const double chi = scaled.gradient.dot(settled);
     const double size = scaled.gradient.cwiseAbs().dot(settled.cwiseAbs());
     verdict.alpha = -chi;
@@ -252,7 +253,7 @@ void judge_sliding(const CycleMap& map, Verdict& verdict) {
     const Scaled scaled(map);
     const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(scaled.matrix.rows(), scaled.matrix.cols());
     const Eigen::VectorXcd multipliers =
-        Eigen::MatrixXd(scaled.matrix * (identity - scaled.impact * scaled.gradient.transpose())).eigenvalues();
+        eigenvalues_or_nan(scaled.matrix * (identity - scaled.impact * scaled.gradient.transpose()));
     if (map.clearance_rate)
         verdict.speed_factor = std::sqrt(2 * map.contact.acceleration * std::abs(*map.clearance_rate));
     const double leading = multipliers.cwiseAbs().maxCoeff();

@@ -1,5 +1,6 @@
 #include "graze/identify/coupling.hpp"
 
+#include "base/linear_systems.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 #include "identify/load_balance.hpp"
@@ -31,9 +32,9 @@ Eigen::Vector2d regression_of(std::span<const StaticLoad> loads, const CouplingS
         right[i] = rows[static_cast<std::size_t>(i)][2];
     }
     const Eigen::Vector2d scale = matrix.colwise().norm();
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(matrix * scale.cwiseInverse().asDiagonal());
+    const PivotedQR factors(matrix * scale.cwiseInverse().asDiagonal());
     constexpr double too_small = 1e-10;
-    if (!(std::abs(factors.matrixR()(1, 1)) > too_small))
+    if (!(std::abs(factors.pivot(1)) > too_small))
         throw InputError("the equilibria do not tell both constants", "load it with several currents");
     const Eigen::Vector2d found = factors.solve(right).cwiseQuotient(scale);
     return {found[0] * found[0], found[1]};
@@ -117,7 +118,7 @@ Coupling coupling(std::span<const StaticLoad> loads, const CouplingSettings& set
         weigh();
         const Eigen::Vector2d scale = matrix.colwise().norm();
         const Eigen::Vector2d change =
-            (matrix * scale.cwiseInverse().asDiagonal()).colPivHouseholderQr().solve(-rest).cwiseQuotient(scale);
+            PivotedQR(matrix * scale.cwiseInverse().asDiagonal()).solve(-rest).cwiseQuotient(scale);
         move_points(rest + matrix * change);
         betas += change;
         if (!betas.allFinite())

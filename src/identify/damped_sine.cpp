@@ -1,6 +1,8 @@
 #include "identify/damped_sine.hpp"
 
-#include <Eigen/Dense>
+#include "base/linear_systems.hpp"
+
+#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <limits>
@@ -49,10 +51,10 @@ std::optional<Rest> DampedSine::fit() {
     for (int step = 0; step < steps; ++step) {
         fill(slopes, left, linear);
         if (step == 0) { // what is linear is solved for first
-            linear = slopes.leftCols(3).colPivHouseholderQr().solve(left);
+            linear = PivotedQR(slopes.leftCols(3)).solve(left);
             fill(slopes, left, linear);
         }
-        const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(slopes);
+        const PivotedQR factors(slopes);
         const Eigen::VectorXd change = factors.solve(left);
         linear += change.head(3);
         const double size = std::abs(change[3]) + std::abs(change[4]);

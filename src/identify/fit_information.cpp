@@ -1,8 +1,9 @@
 #include "identify/fit_information.hpp"
 
 #include "base/decompositions.hpp"
+#include "base/linear_systems.hpp"
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +17,8 @@ Eigen::MatrixXd triangle(Eigen::MatrixXd matrix) {
     if (matrix.rows() < matrix.cols())
         matrix.conservativeResizeLike(Eigen::MatrixXd::Zero(matrix.cols(), matrix.cols()));
     const Eigen::Index size = matrix.cols();
-    const Eigen::HouseholderQR<Eigen::Ref<Eigen::MatrixXd>> factors(matrix);
-    return matrix.topRows(size).template triangularView<Eigen::Upper>();
+    make_triangular(matrix);
+    return matrix.topRows(size).triangularView<Eigen::Upper>();
 }
 
 /// Of one record: columns are its first states, what is shared, and what is left.

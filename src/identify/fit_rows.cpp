@@ -1,9 +1,10 @@
 #include "identify/fit_rows.hpp"
 
+#include "base/linear_systems.hpp"
 #include "base/median.hpp"
 #include "graze/base/input_error.hpp"
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -381,8 +382,8 @@ const PieceRows& FitRows::evaluate(const FitPiece& piece, const Eigen::VectorXd&
     rows_.periods = periods_;
     rows_.period_slopes = period_slopes_;
     if (rows_.finite) {
-        const Eigen::HouseholderQR<Eigen::Ref<Eigen::MatrixXd>> factors(raw_);
-        rows_.readings = raw_.topRows(columns).template triangularView<Eigen::Upper>();
+        make_triangular(raw_);
+        rows_.readings = raw_.topRows(columns).triangularView<Eigen::Upper>();
     }
     return rows_;
 }

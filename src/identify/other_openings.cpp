@@ -1,8 +1,9 @@
 #include "identify/other_openings.hpp"
 
+#include "base/linear_systems.hpp"
 #include "graze/model/model.hpp"
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -152,7 +153,7 @@ private:
                 return std::nullopt;
             if (off.lpNorm<Eigen::Infinity>() <= nothing)
                 return state;
-            const Eigen::VectorXd step = slopes.completeOrthogonalDecomposition().solve(off);
+            const Eigen::VectorXd step = shortest_solution(slopes, off);
             for (Eigen::Index c = 0; c < columns; ++c)
                 state[unknown[static_cast<std::size_t>(c)]] -= step[c] * scale_of(unknown[static_cast<std::size_t>(c)]);
         }

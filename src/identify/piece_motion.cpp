@@ -1,6 +1,8 @@
 #include "identify/piece_motion.hpp"
 
-#include <Eigen/LU>
+#include "base/linear_systems.hpp"
+
+#include <Eigen/Core>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -106,7 +108,7 @@ private:
             if (jump.entries[k].column < state_.size())
                 map(static_cast<Eigen::Index>(jump.entries[k].row), static_cast<Eigen::Index>(jump.entries[k].column)) =
                     values[k];
-        return !jump.identity && Eigen::FullPivLU<Eigen::MatrixXd>(map).rank() < states;
+        return !jump.identity && FullLU<double>(map).rank() < states;
     }
 
     bool look(std::size_t sample, double s, double contact) {

@@ -1,12 +1,13 @@
 #include "graze/identify/residual_test.hpp"
 
+#include "base/linear_systems.hpp"
 #include "base/median.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 #include "graze/identify/estimate.hpp"
 #include "record/fourier.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -247,13 +248,11 @@ double chance_of_fit(std::span<const double> left, const std::vector<std::vector
     };
     const Eigen::VectorXd right = Eigen::Map<const Eigen::VectorXd>(left.data(), rows);
     const Eigen::MatrixXd own = matrix_of(columns);
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> first(own);
+    const PivotedQR first(own);
     const Eigen::VectorXd rest = right - own * first.solve(right);
     Eigen::MatrixXd more = matrix_of(further);
-    more -= own * first.solve(more);
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> second;
+    more -= own * first.solve_columns(more);
     constexpr double independent = 1e-4;
-    second.setThreshold(independent);
     std::vector<Eigen::Index> kept; // those that the fit's own columns do not have in them already
     for (Eigen::Index c = 0; c < more.cols(); ++c)
         if (more.col(c).norm() > independent)
@@ -263,7 +262,7 @@ double chance_of_fit(std::span<const double> left, const std::vector<std::vector
     Eigen::MatrixXd used(rows, static_cast<Eigen::Index>(kept.size()));
     for (std::size_t c = 0; c < kept.size(); ++c)
         used.col(static_cast<Eigen::Index>(c)) = more.col(kept[c]);
-    second.compute(used);
+    const PivotedQR second(used, independent);
     const auto rank = static_cast<double>(second.rank());
     const double freedom = static_cast<double>(rows - own.cols()) - rank;
     const double before = rest.squaredNorm(), after = (rest - used * second.solve(rest)).squaredNorm();

@@ -1,9 +1,10 @@
 #include "orbit/collocation.hpp"
 
+#include "base/linear_systems.hpp"
 #include "graze/base/input_error.hpp"
 #include "orbit/eigen_index.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -139,7 +140,7 @@ bool Collocation::follow(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEv
             at.problem = fmt::format("segment {} leaves the domain of its vector field", k + 1);
             return false;
         }
-        const Eigen::MatrixXd solution = matrix.partialPivLu().solve(right);
+        const Eigen::MatrixXd solution = PartialLU<double>(matrix).solve_columns(right);
         piece.inner.middleRows(first, m * n) = solution;
         changes *= basis.end[0];
         start *= basis.end[0];

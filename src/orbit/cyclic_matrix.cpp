@@ -1,6 +1,7 @@
 #include "orbit/cyclic_matrix.hpp"
 
 #include "base/decompositions.hpp"
+#include "base/linear_systems.hpp"
 #include "orbit/eigen_index.hpp"
 
 #include <Eigen/Dense>
@@ -55,13 +56,12 @@ Eigen::MatrixXd plane_of_close(const CycleSpectrum& others, double middle) {
     double nearest = std::abs(middle);
     for (const Complex one : others.all)
         nearest = std::min(nearest, std::abs(one - middle));
-    const Eigen::PartialPivLU<Eigen::MatrixXd> shifted(first +
-                                                       middle * (1 + share * nearest / std::abs(middle)) * last);
+    const PartialLU<double> shifted(first + middle * (1 + share * nearest / std::abs(middle)) * last);
     Eigen::MatrixXd starts = Eigen::MatrixXd::NullaryExpr(first.rows(), 2, [](Eigen::Index i, Eigen::Index j) {
         return std::cos(static_cast<double>(i) * (1.7 + static_cast<double>(j)) + 0.3);
     });
     for (int repetition = 0; repetition < repetitions && starts.allFinite(); ++repetition)
-        starts = orthogonal_factors(shifted.solve(last * starts)).orthogonal;
+        starts = orthogonal_factors(shifted.solve_columns(last * starts)).orthogonal;
     return starts;
 }
 
@@ -84,7 +84,7 @@ bool plane_of(const CyclicSystem& system, Complex one, Complex other, Eigen::Mat
     }
     if (!starts.allFinite())
         return false;
-    map = -(last * starts).colPivHouseholderQr().solve(first * starts);
+    map = -PivotedQR(last * starts).solve_columns(first * starts);
     return map.allFinite();
 }
 

@@ -3,7 +3,7 @@
 #include "base/decompositions.hpp"
 #include "orbit/eigen_index.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -102,12 +102,12 @@ bool CyclicSystem::factor() {
 
 double CyclicSystem::periodic_determinant() const {
     const Eigen::Index n = index(n_);
-    return sign_ * (final_.leftCols(n) + final_.middleCols(n, n)).determinant();
+    return sign_ * determinant(final_.leftCols(n) + final_.middleCols(n, n));
 }
 
 double CyclicSystem::antiperiodic_determinant() const {
     const Eigen::Index n = index(n_);
-    return sign_ * (final_.leftCols(n) - final_.middleCols(n, n)).determinant();
+    return sign_ * determinant(final_.leftCols(n) - final_.middleCols(n, n));
 }
 
 double CyclicSystem::periodic_noise() const {
@@ -183,7 +183,7 @@ CyclicSystem::Closed CyclicSystem::close(const Eigen::MatrixXd& borders) const {
     const Eigen::MatrixXd matrix = condense(borders, closed.shares_);
     closed.lu_.compute(matrix);
     closed.determinant_ = sign_ * closed.lu_.determinant();
-    closed.regular_ = matrix.allFinite() && closed.lu_.isInvertible();
+    closed.regular_ = matrix.allFinite() && closed.lu_.is_invertible();
     return closed;
 }
 

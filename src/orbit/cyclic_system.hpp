@@ -1,7 +1,8 @@
 #pragma once
 
+#include "base/linear_systems.hpp"
+
 #include <Eigen/Core>
-#include <Eigen/LU>
 
 #include <cstddef>
 #include <utility>
@@ -57,7 +58,7 @@ public:
 
     private:
         friend class CyclicSystem;
-        Eigen::FullPivLU<Eigen::MatrixXd> lu_;
+        FullLU<double> lu_;
         std::vector<Eigen::MatrixXd> shares_; ///< of each segment's equations in the further ones; empty: none
         bool regular_ = false;
         double determinant_ = 0;

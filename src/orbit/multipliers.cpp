@@ -1,9 +1,12 @@
 #include "base/neutral_multipliers.hpp"
+
+#include "base/decompositions.hpp"
+#include "base/linear_systems.hpp"
 #include "orbit/certify.hpp"
 #include "orbit/eigen_index.hpp"
 #include "orbit/product_eigenvalues.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -40,9 +43,7 @@ Eigen::MatrixXd complement(const Eigen::VectorXd& vector) {
     const Eigen::Index n = vector.size();
     if (!(vector.norm() > 0))
         return Eigen::MatrixXd::Identity(n, n);
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(vector);
-    const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(n, n);
-    return q.rightCols(n - 1);
+    return orthogonal_complement(vector);
 }
 
 /// The section map as factors, restricted to active states and measured in units in which they are balanced.
@@ -133,7 +134,7 @@ private:
         const Eigen::MatrixXd matrix = restricted(flow);
         if (matrix.size() == 0 || !matrix.allFinite())
             return false;
-        return !(matrix.norm() * matrix.partialPivLu().inverse().norm() < most_contraction);
+        return !(matrix.norm() * PartialLU<double>(matrix).inverse().norm() < most_contraction);
     }
     /// Follows a piece in parts of which none contracts too much, or what there is must do: each as long as the last
     /// one that was good, shorter where that is too long.

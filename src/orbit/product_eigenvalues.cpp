@@ -2,7 +2,7 @@
 
 #include "base/decompositions.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>

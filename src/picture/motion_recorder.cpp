@@ -9,7 +9,7 @@ namespace {
 
 /// A step of high order covers a good part of an oscillation; the curve is thinned out again before it is drawn.
 constexpr int points_of_step = 32;
-constexpr std::size_t most_points = 2'000'000;
+constexpr std::size_t most_recorded = 2'000'000;
 
 } // namespace
 
@@ -37,7 +37,7 @@ MotionRecorder::Row MotionRecorder::row_of(double time, std::span<const double> 
 
 void MotionRecorder::step(const Step& step) {
     const std::size_t rows = motion_.values.front().size();
-    if (rows >= most_points) {
+    if (rows >= most_recorded) {
         complete_ = false;
         return;
     }

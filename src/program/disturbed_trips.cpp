@@ -7,6 +7,7 @@
 #include "program/asked_trip.hpp"
 #include "program/commands.hpp"
 #include "program/drawing.hpp"
+#include "program/empty_cell.hpp"
 #include "program/interrupt.hpp"
 #include "program/status_line.hpp"
 #include "program/values.hpp"
@@ -24,8 +25,6 @@
 namespace graze {
 
 namespace {
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); // an empty cell
 
 /// What a disturbance is asked about, and what has been found.
 struct AskedTrips {

@@ -3,6 +3,7 @@
 #include "graze/picture/residual_figure.hpp"
 #include "program/commands.hpp"
 #include "program/drawing.hpp"
+#include "program/empty_cell.hpp"
 #include "program/identify_arguments.hpp"
 #include "program/identify_fit.hpp"
 #include "program/identify_kinds.hpp"
@@ -11,7 +12,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace graze {
 
@@ -31,7 +31,6 @@ int identify_command(const IdentifyArguments& arguments, const Console& console)
     for (const Identification::Value& value : found.values) {
         const Estimate& estimate = value.estimate;
         const bool known = estimate.freedom > 0;
-        constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); // an empty cell
         table.add(value.name);
         table.add(value.unit);
         table.add(estimate.value);

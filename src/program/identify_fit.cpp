@@ -7,6 +7,7 @@
 #include "graze/picture/figure.hpp"
 #include "graze/picture/figure_script.hpp"
 #include "program/commands.hpp"
+#include "program/empty_cell.hpp"
 #include "program/fit_request.hpp"
 #include "program/interrupt.hpp"
 #include "program/output_file.hpp"
@@ -16,14 +17,11 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
-#include <limits>
 #include <string>
 
 namespace graze {
 
 namespace {
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); // an empty cell
 
 Table numbers_table(const Fit& fit, const FitRequest& request) {
     Table table({{"name", ""}, {"unit", ""}, {"value", ""}, {"error", ""}, {"low", ""}, {"high", ""}, {"note", ""}});

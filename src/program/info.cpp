@@ -6,6 +6,7 @@
 #include "graze/study/study_catalogue.hpp"
 #include "program/commands.hpp"
 #include "program/describe.hpp"
+#include "program/empty_cell.hpp"
 #include "program/output_file.hpp"
 #include "program/table_fit.hpp"
 
@@ -21,8 +22,6 @@
 namespace graze {
 
 namespace {
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 /// Refuses what would never end, as a pipe, and what says nothing. @param named whether by itself, not by its folder
 void require_contents(const std::string& path, bool named) {

@@ -3,6 +3,7 @@
 #include "graze/results/stored_orbit.hpp"
 #include "graze/study/stored_study.hpp"
 #include "program/commands.hpp"
+#include "program/empty_cell.hpp"
 #include "program/interrupt.hpp"
 #include "program/status_line.hpp"
 #include "program/values.hpp"
@@ -10,15 +11,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <string>
 #include <vector>
 
 namespace graze {
 
 namespace {
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 /// Settings of the run that the point belongs to, for branches in its parameter or in another one.
 BranchSettings settings_of(const StoredRun& run, const std::string& asked) {

@@ -3,12 +3,11 @@
 #include "graze/study/study_catalogue.hpp"
 #include "graze/study/study_keys.hpp"
 #include "program/commands.hpp"
+#include "program/empty_cell.hpp"
 #include "program/table.hpp"
 #include "program/wrapped_text.hpp"
 
 #include <fmt/ranges.h>
-
-#include <limits>
 
 namespace graze {
 
@@ -55,7 +54,6 @@ std::string keys_in_words(const std::string& kind, const std::vector<StudyKey>& 
 int list_study_keys(const RunArguments& arguments, const Console& console) {
     Table table(
         {{"kind", ""}, {"key", ""}, {"type", ""}, {"default", ""}, {"least", ""}, {"most", ""}, {"meaning", ""}});
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
     const bool for_people = arguments.output.format == TableFormat::table;
     for (std::size_t index = 0; index < kinds_of_runs().size(); ++index) {
         const std::string& kind = kinds_of_runs()[index];
@@ -69,8 +67,8 @@ int list_study_keys(const RunArguments& arguments, const Console& console) {
             table.add(key.name);
             table.add(key.words.empty() ? key.type : fmt::format("{}", fmt::join(key.words, ", ")));
             table.add(key.standard);
-            table.add(key.least.value_or(none));
-            table.add(key.most.value_or(none));
+            table.add(key.least.value_or(nothing));
+            table.add(key.most.value_or(nothing));
             table.add(key.meaning);
         }
     }

@@ -3,13 +3,13 @@
 #include "graze/base/input_error.hpp"
 #include "graze/record/impacts.hpp"
 #include "graze/record/spectrum.hpp"
+#include "program/empty_cell.hpp"
 #include "record/even_clock.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 namespace graze {
@@ -17,8 +17,7 @@ namespace graze {
 namespace {
 
 constexpr std::size_t most_rows = 2'000'000;
-constexpr std::size_t most_drawn = 4000;                             ///< pairs of least and greatest values of a curve
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); // an empty cell
+constexpr std::size_t most_drawn = 4000; ///< pairs of least and greatest values of a curve
 
 /// A curve with so many samples that they would not be told apart: of each part its least and greatest.
 class CurveThinner {

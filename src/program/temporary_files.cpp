@@ -11,7 +11,7 @@ namespace graze {
 
 namespace {
 
-enum State : int { free_place, being_changed, in_use };
+enum FileState : int { free_place, being_changed, in_use };
 
 struct UnfinishedFile {
     std::atomic<int> state{free_place};

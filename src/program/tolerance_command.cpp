@@ -7,6 +7,7 @@
 #include "graze/results/stored_orbit.hpp"
 #include "program/commands.hpp"
 #include "program/drawing.hpp"
+#include "program/empty_cell.hpp"
 #include "program/interrupt.hpp"
 #include "program/output_file.hpp"
 #include "program/status_line.hpp"
@@ -16,7 +17,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -25,8 +25,6 @@
 namespace graze {
 
 namespace {
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); // an empty cell
 
 /// What has been found at a point.
 struct Findings {

@@ -6,6 +6,7 @@
 #include "program/commands.hpp"
 #include "program/disturbed_trips.hpp"
 #include "program/drawing.hpp"
+#include "program/empty_cell.hpp"
 #include "program/interrupt.hpp"
 #include "program/values.hpp"
 
@@ -22,8 +23,6 @@
 namespace graze {
 
 namespace {
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); // an empty cell
 
 /// All rows of one point: of a touch, or of a fold.
 struct Trips {

@@ -1,9 +1,10 @@
 #include "graze/record/harmonic.hpp"
 
+#include "base/linear_systems.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -61,10 +62,10 @@ Harmonic fit_harmonic(std::span<const double> times, std::span<const double> val
         const double angle = frequency * times[static_cast<std::size_t>(i)];
         matrix.row(i) << 1, std::sin(angle), std::cos(angle);
     }
-    const Eigen::HouseholderQR<Eigen::MatrixXd> factors(matrix);
     const Eigen::Map<const Eigen::VectorXd> right(values.data(), rows);
-    const Eigen::Vector3d solution = factors.solve(right);
-    const Eigen::Matrix3d triangle = factors.matrixQR().topRows<unknowns>().triangularView<Eigen::Upper>();
+    const LeastSquares fitted = least_squares(matrix, right);
+    const Eigen::Vector3d solution = fitted.solution;
+    const Eigen::Matrix3d triangle = fitted.triangle;
     const Eigen::Vector3d pivots = triangle.diagonal().cwiseAbs();
     constexpr double too_small = 1e-6; // digits that are lost
     if (!(pivots.minCoeff() > too_small * pivots.maxCoeff()))

@@ -1,6 +1,8 @@
 #include "record/local_polynomial.hpp"
 
-#include <Eigen/Dense>
+#include "base/decompositions.hpp"
+
+#include <Eigen/Core>
 
 namespace graze {
 
@@ -12,9 +14,7 @@ LocalPolynomial::LocalPolynomial(std::span<const double> places, std::size_t deg
         for (Eigen::Index k = 0; k < columns; ++k, power *= places[static_cast<std::size_t>(i)])
             powers(i, k) = power;
     }
-    const Eigen::HouseholderQR<Eigen::MatrixXd> factors(powers);
-    const Eigen::MatrixXd basis = factors.householderQ() * Eigen::MatrixXd::Identity(rows, columns);
-    const Eigen::MatrixXd triangle = factors.matrixQR().topRows(columns).triangularView<Eigen::Upper>();
+    const auto [basis, triangle] = orthogonal_factors(powers);
     const Eigen::MatrixXd inverse =
         triangle.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(columns, columns));
     basis_.assign(basis.data(), basis.data() + basis.size());

@@ -1,9 +1,10 @@
 #include "sweep/equilibrium.hpp"
 
 #include "base/decompositions.hpp"
+#include "base/linear_systems.hpp"
 #include "flow/cyclic.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -139,8 +140,8 @@ bool EquilibriumFinder::solve(Equilibrium& equilibrium, std::span<const double> 
             balance(equilibrium, has_size);
             rates = rates.cwiseProduct(given).cwiseQuotient(equilibrium.scale);
         }
-        const Eigen::FullPivLU<Eigen::MatrixXd> factors(equilibrium.field);
-        if (!factors.isInvertible())
+        const FullLU<double> factors(equilibrium.field);
+        if (!factors.is_invertible())
             return false;
         const Eigen::VectorXd correction = factors.solve(rates);
         const double length = correction.cwiseAbs().maxCoeff();
@@ -191,7 +192,7 @@ bool EquilibriumFinder::rests_at_all_phases(Equilibrium& equilibrium) {
         return true;
     const auto size = static_cast<Eigen::Index>(equilibrium.active.size());
     const std::size_t count = field_->states();
-    const Eigen::FullPivLU<Eigen::MatrixXd> factors(equilibrium.field);
+    const FullLU<double> factors(equilibrium.field);
     const double largest = equilibrium.field.cwiseAbs().maxCoeff();
     std::vector<double> at = equilibrium.state;
     for (std::size_t k = 0; k < phases; ++k) {
@@ -250,7 +251,7 @@ bool EquilibriumFinder::find_basis(Equilibrium& equilibrium) const {
             equilibrium.basis.col(i) *= weight;
         }
     }
-    equilibrium.inverse = equilibrium.basis.inverse();
+    equilibrium.inverse = PartialLU<std::complex<double>>(equilibrium.basis).inverse();
     return equilibrium.inverse.allFinite();
 }
 

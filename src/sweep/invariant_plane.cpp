@@ -1,6 +1,8 @@
 #include "sweep/invariant_plane.hpp"
 
-#include <Eigen/SVD>
+#include "base/decompositions.hpp"
+
+#include <Eigen/Core>
 
 #include <cmath>
 
@@ -25,12 +27,12 @@ Eigen::MatrixXd normals_of_plane(const Eigen::MatrixXd& points, const Eigen::Vec
         rows.bottomRows(1) = away.transpose() / length * std::sqrt(static_cast<double>(count));
     if (!rows.allFinite())
         return Eigen::MatrixXd(size, 0);
-    const Eigen::JacobiSVD<Eigen::MatrixXd> factors(rows, Eigen::ComputeThinU | Eigen::ComputeFullV);
+    const SingularValues factors = singular_values(rows, SingularVectors::right);
     const double most = in_plane * std::sqrt(static_cast<double>(count));
     Eigen::Index normals = 0;
-    while (normals < size && factors.singularValues()[size - 1 - normals] <= most)
+    while (normals < size && factors.values[size - 1 - normals] <= most)
         ++normals;
-    return factors.matrixV().rightCols(normals);
+    return factors.right.rightCols(normals);
 }
 
 } // namespace graze

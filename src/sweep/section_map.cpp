@@ -1,10 +1,11 @@
 #include "sweep/section_map.hpp"
 
 #include "base/decompositions.hpp"
+#include "base/linear_systems.hpp"
 #include "flow/cyclic.hpp"
 #include "graze/symbolic/transform.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -191,13 +192,10 @@ Eigen::VectorXd newton_correction(const ReturnJacobian& jacobian, const Eigen::V
     // What is left of entries that cancel is the error of derivatives: along directions in which all neighbours return,
     // too, there is nothing to be corrected.
     constexpr double errors_of_derivatives = 1e-12;
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factors(size, size);
     const double largest = matrix.colwise().norm().maxCoeff();
     const double usual = std::numeric_limits<double>::epsilon() * static_cast<double>(size);
-    if (largest > 0)
-        factors.setThreshold(std::max(usual, errors_of_derivatives / largest));
-    factors.compute(matrix);
-    const Eigen::VectorXd solution = factors.solve(right);
+    const Eigen::VectorXd solution = shortest_solution(
+        matrix, right, largest > 0 ? std::optional(std::max(usual, errors_of_derivatives / largest)) : std::nullopt);
     for (Eigen::Index i = 0; i < size; ++i) {
         const auto state = static_cast<Eigen::Index>(jacobian.active[static_cast<std::size_t>(i)]);
         correction[state] = solution[i] * scale[state];

@@ -23,6 +23,22 @@ std::vector<Eigen::MatrixXd> matrices(Eigen::Index rows, Eigen::Index columns) {
     return result;
 }
 
+/// One column more than rows; of its singular values the last is as given, and the others are between 1 and 2.
+Eigen::MatrixXd nearly_singular(Eigen::Index rows, double last) {
+    const auto bent = [](Eigen::Index size) {
+        return orthogonal_factors(
+                   Eigen::MatrixXd::NullaryExpr(size, size,
+                                                [](Eigen::Index i, Eigen::Index j) {
+                                                    return std::sin(static_cast<double>((i + 1) * (j + 2)) * 0.7) +
+                                                           (i == j ? 2 : 0);
+                                                }))
+            .orthogonal;
+    };
+    Eigen::VectorXd values = Eigen::VectorXd::LinSpaced(rows, 2, 1);
+    values[rows - 1] = last;
+    return bent(rows) * values.asDiagonal() * bent(rows + 1).topRows(rows);
+}
+
 TEST(Decompositions, singular_values_put_the_matrix_together_again) {
     for (const auto& [rows, columns] : {std::pair{4, 4}, {6, 3}, {3, 6}, {1, 1}})
         for (const Eigen::MatrixXd& matrix : matrices(rows, columns)) {
@@ -46,16 +62,17 @@ TEST(Decompositions, singular_values_put_the_matrix_together_again) {
     EXPECT_EQ(singular_values(Eigen::MatrixXd::Zero(2, 2), SingularVectors::none).rank(1e-9), 0);
 }
 
-TEST(Decompositions, large_matrices_are_divided) {
-    for (const Eigen::MatrixXd& matrix : matrices(40, 41)) {
-        const SingularValues divided = singular_values_of_large(matrix);
-        const Eigen::MatrixXd together =
-            divided.left * divided.values.asDiagonal() * divided.right.leftCols(40).transpose();
-        EXPECT_LE((together - matrix).norm(), 200 * eps * matrix.norm());
-        EXPECT_LE((matrix * divided.right.rightCols(1)).norm(), 200 * eps * matrix.norm());
-        EXPECT_LE((divided.values - singular_values(matrix, SingularVectors::none).values).norm(),
-                  200 * eps * matrix.norm());
-    }
+TEST(Decompositions, what_is_nearly_null_is_as_small_as_singular_values_say) {
+    for (const Eigen::Index rows : {1, 4, 40})
+        for (const double distance : {0.0, 1e-6}) {
+            const Eigen::MatrixXd matrix = nearly_singular(rows, distance);
+            const NearlyNull near = nearly_null(matrix);
+            EXPECT_LE((near.right.transpose() * near.right - Eigen::Matrix2d::Identity()).norm(), 50 * eps);
+            EXPECT_NEAR(near.left.norm(), 1, 10 * eps);
+            // Pivots may be larger than singular values, but hardly are.
+            EXPECT_LE((matrix * near.right).norm(), 10 * distance + 200 * eps);
+            EXPECT_LE((near.left.transpose() * matrix).norm(), 10 * distance + 200 * eps);
+        }
 }
 
 TEST(Decompositions, null_vectors_are_taken_to_zero) {
@@ -65,6 +82,9 @@ TEST(Decompositions, null_vectors_are_taken_to_zero) {
         const Eigen::VectorXcd vector = null_vector(turned);
         EXPECT_NEAR(vector.norm(), 1, 10 * eps);
         EXPECT_LE((turned * vector).norm(), 50 * eps * matrix.norm());
+        const Eigen::VectorXcd real = null_vector(matrix.cast<std::complex<double>>());
+        EXPECT_EQ(real.imag().norm(), 0);
+        EXPECT_LE((matrix * real).norm(), 50 * eps * matrix.norm());
     }
 }
 
@@ -126,10 +146,21 @@ TEST(Decompositions, schur_and_orthogonal_factors_put_the_matrix_together_again)
         }
 }
 
+TEST(Decompositions, complements_are_orthonormal_and_orthogonal) {
+    for (const Eigen::Index size : {1, 2, 5}) {
+        const Eigen::VectorXd vector = matrices(size, 1).front();
+        const Eigen::MatrixXd found = orthogonal_complement(vector);
+        ASSERT_EQ(found.cols(), size - 1);
+        EXPECT_LE((found.transpose() * found - Eigen::MatrixXd::Identity(size - 1, size - 1)).norm(), 50 * eps);
+        EXPECT_LE((found.transpose() * vector).norm(), 50 * eps);
+    }
+}
+
 TEST(Decompositions, what_does_not_converge_has_none) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_FALSE(eigenvalues(Eigen::Matrix2d::Constant(nan)));
     EXPECT_FALSE(eigensystem(Eigen::Matrix2d::Constant(nan)));
+    EXPECT_TRUE(eigenvalues_or_nan(Eigen::Matrix2d::Constant(nan)).hasNaN());
 }
 
 } // namespace

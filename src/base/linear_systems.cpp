@@ -1,0 +1,112 @@
+#include "base/linear_systems.hpp"
+
+namespace graze {
+
+template <class Scalar>
+PartialLU<Scalar>::PartialLU(const Matrix& matrix) : factors_(matrix) {}
+
+template <class Scalar>
+auto PartialLU<Scalar>::solve(const Vector& right) const -> Vector {
+    return factors_.solve(right);
+}
+
+template <class Scalar>
+auto PartialLU<Scalar>::solve_columns(const Matrix& right) const -> Matrix {
+    return factors_.solve(right);
+}
+
+template <class Scalar>
+auto PartialLU<Scalar>::solve_transposed(const Vector& right) const -> Vector {
+    return factors_.transpose().solve(right);
+}
+
+template <class Scalar>
+auto PartialLU<Scalar>::inverse() const -> Matrix {
+    return factors_.inverse();
+}
+
+template class PartialLU<double>;
+template class PartialLU<std::complex<double>>;
+
+template <class Scalar>
+FullLU<Scalar>::FullLU(const Matrix& matrix) : factors_(matrix) {}
+
+template <class Scalar>
+void FullLU<Scalar>::compute(const Matrix& matrix) {
+    factors_.compute(matrix);
+}
+
+template <class Scalar>
+auto FullLU<Scalar>::solve(const Vector& right) const -> Vector {
+    return factors_.solve(right);
+}
+
+template <class Scalar>
+bool FullLU<Scalar>::is_invertible() const {
+    return factors_.isInvertible();
+}
+
+template <class Scalar>
+Eigen::Index FullLU<Scalar>::rank() const {
+    return factors_.rank();
+}
+
+template <class Scalar>
+Scalar FullLU<Scalar>::determinant() const {
+    return factors_.determinant();
+}
+
+template <class Scalar>
+double FullLU<Scalar>::reciprocal_condition() const {
+    return factors_.rcond();
+}
+
+template class FullLU<double>;
+template class FullLU<std::complex<double>>;
+
+PivotedQR::PivotedQR(const Eigen::MatrixXd& matrix, std::optional<double> threshold)
+    : factors_(matrix.rows(), matrix.cols()) {
+    if (threshold)
+        factors_.setThreshold(*threshold);
+    factors_.compute(matrix);
+}
+
+Eigen::VectorXd PivotedQR::solve(const Eigen::VectorXd& right) const {
+    return factors_.solve(right);
+}
+
+Eigen::MatrixXd PivotedQR::solve_columns(const Eigen::MatrixXd& right) const {
+    return factors_.solve(right);
+}
+
+Eigen::Index PivotedQR::rank() const {
+    return factors_.rank();
+}
+
+double PivotedQR::pivot(Eigen::Index k) const {
+    return factors_.matrixR()(k, k);
+}
+
+LeastSquares least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right) {
+    const Eigen::HouseholderQR<Eigen::MatrixXd> factors(matrix);
+    return {factors.solve(right), factors.matrixQR().topRows(matrix.cols()).triangularView<Eigen::Upper>()};
+}
+
+Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right,
+                                  std::optional<double> threshold) {
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factors(matrix.rows(), matrix.cols());
+    if (threshold)
+        factors.setThreshold(*threshold);
+    factors.compute(matrix);
+    return factors.solve(right);
+}
+
+void make_triangular(Eigen::Ref<Eigen::MatrixXd> matrix) {
+    const Eigen::HouseholderQR<Eigen::Ref<Eigen::MatrixXd>> factors(matrix);
+}
+
+double determinant(const Eigen::MatrixXd& matrix) {
+    return matrix.determinant();
+}
+
+} // namespace graze
