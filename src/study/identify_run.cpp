@@ -1,8 +1,7 @@
 #include "study/identify_run.hpp"
 
 #include "graze/base/name_list.hpp"
-#include "graze/identify/identification.hpp"
-#include "graze/model/named_value.hpp"
+#include "graze/study/identify_records.hpp"
 #include "graze/study/stored_study.hpp"
 #include "study/identify_fit.hpp"
 #include "study/identify_units.hpp"
@@ -17,93 +16,6 @@ namespace graze {
 namespace {
 
 using What = IdentifyRequest::What;
-
-/// Numbers in parameters of the model, some of which others have found.
-class KnownNumbers {
-public:
-    KnownNumbers(const StudyRun& run, const std::vector<EstimateRecords>& found)
-        : model_(run.model), found_(&found), place_(run.place) {}
-
-    /// With the error that those of the parameters make, to first order.
-    Estimate value(const std::string& text) {
-        Estimate result;
-        result.value = value_of_text(model_, text, place_);
-        double variance = 0;
-        for (const EstimateRecords& records : *found_) {
-            std::vector<double> slopes;
-            for (const EstimateRecord& number : records.numbers)
-                slopes.push_back(slope(text, number));
-            const std::size_t count = slopes.size();
-            for (std::size_t i = 0; i < count; ++i)
-                for (std::size_t j = 0; j < count; ++j) {
-                    const double covariance =
-                        !records.covariance.empty() ? records.covariance[i * count + j]
-                        : i == j ? records.numbers[i].estimate.error * records.numbers[i].estimate.error
-                                 : 0;
-                    variance += slopes[i] * slopes[j] * covariance;
-                }
-        }
-        result.error = std::sqrt(std::max(variance, 0.0));
-        return result;
-    }
-
-private:
-    /// By differences of one standard error, over which nothing bends that errors are told of.
-    double slope(const std::string& text, const EstimateRecord& number) {
-        const double error = number.estimate.freedom > 0 ? number.estimate.error : 0;
-        const auto parameter = model_.find_independent_parameter(number.name);
-        if (!(error > 0) || !parameter)
-            return 0;
-        const double before = model_.parameter_values()[parameter->place()];
-        const auto at = [&](double value) {
-            model_.set_parameter(number.name, value);
-            return value_of_text(model_, text, place_);
-        };
-        const double above = at(before + error), below = at(before - error);
-        model_.set_parameter(number.name, before);
-        return (above - below) / (2 * error);
-    }
-
-    Model model_;
-    const std::vector<EstimateRecords>* found_;
-    Place place_;
-};
-
-IdentificationSettings settings_of(const StudyRun& run, const std::vector<EstimateRecords>& found,
-                                   const std::vector<KeptRecord>& records) {
-    const IdentifyRequest& request = run.identify;
-    KnownNumbers known(run, found);
-    IdentificationSettings settings;
-    settings.channel = request.channel;
-    settings.displacement = request.displacement;
-    settings.voltage = request.voltage;
-    settings.current = request.current;
-    settings.peaks = request.peaks;
-    settings.window = request.window;
-    settings.transition = request.transition;
-    settings.least_jump = request.least_jump;
-    settings.displacement_noise = request.displacement_noise;
-    settings.current_noise = request.current_noise;
-    settings.one_load_a_record = records.size() > 1;
-    const auto take = [&](const std::string& text, std::optional<double>& value, double& error) {
-        if (text.empty())
-            return;
-        const Estimate estimate = known.value(text);
-        value = estimate.value;
-        error = estimate.error;
-    };
-    take(request.gap, settings.gap, settings.gap_error);
-    take(request.stiffness, settings.stiffness, settings.stiffness_error);
-    if (!request.beta1.empty())
-        settings.beta1 = known.value(request.beta1);
-    if (!request.beta2.empty())
-        settings.beta2 = known.value(request.beta2);
-    if (!request.clamped.empty())
-        settings.clamped = known.value(request.clamped).value;
-    if (!request.frequency.empty())
-        settings.frequency = known.value(request.frequency).value;
-    return settings;
-}
 
 /// Under the names of the parameters that they are.
 EstimateRecords estimates_of(const Identification& found, const IdentifyRequest& request, const Place& place) {
@@ -258,18 +170,7 @@ std::optional<FoundByRun> identify(const StudyRun& run, const std::vector<KeptRe
                 throw InputError(run.place, fmt::format("{}: {}", record.name, error.problem()), error.remedy());
             }
     };
-    check_record_units(run, records);
-    const IdentificationSettings settings = settings_of(run, found, records);
-    switch (run.identify.what) {
-    case What::decrement:
-        return found_from(identify_decrement(each, settings), run);
-    case What::restitution:
-        return found_from(identify_restitution(each, settings), run);
-    case What::coupling:
-        return found_from(identify_coupling(each, settings), run);
-    default:
-        return found_from(identify_impedance(each, settings), run);
-    }
+    return found_from(identify_records(run, each, records.size(), found), run);
 }
 
 } // namespace graze

@@ -23,8 +23,11 @@ struct IdentifyRequest {
     double least_jump = 0;
     std::string gap, stiffness;        ///< of couplings; the gap also of impedances
     std::string beta1, beta2, clamped; ///< of impedances: for the leakage inductance
+    /// Standard errors of those numbers, besides what the parameters in them make.
+    double gap_error = 0, stiffness_error = 0, beta1_error = 0, beta2_error = 0;
     std::string frequency;             ///< about that of the voltage, by unit of time; empty: by itself
     double displacement_noise = 0, current_noise = 0;
+    bool each_row = false; ///< couplings: each row is an equilibrium; otherwise, of several records, each record is
     struct Unknown {
         std::string name, guess, least, greatest; ///< empty: the model's value; no bound
     };
@@ -39,6 +42,7 @@ struct IdentifyRequest {
     bool all_known = false;
     FitLoss loss = FitLoss::squares;
     double piece = 0;
+    std::string asked_as; ///< what stands before names of settings in messages, such as "--"
 };
 
 } // namespace graze
