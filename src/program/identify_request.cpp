@@ -44,8 +44,8 @@ StudyRun identify_request(const IdentifyArguments& arguments) {
     run.kind = RunKind::identify;
     IdentifyRequest& request = run.identify;
     const std::vector<std::string> kinds = identify_kinds();
-    request.what = static_cast<IdentifyRequest::What>(std::find(kinds.begin(), kinds.end(), arguments.what) -
-                                                      kinds.begin());
+    request.what =
+        static_cast<IdentifyRequest::What>(std::find(kinds.begin(), kinds.end(), arguments.what) - kinds.begin());
     request.asked_as = "--";
     if (!arguments.channel.empty())
         request.channel = arguments.channel;

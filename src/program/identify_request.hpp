@@ -7,7 +7,8 @@
 
 namespace graze {
 
-/// The run of kind identify that the command line asks for. Its numbers are in the units of the records: it has no model.
+/// The run of kind identify that the command line asks for. Its numbers are in the units of the records: it has no
+/// model.
 /// @throws InputError
 StudyRun identify_request(const IdentifyArguments& arguments);
 /// The records that are named, with what is done to them before.

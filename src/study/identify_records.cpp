@@ -62,8 +62,7 @@ private:
     Place place_;
 };
 
-IdentificationSettings settings_of(const StudyRun& run, const std::vector<EstimateRecords>& found,
-                                   std::size_t count) {
+IdentificationSettings settings_of(const StudyRun& run, const std::vector<EstimateRecords>& found, std::size_t count) {
     const IdentifyRequest& request = run.identify;
     KnownNumbers known(run, found);
     IdentificationSettings settings;

@@ -3,7 +3,7 @@
 #include "graze/base/name_list.hpp"
 #include "graze/study/identify_records.hpp"
 #include "graze/study/stored_study.hpp"
-#include "study/identify_fit.hpp"
+#include "study/at_record.hpp"
 #include "study/identify_units.hpp"
 
 #include <fmt/format.h>
@@ -58,6 +58,61 @@ FoundByRun found_from(const Identification& found, const StudyRun& run) {
     }
     for (const std::string& warning : found.warnings)
         result.problem += (result.problem.empty() ? "" : "; ") + warning;
+    return result;
+}
+
+EstimateRecords estimates_of(const Fit& fit) {
+    EstimateRecords records;
+    const std::size_t count = fit.numbers.size();
+    for (const FittedNumber& number : fit.numbers) {
+        const bool known = number.estimate.freedom > 0;
+        records.numbers.push_back({number.name, number.unit, number.estimate,
+                                   number.at_bound ? "at its bound"
+                                   : known         ? ""
+                                                   : "not determined"});
+    }
+    records.covariance.assign(count * count, 0);
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t j = 0; j < count && fit.correlations.size() == count * count; ++j)
+            records.covariance[i * count + j] =
+                fit.correlations[i * count + j] * fit.numbers[i].estimate.error * fit.numbers[j].estimate.error;
+    return records;
+}
+
+SampleSet residuals_of(const FitOfRecords& found) {
+    const FitTask& task = found.task;
+    SampleSet samples;
+    samples.width = 2 + task.outputs.size();
+    for (std::size_t what = 0; what < 3; ++what)
+        for (std::size_t r = 0; r < task.records.size(); ++r) {
+            const FitRecord& record = task.records[r];
+            for (std::size_t i = 0; i < record.times.size(); ++i) {
+                samples.samplings.push_back(what);
+                samples.times.push_back(record.times[i]);
+                samples.values.push_back(static_cast<double>(r));
+                samples.values.push_back(record.times[i]);
+                for (std::size_t o = 0; o < record.readings.size(); ++o) {
+                    const double read = record.readings[o].values[i], fitted = found.fit.records[r].fitted[o][i];
+                    samples.values.push_back(what == 0 ? read : what == 1 ? fitted : read - fitted);
+                }
+            }
+        }
+    return samples;
+}
+
+FoundByRun found_from(const FitOfRecords& found) {
+    const Fit& fit = found.fit;
+    FoundByRun result;
+    result.estimates = estimates_of(fit);
+    SampleSet& samples = result.point.result.samples;
+    if (fit.records.size() == found.task.records.size() && !fit.records.empty() && !fit.records.front().fitted.empty())
+        samples = residuals_of(found);
+    else
+        samples.width = 2 + found.task.outputs.size();
+    if (fit.ending != FitEnding::converged)
+        result.problem = fmt::format("{}{}{}", name_of(fit.ending), fit.detail.empty() ? "" : ": ", fit.detail);
+    for (const FreeCombination& free : fit.free)
+        result.problem += fmt::format("; readings do not tell {}", free.text);
     return result;
 }
 
@@ -157,18 +212,19 @@ std::vector<KeptRecord> kept_records(const StudyRun& run, const ResultFile& file
 std::optional<FoundByRun> identify(const StudyRun& run, const std::vector<KeptRecord>& records,
                                    const std::vector<EstimateRecords>& found,
                                    const std::function<bool()>& interrupted) {
-    if (run.identify.what == What::fit)
-        return identify_fit_of(run, records, interrupted);
+    if (run.identify.what == What::fit) {
+        FitSettings settings;
+        settings.interrupted = interrupted;
+        settings.progress = [&](const FitProgress&) { return !(interrupted && interrupted()); };
+        const FitOfRecords fitted = fit_records(run, records, settings);
+        return fitted.fit.ending == FitEnding::interrupted ? std::nullopt : std::optional(found_from(fitted));
+    }
     const EachRecord each = [&](const auto& work) {
         for (const KeptRecord& record : records)
-            try {
+            at_record(run, record.name, [&] {
                 StoredSamples samples(record.header, record.samples);
                 work(record.name, samples);
-            } catch (const InputError& error) {
-                if (!error.place().file.empty())
-                    throw;
-                throw InputError(run.place, fmt::format("{}: {}", record.name, error.problem()), error.remedy());
-            }
+            });
     };
     return found_from(identify_records(run, each, records.size(), found), run);
 }

@@ -56,21 +56,7 @@ void check_channel(const StudyRun& run, const Channel& channel) {
         return;
     throw InputError(fmt::format("channel '{}' is in {}, and what the model has of that kind in {}", channel.name,
                                  channel.unit, fmt::join(wanted, " and ")),
-                     fmt::format("convert it in the run that has the record: scale = {{ {} = {{ factor = {:g}, "
-                                 "unit = \"{}\" }} }}",
-                                 channel.name, converted(1, *unit, *told_unit(wanted.front())), wanted.front()));
-}
-
-void check_time(const StudyRun& run, const RecordHeader& header) {
-    const auto unit = told_unit(header.time.unit), wanted = told_unit(run.model.time_unit);
-    if (!unit && wanted && !header.time.unit.empty())
-        throw InputError(fmt::format("the unit of its time, '{}', is not known, and that of the model is {}",
-                                     header.time.unit, run.model.time_unit),
-                         "give times in s, ms, us, ns, min or h");
-    if (unit && wanted && *unit != *wanted)
-        throw InputError(fmt::format("its time is in {}, and that of the model in {}", header.time.unit,
-                                     run.model.time_unit),
-                         "convert the times of the record");
+                     scale_remedy(run, channel, wanted.front()));
 }
 
 /// Of a number that is known beforehand: a parameter that is named alone has a unit, what is computed of several none
@@ -118,6 +104,29 @@ double factor_between(const std::string& from, const std::string& to) {
 
 } // namespace
 
+std::string scale_remedy(const StudyRun& run, const Channel& channel, const std::string& unit) {
+    const auto from = told_unit(channel.unit), to = told_unit(unit);
+    const std::string factor =
+        from && to && from->dimension == to->dimension ? fmt::format("{:g}", converted(1, *from, *to)) : "FACTOR";
+    if (!run.identify.asked_as.empty())
+        return fmt::format("convert it by {}scale {}={}:{}", run.identify.asked_as, channel.name, factor, unit);
+    return fmt::format("convert it in the run that has the record: scale = {{ {} = {{ factor = {}, unit = \"{}\" }} }}",
+                       channel.name, factor, unit);
+}
+
+void check_record_time(const StudyRun& run, const RecordHeader& header) {
+    const std::string &read = header.time.unit, &meant = run.model.time_unit;
+    const auto unit = told_unit(read), wanted = told_unit(meant);
+    if (read.empty() || meant.empty() || unit_symbol(read) == unit_symbol(meant) || (unit && unit == wanted))
+        return;
+    if (!unit && wanted)
+        throw InputError(
+            fmt::format("the unit of its time, '{}', is not known, and that of the model is {}", read, meant),
+            "give times in s, ms, us, ns, min or h");
+    throw InputError(fmt::format("its time is in {}, and that of the model in {}", read, meant),
+                     "convert the times of the record");
+}
+
 void check_record_units(const StudyRun& run, const RecordHeader& header) {
     const IdentifyRequest& request = run.identify;
     const auto channel = [&](const std::string& name, const char* key) -> const Channel& {
@@ -131,7 +140,7 @@ void check_record_units(const StudyRun& run, const RecordHeader& header) {
             length = q.unit;
     }
     if (request.what == What::impedance && (!request.frequency.empty() || !request.beta1.empty()))
-        check_time(run, header);
+        check_record_time(run, header);
     if (request.what == What::impedance && !request.beta1.empty()) {
         check_channel(run, channel(request.voltage, "voltage"));
         check_channel(run, channel(request.current, "current"));

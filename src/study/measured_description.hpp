@@ -201,6 +201,8 @@ void describe_fit(Fields& fields, Request& request) {
         one.field("gain", reading.gain);
         one.field("offset", reading.offset);
         one.field("noise", reading.noise);
+        if (one.has("may_lack", reading.may_lack))
+            one.field("may_lack", reading.may_lack);
     });
     fields.form(key("known", "states that begin as the model says, or `true`: all (none)", of_fits), "[\"x\"] or true",
                 &read_known);
