@@ -174,8 +174,6 @@ private:
             for (std::size_t c = 0; c < first_; ++c)
                 result.state.push_back(samples.values[c].back());
         }
-        if (rows_ == 0)
-            throw InputError("there is no row", "take a longer part of it");
         result.outcome.detail = fmt::format("{} rows{}", rows_, fits || wanted.empty() ? "" : ", which are not kept");
     }
 
