@@ -1,9 +1,9 @@
 #include "program/fit_request.hpp"
 
 #include "graze/base/input_error.hpp"
-#include "graze/base/physical_unit.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/model/named_value.hpp"
+#include "program/identify_request.hpp"
 #include "program/record_stages.hpp"
 #include "program/values.hpp"
 #include "program/with_file.hpp"
@@ -38,29 +38,26 @@ double number_in(const Model& model, const std::string& text, const char* option
 }
 
 /// NAME[=GUESS][:LEAST:GREATEST]
-UnknownParameter unknown_of(const Model& model, const std::string& item) {
+IdentifyRequest::Unknown unknown_of(const Model& model, const std::string& item) {
     std::vector<std::string> parts;
     for (std::size_t start = 0; start <= item.size();) {
         const std::size_t end = std::min(item.find(':', start), item.size());
         parts.push_back(item.substr(start, end - start));
         start = end + 1;
     }
+    const Place place{"--free " + item, 0, 0};
     if (parts.size() != 1 && parts.size() != 3)
-        throw InputError({"--free " + item, 0, 0}, "it has one bound", "write NAME=GUESS:LEAST:GREATEST, or no bounds");
+        throw InputError(place, "it has one bound", "write NAME=GUESS:LEAST:GREATEST, or no bounds");
     const Named named = split(parts[0]);
-    UnknownParameter unknown;
+    if (named.rest == "" || std::any_of(parts.begin() + 1, parts.end(), [](const auto& part) { return part.empty(); }))
+        throw InputError(place, "a number is missing", "write NAME=GUESS:LEAST:GREATEST, or no bounds");
     try {
-        unknown.parameter = model.independent_parameter(named.name);
+        model.independent_parameter(named.name);
     } catch (const InputError& error) {
         throw InputError({"--free", 0, 0}, error.problem(), error.remedy());
     }
-    unknown.guess = named.rest ? number_in(model, *named.rest, "--free", item)
-                               : model.parameter_values()[unknown.parameter.place()];
-    if (parts.size() == 3) {
-        unknown.least = number_in(model, parts[1], "--free", item);
-        unknown.greatest = number_in(model, parts[2], "--free", item);
-    }
-    return unknown;
+    parts.resize(3);
+    return {named.name, named.rest.value_or(""), parts[1], parts[2], place};
 }
 
 class Requester {
@@ -72,49 +69,51 @@ public:
         const std::vector<std::string>& files = arguments_->reading.files;
         if (files.size() < 2)
             throw InputError("a fit needs a model and records", "write graze identify fit MODEL RECORD");
-        request_.model = load_model(files.front());
-        request_.files.assign(files.begin() + 1, files.end());
-        set_parameters(request_.model, arguments_->set);
+        request_.run = identify_request(*arguments_);
+        Model& model = request_.run.model;
+        model = load_model(files.front());
+        set_parameters(model, arguments_->set);
         read_start();
         if (!arguments_->mode.empty())
-            request_.model.set_initial_mode(arguments_->mode);
+            model.set_initial_mode(arguments_->mode);
         for (const std::string& item : split_list(arguments_->free))
-            request_.task.parameters.push_back(unknown_of(request_.model, item));
+            asked().unknowns.push_back(unknown_of(model, item));
         read_meanings();
-        for (const std::string& file : request_.files)
-            with_file(file, [&] { read_record(file); });
+        for (auto file = files.begin() + 1; file != files.end(); ++file)
+            with_file(*file, [&] { read_record(*file); });
         read_own();
-        take_channel_options(arguments_->gains, "--gain", [](MeasuredOutput& output, std::optional<double> value) {
-            output.gain_unknown = true;
-            output.gain = value.value_or(output.gain);
+        take_channel_options(arguments_->gains, "--gain", [](Reading& reading, std::optional<double> value) {
+            reading.gain_unknown = true;
+            reading.gain = value.value_or(reading.gain);
         });
-        take_channel_options(arguments_->offsets, "--offset", [](MeasuredOutput& output, std::optional<double> value) {
-            output.offset_unknown = true;
-            output.offset = value.value_or(output.offset);
+        take_channel_options(arguments_->offsets, "--offset", [](Reading& reading, std::optional<double> value) {
+            reading.offset_unknown = true;
+            reading.offset = value.value_or(reading.offset);
         });
-        take_channel_options(
-            arguments_->noises, "--deviation", [](MeasuredOutput& output, std::optional<double> value) {
-                if (!value || !(*value > 0))
-                    throw InputError({"--deviation", 0, 0}, "noise has no positive deviation", "write CHANNEL=VALUE");
-                output.noise = *value;
-            });
-        check_units();
-        request_.settings.loss = arguments_->loss == "huber"    ? FitLoss::huber
-                                 : arguments_->loss == "cauchy" ? FitLoss::cauchy
-                                                                : FitLoss::squares;
+        take_channel_options(arguments_->noises, "--deviation", [](Reading& reading, std::optional<double> value) {
+            if (!value || !(*value > 0))
+                throw InputError({"--deviation", 0, 0}, "noise has no positive deviation", "write CHANNEL=VALUE");
+            reading.noise = *value;
+        });
+        asked().loss = arguments_->loss == "huber"    ? FitLoss::huber
+                       : arguments_->loss == "cauchy" ? FitLoss::cauchy
+                                                      : FitLoss::squares;
         if (!arguments_->piece.empty())
-            request_.settings.piece = positive_value_of(request_.model, arguments_->piece, "--piece");
+            asked().piece = positive_value_of(model, arguments_->piece, "--piece");
         return std::move(request_);
     }
 
 private:
-    std::size_t state(const std::string& name, const char* option) const {
-        if (const auto index = request_.model.find_state(name))
-            return *index;
-        std::vector<std::string> names;
-        for (const State& one : request_.model.states)
-            names.push_back(one.name);
-        throw InputError({option, 0, 0}, fmt::format("'{}' is not a state", name), name_advice(name, names, ""));
+    using Reading = IdentifyRequest::Reading;
+
+    const Model& model() const { return request_.run.model; }
+    IdentifyRequest& asked() { return request_.run.identify; }
+
+    /// Says which states there are.
+    void require_state(const std::string& name, const char* option) const {
+        if (!model().find_state(name))
+            throw InputError({option, 0, 0}, fmt::format("'{}' is not a state", name),
+                             name_advice(name, names_of(model().states), ""));
     }
 
     void read_start() {
@@ -122,18 +121,16 @@ private:
             const Named named = split(item);
             if (!named.rest)
                 throw InputError({"--start " + item, 0, 0}, "it has no value", "write STATE=VALUE");
-            state(named.name, "--start"); // says which there are
-            request_.model.set_initial(named.name, number_in(request_.model, *named.rest, "--start", item));
+            require_state(named.name, "--start");
+            request_.run.model.set_initial(named.name, number_in(model(), *named.rest, "--start", item));
         }
         const std::vector<std::string> known = split_list(arguments_->known);
-        const bool all = known.size() == 1 && known[0] == "all";
-        std::vector<std::size_t> fixed;
+        asked().all_known = known.size() == 1 && known[0] == "all";
+        if (asked().all_known)
+            return;
         for (const std::string& name : known)
-            if (!all)
-                fixed.push_back(state(name, "--known"));
-        for (std::size_t i = 0; i < request_.model.states.size(); ++i)
-            if (!all && std::find(fixed.begin(), fixed.end(), i) == fixed.end())
-                unknown_.push_back(i);
+            require_state(name, "--known");
+        asked().known = known;
     }
 
     void read_meanings() {
@@ -146,25 +143,21 @@ private:
         }
     }
 
-    /// What the channel measures: the output's number, or none.
-    std::optional<std::size_t> output_of(const Channel& channel) {
-        for (std::size_t o = 0; o < request_.task.outputs.size(); ++o)
-            if (request_.task.outputs[o].name == channel.name)
-                return o;
-        const auto said = meanings_.find(channel.name);
-        const Model& model = request_.model;
-        if (said == meanings_.end() && !model.find_state(channel.name) && !model.find_quantity(channel.name))
-            return std::nullopt;
-        const std::string text = said == meanings_.end() ? channel.name : said->second;
-        const NamedValue value =
-            named_value(model, text, {said == meanings_.end() ? channel.name : "--reading " + channel.name, 0, 0});
-        MeasuredOutput output;
-        output.name = channel.name;
-        output.value = value.value;
-        request_.task.outputs.push_back(output);
-        request_.channels.push_back(channel);
-        units_.push_back(value.unit);
-        return request_.task.outputs.size() - 1;
+    /// Whether a channel says something of the model: it is a reading then.
+    bool is_read(const std::string& channel) {
+        std::vector<Reading>& readings = asked().readings;
+        if (std::any_of(readings.begin(), readings.end(), [&](const Reading& one) { return one.channel == channel; }))
+            return true;
+        const auto said = meanings_.find(channel);
+        const bool is_said = said != meanings_.end();
+        if (!is_said && !model().find_state(channel) && !model().find_quantity(channel))
+            return false;
+        Reading& reading = readings.emplace_back();
+        reading.channel = channel;
+        reading.value = is_said ? said->second : channel;
+        reading.may_lack = true;
+        reading.place = {is_said ? "--reading " + channel : channel, 0, 0};
+        return true;
     }
 
     void read_record(const std::string& file) {
@@ -172,42 +165,23 @@ private:
         const RecordHeader header = stages.header();
         for (const auto& [name, text] : meanings_)
             header.channel(name, "--reading");
-        FitRecord record;
         std::vector<std::size_t> columns;
         for (std::size_t c = 0; c < header.channels.size(); ++c)
-            if (const std::optional<std::size_t> output = output_of(header.channels[c])) {
-                if (request_.channels[*output].unit != header.channels[c].unit)
-                    throw InputError(fmt::format("channel '{}' is in {}, and that of another record in {}",
-                                                 header.channels[c].name, unit_text(header.channels[c].unit),
-                                                 unit_text(request_.channels[*output].unit)),
-                                     "give records of the same units, by --scale if need be");
-                FitRecord::Readings readings;
-                readings.output = *output;
-                record.readings.push_back(readings);
+            if (is_read(header.channels[c].name))
                 columns.push_back(c);
-            }
-        if (columns.empty()) {
-            std::vector<std::string> names;
-            for (const Channel& channel : header.channels)
-                names.push_back(channel.name);
-            throw InputError(fmt::format("no channel has the name of a state or quantity of '{}'", request_.model.name),
-                             fmt::format("say what is measured by --reading {}=EXPRESSION", names.front()));
-        }
-        const std::string& unit = request_.model.time_unit;
-        if (!unit.empty() && !header.time.unit.empty() && unit_symbol(unit) != header.time.unit)
-            throw InputError(fmt::format("its time is in {}, and that of the model in {}", header.time.unit, unit),
-                             "convert the times of the record");
+        if (columns.empty())
+            throw InputError(
+                fmt::format("no channel has the name of a state or quantity of '{}'", model().name),
+                fmt::format("say what is measured by --reading {}=EXPRESSION", header.channels.front().name));
         Samples samples = read_all(stages.source(), most_samples);
-        if (samples.rows() < 2)
-            throw InputError("it has fewer than two rows", "give a longer record");
-        record.times = std::move(samples.times);
-        for (std::size_t k = 0; k < columns.size(); ++k)
-            record.readings[k].values = std::move(samples.values[columns[k]]);
-        record.mode = request_.model.initial_mode;
-        record.unknown_states = unknown_;
-        if (request_.task.records.empty())
-            request_.time = header.time;
-        request_.task.records.push_back(std::move(record));
+        KeptRecord& kept = request_.records.emplace_back();
+        kept.name = file;
+        kept.header.time = header.time;
+        kept.samples.times = std::move(samples.times);
+        for (const std::size_t c : columns) {
+            kept.header.channels.push_back(header.channels[c]);
+            kept.samples.values.push_back(std::move(samples.values[c]));
+        }
     }
 
     void read_own() {
@@ -217,54 +191,38 @@ private:
             const Place place{"--with " + item, 0, 0};
             if (colon == std::string::npos || !named.rest)
                 throw InputError(place, "it sets nothing", "write FILE:NAME=VALUE");
-            const auto file = std::find(request_.files.begin(), request_.files.end(), item.substr(0, colon));
-            if (file == request_.files.end())
+            const auto record = std::find_if(request_.records.begin(), request_.records.end(),
+                                             [&](const KeptRecord& one) { return one.name == item.substr(0, colon); });
+            if (record == request_.records.end())
                 throw InputError(place, fmt::format("'{}' is none of the records", item.substr(0, colon)),
                                  "name a record as it is named before the options");
-            const ParameterId parameter = request_.model.independent_parameter(named.name);
-            const auto number = static_cast<std::size_t>(file - request_.files.begin());
-            request_.task.records[number].known.emplace_back(parameter,
-                                                             number_in(request_.model, *named.rest, "--with", item));
+            model().independent_parameter(named.name); // says which there are
+            record->known.emplace_back(named.name, number_in(model(), *named.rest, "--with", item));
         }
     }
 
     void take_channel_options(const std::vector<std::string>& items, const char* option,
-                              const std::function<void(MeasuredOutput&, std::optional<double>)>& take) {
+                              const std::function<void(Reading&, std::optional<double>)>& take) {
+        std::vector<Reading>& readings = asked().readings;
         for (const std::string& item : split_list(items)) {
             const Named named = split(item);
-            const auto found = std::find_if(request_.task.outputs.begin(), request_.task.outputs.end(),
-                                            [&](const MeasuredOutput& output) { return output.name == named.name; });
-            if (found == request_.task.outputs.end()) {
+            const auto found = std::find_if(readings.begin(), readings.end(),
+                                            [&](const Reading& reading) { return reading.channel == named.name; });
+            if (found == readings.end()) {
                 std::vector<std::string> names;
-                for (const MeasuredOutput& output : request_.task.outputs)
-                    names.push_back(output.name);
+                for (const Reading& reading : readings)
+                    names.push_back(reading.channel);
                 throw InputError({option, 0, 0}, fmt::format("'{}' is no channel that is used", named.name),
                                  name_advice(named.name, names, ""));
             }
-            take(*found,
-                 named.rest ? std::optional(number_in(request_.model, *named.rest, option, item)) : std::nullopt);
+            take(*found, named.rest ? std::optional(number_in(model(), *named.rest, option, item)) : std::nullopt);
         }
     }
-
-    /// A gain that is found, or given, converts.
-    void check_units() const {
-        for (std::size_t o = 0; o < units_.size(); ++o) {
-            const std::string &read = request_.channels[o].unit, &meant = units_[o];
-            if (!request_.task.outputs[o].gain_unknown && !read.empty() && !meant.empty() &&
-                unit_symbol(read) != unit_symbol(meant))
-                throw InputError(fmt::format("channel '{}' is in {}, and what it measures in {}",
-                                             request_.channels[o].name, read, meant),
-                                 fmt::format("convert it by --scale {}=FACTOR:{}", request_.channels[o].name, meant));
-        }
-    }
-    static std::string unit_text(const std::string& unit) { return unit.empty() ? "no unit" : unit; }
 
     const IdentifyArguments* arguments_;
     const Console* console_;
     FitRequest request_;
-    std::vector<std::size_t> unknown_;
     std::map<std::string, std::string> meanings_;
-    std::vector<std::string> units_;
 };
 
 } // namespace

@@ -1,12 +1,13 @@
 #include "graze/base/input_error.hpp"
 #include "graze/picture/figure_script.hpp"
 #include "graze/picture/residual_figure.hpp"
+#include "graze/study/identify_records.hpp"
 #include "program/commands.hpp"
 #include "program/drawing.hpp"
 #include "program/empty_cell.hpp"
 #include "program/identify_arguments.hpp"
 #include "program/identify_fit.hpp"
-#include "program/identify_kinds.hpp"
+#include "program/identify_request.hpp"
 #include "program/identify_study.hpp"
 
 #include <fmt/format.h>
@@ -26,7 +27,8 @@ int identify_command(const IdentifyArguments& arguments, const Console& console)
         picture_ending(plot, "--plot", {"svg", "png", "pdf", "eps"});
     if (arguments.what == "fit")
         return identify_fit(arguments, console);
-    const Identification found = identify_from_files(arguments, console);
+    const Identification found = identify_records(identify_request(arguments), identify_files(arguments, console),
+                                                  arguments.reading.files.size());
     Table table({{"name", ""}, {"unit", ""}, {"value", ""}, {"error", ""}, {"low", ""}, {"high", ""}, {"freedom", ""}});
     for (const Identification::Value& value : found.values) {
         const Estimate& estimate = value.estimate;

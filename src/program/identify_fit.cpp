@@ -23,15 +23,13 @@ namespace graze {
 
 namespace {
 
-Table numbers_table(const Fit& fit, const FitRequest& request) {
+Table numbers_table(const Fit& fit) {
     Table table({{"name", ""}, {"unit", ""}, {"value", ""}, {"error", ""}, {"low", ""}, {"high", ""}, {"note", ""}});
     for (const FittedNumber& number : fit.numbers) {
         const Estimate& estimate = number.estimate;
         const bool known = estimate.freedom > 0;
-        const std::string unit =
-            number.kind == FittedNumber::Kind::offset ? request.channels[number.index].unit : number.unit;
         table.add(number.name);
-        table.add(unit);
+        table.add(number.unit);
         table.add(estimate.value);
         table.add(known ? estimate.error : nothing);
         table.add(known ? estimate.value - estimate.half_width() : nothing);
@@ -41,7 +39,8 @@ Table numbers_table(const Fit& fit, const FitRequest& request) {
     return table;
 }
 
-Table outputs_table(const Fit& fit, const FitRequest& request) {
+Table outputs_table(const FitOfRecords& found) {
+    const Fit& fit = found.fit;
     Table table({{"output", ""},
                  {"unit", ""},
                  {"readings", ""},
@@ -53,11 +52,11 @@ Table outputs_table(const Fit& fit, const FitRequest& request) {
     for (std::size_t o = 0; o < fit.outputs.size(); ++o) {
         const FittedOutput& output = fit.outputs[o];
         table.add(output.name);
-        table.add(request.channels[o].unit);
+        table.add(found.channels[o].unit);
         table.add(static_cast<double>(output.readings));
         table.add(output.deviation);
         table.add(output.share);
-        table.add(request.task.outputs[o].noise > 0 ? output.chi_square : nothing);
+        table.add(found.task.outputs[o].noise > 0 ? output.chi_square : nothing);
         table.add(output.correlation);
         table.add(static_cast<double>(output.outliers));
     }
@@ -79,24 +78,24 @@ Table correlations_table(const Fit& fit) {
     return table;
 }
 
-Table readings_table(const Fit& fit, const FitRequest& request) {
-    std::vector<Table::Column> columns{{"record", ""}, {request.time.name, request.time.unit}};
-    for (const Channel& channel : request.channels) {
+Table readings_table(const FitOfRecords& found, const Channel& time) {
+    std::vector<Table::Column> columns{{"record", ""}, {time.name, time.unit}};
+    for (const Channel& channel : found.channels) {
         columns.push_back({channel.name, channel.unit});
         columns.push_back({channel.name + "_fitted", channel.unit});
     }
     Table table(columns);
-    for (std::size_t r = 0; r < request.task.records.size(); ++r) {
-        const FitRecord& record = request.task.records[r];
+    for (std::size_t r = 0; r < found.task.records.size(); ++r) {
+        const FitRecord& record = found.task.records[r];
         for (std::size_t i = 0; i < record.times.size(); ++i) {
             table.add(static_cast<double>(r + 1));
             table.add(record.times[i]);
-            for (std::size_t o = 0; o < request.channels.size(); ++o) {
+            for (std::size_t o = 0; o < found.channels.size(); ++o) {
                 double read = nothing, fitted = nothing;
                 for (std::size_t c = 0; c < record.readings.size(); ++c)
                     if (record.readings[c].output == o) {
                         read = record.readings[c].values[i];
-                        fitted = fit.records[r].fitted[c][i];
+                        fitted = found.fit.records[r].fitted[c][i];
                     }
                 table.add(read);
                 table.add(fitted);
@@ -107,28 +106,29 @@ Table readings_table(const Fit& fit, const FitRequest& request) {
 }
 
 /// What was read and what was fitted, over time, and below what is left: two panels for each output.
-Figure fit_figure(const Fit& fit, const FitRequest& request) {
+Figure fit_figure(const FitOfRecords& found, const Channel& time) {
     using Style = FigureSeries::Style;
     Figure figure;
-    for (std::size_t o = 0; o < request.channels.size(); ++o) {
+    for (std::size_t o = 0; o < found.channels.size(); ++o) {
         FigurePanel panel, rest;
         for (FigurePanel* one : {&panel, &rest}) {
-            one->x_label = request.time.name;
-            one->x_unit = request.time.unit;
-            one->y_unit = request.channels[o].unit;
+            one->x_label = time.name;
+            one->x_unit = time.unit;
+            one->y_unit = found.channels[o].unit;
             one->roomy_x = one->roomy_y = true;
         }
-        panel.y_label = request.channels[o].name;
-        rest.y_label = request.channels[o].name + ": fitted less measured";
+        panel.y_label = found.channels[o].name;
+        rest.y_label = found.channels[o].name + ": fitted less measured";
         FigureSeries read{"measured", Style::dots, 0, {}}, fitted{"fitted", Style::line, 1, {}},
             left{"", Style::dots, 0, {}};
-        for (std::size_t r = 0; r < request.task.records.size(); ++r) {
-            const FitRecord& record = request.task.records[r];
+        for (std::size_t r = 0; r < found.task.records.size(); ++r) {
+            const FitRecord& record = found.task.records[r];
             for (std::size_t c = 0; c < record.readings.size(); ++c) {
                 if (record.readings[c].output != o)
                     continue;
                 for (std::size_t i = 0; i < record.times.size(); ++i) {
-                    const double t = record.times[i], y = record.readings[c].values[i], f = fit.records[r].fitted[c][i];
+                    const double t = record.times[i], y = record.readings[c].values[i],
+                                 f = found.fit.records[r].fitted[c][i];
                     read.points.push_back({t, y});
                     fitted.points.push_back({t, f});
                     left.points.push_back({t, f - y});
@@ -146,10 +146,13 @@ Figure fit_figure(const Fit& fit, const FitRequest& request) {
 
 ParameterFile parameter_file(const Fit& fit, const FitRequest& request) {
     ParameterFile file;
-    file.model = request.model.name;
+    const Model& model = request.run.model;
+    file.model = model.name;
+    std::vector<std::string> files;
+    for (const KeptRecord& record : request.records)
+        files.push_back(record.name);
     file.text = fmt::format("graze identify fit, {} from {} readings of {}", name_of(fit.ending), fit.readings,
-                            fmt::join(request.files, ", "));
-    const std::vector<std::string> names = request.model.independent_parameters();
+                            fmt::join(files, ", "));
     for (const FittedNumber& number : fit.numbers) {
         if (number.kind != FittedNumber::Kind::parameter)
             continue;
@@ -157,13 +160,14 @@ ParameterFile parameter_file(const Fit& fit, const FitRequest& request) {
         if (number.estimate.freedom > 0)
             file.errors.emplace_back(number.name, number.estimate.error);
     }
-    for (std::size_t i = 0; i < request.model.states.size(); ++i)
-        file.from.emplace_back(request.model.states[i].name, fit.records.front().start[i]);
+    for (std::size_t i = 0; i < model.states.size(); ++i)
+        file.from.emplace_back(model.states[i].name, fit.records.front().start[i]);
     return file;
 }
 
 /// What makes one doubt the errors, or the model.
-void warn(const Fit& fit, const FitRequest& request, const Console& console) {
+void warn(const FitOfRecords& found, const Console& console) {
+    const Fit& fit = found.fit;
     const auto say = [&](const std::string& text) { console.err << "graze: warning: " << text << '\n'; };
     for (const FreeCombination& free : fit.free)
         say(fmt::format("readings do not tell {}", free.text));
@@ -177,7 +181,7 @@ void warn(const Fit& fit, const FitRequest& request, const Console& console) {
         say(fmt::format("at {} times readings were on the other side of a contact", misplaced));
     for (std::size_t o = 0; o < fit.outputs.size(); ++o) {
         const FittedOutput& output = fit.outputs[o];
-        if (output.unchanging && !(request.task.outputs[o].noise > 0))
+        if (output.unchanging && !(found.task.outputs[o].noise > 0))
             say(fmt::format("all readings of '{}' are the same, which tells nothing of their noise: say it by "
                             "--deviation {}=VALUE; errors are too small",
                             output.name, output.name));
@@ -188,12 +192,12 @@ void warn(const Fit& fit, const FitRequest& request, const Console& console) {
     }
 }
 
-Fit run_fit(const FitRequest& request, const IdentifyArguments& arguments, const Console& console) {
+FitOfRecords run_fit(const FitRequest& request, const IdentifyArguments& arguments, const Console& console) {
     StatusLine line(console, console.terminal || arguments.progress);
     const auto is_over = [&] {
         return InterruptGuard::requested() || (arguments.time_limit && line.elapsed() > *arguments.time_limit);
     };
-    FitSettings settings = request.settings;
+    FitSettings settings;
     std::string done = "the first motions";
     settings.progress = [&](const FitProgress& progress) {
         if (line.wanted())
@@ -208,7 +212,7 @@ Fit run_fit(const FitRequest& request, const IdentifyArguments& arguments, const
             line.show(done);
         return is_over();
     };
-    return fit_model(request.model, request.task, settings);
+    return fit_records(request.run, request.records, settings);
 }
 
 } // namespace
@@ -218,7 +222,9 @@ int identify_fit(const IdentifyArguments& arguments, const Console& console) {
     if (!arguments.save.empty())
         require_writable(arguments.save);
     const InterruptGuard guard;
-    const Fit fit = run_fit(request, arguments, console);
+    const FitOfRecords found = run_fit(request, arguments, console);
+    const Fit& fit = found.fit;
+    const Channel& time = request.records.front().header.time;
     if (fit.ending == FitEnding::interrupted) {
         const bool by_user = InterruptGuard::requested();
         console.err << fmt::format(
@@ -233,7 +239,7 @@ int identify_fit(const IdentifyArguments& arguments, const Console& console) {
     JsonObject heading;
     heading.add("graze", GRAZE_VERSION);
     heading.add("what", arguments.what);
-    heading.add("model", request.model.name);
+    heading.add("model", request.run.model.name);
     heading.add("table", arguments.table);
     heading.add("ending", std::string(name_of(fit.ending)));
     heading.add("readings", static_cast<double>(fit.readings));
@@ -242,18 +248,18 @@ int identify_fit(const IdentifyArguments& arguments, const Console& console) {
     heading.add("pieces", static_cast<double>(fit.pieces));
     heading.add("condition", fit.condition);
     heading.add("probability", 0.95);
-    const Table table = arguments.table == "outputs"        ? outputs_table(fit, request)
+    const Table table = arguments.table == "outputs"        ? outputs_table(found)
                         : arguments.table == "correlations" ? correlations_table(fit)
-                        : arguments.table == "readings"     ? readings_table(fit, request)
-                                                            : numbers_table(fit, request);
+                        : arguments.table == "readings"     ? readings_table(found, time)
+                                                            : numbers_table(fit);
     if (!arguments.reading.plot.empty())
-        draw_figure(fit_figure(fit, request), arguments.reading.plot, arguments.reading.data);
+        draw_figure(fit_figure(found, time), arguments.reading.plot, arguments.reading.data);
     deliver(table, arguments.reading.output, heading, console);
     const bool usable = fit.ending == FitEnding::converged;
     const bool kept = usable || fit.ending == FitEnding::misfit;
     if (!arguments.save.empty() && kept)
         write_file(arguments.save, write_parameter_file(parameter_file(fit, request)));
-    warn(fit, request, console);
+    warn(found, console);
     if (!usable)
         console.err << fmt::format("graze: {}: {}{}\n", name_of(fit.ending), fit.detail,
                                    arguments.save.empty() || kept ? "" : "; nothing is saved");

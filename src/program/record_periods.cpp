@@ -1,16 +1,14 @@
+#include "graze/record/record_periods.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/record/extremes.hpp"
 #include "graze/record/harmonic.hpp"
-#include "graze/record/period.hpp"
 #include "graze/record/section.hpp"
 #include "program/record_tables.hpp"
 #include "program/values.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
-#include <cmath>
 
 namespace graze {
 
@@ -27,25 +25,19 @@ public:
         settings.reference = reference_ = header_.channel(arguments().reference, "--reference");
         settings.level = arguments().level;
         settings.hysteresis = arguments().hysteresis;
-        PeriodSplitter splitter(stages.source(), settings);
         begin_record(file);
-        std::size_t count = 0;
-        for (Period period; splitter.next(period); ++count) {
+        const auto add = [&](const Period& period) {
             require_few_rows(rows());
             add_period(file, period);
-        }
-        if (count == 0)
-            throw InputError(
-                Place{file, 0, 0},
-                fmt::format("'{}' does not rise through {} twice", arguments().reference, arguments().level),
-                "choose another --reference or --level, or record more periods");
-        end_record(file);
+        };
+        end_record(file, each_period(stages.source(), settings, add, "--").amplitude);
     }
 
 protected:
     virtual void begin_record(const std::string& file) = 0;
     virtual void add_period(const std::string& file, const Period& period) = 0;
-    virtual void end_record(const std::string& file) = 0;
+    /// @param amplitude of the reference, averaged over the record
+    virtual void end_record(const std::string& file, double amplitude) = 0;
     const RecordHeader& header() const { return header_; }
     const std::vector<std::size_t>& channels() const { return channels_; }
     std::size_t reference() const { return reference_; }
@@ -88,7 +80,7 @@ protected:
             rows().add(amplitude(period, c));
         points_.push_back({period.begin, period.duration()});
     }
-    void end_record(const std::string&) override {}
+    void end_record(const std::string&, double) override {}
 
 private:
     std::vector<PlanePoint> points_;
@@ -157,23 +149,19 @@ protected:
         for (const std::string& name : negated_)
             symmetry_.negated.push_back(header().channel(name, "--negate"));
         first_ = drawn_.size();
-        sum_ = count_ = 0;
     }
     void add_period(const std::string&, const Period& period) override {
         for (std::size_t phase = 0; phase < phases_.size(); ++phase) {
             drawn_.push_back({section(period, phases_[phase]), phase, 0});
             if (negated_.empty())
                 continue;
-            const double later = phases_[phase] + symmetry_.shift;
-            drawn_.push_back({image_of(section(period, later - std::floor(later)), symmetry_), phase, 0});
+            drawn_.push_back({image_section(period, phases_[phase], symmetry_), phase, 0});
         }
-        sum_ += amplitude(period, reference());
-        ++count_;
     }
-    void end_record(const std::string& file) override {
+    void end_record(const std::string& file, double amplitude) override {
         for (std::size_t i = first_; i < drawn_.size(); ++i) {
             Drawn& point = drawn_[i];
-            point.amplitude = sum_ / count_;
+            point.amplitude = amplitude;
             begin_row(file);
             rows().add(static_cast<double>(point.section.period));
             rows().add(phases_[point.phase]);
@@ -197,7 +185,6 @@ private:
     RecordSymmetry symmetry_;
     std::vector<Drawn> drawn_;
     std::size_t first_ = 0;
-    double sum_ = 0, count_ = 0;
 };
 
 /// Least and greatest values in each period.
@@ -246,7 +233,7 @@ protected:
             greatest_[k].push_back({period.begin, found.greatest});
         }
     }
-    void end_record(const std::string&) override {}
+    void end_record(const std::string&, double) override {}
 
 private:
     std::vector<std::vector<PlanePoint>> least_, greatest_;

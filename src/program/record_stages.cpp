@@ -72,19 +72,10 @@ RecordProcessing processing_of(const RecordArguments& arguments, const Console& 
 
 } // namespace
 
-bool RequiredRows::read(Samples& samples) {
-    const bool more = source_->read(samples);
-    has_rows_ = has_rows_ || samples.rows() > 0;
-    if (!more && !has_rows_)
-        throw InputError("the record has no rows", "give one with rows, and let --from and --to leave some");
-    return more;
+RecordStages::RecordStages(const std::string& path, const RecordArguments& arguments, const Console& console) {
+    const RecordProcessing processing = processing_of(arguments, console);
+    record_.emplace(open_record(path, processing.layout), processing);
 }
-
-RecordStages::RecordStages(const std::string& path, const RecordArguments& arguments, const Console& console)
-    : RecordStages(path, processing_of(arguments, console)) {}
-
-RecordStages::RecordStages(const std::string& path, const RecordProcessing& processing)
-    : record_(open_record(path, processing.layout), processing), rows_(record_.source()) {}
 
 std::vector<std::size_t> RecordStages::channels(const std::vector<std::string>& asked) const {
     std::vector<std::size_t> result;

@@ -1,5 +1,6 @@
 #include "graze/record/processed_record.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/record/calibrated.hpp"
 #include "graze/record/derivative.hpp"
 #include "graze/record/low_pass.hpp"
@@ -7,6 +8,30 @@
 #include <cmath>
 
 namespace graze {
+
+namespace {
+
+/// Passes samples on. Where there are none at all, whatever is made of them would be an empty answer.
+class RequiredRows : public SampleSource {
+public:
+    RequiredRows(SampleSource& source, bool by_options) : source_(&source), by_options_(by_options) {}
+    const RecordHeader& header() const override { return source_->header(); }
+    bool read(Samples& samples) override {
+        const bool more = source_->read(samples);
+        has_rows_ = has_rows_ || samples.rows() > 0;
+        if (!more && !has_rows_)
+            throw InputError("the record has no rows", by_options_
+                                                           ? "give one with rows, and let --from and --to leave some"
+                                                           : "give one with rows, and let `part` leave some");
+        return more;
+    }
+
+private:
+    SampleSource* source_;
+    bool by_options_, has_rows_ = false;
+};
+
+} // namespace
 
 ProcessedRecord::ProcessedRecord(std::unique_ptr<SampleSource> from, const RecordProcessing& processing) {
     stages_.push_back(std::move(from));
@@ -31,6 +56,7 @@ ProcessedRecord::ProcessedRecord(std::unique_ptr<SampleSource> from, const Recor
         derivative.half_width = processing.half_width;
         stages_.push_back(std::make_unique<WithDerivative>(source(), derivative));
     }
+    stages_.push_back(std::make_unique<RequiredRows>(source(), !processing.asked_as.empty()));
 }
 
 } // namespace graze

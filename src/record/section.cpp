@@ -34,4 +34,9 @@ SectionPoint image_of(const SectionPoint& point, const RecordSymmetry& symmetry)
     return image;
 }
 
+SectionPoint image_section(const Period& period, double phase, const RecordSymmetry& symmetry) {
+    const double later = phase + symmetry.shift;
+    return image_of(section(period, later - std::floor(later)), symmetry);
+}
+
 } // namespace graze

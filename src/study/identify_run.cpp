@@ -1,10 +1,9 @@
 #include "study/identify_run.hpp"
 
 #include "graze/base/name_list.hpp"
-#include "graze/identify/identification.hpp"
-#include "graze/model/named_value.hpp"
+#include "graze/study/identify_records.hpp"
 #include "graze/study/stored_study.hpp"
-#include "study/identify_fit.hpp"
+#include "study/at_record.hpp"
 #include "study/identify_units.hpp"
 
 #include <fmt/format.h>
@@ -17,93 +16,6 @@ namespace graze {
 namespace {
 
 using What = IdentifyRequest::What;
-
-/// Numbers in parameters of the model, some of which others have found.
-class KnownNumbers {
-public:
-    KnownNumbers(const StudyRun& run, const std::vector<EstimateRecords>& found)
-        : model_(run.model), found_(&found), place_(run.place) {}
-
-    /// With the error that those of the parameters make, to first order.
-    Estimate value(const std::string& text) {
-        Estimate result;
-        result.value = value_of_text(model_, text, place_);
-        double variance = 0;
-        for (const EstimateRecords& records : *found_) {
-            std::vector<double> slopes;
-            for (const EstimateRecord& number : records.numbers)
-                slopes.push_back(slope(text, number));
-            const std::size_t count = slopes.size();
-            for (std::size_t i = 0; i < count; ++i)
-                for (std::size_t j = 0; j < count; ++j) {
-                    const double covariance =
-                        !records.covariance.empty() ? records.covariance[i * count + j]
-                        : i == j ? records.numbers[i].estimate.error * records.numbers[i].estimate.error
-                                 : 0;
-                    variance += slopes[i] * slopes[j] * covariance;
-                }
-        }
-        result.error = std::sqrt(std::max(variance, 0.0));
-        return result;
-    }
-
-private:
-    /// By differences of one standard error, over which nothing bends that errors are told of.
-    double slope(const std::string& text, const EstimateRecord& number) {
-        const double error = number.estimate.freedom > 0 ? number.estimate.error : 0;
-        const auto parameter = model_.find_independent_parameter(number.name);
-        if (!(error > 0) || !parameter)
-            return 0;
-        const double before = model_.parameter_values()[parameter->place()];
-        const auto at = [&](double value) {
-            model_.set_parameter(number.name, value);
-            return value_of_text(model_, text, place_);
-        };
-        const double above = at(before + error), below = at(before - error);
-        model_.set_parameter(number.name, before);
-        return (above - below) / (2 * error);
-    }
-
-    Model model_;
-    const std::vector<EstimateRecords>* found_;
-    Place place_;
-};
-
-IdentificationSettings settings_of(const StudyRun& run, const std::vector<EstimateRecords>& found,
-                                   const std::vector<KeptRecord>& records) {
-    const IdentifyRequest& request = run.identify;
-    KnownNumbers known(run, found);
-    IdentificationSettings settings;
-    settings.channel = request.channel;
-    settings.displacement = request.displacement;
-    settings.voltage = request.voltage;
-    settings.current = request.current;
-    settings.peaks = request.peaks;
-    settings.window = request.window;
-    settings.transition = request.transition;
-    settings.least_jump = request.least_jump;
-    settings.displacement_noise = request.displacement_noise;
-    settings.current_noise = request.current_noise;
-    settings.one_load_a_record = records.size() > 1;
-    const auto take = [&](const std::string& text, std::optional<double>& value, double& error) {
-        if (text.empty())
-            return;
-        const Estimate estimate = known.value(text);
-        value = estimate.value;
-        error = estimate.error;
-    };
-    take(request.gap, settings.gap, settings.gap_error);
-    take(request.stiffness, settings.stiffness, settings.stiffness_error);
-    if (!request.beta1.empty())
-        settings.beta1 = known.value(request.beta1);
-    if (!request.beta2.empty())
-        settings.beta2 = known.value(request.beta2);
-    if (!request.clamped.empty())
-        settings.clamped = known.value(request.clamped).value;
-    if (!request.frequency.empty())
-        settings.frequency = known.value(request.frequency).value;
-    return settings;
-}
 
 /// Under the names of the parameters that they are.
 EstimateRecords estimates_of(const Identification& found, const IdentifyRequest& request, const Place& place) {
@@ -146,6 +58,61 @@ FoundByRun found_from(const Identification& found, const StudyRun& run) {
     }
     for (const std::string& warning : found.warnings)
         result.problem += (result.problem.empty() ? "" : "; ") + warning;
+    return result;
+}
+
+EstimateRecords estimates_of(const Fit& fit) {
+    EstimateRecords records;
+    const std::size_t count = fit.numbers.size();
+    for (const FittedNumber& number : fit.numbers) {
+        const bool known = number.estimate.freedom > 0;
+        records.numbers.push_back({number.name, number.unit, number.estimate,
+                                   number.at_bound ? "at its bound"
+                                   : known         ? ""
+                                                   : "not determined"});
+    }
+    records.covariance.assign(count * count, 0);
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t j = 0; j < count && fit.correlations.size() == count * count; ++j)
+            records.covariance[i * count + j] =
+                fit.correlations[i * count + j] * fit.numbers[i].estimate.error * fit.numbers[j].estimate.error;
+    return records;
+}
+
+SampleSet residuals_of(const FitOfRecords& found) {
+    const FitTask& task = found.task;
+    SampleSet samples;
+    samples.width = 2 + task.outputs.size();
+    for (std::size_t what = 0; what < 3; ++what)
+        for (std::size_t r = 0; r < task.records.size(); ++r) {
+            const FitRecord& record = task.records[r];
+            for (std::size_t i = 0; i < record.times.size(); ++i) {
+                samples.samplings.push_back(what);
+                samples.times.push_back(record.times[i]);
+                samples.values.push_back(static_cast<double>(r));
+                samples.values.push_back(record.times[i]);
+                for (std::size_t o = 0; o < record.readings.size(); ++o) {
+                    const double read = record.readings[o].values[i], fitted = found.fit.records[r].fitted[o][i];
+                    samples.values.push_back(what == 0 ? read : what == 1 ? fitted : read - fitted);
+                }
+            }
+        }
+    return samples;
+}
+
+FoundByRun found_from(const FitOfRecords& found) {
+    const Fit& fit = found.fit;
+    FoundByRun result;
+    result.estimates = estimates_of(fit);
+    SampleSet& samples = result.point.result.samples;
+    if (fit.records.size() == found.task.records.size() && !fit.records.empty() && !fit.records.front().fitted.empty())
+        samples = residuals_of(found);
+    else
+        samples.width = 2 + found.task.outputs.size();
+    if (fit.ending != FitEnding::converged)
+        result.problem = fmt::format("{}{}{}", name_of(fit.ending), fit.detail.empty() ? "" : ": ", fit.detail);
+    for (const FreeCombination& free : fit.free)
+        result.problem += fmt::format("; readings do not tell {}", free.text);
     return result;
 }
 
@@ -245,31 +212,21 @@ std::vector<KeptRecord> kept_records(const StudyRun& run, const ResultFile& file
 std::optional<FoundByRun> identify(const StudyRun& run, const std::vector<KeptRecord>& records,
                                    const std::vector<EstimateRecords>& found,
                                    const std::function<bool()>& interrupted) {
-    if (run.identify.what == What::fit)
-        return identify_fit_of(run, records, interrupted);
+    if (run.identify.what == What::fit) {
+        FitSettings settings;
+        settings.interrupted = interrupted;
+        settings.progress = [&](const FitProgress&) { return !(interrupted && interrupted()); };
+        const FitOfRecords fitted = fit_records(run, records, settings);
+        return fitted.fit.ending == FitEnding::interrupted ? std::nullopt : std::optional(found_from(fitted));
+    }
     const EachRecord each = [&](const auto& work) {
         for (const KeptRecord& record : records)
-            try {
+            at_record(run, record.name, [&] {
                 StoredSamples samples(record.header, record.samples);
                 work(record.name, samples);
-            } catch (const InputError& error) {
-                if (!error.place().file.empty())
-                    throw;
-                throw InputError(run.place, fmt::format("{}: {}", record.name, error.problem()), error.remedy());
-            }
+            });
     };
-    check_record_units(run, records);
-    const IdentificationSettings settings = settings_of(run, found, records);
-    switch (run.identify.what) {
-    case What::decrement:
-        return found_from(identify_decrement(each, settings), run);
-    case What::restitution:
-        return found_from(identify_restitution(each, settings), run);
-    case What::coupling:
-        return found_from(identify_coupling(each, settings), run);
-    default:
-        return found_from(identify_impedance(each, settings), run);
-    }
+    return found_from(identify_records(run, each, records.size(), found), run);
 }
 
 } // namespace graze

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graze/results/result_file.hpp"
+#include "graze/study/fit_records.hpp"
 #include "graze/study/study.hpp"
 
 #include <functional>
@@ -18,14 +19,7 @@ std::vector<std::string> names_of_estimates(IdentifyRequest::What what);
 /// All names of numbers that it may find under the names of parameters, as far as the study tells.
 std::vector<std::string> names_found(const IdentifyRequest& request);
 
-/// Records that other runs have kept.
-struct KeptRecord {
-    std::string name;
-    RecordHeader header;
-    Samples samples;
-    ParameterValues known; ///< what is known of it: the averaged amplitude of its reference
-};
-/// @throws InputError where a run keeps no rows of its records
+/// Records that other runs have kept. @throws InputError where one of these keeps no rows
 std::vector<KeptRecord> kept_records(const StudyRun& run, const ResultFile& file);
 
 /// What a run of kind identify has found.

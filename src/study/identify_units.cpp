@@ -41,44 +41,22 @@ std::optional<PhysicalUnit> unit_in_model(const Model& model, const std::string&
     return has_units ? std::optional(PhysicalUnit()) : std::nullopt;
 }
 
-const Channel& displacement_of(const IdentifyRequest& request, const KeptRecord& record) {
-    return record.header
-        .channels[record.header.channel(request.displacement.empty() ? "q" : request.displacement, "records")];
-}
-
 /// @param wanted units, of which each would do
 bool agrees(const PhysicalUnit& unit, const std::vector<std::string>& wanted) {
     return wanted.empty() ||
            std::any_of(wanted.begin(), wanted.end(), [&](const std::string& text) { return told_unit(text) == unit; });
 }
 
-void check_channel(const StudyRun& run, const KeptRecord& record, const Channel& channel) {
+void check_channel(const StudyRun& run, const Channel& channel) {
     const auto unit = told_unit(channel.unit);
     if (!unit)
         return;
     const std::vector<std::string> wanted = units_alike(run.model, *unit);
     if (agrees(*unit, wanted))
         return;
-    throw InputError(run.place,
-                     fmt::format("{}: channel '{}' is in {}, and what the model has of that kind in {}", record.name,
-                                 channel.name, channel.unit, fmt::join(wanted, " and ")),
-                     fmt::format("convert it in the run that has the record: scale = {{ {} = {{ factor = {:g}, "
-                                 "unit = \"{}\" }} }}",
-                                 channel.name, converted(1, *unit, *told_unit(wanted.front())), wanted.front()));
-}
-
-void check_time(const StudyRun& run, const KeptRecord& record) {
-    const auto unit = told_unit(record.header.time.unit), wanted = told_unit(run.model.time_unit);
-    if (!unit && wanted && !record.header.time.unit.empty())
-        throw InputError(run.place,
-                         fmt::format("{}: the unit of its time, '{}', is not known, and that of the model is {}",
-                                     record.name, record.header.time.unit, run.model.time_unit),
-                         "give times in s, ms, us, ns, min or h");
-    if (unit && wanted && *unit != *wanted)
-        throw InputError(run.place,
-                         fmt::format("{}: its time is in {}, and that of the model in {}", record.name,
-                                     record.header.time.unit, run.model.time_unit),
-                         "convert the times of the record");
+    throw InputError(fmt::format("channel '{}' is in {}, and what the model has of that kind in {}", channel.name,
+                                 channel.unit, fmt::join(wanted, " and ")),
+                     scale_remedy(run, channel, wanted.front()));
 }
 
 /// Of a number that is known beforehand: a parameter that is named alone has a unit, what is computed of several none
@@ -97,14 +75,9 @@ void check_known(const StudyRun& run, const char* key, const std::string& text, 
                          "name another parameter, or write what is meant in parameters");
 }
 
-/// Of displacements in a length, unless the record says that they are something else.
-void check_known_numbers(const StudyRun& run, const std::vector<KeptRecord>& records) {
+/// @param length unit of displacements
+void check_known_numbers(const StudyRun& run, const std::string& length) {
     const IdentifyRequest& request = run.identify;
-    std::string length = "m";
-    for (const KeptRecord& record : records)
-        if (request.what == What::coupling)
-            if (const Channel& q = displacement_of(request, record); told_unit(q.unit))
-                length = q.unit;
     check_known(run, "gap", request.gap, length);
     check_known(run, "clamped", request.clamped, length);
     check_known(run, "beta2", request.beta2, length);
@@ -131,20 +104,48 @@ double factor_between(const std::string& from, const std::string& to) {
 
 } // namespace
 
-void check_record_units(const StudyRun& run, const std::vector<KeptRecord>& records) {
+std::string scale_remedy(const StudyRun& run, const Channel& channel, const std::string& unit) {
+    const auto from = told_unit(channel.unit), to = told_unit(unit);
+    const std::string factor =
+        from && to && from->dimension == to->dimension ? fmt::format("{:g}", converted(1, *from, *to)) : "FACTOR";
+    if (!run.identify.asked_as.empty())
+        return fmt::format("convert it by {}scale {}={}:{}", run.identify.asked_as, channel.name, factor, unit);
+    return fmt::format("convert it in the run that has the record: scale = {{ {} = {{ factor = {}, unit = \"{}\" }} }}",
+                       channel.name, factor, unit);
+}
+
+void check_record_time(const StudyRun& run, const RecordHeader& header) {
+    const std::string &read = header.time.unit, &meant = run.model.time_unit;
+    const auto unit = told_unit(read), wanted = told_unit(meant);
+    if (read.empty() || meant.empty() || unit_symbol(read) == unit_symbol(meant) || (unit && unit == wanted))
+        return;
+    if (!unit && wanted)
+        throw InputError(
+            fmt::format("the unit of its time, '{}', is not known, and that of the model is {}", read, meant),
+            "give times in s, ms, us, ns, min or h");
+    throw InputError(fmt::format("its time is in {}, and that of the model in {}", read, meant),
+                     "convert the times of the record");
+}
+
+void check_record_units(const StudyRun& run, const RecordHeader& header) {
     const IdentifyRequest& request = run.identify;
-    for (const KeptRecord& record : records) {
-        if (request.what == What::coupling)
-            check_channel(run, record, displacement_of(request, record));
-        if (request.what != What::impedance)
-            continue;
-        if (!request.frequency.empty() || !request.beta1.empty())
-            check_time(run, record);
-        if (!request.beta1.empty())
-            for (const std::string& name : {request.voltage, request.current})
-                check_channel(run, record, record.header.channels[record.header.channel(name, "records")]);
+    const auto channel = [&](const std::string& name, const char* key) -> const Channel& {
+        return header.channels[header.channel(name, request.asked_as + key)];
+    };
+    std::string length = "m"; // unless the record says that displacements are something else
+    if (request.what == What::coupling) {
+        const Channel& q = channel(request.displacement.empty() ? "q" : request.displacement, "displacement");
+        check_channel(run, q);
+        if (told_unit(q.unit))
+            length = q.unit;
     }
-    check_known_numbers(run, records);
+    if (request.what == What::impedance && (!request.frequency.empty() || !request.beta1.empty()))
+        check_record_time(run, header);
+    if (request.what == What::impedance && !request.beta1.empty()) {
+        check_channel(run, channel(request.voltage, "voltage"));
+        check_channel(run, channel(request.current, "current"));
+    }
+    check_known_numbers(run, length);
 }
 
 void convert_to_model(EstimateRecords& estimates, const StudyRun& run) {

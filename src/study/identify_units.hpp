@@ -1,17 +1,23 @@
 #pragma once
 
+#include "graze/record/samples.hpp"
 #include "graze/results/result_file.hpp"
-#include "study/identify_run.hpp"
+#include "graze/study/study.hpp"
 
-#include <vector>
+#include <string>
 
 namespace graze {
 
 /// Numbers that a calculation takes from a model and from records at once must be in the same units: displacements of
 /// couplings, all channels and times of leakage inductances, times where a frequency is given. What the model or the
 /// record does not say is taken to agree.
-/// @throws InputError naming the record, with the scale that makes it agree
-void check_record_units(const StudyRun& run, const std::vector<KeptRecord>& records);
+/// @param header of one of the records
+/// @throws InputError without a place for the record, with the scale that makes it agree
+void check_record_units(const StudyRun& run, const RecordHeader& header);
+/// The same of its time alone.
+void check_record_time(const StudyRun& run, const RecordHeader& header);
+/// How to bring a channel into a unit, in the words of the study or of the command line.
+std::string scale_remedy(const StudyRun& run, const Channel& channel, const std::string& unit);
 
 /// Gives estimates of parameters of the run's model the units of these, their covariances as well: 0.1 rad/ms is
 /// 100 rad/s, and a frequency of 1 Hz is 2 pi rad/s. Other estimates stay as they are, and units that one of both does

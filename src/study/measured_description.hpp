@@ -203,6 +203,8 @@ void describe_fit(Fields& fields, Request& request) {
         one.field("gain", reading.gain);
         one.field("offset", reading.offset);
         one.field("noise", reading.noise);
+        if (one.has("may_lack", reading.may_lack))
+            one.field("may_lack", reading.may_lack);
     });
     fields.form(key("known",
                     "states that begin as the model (or `from`) says, or `true`: all of them. Others are found",
@@ -270,6 +272,19 @@ void describe_identify(Fields& fields, Request& request) {
     fields.number(
         key("least_jump", "by which the velocity changes at an impact at least (by the noise)", {What::restitution}),
         request.least_jump, positive_number);
+    const auto error_of = [&](const char* name, const char* meaning, What of, auto& error) {
+        if (fields.has(name, error > 0))
+            fields.number(key(name, meaning, {of}), error, positive_number);
+    };
+    error_of("gap_error", "standard error of the gap, besides that of its parameters (none)", What::coupling,
+             request.gap_error);
+    error_of("stiffness_error", "that of the stiffness (none)", What::coupling, request.stiffness_error);
+    error_of("beta1_error", "that of beta1 (none)", What::impedance, request.beta1_error);
+    error_of("beta2_error", "that of beta2 (none)", What::impedance, request.beta2_error);
+    if (fields.has("each_row", request.each_row))
+        fields.truth(key("each_row", "of several records, too, each row is an equilibrium, not the mean of all",
+                         {What::coupling}),
+                     request.each_row);
     fields.form(key("noise", "standard deviations of the readings, where they are known", {What::coupling}),
                 "{ displacement, current }", &read_noise);
     fields.field("displacement_noise", request.displacement_noise);

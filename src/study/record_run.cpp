@@ -5,6 +5,7 @@
 #include "graze/record/harmonic.hpp"
 #include "graze/record/impacts.hpp"
 #include "graze/record/interpolate.hpp"
+#include "graze/record/record_periods.hpp"
 #include "graze/record/section.hpp"
 #include "graze/symbolic/function.hpp"
 #include "graze/symbolic/transform.hpp"
@@ -173,8 +174,6 @@ private:
             for (std::size_t c = 0; c < first_; ++c)
                 result.state.push_back(samples.values[c].back());
         }
-        if (rows_ == 0)
-            throw InputError("there is no row", "take a longer part of it");
         result.outcome.detail = fmt::format("{} rows{}", rows_, fits || wanted.empty() ? "" : ", which are not kept");
     }
 
@@ -184,23 +183,16 @@ private:
         settings.reference = header_.channel(request_->reference, "reference");
         settings.level = request_->level;
         settings.hysteresis = request_->hysteresis;
-        PeriodSplitter splitter(*source, settings);
-        double sum = 0;
-        std::size_t count = 0;
-        for (Period period; splitter.next(period); ++count) {
-            sum += amplitude(period, settings.reference);
+        const RecordPeriods found = each_period(*source, settings, [&](const Period& period) {
             std::size_t index = 0;
             for (const RecordSampling& sampling : request_->samplings) {
                 if (sampling.is_periodic())
                     take_period(sampling, index, period);
                 index += sampling.kind == RecordSampling::Kind::impacts ? 2 : 1;
             }
-        }
-        if (count == 0)
-            throw InputError(fmt::format("'{}' does not rise through {} twice", request_->reference, request_->level),
-                             "choose another reference or level, or record more periods");
-        coordinates.push_back(sum / static_cast<double>(count));
-        result.periods_run = result.cycles = count;
+        });
+        coordinates.push_back(found.amplitude);
+        result.periods_run = result.cycles = found.count;
     }
 
     void take_period(const RecordSampling& sampling, std::size_t index, const Period& period) {
@@ -209,10 +201,8 @@ private:
             RecordSymmetry symmetry;
             for (const std::string& name : sampling.negated)
                 symmetry.negated.push_back(value_channel(name));
-            const double later = sampling.phase + symmetry.shift;
-            return add_values(index, sampling.negated.empty()
-                                         ? section(period, sampling.phase)
-                                         : image_of(section(period, later - std::floor(later)), symmetry));
+            return add_values(index, sampling.negated.empty() ? section(period, sampling.phase)
+                                                              : image_section(period, sampling.phase, symmetry));
         }
         if (sampling.kind == Kind::maxima || sampling.kind == Kind::minima) {
             const Extremes found = extremes(period, channel(sampling.channel));

@@ -58,7 +58,7 @@ void read_unknowns(const StudyReader& reader, StudyRun& run, const TomlEntry& en
         if (!run.model.find_independent_parameter(name))
             reader.fail(item, fmt::format("model '{}' has no parameter '{}'", run.model.name, name),
                         study_name_remedy(name, run.model.independent_parameters()));
-        run.identify.unknowns.push_back({name, "", "", ""});
+        run.identify.unknowns.push_back({name, "", "", "", item.place});
         return run.identify.unknowns.back();
     };
     if (!entry.node->is_table())
@@ -90,6 +90,7 @@ void read_readings(const StudyReader& reader, StudyRun& run, const TomlEntry& en
         IdentifyRequest::Reading& reading = run.identify.readings.emplace_back();
         reading.channel = channel;
         reading.value = value;
+        reading.place = reader.inside(item);
         return reading;
     };
     if (!entry.node->is_table())
@@ -103,6 +104,7 @@ void read_readings(const StudyReader& reader, StudyRun& run, const TomlEntry& en
         }
         IdentifyRequest::Reading reading;
         reading.channel = reading.value = item.name;
+        reading.place = item.place;
         reader.each_of(item, {"value", "gain", "offset", "noise"}, [&](const TomlEntry& part) {
             const bool is_gain = part.name == "gain";
             if (part.name == "value")

@@ -1,6 +1,7 @@
 #include "run_graze.hpp"
 
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <gmock/gmock.h>
@@ -77,6 +78,35 @@ TEST_F(FitCommand, FindsParametersThatOtherCommandsTake) {
                 displacement * std::exp(-decay * 5) *
                     (std::cos(frequency * 5) + decay / frequency * std::sin(frequency * 5)),
                 1e-8);
+}
+
+TEST_F(FitCommand, FindsWhatAStudyFindsToTheBit) {
+    const std::string a = record("a.csv", 1, "m"), b = record("b.csv", 1, "m", 60);
+    written("s.toml", R"(name = "s"
+model = "./swing.toml"
+[runs.swings]
+kind = "record"
+files = ["a.csv", "b.csv"]
+[runs.fit]
+kind = "identify"
+what = "fit"
+records = "swings"
+unknowns = { c = 0.25, k = { guess = 3, bounds = [1, 10] } }
+readings = { x = { value = "x", offset = true } }
+known = ["v"]
+)");
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(folder / ".");
+    const Printed printed = run_graze("identify s.toml --format csv");
+    std::filesystem::current_path(before);
+    ASSERT_EQ(printed.code, 0) << printed.err;
+    const Csv study(printed.out);
+    const Csv table(run_graze(fit(a + " " + b + " --free c=0.25,k=3:1:10 --offset x --known v --format csv")).out);
+    ASSERT_EQ(table.rows.size(), 5U);
+    ASSERT_EQ(study.rows.size(), 5U);
+    for (std::size_t row = 0; row < 5; ++row)
+        for (const char* column : {"name", "unit", "value", "error"})
+            EXPECT_EQ(table.text(row, column), study.text(row, column));
 }
 
 TEST_F(FitCommand, WhatComesLaterCountsMoreThanAFile) {
@@ -185,7 +215,7 @@ TEST_F(FitCommand, MistakesAreOneLineWithARemedy) {
         {a + " --free c --deviation x=1e-300", "is out of proportion"},
         {a + " --free c --with b.csv:k=1", "is none of the records"},
         {a + " --free c --channel x", "--channel has no effect beside WHAT fit"},
-        {millimetres + " --free c", "--scale x=FACTOR:m"},
+        {millimetres + " --free c", "--scale x=0.001:m"},
         {brief + " --free c,k", "3 readings cannot tell 4 numbers"},
         {one + " --free c", "fewer than two rows"},
         {(folder / "none.csv") + " --free c", "none.csv: the record cannot be read"},

@@ -161,6 +161,67 @@ TEST_F(IdentifyCommand, MistakesAreOneLineWithARemedy) {
     }
 }
 
+/// Records from files, and the same that another run has kept.
+TEST_F(IdentifyCommand, FindsWhatAStudyFindsToTheBit) {
+    const std::string a = release("a.csv", 1), b = release("b.csv", 0.5), loads = equilibria(), coil = clamped(20);
+    std::filesystem::copy(loads, folder / "more.csv");
+    written("s.toml", R"(name = "s"
+model = "electromagnetic-testbed"
+[runs.releases]
+kind = "record"
+files = ["a.csv", "b.csv"]
+[runs.loads]
+kind = "record"
+files = ["static.csv", "more.csv"]
+[runs.held]
+kind = "record"
+files = "clamped20.csv"
+[runs.decrement]
+kind = "identify"
+what = "decrement"
+records = "releases"
+[runs.coupling]
+kind = "identify"
+what = "coupling"
+records = "loads"
+each_row = true
+gap = 4.79e-3
+gap_error = 1e-5
+stiffness = 5948
+stiffness_error = 20
+[runs.impedance]
+kind = "identify"
+what = "impedance"
+records = "held"
+gap = 4.79e-3
+beta1 = 1.902e-5
+beta1_error = 2e-7
+beta2 = 1.631e-3
+beta2_error = 1e-5
+clamped = 1e-3
+)");
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(folder / ".");
+    const Printed printed = run_graze("identify s.toml --format csv");
+    std::filesystem::current_path(before);
+    ASSERT_EQ(printed.code, 0) << printed.err;
+    const Csv study(printed.out);
+    std::size_t found = 0;
+    for (const std::string& line :
+         {"decrement " + a + " " + b,
+          "coupling " + loads + " " + (folder / "more.csv") +
+              " --gap 4.79e-3 --gap-error 1e-5 --stiffness 5948 --stiffness-error 20",
+          "impedance " + coil + " --gap 4.79e-3 --beta1 1.902e-5+-2e-7 --beta2 1.631e-3+-1e-5 --clamped 1e-3"}) {
+        const Csv table = identified(line);
+        for (std::size_t row = 0; row < table.rows.size(); ++row, ++found) {
+            ASSERT_LT(found, study.rows.size());
+            for (const char* column : {"name", "value", "error"})
+                EXPECT_EQ(table.text(row, column), study.text(found, column)) << line;
+        }
+    }
+    EXPECT_EQ(found, study.rows.size());
+}
+
 /// Its runs of that kind, and what they need, but not its sweep.
 TEST_F(IdentifyCommand, DoesWhatAStudyIdentifies) {
     const std::filesystem::path before = std::filesystem::current_path();

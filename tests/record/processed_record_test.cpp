@@ -72,6 +72,23 @@ TEST(ProcessedRecord, FiltersWhatDroppedSamplesWouldTurnIntoOther) {
     }
 }
 
+TEST(ProcessedRecord, WithoutRowsIsRefusedInTheWordsOfWhoAsks) {
+    RecordProcessing processing;
+    processing.begin = 1e9;
+    for (const auto& [asked_as, remedy] :
+         {std::pair("", "let `part` leave some"), std::pair("--", "let --from and --to")})
+        try {
+            processing.asked_as = asked_as;
+            ProcessedRecord processed(record(), processing);
+            Samples samples;
+            processed.source().read(samples);
+            ADD_FAILURE() << "nothing is refused";
+        } catch (const InputError& error) {
+            EXPECT_EQ(error.problem(), "the record has no rows");
+            EXPECT_NE(error.remedy().find(remedy), std::string::npos) << error.remedy();
+        }
+}
+
 TEST(ProcessedRecord, NamesChannelsThatAreNotThere) {
     const auto message = [](const RecordProcessing& processing) -> std::string {
         try {

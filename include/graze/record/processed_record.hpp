@@ -30,7 +30,7 @@ struct RecordProcessing {
     std::string asked_as{};     ///< what stands before `scale` and `derivative` in messages, such as "--"
 };
 
-/// A source with all that is done to it.
+/// A source with all that is done to it. Reading it to its end is refused where it has given no rows.
 class ProcessedRecord {
 public:
     /// @throws InputError for channels that are not there, and settings without meaning

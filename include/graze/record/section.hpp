@@ -32,5 +32,7 @@ struct RecordSymmetry {
 /// What was recorded half a period after the section therefore becomes a point of the section.
 /// @throws InputError when there is no such channel
 SectionPoint image_of(const SectionPoint& point, const RecordSymmetry& symmetry);
+/// The point of a section that is an image: of what was recorded later by the shift. @throws InputError likewise
+SectionPoint image_section(const Period& period, double phase, const RecordSymmetry& symmetry);
 
 } // namespace graze

@@ -23,22 +23,29 @@ struct IdentifyRequest {
     double least_jump = 0;
     std::string gap, stiffness;        ///< of couplings; the gap also of impedances
     std::string beta1, beta2, clamped; ///< of impedances: for the leakage inductance
-    std::string frequency;             ///< about that of the voltage, by unit of time; empty: by itself
+    /// Standard errors of those numbers, besides what the parameters in them make.
+    double gap_error = 0, stiffness_error = 0, beta1_error = 0, beta2_error = 0;
+    std::string frequency; ///< about that of the voltage, by unit of time; empty: by itself
     double displacement_noise = 0, current_noise = 0;
+    bool each_row = false; ///< couplings: each row is an equilibrium; otherwise, of several records, each record is
     struct Unknown {
         std::string name, guess, least, greatest; ///< empty: the model's value; no bound
+        Place place{};
     };
     std::vector<Unknown> unknowns; ///< of fits: parameters
     struct Reading {
         std::string channel, value; ///< of the record, and what it is in terms of the model
         bool gain_unknown = false, offset_unknown = false;
         double gain = 1, offset = 0, noise = 0;
+        bool may_lack = false; ///< records need not have the channel
+        Place place{};
     };
     std::vector<Reading> readings;
     std::vector<std::string> known; ///< states that begin as the model says
     bool all_known = false;
     FitLoss loss = FitLoss::squares;
     double piece = 0;
+    std::string asked_as; ///< what stands before names of settings in messages, such as "--"
 };
 
 } // namespace graze
