@@ -6,6 +6,7 @@
 #include "graze/model/catalogue.hpp"
 #include "graze/results/name_advice.hpp"
 #include "graze/results/result_table.hpp"
+#include "graze/results/run_kind.hpp"
 #include "graze/results/table_recorder.hpp"
 #include "graze/study/study_catalogue.hpp"
 #include "program/identify_arguments.hpp"
@@ -227,6 +228,8 @@ Choices choices_for(const CLI::App& app, const CLI::App& command, const Declared
         return {of == "export" ? std::vector<std::string>{"table", "csv", "json", "hdf5"}
                                : std::vector<std::string>{"table", "csv", "json"},
                 false};
+    if (starts("KIND_OF_RUN"))
+        return {both(kinds_of_runs(), {"all"}), false};
     if (starts("KIND"))
         return {{"bifurcation", "branch", "basin", "map", "spectrum", "history", "portrait", "poincare", "regression",
                  "scatter", "residuals"},

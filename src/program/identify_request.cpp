@@ -42,6 +42,7 @@ std::string text_of(const std::optional<double>& value) {
 StudyRun identify_request(const IdentifyArguments& arguments) {
     StudyRun run;
     run.kind = RunKind::identify;
+    run.simulation = FitSettings().simulation;
     IdentifyRequest& request = run.identify;
     const std::vector<std::string> kinds = identify_kinds();
     request.what =

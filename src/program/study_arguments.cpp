@@ -79,7 +79,8 @@ void declare_run(CLI::App& app, RunArguments& arguments) {
     command.add_flag("--show", arguments.show, "Print the study instead of running it");
     std::vector<std::string> kinds = kinds_of_runs();
     kinds.emplace_back("all");
-    add(command, "--keys", arguments.keys, "KIND", "List the keys of runs of this kind, such as sweep, or of all")
+    add(command, "--keys", arguments.keys, "KIND_OF_RUN",
+        "List the keys of runs of this kind, such as sweep, or of all")
         ->check(one_of(kinds));
     command.add_flag("--schema", arguments.schema, "Print what studies may consist of, for editors: a JSON Schema");
     command.add_flag("--steps", arguments.steps, "Print a line for each orbit of a branch as it is found");

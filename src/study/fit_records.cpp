@@ -122,6 +122,7 @@ FitOfRecords fit_records(const StudyRun& run, const std::vector<KeptRecord>& rec
     FitOfRecords made = maker.made();
     settings.loss = run.identify.loss;
     settings.piece = run.identify.piece;
+    settings.simulation = run.simulation;
     made.fit = fit_model(System(run.model), made.task, settings);
     for (FittedNumber& number : made.fit.numbers)
         if (number.kind == FittedNumber::Kind::offset)

@@ -20,6 +20,8 @@ void set_standards(StudyRun& run) {
         run.direction = SweepDirection::both;
     if (run.is_branch())
         run.branch.settings.monitors = usual_monitors(run.model);
+    if (run.kind == RunKind::identify)
+        run.simulation = FitSettings().simulation;
 }
 
 namespace {
@@ -204,6 +206,7 @@ void read_measured(const StudyReader& reader, StudyRun& run, const TomlEntry& en
     const bool identifies = run.kind == RunKind::identify;
     if (identifies || has_bench(keys))
         mistakes.attempt([&] { read_beginning(reader, run, defaults, keys); });
+    set_standards(run);
     if (identifies && !mistakes.attempt([&] { read_estimate(reader, run, entry, keys); }))
         mistakes.throw_noted();
     const KeyReader fields(reader, run, keys, mistakes);

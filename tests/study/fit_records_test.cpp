@@ -20,6 +20,7 @@ StudyRun swing() {
                             "[modes.swing]\nrates = { x = \"v\", v = \"-k*x\" }\n",
                             "swing");
     run.kind = RunKind::identify;
+    run.simulation = FitSettings().simulation;
     run.place = {"s.toml", 7, 1};
     run.identify.what = IdentifyRequest::What::fit;
     run.identify.unknowns = {{"k", "", "", "", {}}};
@@ -62,6 +63,18 @@ TEST(FitRecords, records_need_not_have_the_same_channels) {
     StudyRun strict = swing();
     strict.identify.readings.back().may_lack = false;
     EXPECT_THAT(refusal(strict, {record("x", "m")}), HasSubstr("the record has no channel 'v'"));
+}
+
+TEST(FitRecords, motions_are_integrated_with_the_tolerance_of_the_run) {
+    const auto k_at = [](double tolerance) {
+        StudyRun run = swing();
+        run.simulation.tolerance = tolerance;
+        return fit_records(run, {record("x", "m")}).fit.numbers[0].estimate.value;
+    };
+    const double fine = std::abs(k_at(1e-13) - 4), coarse = std::abs(k_at(1e-4) - 4);
+    EXPECT_LT(fine, 1e-11);
+    EXPECT_GT(coarse, 10 * fine);
+    EXPECT_LT(coarse, 1e-3);
 }
 
 TEST(FitRecords, units_that_do_not_agree_are_refused_in_the_words_of_who_asks) {
