@@ -40,6 +40,7 @@ const std::map<std::string, Words>& refused_values() {
         {"SPEED", numbers},
         {"CYCLES", numbers},
         {"LOSS", {"7", "", "nan"}},
+        {"KIND_OF_RUN", {"7", "", "nan", "bifurcation"}},
         {"FLAG", {"7", "1e999", "nan", "x"}},
     };
     return all;
