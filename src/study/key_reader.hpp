@@ -5,7 +5,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <initializer_list>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,61 +22,71 @@ public:
         : reader_(reader), run_(run), keys_(keys), mistakes_(mistakes) {}
 
     template <class Count>
-    void count(const Key& key, Count& value, CountRange range = {}) const {
+    void count(const Key& key, Count& value, CountRange range = {}) {
         read(key, [&](const TomlEntry& e) { value = static_cast<Count>(reader_.count(e, range.least, range.most)); });
     }
-    void number(const Key& key, double& value, const NumberRange& range) const {
+    void number(const Key& key, double& value, const NumberRange& range) {
         read(key, [&](const TomlEntry& e) { value = reader_.number(run_.model, e, range); });
     }
-    void truth(const Key& key, bool& value) const {
+    void truth(const Key& key, bool& value) {
         read(key, [&](const TomlEntry& e) { value = reader_.toml().boolean(e); });
     }
     /// The opposite of what is stored.
-    void denied(const Key& key, const char*, bool& value) const {
+    void denied(const Key& key, const char*, bool& value) {
         read(key, [&](const TomlEntry& e) { value = !reader_.toml().boolean(e); });
     }
     template <class Choice>
-    void choice(const Key& key, Choice& value, const std::vector<std::string>& words) const {
+    void choice(const Key& key, Choice& value, const std::vector<std::string>& words) {
         read(key, [&](const TomlEntry& e) { value = static_cast<Choice>(reader_.choice(e, words)); });
     }
-    void line(const Key& key, std::string& value) const {
+    void line(const Key& key, std::string& value) {
         read(key, [&](const TomlEntry& e) { value = reader_.toml().line(e); });
     }
-    void lines(const Key& key, std::vector<std::string>& value) const {
+    void lines(const Key& key, std::vector<std::string>& value) {
         read(key, [&](const TomlEntry& e) { value = reader_.strings(e); });
     }
     /// A number, or an expression in parameters as they will be when other runs have found them.
-    void later_number(const Key& key, std::string& value) const {
+    void later_number(const Key& key, std::string& value) {
         read(key, [&](const TomlEntry& e) { value = reader_.number_text(run_.model, e); });
     }
-    void form(const Key& key, const char*, FormReader read_form) const {
+    void form(const Key& key, const char*, FormReader read_form) {
         read(key, [&](const TomlEntry& e) {
             if (read_form)
                 read_form(reader_, run_, e);
         });
     }
 
+    /// Whether one of these keys is there and could not be read.
+    bool is_wrong(std::initializer_list<std::string_view> names) const {
+        return std::any_of(names.begin(), names.end(), [&](std::string_view name) {
+            return std::find(wrong_.begin(), wrong_.end(), name) != wrong_.end();
+        });
+    }
     /// Keys that are stored together stand in the run one by one.
     template <class Describe>
-    void object(std::string_view, Describe describe) const {
+    void object(std::string_view, Describe describe) {
         describe(*this);
     }
 
 private:
     template <class Work>
-    void read(const Key& key, const Work& work) const {
-        if (key.offered)
-            with_key(mistakes_, keys_, key.name, [&](const TomlEntry& entry) {
-                if (!key.idle.empty())
-                    reader_.fail(entry, fmt::format("`{}` {}", key.name, key.idle), "leave it out");
-                work(entry);
-            });
+    void read(const Key& key, const Work& work) {
+        if (!key.offered)
+            return;
+        const bool good = with_key(mistakes_, keys_, key.name, [&](const TomlEntry& entry) {
+            if (!key.idle.empty())
+                reader_.fail(entry, fmt::format("`{}` {}", key.name, key.idle), "leave it out");
+            work(entry);
+        });
+        if (!good)
+            wrong_.emplace_back(key.name);
     }
 
     const StudyReader& reader_;
     StudyRun& run_;
     const RunKeys& keys_;
     Mistakes& mistakes_;
+    std::vector<std::string> wrong_; ///< names of keys that could not be read
 };
 
 } // namespace graze

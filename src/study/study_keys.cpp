@@ -1,3 +1,4 @@
+#include "graze/base/require.hpp"
 #include "study/key_list.hpp"
 #include "study/run_description.hpp"
 
@@ -78,37 +79,47 @@ void check_beginning(const StudyReader& reader, RunKind kind, const RunKeys& key
 
 } // namespace
 
-std::vector<StudyKey> study_keys(RunKind kind) {
-    StudyRun run;
-    run.kind = kind;
-    set_standards(run);
-    KeyList list;
-    describe(list, run);
-    return std::move(list.keys);
+const std::vector<StudyKey>& study_keys(RunKind kind) {
+    static const std::vector<std::vector<StudyKey>> of_kinds = [] {
+        std::vector<std::vector<StudyKey>> all;
+        for (std::size_t one = 0; one < kinds_of_runs().size(); ++one) {
+            StudyRun run;
+            run.kind = static_cast<RunKind>(one);
+            set_standards(run);
+            KeyList list;
+            describe(list, run);
+            all.push_back(std::move(list.keys));
+        }
+        return all;
+    }();
+    const auto index = static_cast<std::size_t>(kind);
+    require_index(index, of_kinds.size(), "kind of runs");
+    return of_kinds[index];
 }
 
-std::vector<std::string> names_of_keys() {
-    std::vector<std::string> names;
-    for (std::size_t kind = 0; kind < kinds_of_runs().size(); ++kind)
-        for (const StudyKey& key : study_keys(static_cast<RunKind>(kind)))
-            if (std::find(names.begin(), names.end(), key.name) == names.end())
-                names.push_back(key.name);
+const std::vector<std::string>& names_of_keys() {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> all;
+        for (std::size_t kind = 0; kind < kinds_of_runs().size(); ++kind)
+            for (const StudyKey& key : study_keys(static_cast<RunKind>(kind)))
+                if (std::find(all.begin(), all.end(), key.name) == all.end())
+                    all.push_back(key.name);
+        return all;
+    }();
     return names;
 }
 
 void check_keys_of_kind(const StudyReader& reader, RunKind kind, const RunKeys& keys) {
-    std::vector<std::vector<StudyKey>> known;
-    for (std::size_t one = 0; one < kinds_of_runs().size(); ++one)
-        known.push_back(study_keys(static_cast<RunKind>(one)));
-    const auto has = [&](std::size_t of, const std::string& name) {
-        return std::any_of(known[of].begin(), known[of].end(), [&](const StudyKey& key) { return key.name == name; });
+    const auto has = [](std::size_t of, const std::string& name) {
+        const std::vector<StudyKey>& known = study_keys(static_cast<RunKind>(of));
+        return std::any_of(known.begin(), known.end(), [&](const StudyKey& key) { return key.name == name; });
     };
     Mistakes mistakes;
     for (const auto& [name, entry] : keys) {
         if (has(static_cast<std::size_t>(kind), name))
             continue;
         std::vector<std::string> kinds;
-        for (std::size_t other = 0; other < known.size(); ++other)
+        for (std::size_t other = 0; other < kinds_of_runs().size(); ++other)
             if (has(other, name))
                 kinds.push_back(fmt::format("\"{}\"", kinds_of_runs()[other]));
         mistakes.attempt([&, &name = name, &entry = entry] {

@@ -105,8 +105,10 @@ std::vector<StudyRun> in_order(std::vector<StudyRun> runs);
 /// The values of one entry of `vary`.
 Variation read_variation(const StudyReader& reader, const Model& model, const TomlEntry& entry);
 
-/// What only runs of kind record say. The run's model is that of a virtual bench, and becomes that of the record.
-void read_record(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const RunKeys& keys);
+/// The records of a run: files, or a virtual bench on which the run's model is.
+void read_inputs(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const RunKeys& keys);
+/// What is taken from them. The run's model becomes that of the record.
+void read_record(const StudyReader& reader, StudyRun& run, const RunKeys& keys);
 /// What the user left to us, once values have been read.
 void complete_record(const StudyReader& reader, StudyRun& run, const RunKeys& keys);
 /// What a run of kind identify finds. @throws InputError for keys that have no effect on it
@@ -127,7 +129,7 @@ void note_set(const StudyReader& reader, StudyRun& run, const TomlEntry& entry);
 /// What holds where nothing is said, and is not the same for all kinds.
 void set_standards(StudyRun& run);
 /// Keys that runs of any kind have.
-std::vector<std::string> names_of_keys();
+const std::vector<std::string>& names_of_keys();
 /// @throws InputError for a key that runs of this kind do not use, or that another one makes useless
 void check_keys_of_kind(const StudyReader& reader, RunKind kind, const RunKeys& keys);
 

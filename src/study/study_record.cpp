@@ -287,7 +287,7 @@ std::string words_of_channel(const RecordRequest& request, const std::string& ch
 
 } // namespace
 
-void read_record(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const RunKeys& keys) {
+void read_inputs(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const RunKeys& keys) {
     RecordRequest& request = run.record;
     if (keys.contains("files") == keys.contains("bench"))
         reader.fail(entry, fmt::format("{} has {} records", entry.path, keys.contains("files") ? "two kinds of" : "no"),
@@ -302,6 +302,11 @@ void read_record(const StudyReader& reader, StudyRun& run, const TomlEntry& entr
             set_levels(reader, run, keys.at("bench"));
         });
     mistakes.throw_noted();
+}
+
+void read_record(const StudyReader& reader, StudyRun& run, const RunKeys& keys) {
+    RecordRequest& request = run.record;
+    Mistakes mistakes;
     const RecordHeader header = header_of(reader, run, keys);
     read_channels(reader, header, request, keys);
     std::vector<RecordedName> states, coordinates;

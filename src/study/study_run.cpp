@@ -171,7 +171,7 @@ void check_draws(const StudyReader& reader, const StudyRun& run, const TomlEntry
 
 /// The keys that a run has, and what it is.
 void read_keys(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, RunKeys& keys) {
-    const std::vector<std::string> known = names_of_keys();
+    const std::vector<std::string>& known = names_of_keys();
     Mistakes mistakes;
     mistakes.attempt([&] { require_file_name(run.name, "name of a run", entry.place); });
     mistakes.attempt([&] {
@@ -209,12 +209,14 @@ void read_measured(const StudyReader& reader, StudyRun& run, const TomlEntry& en
     set_standards(run);
     if (identifies && !mistakes.attempt([&] { read_estimate(reader, run, entry, keys); }))
         mistakes.throw_noted();
-    const KeyReader fields(reader, run, keys, mistakes);
+    KeyReader fields(reader, run, keys, mistakes);
     describe(fields, run);
+    if (run.kind == RunKind::record && !fields.is_wrong({"vary", "direction", "carry", "seed"}))
+        mistakes.attempt([&] { read_inputs(reader, run, entry, keys); });
     mistakes.throw_noted();
     if (identifies)
         return complete_identify(reader, run, entry);
-    read_record(reader, run, entry, keys);
+    read_record(reader, run, keys);
     with_key(mistakes, keys, "values", [&](const TomlEntry& values) { read_values(reader, run, values); });
     mistakes.throw_noted();
     complete_record(reader, run, keys);
@@ -226,16 +228,19 @@ void read_contents(const StudyReader& reader, StudyRun& run, const TomlEntry& en
     Mistakes mistakes;
     mistakes.attempt([&] { read_beginning(reader, run, defaults, keys); });
     set_standards(run);
-    const KeyReader fields(reader, run, keys, mistakes);
+    KeyReader fields(reader, run, keys, mistakes);
     describe(fields, run);
     if (run.has_motions())
         with_key(mistakes, keys, "from", [&](const TomlEntry& from) { read_following_states(reader, run, from); });
     if (!keys.contains("values") && defaults.values)
         mistakes.attempt([&] { read_values(reader, run, *defaults.values); });
+    if (!fields.is_wrong({"vary", "draws", "seed"}))
+        mistakes.attempt([&] {
+            check_draws(reader, run, entry, keys);
+            if (keys.contains("vary"))
+                check_points(reader, run, keys.at("vary"));
+        });
     mistakes.throw_noted();
-    check_draws(reader, run, entry, keys);
-    if (keys.contains("vary"))
-        check_points(reader, run, keys.at("vary"));
     if (run.is_branch())
         complete_branch(run, keys);
 }

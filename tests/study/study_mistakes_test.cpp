@@ -129,6 +129,21 @@ monitors = { m = { maximum = "q" }, n = { minimum = "x", mean = "x" }, o = { lar
                             "9: unknown key 'largest' in runs.a.monitors.o"));
 }
 
+TEST(StudyMistakes, of_draws_are_told_beside_others) {
+    EXPECT_THAT(mistakes_in(head + "[runs.a]\nkind = \"basin\"\ncycles = 0\nvary = { x = { random = [0, 1] } }\n"),
+                ElementsAre("5: runs.a.cycles is 0", "6: runs.a does not say how many values to draw"));
+    EXPECT_THAT(mistakes_in(head + "[runs.a]\nkind = \"basin\"\ndraws = 3\nvary = { q = { random = [0, 1] } }\n"),
+                ElementsAre(HasSubstr("6: the model has no parameter or state 'q'")));
+}
+
+TEST(StudyMistakes, of_records_are_told_beside_their_files) {
+    EXPECT_THAT(mistakes_in(head + "[runs.a]\nkind = \"record\"\nfiles = \"none.csv\"\nevery = 0\nkeep = -1\n"),
+                ElementsAre(HasSubstr("5: "), "6: runs.a.every is 0", "7: runs.a.keep is -1"));
+    EXPECT_THAT(mistakes_in(head + "[runs.a]\nkind = \"record\"\nseed = -1\nkeep = -1\n"
+                                   "bench = { rate = 100, time = 1, channels = { x = \"y\" } }\n"),
+                ElementsAre("5: runs.a.seed is -1", "6: runs.a.keep is -1"));
+}
+
 TEST(StudyMistakes, runs_that_start_from_each_other_are_told) {
     const std::string run = "kind = \"simulate\"\ntime = 1\n";
     EXPECT_THAT(mistakes_in(head + "[runs.a]\n" + run + "start = { run = \"b\" }\n[runs.b]\n" + run +

@@ -7,8 +7,18 @@
 
 namespace graze {
 
-/// What a run of a study computes. `follow` is called "continue" in studies and results.
-enum class RunKind { simulate, sweep, basin, orbit, follow, curve, ladder, record, identify };
+/// What a run of a study computes.
+enum class RunKind {
+    simulate, ///< motions for a time
+    sweep,    ///< what motions settle on as a parameter changes
+    basin,    ///< what they settle on from many states
+    orbit,    ///< one periodic orbit
+    follow,   ///< a branch of them; called "continue" in studies and results
+    curve,    ///< special points in two parameters
+    ladder,   ///< from one grazing to the next
+    record,   ///< measured records
+    identify  ///< parameters from them
+};
 
 /// The names of all kinds, in the order of RunKind.
 const std::vector<std::string>& kinds_of_runs();

@@ -19,7 +19,7 @@ struct StudyKey {
     std::vector<std::string> words; ///< of which it is one
 };
 
-/// The keys of runs of a kind, in the order in which the pages of the format have them.
-std::vector<StudyKey> study_keys(RunKind kind);
+/// The keys of runs of a kind, in the order in which they are described. @throws InputError for what is no kind
+const std::vector<StudyKey>& study_keys(RunKind kind);
 
 } // namespace graze
