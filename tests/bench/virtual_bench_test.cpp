@@ -1,5 +1,6 @@
 #include "graze/bench/virtual_bench.hpp"
 
+#include "bench/testbed.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/model/model_file.hpp"
 
@@ -11,13 +12,7 @@ namespace graze {
 namespace {
 
 BenchSettings testbed() {
-    BenchSettings settings;
-    settings.model = load_model("electromagnetic-testbed");
-    settings.amplitude = driven_input(settings.model, "V0", "--amplitude");
-    settings.frequency = driven_input(settings.model, "f", "--frequency");
-    for (const char* text : {"V=voltage:V", "I", "q", "v"})
-        settings.channels.push_back(bench_channel(settings.model, text, "--channel"));
-    return settings;
+    return testing::testbed({"V=voltage:V", "I", "q", "v"});
 }
 
 /// A phase alone, whose sine is what is measured: all of it is known in closed form.

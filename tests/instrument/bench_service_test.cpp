@@ -1,6 +1,6 @@
 #include "instrument/bench_service.hpp"
 
-#include "graze/model/catalogue.hpp"
+#include "bench/testbed.hpp"
 
 #include <arpa/inet.h>
 #include <array>
@@ -20,12 +20,7 @@ namespace graze {
 namespace {
 
 BenchSettings testbed() {
-    BenchSettings settings;
-    settings.model = load_model("electromagnetic-testbed");
-    settings.amplitude = driven_input(settings.model, "V0", "--amplitude");
-    settings.frequency = driven_input(settings.model, "f", "--frequency");
-    settings.channels.push_back(bench_channel(settings.model, "I", "--channel"));
-    return settings;
+    return testing::testbed({"I"});
 }
 
 /// A bench that serves in a thread of its own, and the other ends of its connections.

@@ -1,40 +1,15 @@
 #include "graze/results/table_recorder.hpp"
 
-#include "graze/model/model_file.hpp"
 #include "graze/trajectory/run_control.hpp"
+#include "trajectory/ball_between_walls.hpp"
 
 #include <gtest/gtest.h>
 
 namespace graze {
 namespace {
 
-/// A ball between two walls: two contacts in each unit of time, for ever.
-constexpr const char* ball = R"(
-[states]
-x = 0
-v = 2
-[modes.flight]
-rates = { x = "v", v = "0" }
-watch = ["left", "right"]
-[events]
-left = "x"
-right = "1 - x"
-[jumps.turn]
-v = "-v"
-[[transitions]]
-mode = "flight"
-event = "left"
-jump = "turn"
-next = "flight"
-[[transitions]]
-mode = "flight"
-event = "right"
-jump = "turn"
-next = "flight"
-)";
-
 TEST(TableRecorder, TheRunEndsWhenTheTableIsFull) {
-    const Model model = parse_model(ball, "ball.toml");
+    const Model model = testing::ball_between_walls(0);
     for (const TableKind kind : {TableKind::contacts, TableKind::minima}) {
         SimulationOptions options;
         options.minima = kind == TableKind::minima;

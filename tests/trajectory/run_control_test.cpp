@@ -1,40 +1,12 @@
 #include "graze/trajectory/run_control.hpp"
 
-#include "graze/model/model_file.hpp"
 #include "graze/trajectory/trajectory.hpp"
+#include "trajectory/ball_between_walls.hpp"
 
 #include <gtest/gtest.h>
 
 namespace graze {
 namespace {
-
-/// A ball between two walls: a contact every half unit of time.
-Model ball() {
-    return parse_model(R"(
-[states]
-x = 0.5
-v = 2
-[modes.flight]
-rates = { x = "v", v = "0" }
-watch = ["left", "right"]
-[events]
-left = "x"
-right = "1 - x"
-[jumps.turn]
-v = "-v"
-[[transitions]]
-mode = "flight"
-event = "left"
-jump = "turn"
-next = "flight"
-[[transitions]]
-mode = "flight"
-event = "right"
-jump = "turn"
-next = "flight"
-)",
-                       "ball.toml");
-}
 
 struct Seen : Observer {
     void contact(const Contact& contact) override { times.push_back(contact.time); }
@@ -43,7 +15,7 @@ struct Seen : Observer {
 
 /// Runs a leg that is not shown and one that is. @return the contacts of the latter
 std::vector<double> contacts_of(const LegEnd& first, const LegEnd& second, RunControl& control, const Seen& seen) {
-    const Model model = ball();
+    const Model model = testing::ball_between_walls(0.5);
     const Simulation simulation(model, {}, {}, {});
     Trajectory trajectory(simulation, {}, control);
     trajectory.start(model.initial_state(), 0, 0, 1e3);
