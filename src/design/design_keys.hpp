@@ -17,16 +17,4 @@ std::string design_fingerprint(const toml::table& root);
 /// A path relative to the folder of the file that names it.
 std::string beside(const std::string& file, const std::string& path);
 
-/// An error of what has no place of its own stands where it is named.
-template <class Work>
-auto at(const Place& place, const Work& work) {
-    try {
-        return work();
-    } catch (const InputError& error) {
-        if (!error.place().file.empty())
-            throw;
-        throw InputError(place, error.problem(), error.remedy());
-    }
-}
-
 } // namespace graze

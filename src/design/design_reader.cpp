@@ -3,6 +3,7 @@
 #include "design/design_keys.hpp"
 #include "design/wanted_reader.hpp"
 #include "graze/base/file_name.hpp"
+#include "graze/base/with_place.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/study/study_catalogue.hpp"
 
@@ -114,7 +115,7 @@ void DesignReader::read_model() {
         throw InputError(Place{design_.file, 1, 1}, "the design has no model", "give model = \"NAME\" or a path");
     const std::string name = reader_.toml().string(*entry);
     design_.model_path = is_model_path(name) ? beside(design_.file, name) : name;
-    design_.model = at(reader_.toml().place(*entry->node), [&] { return load_model(design_.model_path); });
+    design_.model = with_place(reader_.toml().place(*entry->node), [&] { return load_model(design_.model_path); });
 }
 
 void DesignReader::take_model_of_study() {
@@ -124,7 +125,7 @@ void DesignReader::take_model_of_study() {
     const Place place = reader_.toml().place(*approach_.at("study").node);
     if (is_model_path(approach.study))
         approach.study = beside(design_.file, approach.study);
-    const Study study = at(place, [&] { return load_study(approach.study); });
+    const Study study = with_place(place, [&] { return load_study(approach.study); });
     require_run(approach.run, names_of(study.runs), reader_.toml().place(*approach_.at("run").node));
     const StudyRun& run = *study.find_run(approach.run);
     if (!run.is_branch())
@@ -138,13 +139,13 @@ void DesignReader::take_model_of_study() {
 void DesignReader::read_set(const TomlEntry& entry) {
     reader_.each_of(entry, {}, [&](const TomlEntry& item) {
         const double value = number(item);
-        at(item.place, [&] { design_.model.set_parameter(item.name, value); });
+        with_place(item.place, [&] { design_.model.set_parameter(item.name, value); });
         design_.set.emplace_back(item.name, value);
     });
 }
 
 ParameterId DesignReader::parameter_of(const TomlEntry& entry, const std::string& name) const {
-    return at(entry.place, [&] { return design_.model.independent_parameter(name); });
+    return with_place(entry.place, [&] { return design_.model.independent_parameter(name); });
 }
 
 void DesignReader::read_control() {
@@ -173,7 +174,7 @@ void DesignReader::read_branch() {
     with("from", [&](const TomlEntry& e) {
         reader_.each_of(e, {}, [&](const TomlEntry& item) {
             const double value = number(item);
-            at(item.place, [&] { design_.model.set_initial(item.name, value); });
+            with_place(item.place, [&] { design_.model.set_initial(item.name, value); });
             approach.from.emplace_back(item.name, value);
         });
     });

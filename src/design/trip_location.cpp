@@ -1,5 +1,6 @@
 #include "graze/design/trip_location.hpp"
 
+#include "graze/base/with_place.hpp"
 #include "graze/study/runner.hpp"
 
 #include <fmt/format.h>
@@ -32,7 +33,7 @@ std::optional<TripPoint> locate_trip(const Design& design, const std::string& pa
     ResultFile file(path, ResultFile::Access::write);
     if (!follow(study, file, options))
         return std::nullopt;
-    return said_of(design, [&] { return find_trip_point(design, study, file); });
+    return with_place(design.approach.place, [&] { return find_trip_point(design, study, file); });
 }
 
 } // namespace graze

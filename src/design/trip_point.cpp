@@ -2,6 +2,7 @@
 
 #include "base/json_text.hpp"
 #include "graze/base/input_errors.hpp"
+#include "graze/base/with_place.hpp"
 #include "graze/results/stored_orbit.hpp"
 #include "graze/study/study_catalogue.hpp"
 
@@ -53,13 +54,7 @@ std::vector<std::string> way_to(const Study& study, const std::string& name) {
 
 /// Parameters that the design sets hold for all runs.
 Study named_study(const Design& design) {
-    try {
-        return load_study(design.approach.study, design.set);
-    } catch (const InputError& error) {
-        if (!error.place().file.empty())
-            throw;
-        throw InputError(design.approach.place, error.problem(), error.remedy());
-    }
+    return with_place(design.approach.place, [&] { return load_study(design.approach.study, design.set); });
 }
 
 /// The first touch of the event that is asked for, or of any.

@@ -1,6 +1,7 @@
 #include "design/wanted_reader.hpp"
 
 #include "design/design_keys.hpp"
+#include "graze/base/with_place.hpp"
 
 #include <fmt/format.h>
 
@@ -51,7 +52,8 @@ void WantedReader::read_item(const TomlEntry& item) {
         read_importance(item);
     } else {
         reader_.each_of(item, {}, [&](const TomlEntry& one) {
-            const ParameterId parameter = at(one.place, [&] { return design_.model.independent_parameter(one.name); });
+            const ParameterId parameter =
+                with_place(one.place, [&] { return design_.model.independent_parameter(one.name); });
             wanted_.sensitivities.emplace_back(parameter, reader_.positive(design_.model, one));
         });
     }

@@ -412,6 +412,11 @@ private:
 
 } // namespace
 
+const std::vector<std::string>& names_of_losses() {
+    static const std::vector<std::string> names{"squares", "huber", "cauchy"};
+    return names;
+}
+
 std::string_view name_of(FitEnding ending) {
     switch (ending) {
     case FitEnding::converged:

@@ -1,6 +1,7 @@
 #include "graze/layout/drawn_design.hpp"
 
 #include "graze/base/input_error.hpp"
+#include "graze/base/with_place.hpp"
 #include "graze/design/trip_location.hpp"
 #include "graze/design/trip_times.hpp"
 #include "graze/layout/lumped_model.hpp"
@@ -142,7 +143,7 @@ void add_time(Comparison& rows, const Design& design, const TripPoint& drawn, co
 std::optional<DrawnDesign> drawn_design(const DesignedDevice& designed, const std::string& results,
                                         const DesignReportOptions& options) {
     const Design found = with_device(designed.own, designed.device);
-    Design drawn = said_of(found, [&] { return design_of_device(found, designed.matched.file); });
+    Design drawn = with_place(found.approach.place, [&] { return design_of_device(found, designed.matched.file); });
     drawn.dimensions = found.dimensions; // of which wishes tell
     const std::optional<TripPoint> trip = locate_trip(drawn, results, options);
     if (!trip)
@@ -151,10 +152,10 @@ std::optional<DrawnDesign> drawn_design(const DesignedDevice& designed, const st
     WishesOptions wishing;
     wishing.jobs = options.jobs;
     wishing.interrupted = options.interrupted;
-    const MetWishes wishes = said_of(drawn, [&] { return wishes_at(drawn, *trip, wishing); });
+    const MetWishes wishes = with_place(drawn.approach.place, [&] { return wishes_at(drawn, *trip, wishing); });
     std::optional<MetWishes> wishes_before;
     if (before)
-        wishes_before = said_of(found, [&] { return wishes_at(found, *before, wishing); });
+        wishes_before = with_place(found.approach.place, [&] { return wishes_at(found, *before, wishing); });
     Comparison rows;
     add_quantities(rows, designed);
     const Model& model = trip->system.model();

@@ -2,6 +2,7 @@
 
 #include "graze/base/input_error.hpp"
 #include "graze/base/physical_unit.hpp"
+#include "graze/base/with_place.hpp"
 #include "graze/layout/folded_spring.hpp"
 #include "graze/layout/plate_attraction.hpp"
 #include "graze/layout/squeeze_film.hpp"
@@ -191,13 +192,7 @@ LumpedModel lumped_model_of(const DeviceDrawing& drawing, const DeviceFile& file
 }
 
 Model model_of(const DeviceFile& file) {
-    try {
-        return load_model(file.model);
-    } catch (const InputError& error) {
-        if (!error.place().file.empty())
-            throw;
-        throw InputError(file.place("model"), error.problem(), error.remedy());
-    }
+    return with_place(file.place("model"), [&] { return load_model(file.model); });
 }
 
 ParameterFile parameters_of(const LumpedModel& lumped, const Model& model) {

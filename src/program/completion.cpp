@@ -217,7 +217,7 @@ Choices choices_for(const CLI::App& app, const CLI::App& command, const Declared
         if (name == "COMMAND")
             return {commands, false};
         if (name == "WHAT")
-            return {identify_kinds(), false};
+            return {kinds_of_estimates(), false};
         if (name == "SHELL")
             return {completion_shells(), false};
         return {of == "info" ? both(shipped_models(), shipped_studies()) : std::vector<std::string>(), name == "FILE"};

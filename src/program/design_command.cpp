@@ -1,4 +1,5 @@
 #include "graze/base/input_error.hpp"
+#include "graze/base/with_place.hpp"
 #include "graze/design/design_folder.hpp"
 #include "graze/design/design_report.hpp"
 #include "graze/design/trip_location.hpp"
@@ -244,7 +245,7 @@ int design_command(const DesignArguments& arguments, const Console& console) {
     std::optional<MetWishes> wishes;
     Design design = first;
     if (!first.wanted.is_empty()) {
-        wishes = said_of(first, [&] { return wished(first, *trip, options); });
+        wishes = with_place(first.approach.place, [&] { return wished(first, *trip, options); });
         if (wishes->found.outcome == WishOutcome::interrupted)
             return interrupted(console);
         if (wishes->found.outcome != WishOutcome::nowhere) {
@@ -255,7 +256,7 @@ int design_command(const DesignArguments& arguments, const Console& console) {
                 return interrupted(console);
         }
     }
-    DesignReport report = said_of(design, [&] { return report_of(design, *trip, options); });
+    DesignReport report = with_place(design.approach.place, [&] { return report_of(design, *trip, options); });
     report.wishes = std::move(wishes);
     if (report.interrupted)
         return interrupted(console);

@@ -1,6 +1,7 @@
 #include "program/disturbed_trips.hpp"
 
 #include "graze/base/input_error.hpp"
+#include "graze/base/with_place.hpp"
 #include "graze/picture/figure_script.hpp"
 #include "graze/trip/disturbed_trip.hpp"
 #include "graze/trip/noisy_trip.hpp"
@@ -90,13 +91,7 @@ void for_each_of(AskedTrips& asked, const std::vector<double>& values, const cha
                  const std::function<bool(double)>& row) {
     asked.wanted = values.size();
     for (const double value : values) {
-        try {
-            asked.interrupted = !row(value);
-        } catch (const InputError& error) {
-            if (!error.place().file.empty())
-                throw;
-            throw InputError(Place{asked.option(option), 0, 0}, error.problem(), error.remedy());
-        }
+        asked.interrupted = !with_place({asked.option(option), 0, 0}, [&] { return row(value); });
         if (asked.interrupted)
             return;
         ++asked.done;

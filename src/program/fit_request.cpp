@@ -1,12 +1,12 @@
 #include "program/fit_request.hpp"
 
 #include "graze/base/input_error.hpp"
+#include "graze/base/with_place.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/model/named_value.hpp"
 #include "program/identify_request.hpp"
 #include "program/record_stages.hpp"
 #include "program/values.hpp"
-#include "program/with_file.hpp"
 
 #include <fmt/format.h>
 
@@ -80,7 +80,7 @@ public:
             asked().unknowns.push_back(unknown_of(model, item));
         read_meanings();
         for (auto file = files.begin() + 1; file != files.end(); ++file)
-            with_file(*file, [&] { read_record(*file); });
+            with_place({*file, 0, 0}, [&] { read_record(*file); });
         read_own();
         take_channel_options(arguments_->gains, "--gain", [](Reading& reading, std::optional<double> value) {
             reading.gain_unknown = true;
@@ -95,9 +95,8 @@ public:
                 throw InputError({"--deviation", 0, 0}, "noise has no positive deviation", "write CHANNEL=VALUE");
             reading.noise = *value;
         });
-        asked().loss = arguments_->loss == "huber"    ? FitLoss::huber
-                       : arguments_->loss == "cauchy" ? FitLoss::cauchy
-                                                      : FitLoss::squares;
+        const std::vector<std::string>& losses = names_of_losses();
+        asked().loss = static_cast<FitLoss>(std::find(losses.begin(), losses.end(), arguments_->loss) - losses.begin());
         if (!arguments_->piece.empty())
             asked().piece = positive_value_of(model, arguments_->piece, "--piece");
         return std::move(request_);

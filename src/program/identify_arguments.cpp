@@ -1,5 +1,6 @@
 #include "program/identify_arguments.hpp"
 
+#include "graze/identify/fit.hpp"
 #include "program/declared_option.hpp"
 #include "program/record_arguments.hpp"
 
@@ -100,7 +101,7 @@ void declare_fit(CLI::App& command, IdentifyArguments& arguments) {
                    "Standard deviation of a channel's noise (found from what is left)");
     declare_option(command, group, "--loss", arguments.loss, "LOSS",
                    "How far readings count: squares (default), huber, cauchy")
-        ->check(one_of({"squares", "huber", "cauchy"}));
+        ->check(one_of(names_of_losses()));
     declare_option(command, group, "--piece", arguments.piece, "T",
                    "Length of the pieces into which records are cut (some thirty readings)");
     declare_option(command, group, "--time-limit", arguments.time_limit, "S",
@@ -116,10 +117,6 @@ void declare_fit(CLI::App& command, IdentifyArguments& arguments) {
 }
 
 } // namespace
-
-std::vector<std::string> identify_kinds() {
-    return {"decrement", "restitution", "coupling", "impedance", "fit"};
-}
 
 std::vector<std::string> fit_table_names() {
     return {"numbers", "outputs", "correlations", "readings"};

@@ -4,9 +4,6 @@
 
 namespace graze {
 
-/// What `graze identify` finds.
-std::vector<std::string> identify_kinds();
-
 /// What `graze identify fit --table` shows.
 std::vector<std::string> fit_table_names();
 

@@ -17,7 +17,7 @@
 namespace graze {
 
 int identify_command(const IdentifyArguments& arguments, const Console& console) {
-    const std::vector<std::string> kinds = identify_kinds();
+    const std::vector<std::string>& kinds = kinds_of_estimates();
     if (std::find(kinds.begin(), kinds.end(), arguments.what) == kinds.end())
         return identify_study(arguments, console);
     if (arguments.reading.files.empty())

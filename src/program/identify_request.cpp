@@ -1,9 +1,9 @@
 #include "program/identify_request.hpp"
 
 #include "graze/base/input_error.hpp"
+#include "graze/base/with_place.hpp"
 #include "program/identify_arguments.hpp"
 #include "program/record_stages.hpp"
-#include "program/with_file.hpp"
 
 #include <fmt/format.h>
 
@@ -44,7 +44,7 @@ StudyRun identify_request(const IdentifyArguments& arguments) {
     run.kind = RunKind::identify;
     run.simulation = FitSettings().simulation;
     IdentifyRequest& request = run.identify;
-    const std::vector<std::string> kinds = identify_kinds();
+    const std::vector<std::string>& kinds = kinds_of_estimates();
     request.what =
         static_cast<IdentifyRequest::What>(std::find(kinds.begin(), kinds.end(), arguments.what) - kinds.begin());
     request.asked_as = "--";
@@ -78,7 +78,7 @@ StudyRun identify_request(const IdentifyArguments& arguments) {
 EachRecord identify_files(const IdentifyArguments& arguments, const Console& console) {
     return [&arguments, &console](const auto& work) {
         for (const std::string& file : arguments.reading.files)
-            with_file(file, [&] {
+            with_place({file, 0, 0}, [&] {
                 RecordStages stages(file, arguments.reading, console);
                 work(file, stages.source());
             });

@@ -19,7 +19,7 @@ int identify_study(const IdentifyArguments& arguments, const Console& console) {
     const bool is_study =
         is_model_path(arguments.what) || std::find(shipped.begin(), shipped.end(), arguments.what) != shipped.end();
     if (!is_study) {
-        std::vector<std::string> known = identify_kinds();
+        std::vector<std::string> known = kinds_of_estimates();
         known.insert(known.end(), shipped.begin(), shipped.end());
         throw InputError({"WHAT", 0, 0}, fmt::format("there is no '{}' to be found", arguments.what),
                          name_advice(arguments.what, known, ""));

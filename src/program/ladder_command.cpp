@@ -1,4 +1,5 @@
 #include "graze/base/input_error.hpp"
+#include "graze/base/with_place.hpp"
 #include "graze/branch/ladder.hpp"
 #include "graze/results/stored_orbit.hpp"
 #include "graze/study/stored_study.hpp"
@@ -123,14 +124,7 @@ int ladder_command(const LadderArguments& arguments, const Console& console) {
     const InterruptGuard guard;
     std::vector<Leaving> leaving;
     StatusLine line(console, console.terminal);
-    const auto at_point = [&](const auto& work) {
-        try {
-            return work();
-        } catch (const InputError& error) {
-            throw error.place().file.empty() ? InputError(place, error.problem(), error.remedy()) : error;
-        }
-    };
-    const Ladder ladder = at_point([&] {
+    const Ladder ladder = with_place(place, [&] {
         return climb(
             system, stored.record.point, settings, static_cast<std::size_t>(arguments.rungs),
             [&](std::size_t rung, const Branch& branch) {
@@ -145,7 +139,7 @@ int ladder_command(const LadderArguments& arguments, const Console& console) {
     if (InterruptGuard::requested())
         limit.problem = "interrupted";
     else
-        limit = at_point([&] { return ladder.limit(); });
+        limit = with_place(place, [&] { return ladder.limit(); });
     deliver(table_of(ladder, leaving, parameter, unit), arguments.output, heading_of(file, stored, ladder, limit),
             console);
     if (InterruptGuard::requested()) {

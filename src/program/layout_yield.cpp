@@ -1,6 +1,7 @@
 #include "program/layout_yield.hpp"
 
 #include "graze/base/input_error.hpp"
+#include "graze/base/with_place.hpp"
 #include "graze/design/design.hpp"
 #include "graze/design/trip_location.hpp"
 #include "graze/layout/wafer_tables.hpp"
@@ -75,7 +76,7 @@ int layout_yield(const LayoutArguments& arguments, const DeviceFile& file, const
                  const Console& console) {
     const Design own = load_design(arguments.design);
     keep_inputs_of(own);
-    const Design design = said_of(own, [&] { return design_of_device(own, file); });
+    const Design design = with_place(own.approach.place, [&] { return design_of_device(own, file); });
     const std::string folder = arguments.folder.empty() ? file.name + "-wafers" : arguments.folder;
     make_folder(folder, "--folder");
     const auto path = [&](const char* name) { return (std::filesystem::path(folder) / name).string(); };
@@ -93,7 +94,8 @@ int layout_yield(const LayoutArguments& arguments, const DeviceFile& file, const
     settings.interrupted = options.interrupted;
     settings.progress = [&](std::size_t devices) { options.progress(fmt::format("device {}", devices)); };
     const WaferYield found =
-        trip ? said_of(design, [&] { return wafer_yield_of(design, file, wafer, *trip, settings); }) : WaferYield();
+        trip ? with_place(design.approach.place, [&] { return wafer_yield_of(design, file, wafer, *trip, settings); })
+             : WaferYield();
     if (!trip || found.yield.interrupted) {
         console.err << "graze: interrupted; nothing but the way to the trip point is kept\n";
         return InterruptGuard::exit_code();

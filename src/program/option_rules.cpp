@@ -1,6 +1,7 @@
 #include "program/option_rules.hpp"
 
 #include "graze/base/input_error.hpp"
+#include "graze/study/identify_request.hpp"
 #include "program/identify_arguments.hpp"
 
 #include <fmt/format.h>
@@ -182,12 +183,12 @@ const std::vector<NeedsValue>& needs_of_values() {
         {"identify", "--piece", "WHAT", {"fit"}},
         {"identify", "--table", "WHAT", {"fit"}},
         {"identify", "--save", "WHAT", {"fit"}},
-        {"identify", "--columns", "WHAT", identify_kinds()},
-        {"identify", "--group", "WHAT", identify_kinds()},
-        {"identify", "--scale", "WHAT", identify_kinds()},
-        {"identify", "--from", "WHAT", identify_kinds()},
-        {"identify", "--to", "WHAT", identify_kinds()},
-        {"identify", "--plot", "WHAT", identify_kinds()},
+        {"identify", "--columns", "WHAT", kinds_of_estimates()},
+        {"identify", "--group", "WHAT", kinds_of_estimates()},
+        {"identify", "--scale", "WHAT", kinds_of_estimates()},
+        {"identify", "--from", "WHAT", kinds_of_estimates()},
+        {"identify", "--to", "WHAT", kinds_of_estimates()},
+        {"identify", "--plot", "WHAT", kinds_of_estimates()},
         {"simulate", "--samples", "--table", {"samples"}},
         {"simulate", "--every", "--table", {"samples"}},
         {"simulate", "--derivatives", "--table", {"derivatives"}},

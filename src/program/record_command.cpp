@@ -1,4 +1,5 @@
 #include "graze/base/input_error.hpp"
+#include "graze/base/with_place.hpp"
 #include "graze/picture/figure_script.hpp"
 #include "graze/record/record_writer.hpp"
 #include "program/commands.hpp"
@@ -6,7 +7,6 @@
 #include "program/interrupt.hpp"
 #include "program/output_file.hpp"
 #include "program/record_tables.hpp"
-#include "program/with_file.hpp"
 
 #include <fmt/format.h>
 
@@ -23,7 +23,7 @@ int write_record(const RecordArguments& arguments, const Console& console) {
         throw InputError("several records cannot be written to one file", "give one record");
     const InterruptGuard guard; // a file that is half written is taken away
     FileReplacement replacement(arguments.write);
-    with_file(arguments.files.front(), [&] {
+    with_place({arguments.files.front(), 0, 0}, [&] {
         RecordStages stages(arguments.files.front(), arguments, console);
         const std::vector<std::size_t> channels = stages.channels(arguments.channels);
         RecordHeader header{stages.header().time, {}};
@@ -60,7 +60,7 @@ int record_command(const RecordArguments& arguments, const Console& console) {
         return write_record(arguments, console);
     const std::unique_ptr<RecordTable> table = record_table(arguments);
     for (const std::string& file : arguments.files)
-        with_file(file, [&] {
+        with_place({file, 0, 0}, [&] {
             RecordStages stages(file, arguments, console);
             table->add(file, stages);
         });

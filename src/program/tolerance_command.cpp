@@ -1,4 +1,5 @@
 #include "graze/base/input_error.hpp"
+#include "graze/base/with_place.hpp"
 #include "graze/branch/curve_start.hpp"
 #include "graze/branch/yield.hpp"
 #include "graze/picture/figure_script.hpp"
@@ -151,13 +152,7 @@ void set_yield(Findings& found, const System& system, const ToleranceArguments& 
         if (line.is_due())
             line.show(fmt::format("device {} of {}", devices, arguments.devices));
     };
-    try {
-        found.yield = yield_of(system, found.point, found.control, settings);
-    } catch (const InputError& error) {
-        if (!error.place().file.empty())
-            throw;
-        throw InputError(Place{"--vary", 0, 0}, error.problem(), error.remedy());
-    }
+    found.yield = with_place({"--vary", 0, 0}, [&] { return yield_of(system, found.point, found.control, settings); });
 }
 
 /// Derivatives by all parameters, and what those that vary contribute.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graze/base/input_error.hpp"
+#include "graze/base/with_place.hpp"
 #include "graze/branch/switching.hpp"
 #include "graze/study/runner.hpp"
 #include "study/shared_file.hpp"
@@ -33,13 +34,7 @@ struct BranchPart {
 /// Messages of numerical functions, with the place of the run.
 template <class Work>
 auto at_place(const Place& place, const StudyRun& run, const Work& work) {
-    try {
-        return work();
-    } catch (const InputError& error) {
-        if (!error.place().file.empty())
-            throw;
-        throw InputError(place, fmt::format("run '{}': {}", run.name, error.problem()), error.remedy());
-    }
+    return with_place(place, work, "run '" + run.name + "': ");
 }
 
 /// Writes points one by one, the last of a part only when it is known to be the last.

@@ -2,8 +2,8 @@
 
 #include "graze/base/physical_unit.hpp"
 #include "graze/base/require.hpp"
+#include "graze/base/with_place.hpp"
 #include "graze/model/named_value.hpp"
-#include "study/at_record.hpp"
 #include "study/identify_units.hpp"
 
 #include <fmt/format.h>
@@ -118,7 +118,8 @@ private:
 FitOfRecords fit_records(const StudyRun& run, const std::vector<KeptRecord>& records, FitSettings settings) {
     FitMaker maker(run);
     for (const KeptRecord& record : records)
-        at_record(run, record.name, [&] { maker.add(record); });
+        with_place(
+            run.place, [&] { maker.add(record); }, record.name + ": ");
     FitOfRecords made = maker.made();
     settings.loss = run.identify.loss;
     settings.piece = run.identify.piece;

@@ -1,9 +1,9 @@
 #include "study/identify_run.hpp"
 
 #include "graze/base/name_list.hpp"
+#include "graze/base/with_place.hpp"
 #include "graze/study/identify_records.hpp"
 #include "graze/study/stored_study.hpp"
-#include "study/at_record.hpp"
 #include "study/identify_units.hpp"
 
 #include <fmt/format.h>
@@ -221,10 +221,13 @@ std::optional<FoundByRun> identify(const StudyRun& run, const std::vector<KeptRe
     }
     const EachRecord each = [&](const auto& work) {
         for (const KeptRecord& record : records)
-            at_record(run, record.name, [&] {
-                StoredSamples samples(record.header, record.samples);
-                work(record.name, samples);
-            });
+            with_place(
+                run.place,
+                [&] {
+                    StoredSamples samples(record.header, record.samples);
+                    work(record.name, samples);
+                },
+                record.name + ": ");
     };
     return found_from(identify_records(run, each, records.size(), found), run);
 }

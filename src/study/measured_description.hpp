@@ -162,8 +162,6 @@ void describe_record(Fields& fields, Request& request) {
         request.keep, {0, 10'000'000});
 }
 
-const std::vector<std::string>& kinds_of_estimates();
-
 /// Keys that have no effect on an estimate are refused by its name.
 template <class Request>
 class KeyOfEstimate {
@@ -212,7 +210,7 @@ void describe_fit(Fields& fields, Request& request) {
                 "[\"x\"] or true", &read_known);
     fields.field("known", request.known);
     fields.field("all_known", request.all_known);
-    fields.choice(key("loss", "how large residuals count", of_fits), request.loss, {"squares", "huber", "cauchy"});
+    fields.choice(key("loss", "how large residuals count", of_fits), request.loss, names_of_losses());
     fields.number(key("piece",
                       "length of the pieces that records are cut into, in the model's time: shorter ones bear worse "
                       "guesses (by itself)",

@@ -57,6 +57,9 @@ enum class FitLoss {
     cauchy,  ///< as its logarithm, beyond 2.385 standard deviations
 };
 
+/// Their names, in the order of FitLoss.
+const std::vector<std::string>& names_of_losses();
+
 struct FitProgress {
     int stage = 0, stages = 0;
     int iteration = 0;

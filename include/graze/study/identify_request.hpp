@@ -48,4 +48,7 @@ struct IdentifyRequest {
     std::string asked_as; ///< what stands before names of settings in messages, such as "--"
 };
 
+/// The names of what may be found, in the order of IdentifyRequest::What.
+const std::vector<std::string>& kinds_of_estimates();
+
 } // namespace graze
