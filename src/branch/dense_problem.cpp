@@ -1,6 +1,5 @@
-#include "graze/base/input_error.hpp"
-
 #include "base/linear_systems.hpp"
+#include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 #include "graze/branch/continuation.hpp"
 

@@ -33,8 +33,8 @@ std::map<std::size_t, std::vector<double>> stored_values(const StoredRun& run) {
     return values;
 }
 
-double value_of_parameter(const ListedPoint& point, const std::string& name) {
-    const std::vector<ResultColumn>& columns = point.run->record.coordinates;
+double value_of_parameter(const PointList& list, const ListedPoint& point, const std::string& name) {
+    const std::vector<ResultColumn>& columns = list.run_of(point).record.coordinates;
     for (std::size_t i = 0; i < std::min(columns.size(), point.parameters.size()); ++i)
         if (columns[i].name == name)
             return point.parameters[i];
@@ -50,7 +50,8 @@ std::vector<std::string> differing_parameters(const PointList& list) {
                 names.push_back(column.name);
     std::erase_if(names, [&](const std::string& name) {
         return std::all_of(list.points.begin(), list.points.end(), [&](const ListedPoint& point) {
-            const double first = value_of_parameter(list.points.front(), name), here = value_of_parameter(point, name);
+            const double first = value_of_parameter(list, list.points.front(), name),
+                         here = value_of_parameter(list, point, name);
             return first == here || (std::isnan(first) && std::isnan(here));
         });
     });
@@ -83,7 +84,7 @@ PointList listed_points(const ResultFile& file, const PointListRequest& request)
                 continue;
             }
             std::vector<double> parameters = parameters_of(list.runs[r], record), values = stored[record.number];
-            list.points.push_back({&list.runs[r], std::move(record), std::move(parameters), std::move(values)});
+            list.points.push_back({r, std::move(record), std::move(parameters), std::move(values)});
         }
     }
     if (several)
@@ -107,8 +108,8 @@ public:
         with_detail_ = !for_people_ || any([](const ListedPoint& p) {
             return !p.record.point.detail.empty() || is_unphysical(p.record);
         });
-        with_name_ =
-            any([](const ListedPoint& p) { return p.run->record.point_name(p.record.label) != p.record.label; });
+        with_name_ = any(
+            [&](const ListedPoint& p) { return list.run_of(p).record.point_name(p.record.label) != p.record.label; });
         with_verdict_ = any([](const ListedPoint& p) { return p.record.touch.has_value(); });
         for (const ListedPoint& p : list.points) {
             segments_ = std::max(segments_, p.record.point.solution.orbit.segments());
@@ -118,7 +119,7 @@ public:
         with_type_ = !for_people_ || any([](const ListedPoint& p) { return p.record.label.empty(); });
         with_run_ = !brief_ || list.runs.size() != 1;
         with_parameter_ = list.followed.empty() &&
-                          any([](const ListedPoint& p) { return !followed_parameter(p.run->record).empty(); });
+                          any([&](const ListedPoint& p) { return !followed_parameter(list.run_of(p).record).empty(); });
     }
 
     Table make() {
@@ -198,7 +199,7 @@ private:
     void add(const ListedPoint& point) {
         const OrbitRecord& record = point.record;
         const OrbitSolution& solution = record.point.solution;
-        const RunRecord& run = point.run->record;
+        const RunRecord& run = list_.run_of(point).record;
         if (with_run_)
             table_.add(run.name);
         table_.add(record.label);
@@ -210,19 +211,20 @@ private:
         if (with_parameter_)
             table_.add(followed);
         if (with_parameter_)
-            table_.add(followed.empty() ? nothing : value_of_parameter(point, followed));
+            table_.add(followed.empty() ? nothing : value_of_parameter(list_, point, followed));
         else if (!list_.followed.empty())
-            table_.add(value_of_parameter(point, list_.followed));
+            table_.add(value_of_parameter(list_, point, list_.followed));
         for (const std::string& name : list_.others)
-            table_.add(value_of_parameter(point, name));
+            table_.add(value_of_parameter(list_, point, name));
         table_.add(solution.orbit.period());
         if (for_people_)
             table_.add(numbers_text(solution.orbit.durations, 6));
         for (std::size_t s = 0; !for_people_ && s < segments_; ++s)
             table_.add(s < solution.orbit.segments() ? solution.orbit.durations[s] : nothing);
-        table_.add(to_string(point.run->model, solution.orbit.signature));
+        table_.add(to_string(list_.run_of(point).model, solution.orbit.signature));
         if (with_symmetry_)
-            table_.add(solution.orbit.symmetry ? point.run->model.symmetries[*solution.orbit.symmetry].name : "");
+            table_.add(solution.orbit.symmetry ? list_.run_of(point).model.symmetries[*solution.orbit.symmetry].name
+                                               : "");
         add_truth(record.stable);
         add_multiplier(solution);
         for (std::size_t m = 0; !for_people_ && m < multipliers_; ++m) {
@@ -290,8 +292,8 @@ private:
         else
             table_.add(std::isfinite(largest) ? few_digits(largest) : nothing);
     }
-    static double monitor_of(const ListedPoint& point, const std::string& name) {
-        const std::vector<ResultColumn>& values = point.run->record.values;
+    double monitor_of(const ListedPoint& point, const std::string& name) const {
+        const std::vector<ResultColumn>& values = list_.run_of(point).record.values;
         const std::vector<double>& monitors = point.record.point.monitors;
         for (std::size_t m = 0; m < std::min(values.size(), monitors.size()); ++m)
             if (values[m].name == name)

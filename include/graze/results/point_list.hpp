@@ -19,7 +19,7 @@ struct PointListRequest {
 };
 
 struct ListedPoint {
-    const StoredRun* run = nullptr;
+    std::size_t run = 0; ///< index in PointList::runs
     OrbitRecord record;
     std::vector<double> parameters; ///< of the run's columns
     std::vector<double> stored;     ///< what the file has besides, as it stands there
@@ -32,6 +32,8 @@ struct PointList {
     std::string followed; ///< the parameter that all follow; empty: each run its own
     std::vector<std::string> others;
     std::size_t twins = 0; ///< points left out, since they are images of others
+
+    const StoredRun& run_of(const ListedPoint& point) const { return runs[point.run]; }
 };
 
 /// @throws InputError as branch_runs does
