@@ -43,8 +43,7 @@ struct End {
 End end_of(const Motion& motion, double tolerance) {
     const Model model = load_model(motion.model);
     const Simulation simulation(model, {}, {}, {.tolerance = tolerance});
-    Observer nobody;
-    Trajectory trajectory(simulation, model.parameter_values(), nobody);
+    Trajectory trajectory(simulation, model.parameter_values());
     trajectory.start(model.initial_state(), model.initial_mode, 0, motion.time);
     const std::size_t inputs = model.states.size() + model.parameter_values().size();
     std::vector<double> seeds(inputs * inputs, 0.0);

@@ -76,8 +76,7 @@ void diagram(benchmark::State& state, std::size_t lyapunov_cycles) {
     for (auto unused : state)
         state.SetIterationTime(duel.round([&] { totals = run_all(plan, *searches, 1); },
                                           [&] {
-                                              Observer nobody;
-                                              Trajectory trajectory(simulation, model.parameter_values(), nobody);
+                                              Trajectory trajectory(simulation, model.parameter_values());
                                               trajectory.start(model.initial_state(), 0, 0,
                                                                0.16 * static_cast<double>(totals.cycles));
                                               JetSet jets(simulation, LaneKind::single);

@@ -31,7 +31,7 @@ public:
     std::vector<double> settled() const {
         const graze::Simulation simulation(model, {}, {}, {.tolerance = 1e-15});
         ContactCounter counter;
-        graze::Trajectory trajectory(simulation, model.parameter_values(), counter);
+        graze::Trajectory trajectory(simulation, model.parameter_values(), borrowed(counter));
         std::vector<double> state = model.initial_state();
         state[2] = 0.1;
         trajectory.start(state, model.initial_mode, 0, 600 * forcing_period);

@@ -19,7 +19,7 @@ public:
     ExperimentRun(const Experiment& experiment, InstrumentLine& line, SampleDevice& device, RecordFolder& folder,
                   const AcquisitionOptions& options)
         : experiment_(experiment), device_(device), folder_(folder), options_(options),
-          generator_(line, generator_options(experiment, options)) {}
+          generator_(borrowed(line), generator_options(experiment, options)) {}
 
     AcquisitionReport run() {
         report_.before = folder_.entries().size();

@@ -88,7 +88,7 @@ private:
     std::optional<Simulation> tighter_; ///< once it has been asked for
     std::unique_ptr<OrbitMonitors> monitors_;
     std::vector<std::unique_ptr<OrbitCondition>> held_; ///< one for each free parameter, those of the kept point last
-    std::unique_ptr<OrbitProblem> problem_;
+    std::shared_ptr<OrbitProblem> problem_;
     std::unique_ptr<Continuation> continuation_;
     double arclength_ = 0, growth_ = 1;
 };

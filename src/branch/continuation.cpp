@@ -82,10 +82,10 @@ std::string_view name_of(ContinuationOutcome outcome) {
     return "";
 }
 
-Continuation::Continuation(ContinuationProblem& problem, const ContinuationOptions& options)
-    : problem_(&problem), options_(options), next_step_(options.first_step) {
+Continuation::Continuation(std::shared_ptr<ContinuationProblem> problem, const ContinuationOptions& options)
+    : problem_(required(std::move(problem), "a problem")), options_(options), next_step_(options.first_step) {
     options_.validate();
-    step_.resize(problem.unknowns());
+    step_.resize(problem_->unknowns());
 }
 
 void Continuation::set_next_step(double length) {

@@ -96,7 +96,7 @@ std::vector<Period> periods_above(double hysteresis, const Samples& seen, const 
     settings.reference = channel;
     settings.level = level;
     settings.hysteresis = hysteresis;
-    PeriodSplitter splitter(source, settings);
+    PeriodSplitter splitter(borrowed(source), settings);
     std::vector<Period> periods;
     for (Period period; periods.size() < most && splitter.next(period);) {
         const auto row_of = [&](double time) {

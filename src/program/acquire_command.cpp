@@ -138,8 +138,8 @@ AcquisitionReport carried_out(const Experiment& experiment, RecordFolder& folder
     AcquisitionReport report;
     try {
         const auto generator = open_generator_line(experiment.serial);
-        const auto samples = open_device(experiment);
-        TextSampleDevice device(*samples, experiment.sample_timeout, options.interrupted, experiment.sample_patience);
+        TextSampleDevice device(open_device(experiment), experiment.sample_timeout, options.interrupted,
+                                experiment.sample_patience);
         report = acquire(experiment, *generator, device, folder, options);
     } catch (const InstrumentError& error) { // nothing has been sent to the generator yet
         report.ending = error.ending();

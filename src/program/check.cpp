@@ -65,7 +65,7 @@ private:
 std::vector<ModelWarning> motion_warnings(const Model& model) {
     const Simulation simulation{System(model)};
     Limit limit(simulation.system());
-    Trajectory trajectory(simulation, model.parameter_values(), limit);
+    Trajectory trajectory(simulation, model.parameter_values(), borrowed(limit));
     trajectory.start(model.initial_state(), model.initial_mode, 0, 1e300);
     JetSet jets(simulation, LaneKind::single);
     run(trajectory, jets);

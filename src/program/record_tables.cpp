@@ -275,7 +275,7 @@ public:
         settings.window = arguments().window;
         settings.transition = arguments().transition;
         settings.least_jump = arguments().least_jump;
-        ImpactFinder finder(stages.source(), settings);
+        ImpactFinder finder(borrowed(stages.source()), settings);
         std::vector<RecordedImpact> impacts;
         while (finder.next(impacts))
             for (const RecordedImpact& impact : impacts) {

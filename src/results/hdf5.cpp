@@ -228,7 +228,7 @@ void write_details(hid_t group, const StoredRun& run, const DetailTable& table, 
     std::vector<ColumnPlan> plans{{"point", "", ColumnType::whole}, {"position", "", ColumnType::whole}};
     for (const ColumnKind& column : table.columns)
         plans.push_back({column.name, unit_of(column.unit, run), column.type});
-    write_table(group, table.name, *run.file,
+    write_table(group, table.name, run.file,
                 fmt::format("SELECT point, position, {} FROM {} WHERE run = {} ORDER BY point, position",
                             listed(table.columns), table.name, text_literal(run.record.name)),
                 std::move(plans), path);
@@ -236,11 +236,11 @@ void write_details(hid_t group, const StoredRun& run, const DetailTable& table, 
 
 /// What a run has found from measurements. Each row has a unit of its own.
 void write_estimates(hid_t group, const StoredRun& run, const std::string& path) {
-    if (run.file->estimates(run.record.name).numbers.empty())
+    if (run.file.estimates(run.record.name).numbers.empty())
         return;
     const std::string where = " WHERE run = " + text_literal(run.record.name);
     using enum ColumnType;
-    write_table(group, "estimates", *run.file,
+    write_table(group, "estimates", run.file,
                 "SELECT position, name, unit, value, error, low, high, freedom, note FROM estimates" + where +
                     " ORDER BY position",
                 {{"position", "", whole},
@@ -253,7 +253,7 @@ void write_estimates(hid_t group, const StoredRun& run, const std::string& path)
                  {"freedom", "", real},
                  {"note", "", text}},
                 path);
-    write_table(group, "covariances", *run.file,
+    write_table(group, "covariances", run.file,
                 "SELECT position, other, covariance FROM covariances" + where + " ORDER BY position, other",
                 {{"position", "", whole}, {"other", "", whole}, {"covariance", "", real}}, path);
 }
@@ -268,10 +268,10 @@ void write_run(hid_t output, const StoredRun& stored, const std::string& path) {
     write_attribute(group.id(), "fingerprint", run.fingerprint, path);
     write_attribute(group.id(), "version", run.version, path);
     const RunTables tables(run);
-    write_table(group.id(), run.is_branch() ? "orbits" : "points", *stored.file,
+    write_table(group.id(), run.is_branch() ? "orbits" : "points", stored.file,
                 "SELECT * FROM " + tables.points + " ORDER BY number", plans_of(tables.point_columns, stored), path);
     write_table(
-        group.id(), run.is_branch() ? "segments" : "samples", *stored.file,
+        group.id(), run.is_branch() ? "segments" : "samples", stored.file,
         fmt::format("SELECT * FROM {} ORDER BY {}", tables.samples, run.is_branch() ? "point, segment" : "rowid"),
         plans_of(tables.sample_columns, stored), path);
     for (const DetailTable& table : detail_tables())

@@ -74,8 +74,7 @@ ResultFile::ResultFile(const std::string& path, Access access) {
     if (!writing && !std::filesystem::exists(path, error))
         throw InputError(Place{path, 0, 0}, "there is no such result file",
                          "graze run STUDY makes one, in the folder that --output names");
-    auto lock = writing ? std::make_unique<WriteLock>(path) : nullptr;
-    state_ = std::make_unique<State>(State{std::move(lock), Database(path, writing), false, {}, {}});
+    state_ = std::make_shared<State>(path, writing);
     const Database& database = state_->database;
     const std::int64_t application = database.value("PRAGMA application_id");
     const std::int64_t format = database.value("PRAGMA user_version");
@@ -96,6 +95,7 @@ ResultFile::ResultFile(const std::string& path, Access access) {
         database.execute("PRAGMA cache_size = -65536; PRAGMA query_only = 1; "
                          "PRAGMA cell_size_check = 1");
         state_->database.only_read();
+        state_->opened = true;
         return;
     }
     if (empty)
@@ -107,21 +107,7 @@ ResultFile::ResultFile(const std::string& path, Access access) {
             database.execute(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}; {}", result_application,
                                          result_format, common_tables()));
         });
-}
-
-ResultFile::~ResultFile() {
-    if (!state_)
-        return;
-    try {
-        flush();
-        state_->writers.clear();
-        // One plain file, which can be read where nothing can be written; not while somebody reads it.
-        if (state_->lock)
-            state_->database.execute("PRAGMA journal_mode = DELETE");
-    } catch (...) { // whoever wants to know has called flush
-        state_->sqlite_rollback();
-    }
-    state_->writers.clear();
+    state_->opened = true;
 }
 
 const std::string& ResultFile::path() const {

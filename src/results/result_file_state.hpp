@@ -18,7 +18,7 @@
 
 namespace graze {
 
-/// The connection, and the transaction in which points are written.
+/// The connection, and the transaction in which points are written: to be committed when nobody holds it any more.
 struct ResultFile::State {
     using Clock = std::chrono::steady_clock;
     static constexpr auto between_commits = std::chrono::milliseconds(50);
@@ -35,6 +35,25 @@ struct ResultFile::State {
     };
     std::map<std::string, Writer, std::less<>> writers; ///< of runs that are written to, some at the same time
     int format = result_format;                         ///< of the file
+    bool opened = false;                                ///< it is a result file, and can be finished as one
+
+    State(const std::string& path, bool writing)
+        : lock(writing ? std::make_unique<WriteLock>(path) : nullptr), database(path, writing) {}
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+    ~State() {
+        if (!opened)
+            return;
+        try {
+            commit();
+            writers.clear();
+            // One plain file, which can be read where nothing can be written; not while somebody reads it.
+            if (lock)
+                database.execute("PRAGMA journal_mode = DELETE");
+        } catch (...) { // whoever wants to know has called flush
+            sqlite_rollback();
+        }
+    }
 
     void begin() {
         if (in_transaction)

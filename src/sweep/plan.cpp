@@ -41,7 +41,7 @@ struct Execution {
     std::exception_ptr error{};
 
     bool must_stop() {
-        if ((options.stop && *options.stop) || (options.interrupted && options.interrupted()))
+        if (options.interrupted && options.interrupted())
             stopped = true;
         return stopped;
     }

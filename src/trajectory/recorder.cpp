@@ -11,7 +11,7 @@
 
 namespace graze {
 
-Relay::Relay(std::vector<Observer*> observers) : observers_(std::move(observers)) {
+Relay::Relay(std::vector<std::shared_ptr<Observer>> observers) : observers_(std::move(observers)) {
     if (std::find(observers_.begin(), observers_.end(), nullptr) != observers_.end())
         throw InputError("one of the observers is none", "leave it out");
 }
@@ -22,27 +22,27 @@ ArcMinima::ArcMinima(Receiver receiver) : receiver_(std::move(receiver)) {
 }
 
 void Relay::step(const Step& step) {
-    for (Observer* observer : observers_)
+    for (const auto& observer : observers_)
         observer->step(step);
 }
 
 void Relay::contact(const Contact& contact) {
-    for (Observer* observer : observers_)
+    for (const auto& observer : observers_)
         observer->contact(contact);
 }
 
 void Relay::passage(const Passage& passage) {
-    for (Observer* observer : observers_)
+    for (const auto& observer : observers_)
         observer->passage(passage);
 }
 
 void Relay::minimum(const StepMinimum& minimum) {
-    for (Observer* observer : observers_)
+    for (const auto& observer : observers_)
         observer->minimum(minimum);
 }
 
 bool Relay::stop() {
-    return std::any_of(observers_.begin(), observers_.end(), [](Observer* observer) { return observer->stop(); });
+    return std::any_of(observers_.begin(), observers_.end(), [](const auto& observer) { return observer->stop(); });
 }
 
 void Recorder::contact(const Contact& contact) {

@@ -23,8 +23,9 @@ constexpr double longest_leap = 2;
 
 } // namespace
 
-Trajectory::Trajectory(const Simulation& simulation, std::span<const double> parameters, Observer& observer)
-    : simulation_(simulation), observer_(&observer), parameters_(parameters.begin(), parameters.end()),
+Trajectory::Trajectory(const Simulation& simulation, std::span<const double> parameters,
+                       std::shared_ptr<Observer> observer)
+    : simulation_(simulation), observer_(observer ? std::move(observer) : std::make_shared<Observer>()), parameters_(parameters.begin(), parameters.end()),
       step_size_(simulation.order(), simulation.options().tolerance),
       step_check_(simulation.system(), simulation.order(), simulation.options().tolerance),
       late_states_(simulation.system()), roots_(simulation.order()), states_(simulation.system().states()),

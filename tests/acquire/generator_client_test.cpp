@@ -66,7 +66,7 @@ void expect_within(const StrangerGenerator& generator, const GeneratorOptions& o
 
 TEST(GeneratorClient, SetsAndAsks) {
     Bent bent;
-    GeneratorClient client(bent.line, options());
+    GeneratorClient client(borrowed(bent.line), options());
     client.begin(6.1, 0.1, 0.2);
     EXPECT_EQ(bent.generator.output(), (GeneratorOutput{6.1, 0.1, 0.2}));
     EXPECT_EQ(client.set_amplitude(3.25), 3.25);
@@ -79,7 +79,7 @@ TEST(GeneratorClient, SetsAndAsks) {
 
 TEST(GeneratorClient, SendsNothingBeyondItsLimits) {
     Bent bent;
-    GeneratorClient client(bent.line, options());
+    GeneratorClient client(borrowed(bent.line), options());
     client.begin(6, 1, 0);
     bent.line.said.clear();
     for (const double amplitude : {5.01, -1.0, std::numeric_limits<double>::quiet_NaN(), 1e300})
@@ -105,7 +105,7 @@ TEST(GeneratorClient, TellsWhatIsWrongWithAnswers) {
         Bent bent;
         GeneratorOptions hasty = options();
         hasty.reopen = 0.02;
-        GeneratorClient client(bent.line, hasty);
+        GeneratorClient client(borrowed(bent.line), hasty);
         client.begin(6, 1, 0);
         bent.bend = [&, bad = text](const std::string& said, std::string answer) {
             return said == "VOLT?" ? bad : answer;
@@ -122,7 +122,7 @@ TEST(GeneratorClient, TellsWhatIsWrongWithAnswers) {
 
 TEST(GeneratorClient, TriesAgainWhatIsGarbledAndNotWhatIsRefused) {
     Bent bent;
-    GeneratorClient client(bent.line, options());
+    GeneratorClient client(borrowed(bent.line), options());
     client.begin(6, 1, 0);
     int times = 0;
     bent.bend = [&](const std::string& said, std::string answer) {
@@ -145,7 +145,7 @@ TEST(GeneratorClient, LooksWhoIsThereBeforeItSetsAnything) {
     Bent bent;
     GeneratorOptions other = options();
     other.identity = "AGILENT";
-    GeneratorClient client(bent.line, other);
+    GeneratorClient client(borrowed(bent.line), other);
     std::string what;
     EXPECT_EQ(ending_of([&] { client.begin(6, 1, 0); }, what), AcquisitionEnding::foreign);
     EXPECT_THAT(what, HasSubstr("there is 'HEWLETT-PACKARD,33120A"));
@@ -161,7 +161,7 @@ TEST(GeneratorClient, LooksAgainWhoIsThereAfterALineWasOpenedAgain) {
     Bent bent;
     GeneratorOptions hasty = options();
     hasty.identity = "33120A";
-    GeneratorClient client(bent.line, hasty);
+    GeneratorClient client(borrowed(bent.line), hasty);
     client.begin(6, 1, 0);
     bent.bend = [](const std::string& said, std::string answer) { return said == "*IDN?" ? "SUPPLY" : answer; };
     bent.line.said.clear();
@@ -175,7 +175,7 @@ TEST(GeneratorClient, LooksAgainWhoIsThereAfterALineWasOpenedAgain) {
 TEST(GeneratorClient, WantsAnAnswerWhoeverItIs) {
     Bent bent;
     bent.bend = [](const std::string& said, std::string answer) { return said == "*IDN?" ? " \n" : answer; };
-    GeneratorClient client(bent.line, options());
+    GeneratorClient client(borrowed(bent.line), options());
     std::string what;
     EXPECT_EQ(ending_of([&] { client.begin(6, 1, 0); }, what), AcquisitionEnding::foreign);
 }
@@ -185,7 +185,7 @@ TEST(GeneratorClient, IsInterruptedButForWhatMakesItSafe) {
     GeneratorOptions interrupted = options();
     bool now = false;
     interrupted.interrupted = [&] { return now; };
-    GeneratorClient client(bent.line, interrupted);
+    GeneratorClient client(borrowed(bent.line), interrupted);
     client.begin(6, 1, 0);
     now = true;
     std::string what, problem;
@@ -196,7 +196,7 @@ TEST(GeneratorClient, IsInterruptedButForWhatMakesItSafe) {
 
 TEST(GeneratorClient, OpensALostLineAgainToBecomeSafe) {
     Bent bent;
-    GeneratorClient client(bent.line, options());
+    GeneratorClient client(borrowed(bent.line), options());
     client.begin(6, 4, 0);
     bent.line.lost = true;
     std::string what, problem;
@@ -218,7 +218,7 @@ TEST(GeneratorClient, SendsVoltsAtTheOutputWhateverStateItStandsIn) {
         GeneratorOptions given = options();
         given.limits.amplitude = 2;
         given.load = load;
-        GeneratorClient client(stranger.line, given);
+        GeneratorClient client(borrowed(stranger.line), given);
         const std::string what = "seed " + std::to_string(seed);
         client.begin(6, 0.1, 0.3);
         EXPECT_NEAR(stranger.generator.peaks(), 0.1, 1e-6) << what;
@@ -244,7 +244,7 @@ TEST(GeneratorClient, SendsNoLevelToAGeneratorThatStaysAsItWas) {
         GeneratorOptions given = options();
         given.limits.amplitude = 2;
         given.reopen = 0.02;
-        GeneratorClient client(stranger.line, given);
+        GeneratorClient client(borrowed(stranger.line), given);
         std::string what, problem;
         const AcquisitionEnding ending = ending_of(
             [&] {
@@ -270,7 +270,7 @@ TEST(GeneratorClient, NoticesAUnitThatSomebodyHasChanged) {
         Stranger stranger{StrangerGenerator(5, habits, 50)};
         GeneratorOptions given = options();
         given.limits.amplitude = 2;
-        GeneratorClient client(stranger.line, given);
+        GeneratorClient client(borrowed(stranger.line), given);
         client.begin(6, 0.1, 0);
         stranger.generator.turn_to_rms(); // 0.1 V of which are more
         stranger.line.said.clear();
@@ -300,7 +300,7 @@ TEST(GeneratorClient, LooksAtTheGeneratorBeforeALevelIsSentAgain) {
         }};
         GeneratorOptions given = options();
         given.limits.amplitude = 2;
-        GeneratorClient client(line, given);
+        GeneratorClient client(borrowed(line), given);
         client.begin(6, 0.1, 0);
         lose = true;
         std::string what;
@@ -317,7 +317,7 @@ TEST(GeneratorClient, AsksForTheAmplitudeAgainAfterTheFrequency) {
         const unsigned habits = StrangerGenerator::frequency_resets | (has_switch ? 13U : 4U);
         Stranger stranger{StrangerGenerator(5, habits, 50)};
         stranger.generator.limit = 5.001;
-        GeneratorClient client(stranger.line, options());
+        GeneratorClient client(borrowed(stranger.line), options());
         std::string what, problem;
         EXPECT_EQ(ending_of([&] { client.begin(6, 0.1, 0); }, what), AcquisitionEnding::clipped);
         EXPECT_THAT(what, HasSubstr("gives an amplitude of 10 V instead of 0.1 V"));
@@ -342,7 +342,7 @@ TEST(GeneratorClient, AsksForAllElseAfterALevel) {
                 stranger.generator.execute("FREQ 9");
             return answer;
         }};
-        GeneratorClient client(line, options());
+        GeneratorClient client(borrowed(line), options());
         client.begin(6, 0.1, 0);
         if (of_offset)
             stranger.generator.take(StrangerGenerator::amplitude_shifts);
@@ -360,7 +360,7 @@ TEST(GeneratorClient, AsksForAllElseAfterALevel) {
 TEST(GeneratorClient, SwitchesOffAtOnceWhatTheSwitchItselfHasChanged) {
     Stranger stranger{StrangerGenerator(5, StrangerGenerator::switch_recalls | 13U, 50)};
     stranger.generator.limit = 5.001;
-    GeneratorClient client(stranger.line, options());
+    GeneratorClient client(borrowed(stranger.line), options());
     std::string what, problem;
     EXPECT_EQ(ending_of([&] { client.begin(6, 0.1, 0); }, what), AcquisitionEnding::clipped);
     EXPECT_THAT(what, HasSubstr("gives an amplitude of 7 V instead of 0.1 V; so it was since OUTP ON"));
@@ -386,7 +386,7 @@ TEST(GeneratorClient, AsksForTheUnitAgainWhenTheOutputIsOn) {
             stranger.generator.turn_to_rms();
         return answer;
     }};
-    GeneratorClient client(line, options());
+    GeneratorClient client(borrowed(line), options());
     std::string what;
     EXPECT_EQ(ending_of([&] { client.begin(6, 0.1, 0); }, what), AcquisitionEnding::clipped);
     EXPECT_THAT(what, HasSubstr("stands at VOLT:UNIT VRMS instead of VPP"));
@@ -396,7 +396,7 @@ TEST(GeneratorClient, AsksForTheUnitAgainWhenTheOutputIsOn) {
 TEST(GeneratorClient, SilencesAnOutputWhoseFrequencyHasChangedItsAmplitude) {
     for (const bool has_switch : {true, false}) {
         Stranger stranger{StrangerGenerator(5, has_switch ? 13U : 4U, 50)};
-        GeneratorClient client(stranger.line, options());
+        GeneratorClient client(borrowed(stranger.line), options());
         client.begin(6, 0.1, 0);
         client.set_amplitude(4);
         client.set_frequency(7);
@@ -420,7 +420,7 @@ TEST(GeneratorClient, SwitchesOnAgainWhereOnlyALetterOfAnAnswerWasLost) {
         std::string answer = stranger.generator.execute(said);
         return said == "VOLT?" && asked == 1 && ++times == 1 ? "1.000000e01" : answer;
     }};
-    GeneratorClient client(line, options());
+    GeneratorClient client(borrowed(line), options());
     client.begin(6, 0.1, 0);
     EXPECT_TRUE(stranger.generator.is_on());
     EXPECT_EQ(client.set_amplitude(2), 2);
@@ -436,7 +436,7 @@ TEST(GeneratorClient, TellsThatTheOutputIsSwitchedOffWhereItCannotBeMadeSafe) {
             Stranger stranger{StrangerGenerator(seed, habits, 50)};
             GeneratorOptions hasty = options();
             hasty.reopen = 0.02;
-            GeneratorClient client(stranger.line, hasty);
+            GeneratorClient client(borrowed(stranger.line), hasty);
             std::string problem;
             if (client.make_safe(0.1, problem))
                 continue; // it stood as it should
@@ -444,7 +444,7 @@ TEST(GeneratorClient, TellsThatTheOutputIsSwitchedOffWhereItCannotBeMadeSafe) {
         }
     }
     Stranger stranger{StrangerGenerator(5, 13U, 50)};
-    GeneratorClient unknown(stranger.line, options());
+    GeneratorClient unknown(borrowed(stranger.line), options());
     EXPECT_FALSE(unknown.is_switched_off());
     EXPECT_TRUE(stranger.line.said.empty()) << "nobody knows who is there";
 }
@@ -452,7 +452,7 @@ TEST(GeneratorClient, TellsThatTheOutputIsSwitchedOffWhereItCannotBeMadeSafe) {
 TEST(GeneratorClient, NamesTheQuestionThatIsNotAnswered) {
     Bent bent;
     bent.bend = [](const std::string& said, std::string answer) { return said == "FUNC:SHAP?" ? "" : answer; };
-    GeneratorClient client(bent.line, options());
+    GeneratorClient client(borrowed(bent.line), options());
     std::string what;
     EXPECT_EQ(ending_of([&] { client.begin(6, 1, 0); }, what), AcquisitionEnding::no_answer);
     EXPECT_THAT(what, HasSubstr("the generator has not answered FUNC:SHAP? for 0.01 s"));
@@ -468,7 +468,7 @@ TEST(GeneratorClient, DoesNotTakeLateAnswersForOtherSettings) {
             std::swap(held, answer);
         return answer;
     };
-    GeneratorClient client(bent.line, options());
+    GeneratorClient client(borrowed(bent.line), options());
     client.begin(6, 1, 0);
     late = true;
     std::string what;
@@ -480,7 +480,7 @@ TEST(GeneratorClient, DoesNotTakeLateAnswersForOtherSettings) {
 TEST(GeneratorClient, MakesAPlainSineOfTheBenchsGeneratorToo) {
     Bent bent;
     bent.generator = FunctionGenerator({.left_as = "VOLT:UNIT VRMS;:VOLT 1;:FUNC:SHAP SQU;:OUTP:LOAD INF;:AM:STAT ON"});
-    GeneratorClient client(bent.line, options());
+    GeneratorClient client(borrowed(bent.line), options());
     client.begin(6, 0.1, 0.2);
     client.set_amplitude(2);
     EXPECT_EQ(bent.generator.output(), (GeneratorOutput{6, 2, 0.2}));

@@ -223,8 +223,7 @@ TEST(ChatterLimit, of_two_masses_is_what_simulation_shows_from_however_long_a_la
         Orbit orbit = limit.orbit;
         orbit.parameters[settings.parameter.place()] *= 1 + side;
         const Simulation simulation(model);
-        Observer nobody;
-        Trajectory trajectory(simulation, orbit.parameters, nobody);
+        Trajectory trajectory(simulation, orbit.parameters);
         constexpr double periods = 10;
         std::vector<double> state = orbit.starts.at(1);
         state[0] = orbit.parameters[settings.parameter.place()]; // on the stop that has moved

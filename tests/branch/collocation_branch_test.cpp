@@ -30,7 +30,7 @@ Found follow_to_fold(std::unique_ptr<OrbitEquations> equations, const Orbit& orb
     const std::size_t place = problem.parameter_place();
     ContinuationOptions options;
     options.largest_step = 0.1;
-    Continuation continuation(problem, options);
+    Continuation continuation(borrowed(problem), options);
     Found found;
     EXPECT_TRUE(continuation.start(problem.unknowns_of(orbit), place, direction)) << problem.evaluation().problem;
     while (found.points < 400 && continuation.step()) {

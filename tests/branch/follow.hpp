@@ -110,8 +110,7 @@ inline void expect_flip(const SpecialPoint& flip, double tolerance = 1e-8) {
 inline double simulated(const Model& model, const SpecialPoint& point, double time) {
     const Orbit& orbit = point.solution.orbit;
     const Simulation simulation(model);
-    Observer nobody;
-    Trajectory trajectory(simulation, orbit.parameters, nobody);
+    Trajectory trajectory(simulation, orbit.parameters);
     trajectory.start(orbit.starts[point.segment], orbit.signature[point.segment].mode, 0, time);
     JetSet jets(simulation, LaneKind::single);
     run(trajectory, jets);

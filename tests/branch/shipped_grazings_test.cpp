@@ -56,7 +56,7 @@ std::vector<double> speeds_beyond(const Model& model, const CycleMap& map, Param
     flow.set_parameters(parameters);
     EXPECT_EQ(flow.run(map.contact.touch.mode, state, -0.01 * map.time), ModeFlow::Ending::done);
     Recorder recorder;
-    Trajectory trajectory(simulation, parameters, recorder);
+    Trajectory trajectory(simulation, parameters, borrowed(recorder));
     trajectory.start(state, map.contact.touch.mode, 0, cycles * map.time);
     JetSet jets(simulation, LaneKind::single);
     run(trajectory, jets);
@@ -95,8 +95,7 @@ void expect_projections(const Model& model, const CycleMap& map, std::size_t cyc
         const double lift = 0.01 * value[0], met = std::sqrt(0.99) * speed;
         for (std::size_t i = 0; i < state.size(); ++i)
             state[i] -= (value[0] - lift) / square * value[1 + i] * touch.scales[i] * touch.scales[i];
-        Observer nobody;
-        Trajectory trajectory(simulation, touch.parameters, nobody);
+        Trajectory trajectory(simulation, touch.parameters);
         // Where the pass hits, it does so before its least value by the root of the depth.
         const double projection = map.projections(cycles).back();
         const double short_of = std::max(20 * speed / map.contact.acceleration,

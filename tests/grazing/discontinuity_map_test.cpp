@@ -60,8 +60,7 @@ double error_at(const System& system, const DiscontinuityMap& map, double depth,
                         (map.second.empty() ? 0 : map.second[i] * map.second_by_depth(depth));
     EXPECT_EQ(flow.run(touch.mode, before, -time), ModeFlow::Ending::done);
     EXPECT_EQ(flow.run(touch.mode, predicted, time), ModeFlow::Ending::done);
-    Observer nobody;
-    Trajectory trajectory(simulation, touch.parameters, nobody);
+    Trajectory trajectory(simulation, touch.parameters);
     trajectory.start(before, touch.mode, 0, 2 * time);
     JetSet jets(simulation, LaneKind::single);
     run(trajectory, jets);

@@ -390,7 +390,7 @@ TEST(Verdict, attractors_of_the_map_are_those_of_simulation) {
             // Cycles are counted at the start's phase, which is not that of the touch.
             constexpr std::size_t transient = 300, rounds = 20;
             Counter counter(transient * one.period());
-            Trajectory trajectory(simulation, parameters, counter);
+            Trajectory trajectory(simulation, parameters, borrowed(counter));
             trajectory.start(start, 0, 0, static_cast<double>(transient + rounds * motion.period) * one.period());
             JetSet jets(simulation, LaneKind::single);
             run(trajectory, jets);

@@ -20,7 +20,7 @@ bool residual(std::span<const double> u, std::span<double> values) {
 }
 struct Circle {
     DenseProblem problem{2, residual};
-    Continuation continuation{problem};
+    Continuation continuation{borrowed(problem)};
     const std::vector<double> point = {1, 0};
     Continuation& started() {
         EXPECT_TRUE(continuation.start(point, 1, 1));
@@ -29,6 +29,7 @@ struct Circle {
 };
 
 void problems(WrongUses& wrong) {
+    wrong("continuation_without_problem", [] { Continuation({}); });
     wrong("dense_problem_no_unknowns", [] { keep(DenseProblem(0, residual)); });
     wrong("dense_problem_unknowns_huge", [] { keep(DenseProblem(huge, residual)); });
     wrong("dense_problem_without_residuals", [] { keep(DenseProblem(2, {})); });
@@ -67,7 +68,7 @@ void continuations(WrongUses& wrong) {
             ContinuationOptions options;
             set(options);
             Circle circle;
-            keep(Continuation(circle.problem, options));
+            keep(Continuation(borrowed(circle.problem), options));
         });
         wrong("branch_settings_continuation_" + name, [set] {
             BranchSettings settings = by_amplitude();

@@ -3,13 +3,17 @@
 #include "misuse/right_things.hpp"
 #include "misuse/wrong_use.hpp"
 
+#include "graze/record/calibrated.hpp"
 #include "graze/study/runner.hpp"
 #include "graze/sweep/plan.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "graze/trajectory/ensemble.hpp"
 #include "graze/trajectory/recorder.hpp"
+#include "graze/trajectory/run_control.hpp"
 
+#include <memory>
 #include <optional>
+#include <utility>
 
 // What is not said of a struct is as its header says.
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
@@ -124,20 +128,25 @@ void systems(WrongUses& right) {
 
 void trajectories(WrongUses& right) {
     right("trajectory_of_temporaries", [] {
-        Observer nobody;
-        Trajectory trajectory(Simulation(System(oscillator())), oscillator().parameter_values(), nobody);
+        Trajectory trajectory(Simulation(System(oscillator())), oscillator().parameter_values());
         run_alone(trajectory);
     });
     right("trajectory_of_temporaries_with_probes", [] {
-        Recorder recorder;
         Trajectory trajectory(Simulation(oscillator(), {section_probe(oscillator(), "turning")}),
-                              oscillator().parameter_values(), recorder);
+                              oscillator().parameter_values(), std::make_shared<Recorder>());
+        run_alone(trajectory);
+    });
+    right("trajectory_outlives_shares_of_its_observers", [] {
+        auto recorder = std::make_shared<Recorder>();
+        auto relay = std::make_shared<Relay>(std::vector<std::shared_ptr<Observer>>{recorder});
+        Trajectory trajectory(Simulation(oscillator()), oscillator().parameter_values(),
+                              std::make_shared<RunControl>(std::move(relay), std::nullopt, std::vector{true}));
+        recorder.reset();
         run_alone(trajectory);
     });
     right("trajectory_outlives_simulation", [] {
-        Observer nobody;
         std::optional<Simulation> simulation = Simulation(oscillator());
-        Trajectory trajectory(*simulation, oscillator().parameter_values(), nobody);
+        Trajectory trajectory(*simulation, oscillator().parameter_values());
         simulation.reset();
         run_alone(trajectory);
     });
@@ -164,9 +173,8 @@ void trajectories(WrongUses& right) {
         run(motion.trajectory, motion.jets);
     });
     right("parameters_of_another_trajectory", [] {
-        Observer nobody;
         std::optional<Motion> motion(std::in_place);
-        Trajectory trajectory(motion->simulation, motion->trajectory.parameters(), nobody);
+        Trajectory trajectory(motion->simulation, motion->trajectory.parameters());
         motion.reset();
         run_alone(trajectory);
     });
@@ -178,8 +186,7 @@ void trajectories(WrongUses& right) {
     });
     right("jet_set_outlives_simulation", [] {
         JetSet jets(Simulation(oscillator()), LaneKind::single);
-        Observer nobody;
-        Trajectory trajectory(jets.simulation(), oscillator().parameter_values(), nobody);
+        Trajectory trajectory(jets.simulation(), oscillator().parameter_values());
         trajectory.start(oscillator().initial_state(), 0, 0, 1);
         run(trajectory, jets);
     });
@@ -196,12 +203,11 @@ void trajectories(WrongUses& right) {
         outlook.find_steps(jets.computed(0, oscillator().initial_state()));
     });
     right("ensemble_outlives_simulation", [] {
-        Observer nobody;
         std::optional<Simulation> simulation = Simulation(oscillator());
         Ensemble ensemble(*simulation);
         std::vector<Trajectory> trajectories;
         for (int i = 0; i < 5; ++i) {
-            trajectories.emplace_back(*simulation, oscillator().parameter_values(), nobody);
+            trajectories.emplace_back(*simulation, oscillator().parameter_values());
             trajectories.back().start(oscillator().initial_state(), 0, 0, 1);
         }
         simulation.reset();
@@ -276,10 +282,37 @@ void searches(WrongUses& right) {
             values[0] = u[0] + u[1] - offset[0];
             return true;
         });
-        Continuation continuation(problem);
+        Continuation continuation(borrowed(problem));
         EXPECT_TRUE(continuation.start(std::vector<double>{1, 0}, 1, 1));
         EXPECT_TRUE(continuation.step());
         EXPECT_TRUE(continuation.start_at(continuation.point().u, continuation.point().tangent));
+    });
+    right("continuation_outlives_shares_of_its_problem", [] {
+        Continuation continuation(
+            std::make_shared<DenseProblem>(2, [](std::span<const double> u, std::span<double> values) {
+                values[0] = u[0] + u[1] - 1;
+                return true;
+            }));
+        EXPECT_TRUE(continuation.start(std::vector<double>{1, 0}, 1, 1));
+        EXPECT_TRUE(continuation.step());
+    });
+    right("stages_of_a_record_keep_their_sources", [] {
+        std::shared_ptr<SampleSource> source =
+            std::make_shared<StoredSamples>(RecordHeader{{"t", "s"}, {{"x", "m"}}}, Samples{{0, 1, 2}, {{1, 2, 3}}});
+        source = std::make_shared<Calibrated>(std::move(source), CalibratedSettings{{{0, 2, 0, {}}}});
+        source = std::make_shared<Calibrated>(std::move(source), CalibratedSettings{.begin = 0.5});
+        EXPECT_EQ(read_all(*source, 10).values[0], (std::vector<double>{4, 6}));
+    });
+    right("plan_outlives_run", [] {
+        std::optional<StudyRun> run(std::in_place);
+        run->kind = RunKind::sweep;
+        run->model = oscillator();
+        run->axes.emplace_back();
+        run->axes[0].values = {1, 2};
+        run->axes[0].parameter = run->model.independent_parameter("amplitude");
+        const Plan plan = plan_of(*run, System(run->model), nullptr);
+        run.reset();
+        keep(plan.start(plan.points() - 1));
     });
     right("follow_motion_of_temporaries", [] {
         keep(follow_motion(Simulation(oscillator()), oscillator().parameter_values(), oscillator().initial_state(), 0,

@@ -54,8 +54,7 @@ inline SpecialPoint grazing_point() {
 struct Motion {
     Model model = oscillator();
     Simulation simulation{model};
-    Observer nobody;
-    Trajectory trajectory{simulation, model.parameter_values(), nobody};
+    Trajectory trajectory{simulation, model.parameter_values()};
     JetSet jets{simulation, LaneKind::single};
 
     Trajectory& begun(double end_time = 1) {

@@ -102,16 +102,14 @@ void starts(WrongUses& wrong) {
     for (const auto& [kind, length] : wrong_lengths(5))
         wrong("trajectory_parameters_" + kind, [length = length] {
             const Simulation simulation(oscillator());
-            Observer nobody;
-            keep(Trajectory(simulation, std::vector<double>(length), nobody));
+            keep(Trajectory(simulation, std::vector<double>(length)));
         });
     for (const auto& [kind, value] : not_finite()) {
         wrong("trajectory_parameter_" + kind, [value = value] {
             const Motion motion;
-            Observer nobody;
             std::vector<double> parameters = motion.model.parameter_values();
             parameters[0] = value;
-            Trajectory trajectory(motion.simulation, parameters, nobody);
+            Trajectory trajectory(motion.simulation, parameters);
             trajectory.start(motion.model.initial_state(), 0, 0, 1);
         });
         wrong("start_state_" + kind, [value = value] {
@@ -151,8 +149,7 @@ void starts(WrongUses& wrong) {
         const Simulation simulation(model);
         std::vector<double> parameters = model.parameter_values();
         parameters[model.independent_parameter("sigma").place()] = -1;
-        Observer nobody;
-        Trajectory trajectory(simulation, parameters, nobody);
+        Trajectory trajectory(simulation, parameters);
         trajectory.start(std::vector<double>(3), 0, 0, 1);
     });
     wrong("extend_to_the_past", [] {
@@ -361,7 +358,7 @@ void drivers(WrongUses& wrong) {
     });
     of_motion("ensemble_again_unstarted", [](Motion& m) {
         std::vector<Trajectory*> slots = {&m.begun()};
-        Trajectory other(m.simulation, m.model.parameter_values(), m.nobody);
+        Trajectory other(m.simulation, m.model.parameter_values());
         bool given = false;
         Ensemble(m.simulation).run(slots, [&](std::size_t) { return std::exchange(given, true) ? nullptr : &other; });
     });
@@ -372,7 +369,7 @@ void drivers(WrongUses& wrong) {
         Ensemble(m.simulation).run(slots, [&](std::size_t) { return &other.trajectory; });
     });
     of_motion("ensemble_again_what_runs_elsewhere", [](Motion& m) {
-        Trajectory other(m.simulation, m.model.parameter_values(), m.nobody);
+        Trajectory other(m.simulation, m.model.parameter_values());
         other.start(m.model.initial_state(), 0, 0, 5);
         std::vector<Trajectory*> slots = {&m.begun(0.1), &other};
         bool given = false;
@@ -400,7 +397,7 @@ void observers(WrongUses& wrong) {
         wrong("sampler_periods_" + kind, [n = length, receiver] {
             Motion motion;
             Sampler sampler(0, 0.1, 5, std::vector<double>(n), receiver);
-            Trajectory trajectory(motion.simulation, motion.model.parameter_values(), sampler);
+            Trajectory trajectory(motion.simulation, motion.model.parameter_values(), borrowed(sampler));
             trajectory.start(motion.model.initial_state(), 0, 0, 1);
             run(trajectory, motion.jets);
         });
@@ -408,7 +405,7 @@ void observers(WrongUses& wrong) {
         Motion motion;
         const Simulation simulation(motion.model, {}, {}, {.minima = true});
         ArcMinima minima{{}};
-        Trajectory trajectory(simulation, motion.model.parameter_values(), minima);
+        Trajectory trajectory(simulation, motion.model.parameter_values(), borrowed(minima));
         trajectory.start(motion.model.initial_state(), 0, 0, 1);
         JetSet jets(simulation, LaneKind::single);
         run(trajectory, jets);

@@ -92,8 +92,7 @@ direction = "falling"
         ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
         const Simulation simulation(model);
         ASSERT_EQ(solution.multipliers.size(), 1U);
-        Observer nobody;
-        Trajectory trajectory(simulation, model.parameter_values(), nobody);
+        Trajectory trajectory(simulation, model.parameter_values());
         trajectory.start(solution.orbit.starts[0], 0, 0, solution.orbit.period());
         JetSet jets(simulation, LaneKind::single);
         run(trajectory, jets);

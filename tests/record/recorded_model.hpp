@@ -58,8 +58,8 @@ struct RecordedModel {
                                 samples.values[i].push_back(state[i]);
                             samples.values.back().push_back(std::sin(state[cyclic]));
                         });
-        Relay relay({&sampler, &truth});
-        Trajectory trajectory(simulation, model.parameter_values(), relay);
+        Relay relay({borrowed(sampler), borrowed(truth)});
+        Trajectory trajectory(simulation, model.parameter_values(), borrowed(relay));
         trajectory.start(model.initial_state(), model.initial_mode, 0,
                          skipped + static_cast<double>(count) / frequency);
         JetSet jets(simulation, LaneKind::single);

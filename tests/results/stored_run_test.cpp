@@ -10,6 +10,8 @@
 
 #include <cmath>
 #include <filesystem>
+#include <optional>
+#include <utility>
 
 namespace graze {
 namespace {
@@ -97,6 +99,15 @@ TEST_F(StoredRunTest, columns_have_names_units_and_types) {
     EXPECT_EQ(samples[5].unit, "s");
     EXPECT_EQ(run().unit("v"), "m/s");
     EXPECT_EQ(run().unit("label"), "");
+}
+
+TEST_F(StoredRunTest, runs_and_rows_keep_what_they_need_of_the_file) {
+    std::optional<StoredRun> read = run();
+    file_.reset(); // this handle; the run has another
+    EXPECT_EQ(read->points(), 4u);
+    ResultFile::Rows rows = read->rows({.quantities = {"omega"}});
+    read.reset();
+    EXPECT_THAT(column(std::move(rows), 0), ElementsAre(1, 2, 2, 1));
 }
 
 TEST_F(StoredRunTest, points_are_read_by_direction) {

@@ -23,7 +23,7 @@ struct Logistic {
 
     /// Where a motion that starts at z has come to after some returns.
     void follow(double z, std::size_t returns) {
-        Trajectory trajectory(setting.simulation, {}, motion);
+        Trajectory trajectory(setting.simulation, {}, borrowed(motion));
         std::vector<double> thresholds(50, 0.0);
         motion.begin({}, periods, nullptr);
         motion.watch_recurrence(&thresholds, 6);

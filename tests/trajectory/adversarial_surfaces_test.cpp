@@ -234,7 +234,7 @@ TEST(Adversarial, TheFirstOfSeveralBarriers) {
         observer.event = 9;
         observer.time = -1;
         JetSet jets(simulation, LaneKind::single);
-        Trajectory trajectory(simulation, parameters, observer);
+        Trajectory trajectory(simulation, parameters, borrowed(observer));
         trajectory.start(std::vector{x, v}, 0, 0, 7);
         graze::run(trajectory, jets);
         LinearOscillator oscillator(0, 2, 0);

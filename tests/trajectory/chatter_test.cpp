@@ -227,7 +227,7 @@ TEST(Chatter, AccumulationsUnderFadingGravityCompleteOrAreNotCut) {
         if (!completes && impacts.size() > 4000)
             continue;
         Watcher watcher;
-        Trajectory trajectory(simulation, std::vector{1.0, b, e, height}, watcher);
+        Trajectory trajectory(simulation, std::vector{1.0, b, e, height}, borrowed(watcher));
         JetSet jets(simulation, LaneKind::single);
         trajectory.start(std::vector{height, 1.0, 0.0}, 0, 0, 3 / b);
         graze::run(trajectory, jets);

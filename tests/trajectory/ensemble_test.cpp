@@ -85,7 +85,7 @@ Result result_of(const Trajectory& trajectory, const Transcript& transcript) {
 
 Result run_alone(const Simulation& simulation, const Task& task, InstructionSet set) {
     Transcript transcript;
-    Trajectory trajectory(simulation, task.parameters, transcript);
+    Trajectory trajectory(simulation, task.parameters, borrowed(transcript));
     trajectory.start(task.state, task.mode, 0, task.end_time);
     JetSet jets(simulation, LaneKind::single, set);
     graze::run(trajectory, jets);
@@ -96,7 +96,7 @@ std::vector<Result> run_together(const Simulation& simulation, const std::vector
     std::vector<Transcript> transcripts(tasks.size());
     std::vector<Trajectory> trajectories;
     for (std::size_t i = 0; i < tasks.size(); ++i) {
-        trajectories.emplace_back(simulation, tasks[i].parameters, transcripts[i]);
+        trajectories.emplace_back(simulation, tasks[i].parameters, borrowed(transcripts[i]));
         trajectories.back().start(tasks[i].state, tasks[i].mode, 0, tasks[i].end_time);
     }
     Ensemble(simulation, set).run(trajectories);
@@ -228,7 +228,7 @@ TEST(Ensemble, MayBeCarriedOnAndUsedAgain) {
     std::vector<Transcript> transcripts(tasks.size());
     std::vector<Trajectory> trajectories;
     for (std::size_t i = 0; i < tasks.size(); ++i) {
-        trajectories.emplace_back(simulation, tasks[i].parameters, transcripts[i]);
+        trajectories.emplace_back(simulation, tasks[i].parameters, borrowed(transcripts[i]));
         trajectories.back().start(tasks[i].state, 0, 0, tasks[i].end_time);
     }
     ensemble.run(trajectories);
@@ -238,7 +238,7 @@ TEST(Ensemble, MayBeCarriedOnAndUsedAgain) {
     JetSet jets(simulation, LaneKind::single);
     for (std::size_t i = 0; i < tasks.size(); ++i) {
         Transcript transcript;
-        Trajectory alone(simulation, tasks[i].parameters, transcript);
+        Trajectory alone(simulation, tasks[i].parameters, borrowed(transcript));
         alone.start(tasks[i].state, 0, 0, tasks[i].end_time);
         graze::run(alone, jets);
         if (i % 2 == 0) {
@@ -257,7 +257,7 @@ TEST(Ensemble, LeavesMotionsUnfinishedWhenAsked) {
     for (const std::size_t count : {std::size_t{1}, std::size_t{9}}) {
         std::vector<Trajectory> trajectories;
         for (std::size_t i = 0; i < count; ++i) {
-            trajectories.emplace_back(simulation, simulation.model().parameter_values(), observer);
+            trajectories.emplace_back(simulation, simulation.model().parameter_values(), borrowed(observer));
             trajectories.back().start(simulation.model().initial_state(), 0, 0, 1e12);
         }
         Ensemble ensemble(simulation);

@@ -54,7 +54,7 @@ public:
     Outcome run(std::span<const double> parameters, std::span<const double> state, double end_time, Witness& witness,
                 std::size_t mode = 0) {
         witness.clear();
-        Trajectory trajectory(*simulations_[drawn_], parameters, witness);
+        Trajectory trajectory(*simulations_[drawn_], parameters, borrowed(witness));
         trajectory.start(state, mode, 0, end_time);
         graze::run(trajectory, *jets_[drawn_]);
         steps = trajectory.steps();

@@ -31,7 +31,7 @@ std::vector<std::size_t> passages(const Model& model, const std::vector<Probe>& 
                                   SimulationOptions options = {}) {
     Simulation simulation(model, probes, {}, options);
     Counter counter(probes.size());
-    Trajectory trajectory(simulation, model.parameter_values(), counter);
+    Trajectory trajectory(simulation, model.parameter_values(), borrowed(counter));
     JetSet jets(simulation, LaneKind::single);
     trajectory.start(model.initial_state(), model.initial_mode, 0, end_time);
     run(trajectory, jets);
@@ -337,7 +337,7 @@ TEST(Probe, StoppingAtPassagesLosesAndDoublesNothing) {
     };
     Simulation simulation(model, probes, {}, with_tolerance(1e-14));
     Stopper stopper;
-    Trajectory trajectory(simulation, model.parameter_values(), stopper);
+    Trajectory trajectory(simulation, model.parameter_values(), borrowed(stopper));
     JetSet jets(simulation, LaneKind::single);
     trajectory.start(model.initial_state(), 0, 0, 1000.5);
     run(trajectory, jets);
@@ -387,7 +387,7 @@ TEST(Probe, StoppingAtAPassageBeforeAContact) {
     const std::vector<Probe> probes = {section_probe(model, "turning"), section_probe(model, "phase0")};
     Simulation simulation(model, probes, {}, with_tolerance(1e-14));
     Stopper stopper;
-    Trajectory trajectory(simulation, model.parameter_values(), stopper);
+    Trajectory trajectory(simulation, model.parameter_values(), borrowed(stopper));
     JetSet jets(simulation, LaneKind::single);
     trajectory.start(model.initial_state(), 0, 0, 300);
     run(trajectory, jets);
@@ -418,7 +418,7 @@ TEST(CyclicStates, StayWithinTheirPeriodsForAMillionPeriods) {
         SimulationOptions options = with_tolerance(1e-14);
         Simulation simulation(model, {}, {}, options);
         Watch watch;
-        Trajectory trajectory(simulation, model.parameter_values(), watch);
+        Trajectory trajectory(simulation, model.parameter_values(), borrowed(watch));
         JetSet jets(simulation, LaneKind::single);
         const double end = 2 * pi * 1e6 + 1;
         trajectory.start(model.initial_state(), 0, 0, end);

@@ -305,8 +305,8 @@ TEST(ElectromagneticTestbed, LeastGapOverStepsAgreesWithTheExtremum) {
         EXPECT_LE(minimum.lower_bound, minimum.value);
         EXPECT_GE(minimum.lower_bound, minimum.value - 1e-16);
     });
-    Relay relay({&recorder, &minima});
-    Trajectory trajectory(simulation, full.parameter_values(), relay);
+    Relay relay({borrowed(recorder), borrowed(minima)});
+    Trajectory trajectory(simulation, full.parameter_values(), borrowed(relay));
     JetSet jets(simulation, LaneKind::single);
     trajectory.start(full.initial_state(), 0, 0, 8);
     run(trajectory, jets);

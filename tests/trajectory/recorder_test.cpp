@@ -17,7 +17,7 @@ void run_switch(Observer& observer, bool minima = false) {
     options.minima = minima;
     const Model model = load_model("mems-switch");
     const Simulation simulation(model, {section_probe(model, "phase0")}, {}, options);
-    Trajectory trajectory(simulation, model.parameter_values(), observer);
+    Trajectory trajectory(simulation, model.parameter_values(), borrowed(observer));
     trajectory.start(model.initial_state(), model.initial_mode, 0, 100);
     JetSet jets(simulation, LaneKind::single);
     run(trajectory, jets);
@@ -48,7 +48,7 @@ TEST(Recorder, KeepsStatesOfContactsAndPassages) {
 
 TEST(Recorder, RelaysToSeveral) {
     Recorder one, other;
-    Relay relay({&one, &other});
+    Relay relay({borrowed(one), borrowed(other)});
     run_switch(relay);
     EXPECT_GT(one.contacts().size(), 4U);
     EXPECT_EQ(one.contacts().size(), other.contacts().size());

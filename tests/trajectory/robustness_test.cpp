@@ -63,8 +63,7 @@ TEST_P(Robustness, RandomParametersEndRegularly) {
             setting += std::string(" ") + range.parameter + "=" + std::to_string(value);
         }
         const Simulation simulation(model, {}, {}, {.tolerance = tolerances[sample % 4], .step_limit = 3'000'000});
-        Observer nobody;
-        Trajectory trajectory(simulation, model.parameter_values(), nobody);
+        Trajectory trajectory(simulation, model.parameter_values());
         trajectory.start(model.initial_state(), model.initial_mode, 0, scenario.time);
         JetSet jets(simulation, LaneKind::single);
         run(trajectory, jets);
@@ -119,7 +118,7 @@ TEST(StandStill, CrossingsThatAccumulateBetweenTwoModesComeToRest) {
         const Model model = ridge(with_rest);
         const Simulation simulation(model);
         Rest rest;
-        Trajectory trajectory(simulation, model.parameter_values(), rest);
+        Trajectory trajectory(simulation, model.parameter_values(), borrowed(rest));
         trajectory.start(model.initial_state(), model.initial_mode, 0, 100);
         JetSet jets(simulation, LaneKind::single);
         run(trajectory, jets);

@@ -33,8 +33,7 @@ void judge_states(Counts& counts, const Family& family, Random& random, int case
         JetSet jets(simulation, LaneKind::single);
         for (int i = 0; i < cases_each; ++i) {
             const ClosedMotion one = family.draw(random);
-            Observer nobody;
-            Trajectory trajectory(simulation, one.parameters, nobody);
+            Trajectory trajectory(simulation, one.parameters);
             trajectory.start(one.state, 0, 0, one.end);
             run(trajectory, jets);
             ++counts.cases;
@@ -146,7 +145,7 @@ initial = {{ mode = "one" }}
             double start = 0, time = 0, slope = 0;
             family.draw(random, parameters, start, time, slope);
             Recorder recorder;
-            Trajectory trajectory(simulation, parameters, recorder);
+            Trajectory trajectory(simulation, parameters, borrowed(recorder));
             trajectory.start(std::vector{start}, 0, 0, 1.5 * time);
             run(trajectory, jets);
             ++counts.cases;
@@ -206,8 +205,7 @@ transitions = [{{ mode = "one", event = "due", jump = "reset", next = "one" }}]
             const double tolerance = random.log_uniform(1e-15, 1e-6);
             const Simulation simulation(model, {}, {}, with_tolerance(tolerance));
             JetSet jets(simulation, LaneKind::single);
-            Observer nobody;
-            Trajectory trajectory(simulation, std::vector{random.log_uniform(0.3, 30)}, nobody);
+            Trajectory trajectory(simulation, std::vector{random.log_uniform(0.3, 30)});
             const double speed = random.log_uniform(0.1, 10);
             trajectory.start(std::vector{0.0, speed, 0.0}, 0, 0, 20);
             run(trajectory, jets);
@@ -235,8 +233,7 @@ TEST(StepEvidence, ChainsThatStartAtZero) {
             for (const double rate : {1e-9, 1.0, 1e9}) {
                 const Simulation simulation(model, {}, {}, with_tolerance(tolerance));
                 JetSet jets(simulation, LaneKind::single);
-                Observer nobody;
-                Trajectory trajectory(simulation, std::vector{rate}, nobody);
+                Trajectory trajectory(simulation, std::vector{rate});
                 trajectory.start(std::vector(static_cast<std::size_t>(n), 0.0), 0, 0, n / rate);
                 run(trajectory, jets);
                 ASSERT_EQ(trajectory.outcome().ending, Ending::end_time) << trajectory.outcome().detail;
@@ -276,8 +273,7 @@ TEST(StepEvidence, DerivativesOfSteepMotions) {
             const double c = chirp ? -1 : random.uniform(-1, 1), end = random.uniform(0.5, 2);
             const Simulation simulation(model, {}, {}, with_tolerance(tolerance));
             JetSet jets(simulation, LaneKind::single);
-            Observer nobody;
-            Trajectory trajectory(simulation, std::vector{k, c}, nobody);
+            Trajectory trajectory(simulation, std::vector{k, c});
             trajectory.start(std::vector{0.0, -1.0}, 0, 0, end);
             trajectory.carry_tangents(std::vector{0.0, 0.0, 0.0, 1.0}, 1);
             run(trajectory, jets);

@@ -29,7 +29,7 @@ TEST(Stop, at_a_passage_where_a_clock_switches_loses_nothing) {
         std::vector<std::size_t> modes, stops;
         for (const bool stopping : {false, true}) {
             observer.stops = stopping;
-            Trajectory trajectory(simulation, model.parameter_values(), observer);
+            Trajectory trajectory(simulation, model.parameter_values(), borrowed(observer));
             const double end = std::string(name) == "microbeam" ? 1.5 : 20;
             trajectory.start(model.initial_state(), model.initial_mode, 0, end);
             run(trajectory, jets);

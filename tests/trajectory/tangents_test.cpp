@@ -218,7 +218,7 @@ End end_of(const Simulation& simulation, JetSet& jets, const std::vector<double>
            std::size_t mode, double end_time) {
     Recorder recorder;
     const std::span<const double> all(input);
-    Trajectory trajectory(simulation, all.subspan(states), recorder);
+    Trajectory trajectory(simulation, all.subspan(states), borrowed(recorder));
     trajectory.start(all.first(states), mode, 0, end_time);
     graze::run(trajectory, jets);
     End end{{trajectory.state().begin(), trajectory.state().end()}, {}};

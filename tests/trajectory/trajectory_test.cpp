@@ -644,7 +644,7 @@ TEST(Endings, StoppedByTheObserver) {
     } stopper;
     const Model model = shipped_with("impact-oscillator", {{"omega", 2.8}, {"sigma", 0}});
     Simulation simulation(model);
-    Trajectory trajectory(simulation, model.parameter_values(), stopper);
+    Trajectory trajectory(simulation, model.parameter_values(), borrowed(stopper));
     JetSet jets(simulation, LaneKind::single);
     trajectory.start(model.initial_state(), 0, 0, 1000);
     run(trajectory, jets);
@@ -663,8 +663,7 @@ TEST(Singular, TimesOfKnownBlowUps) {
     for (const double start : {0.0, 1000.0}) {
         const Model model = from_rates("x = 0", "x = \"1 + x^2\"");
         Simulation simulation(model, {}, {}, with_tolerance(1e-14));
-        Observer nobody;
-        Trajectory trajectory(simulation, model.parameter_values(), nobody);
+        Trajectory trajectory(simulation, model.parameter_values());
         JetSet jets(simulation, LaneKind::single);
         trajectory.start(std::vector<double>{0}, 0, start, start + 10);
         run(trajectory, jets);
@@ -677,8 +676,7 @@ TEST(Singular, FastMotionAtALateTimeIsNot) {
     // Steps are short against the time that has passed, but they do not shrink.
     const Model model = from_rates("x = 1\nv = 0", "x = \"1e6*v\", v = \"-1e6*x\"");
     Simulation simulation(model, {}, {}, with_tolerance(1e-14));
-    Observer nobody;
-    Trajectory trajectory(simulation, model.parameter_values(), nobody);
+    Trajectory trajectory(simulation, model.parameter_values());
     JetSet jets(simulation, LaneKind::single);
     trajectory.start(std::vector<double>{1, 0}, 0, 1e9, 1e9 + 1e-4);
     run(trajectory, jets);
@@ -687,8 +685,7 @@ TEST(Singular, FastMotionAtALateTimeIsNot) {
 
 TEST(Trajectory, CannotRunBeforeItIsStarted) {
     const Simulation simulation(load_model("impact-oscillator"));
-    Observer nobody;
-    Trajectory trajectory(simulation, simulation.model().parameter_values(), nobody);
+    Trajectory trajectory(simulation, simulation.model().parameter_values());
     JetSet jets(simulation, LaneKind::single);
     EXPECT_THROW(run(trajectory, jets), std::logic_error);
 }

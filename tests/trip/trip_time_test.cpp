@@ -437,7 +437,7 @@ TEST(TripTime, TheLevelOfAStopIsReachedAtTheFirstContact) {
         state[1] = number(random);
         const std::vector<double> parameters = model.parameter_values();
         FirstContact first;
-        Trajectory trajectory(simulation, parameters, first);
+        Trajectory trajectory(simulation, parameters, borrowed(first));
         trajectory.start(state, model.initial_mode, 0, 50);
         JetSet jets(simulation, LaneKind::single);
         run(trajectory, jets);

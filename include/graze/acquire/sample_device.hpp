@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 
 namespace graze {
 
@@ -42,11 +43,11 @@ public:
 class TextSampleDevice : public SampleDevice {
 public:
     /// Ends what somebody else may have begun, and asks for the channels.
-    /// @param line must outlive this; @param timeout s, for each answer, and for each row besides its time
+    /// @param line is shared; @param timeout s, for each answer, and for each row besides its time
     /// @param interrupted asked while anything is waited for
     /// @param patience how many times as long as samples last they may take to come; and `timeout`
     /// @throws InstrumentError when it does not answer as the protocol has it
-    TextSampleDevice(InstrumentLine& line, double timeout, std::function<bool()> interrupted, double patience = 10);
+    TextSampleDevice(std::shared_ptr<InstrumentLine> line, double timeout, std::function<bool()> interrupted, double patience = 10);
 
     const RecordHeader& header() const override { return header_; }
     void set_rate(double rate) override;
@@ -64,7 +65,7 @@ private:
     void drain();
     void require_time() const;
 
-    InstrumentLine* line_;
+    std::shared_ptr<InstrumentLine> line_;
     double timeout_, patience_;
     std::function<bool()> interrupted_;
     RecordHeader header_;

@@ -1,7 +1,10 @@
 #pragma once
 
+#include "graze/base/borrowed.hpp"
+
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -96,8 +99,8 @@ std::string_view name_of(ContinuationOutcome outcome);
 /// what the unknowns mean. One can stop after any step, look at the point, and go on.
 class Continuation {
 public:
-    /// @param problem must outlive this. @throws InputError for options out of range
-    explicit Continuation(ContinuationProblem& problem, const ContinuationOptions& options = {});
+    /// @param problem is shared, with copies too. @throws InputError for options out of range
+    explicit Continuation(std::shared_ptr<ContinuationProblem> problem, const ContinuationOptions& options = {});
 
     /// Begins near u, which is corrected at a fixed value of one unknown if possible, along the branch in the direction
     /// in which that unknown grows (direction > 0) or falls. @return whether it has begun; `outcome` says why not
@@ -141,7 +144,7 @@ private:
     bool closes();
     void weigh(std::span<const double> direction, std::vector<double>& row) const;
 
-    ContinuationProblem* problem_;
+    std::shared_ptr<ContinuationProblem> problem_;
     ContinuationOptions options_;
     ContinuationPoint point_, previous_, first_;
     ContinuationOutcome outcome_ = ContinuationOutcome::going;

@@ -26,14 +26,14 @@ struct CalibratedSettings {
 /// A part of a source, with its readings turned into what they mean.
 class Calibrated : public SampleSource {
 public:
-    /// @param source must outlive this. @throws InputError for settings without meaning
-    Calibrated(SampleSource& source, CalibratedSettings settings);
+    /// @param source is shared. @throws InputError for settings without meaning
+    Calibrated(std::shared_ptr<SampleSource> source, CalibratedSettings settings);
     const RecordHeader& header() const override { return header_; }
     /// @throws InputError when a result is too large for a number
     bool read(Samples& samples) override;
 
 private:
-    SampleSource* source_;
+    std::shared_ptr<SampleSource> source_;
     CalibratedSettings settings_;
     RecordHeader header_;
 };

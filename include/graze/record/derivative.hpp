@@ -24,9 +24,9 @@ struct DerivativeSettings {
 /// that is no more than their rounding.
 class WithDerivative : public SampleSource {
 public:
-    /// @param source must outlive this
+    /// @param source is shared
     /// @throws InputError for settings without meaning
-    WithDerivative(SampleSource& source, const DerivativeSettings& settings);
+    WithDerivative(std::shared_ptr<SampleSource> source, const DerivativeSettings& settings);
     ~WithDerivative() override;
     const RecordHeader& header() const override;
     /// @throws InputError when there are gaps between the samples, or the record is too short

@@ -35,9 +35,9 @@ struct ImpactSettings {
 /// displacement meet. Impacts that follow one another by fewer samples than the window may be missed.
 class ImpactFinder {
 public:
-    /// @param source must outlive this
+    /// @param source is shared
     /// @throws InputError for settings without meaning
-    ImpactFinder(SampleSource& source, const ImpactSettings& settings);
+    ImpactFinder(std::shared_ptr<SampleSource> source, const ImpactSettings& settings);
     ~ImpactFinder();
     ImpactFinder(const ImpactFinder&) = delete;
     ImpactFinder& operator=(const ImpactFinder&) = delete;

@@ -20,9 +20,9 @@ struct LowPassSettings {
 /// times that. Rows at both ends, of which the filter would need others outside of the record, are left out.
 class LowPass : public SampleSource {
 public:
-    /// @param source must outlive this
+    /// @param source is shared
     /// @throws InputError for settings without meaning
-    LowPass(SampleSource& source, const LowPassSettings& settings);
+    LowPass(std::shared_ptr<SampleSource> source, const LowPassSettings& settings);
     ~LowPass() override;
     const RecordHeader& header() const override;
     /// @throws InputError when the samples are not at equal distances of time, or the record is shorter than the filter

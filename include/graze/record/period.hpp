@@ -3,6 +3,7 @@
 #include "graze/record/samples.hpp"
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,8 +32,8 @@ struct PeriodSettings {
 /// memory there is one period and what was read with it.
 class PeriodSplitter {
 public:
-    /// @throws InputError for settings without meaning
-    PeriodSplitter(SampleSource& source, const PeriodSettings& settings);
+    /// @param source is shared. @throws InputError for settings without meaning
+    PeriodSplitter(std::shared_ptr<SampleSource> source, const PeriodSettings& settings);
     /// The next whole period. @return false when there is none any more
     /// @throws InputError when the reference does not cross its level for 4 million samples
     bool next(Period& period);
@@ -46,7 +47,7 @@ private:
     bool next_crossing(Crossing& crossing);
     double locate(std::size_t below, std::size_t above) const;
 
-    SampleSource* source_;
+    std::shared_ptr<SampleSource> source_;
     PeriodSettings settings_;
     Samples buffer_, part_;
     std::size_t scanned_ = 0; ///< rows of the buffer

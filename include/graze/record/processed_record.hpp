@@ -34,12 +34,12 @@ struct RecordProcessing {
 class ProcessedRecord {
 public:
     /// @throws InputError for channels that are not there, and settings without meaning
-    ProcessedRecord(std::unique_ptr<SampleSource> source, const RecordProcessing& processing);
-    SampleSource& source() { return *stages_.back(); }
-    const RecordHeader& header() const { return stages_.back()->header(); }
+    ProcessedRecord(std::shared_ptr<SampleSource> source, const RecordProcessing& processing);
+    SampleSource& source() { return *source_; }
+    const RecordHeader& header() const { return source_->header(); }
 
 private:
-    std::vector<std::unique_ptr<SampleSource>> stages_; ///< each reads from the one before
+    std::shared_ptr<SampleSource> source_; ///< the last stage, which reads from the one before it, and so on
 };
 
 } // namespace graze

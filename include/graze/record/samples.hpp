@@ -1,5 +1,7 @@
 #pragma once
 
+#include "graze/base/borrowed.hpp"
+
 #include <cstddef>
 #include <string>
 #include <string_view>

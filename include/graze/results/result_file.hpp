@@ -86,7 +86,7 @@ struct PointRecord {
 
 /// The results of a study in one SQLite file (docs/result-file.md). One process writes, any number read meanwhile.
 /// Points are written in transactions: after a kill, those of the last moments are missing, and no point is there in
-/// part.
+/// part. Copies are handles of the same open file, which is closed with the last of them.
 class ResultFile {
 public:
     enum class Access { read, write };
@@ -94,9 +94,6 @@ public:
     /// @throws InputError when it is no such file, comes from another version, cannot be opened, or another process
     ///         writes to it. Results are kept in a file only: an empty name and ":memory:" are none
     ResultFile(const std::string& path, Access access);
-    ~ResultFile();
-    ResultFile(const ResultFile&) = delete;
-    ResultFile& operator=(const ResultFile&) = delete;
 
     /// All runs, in the order in which they were begun. @throws InputError when the file contradicts itself
     std::vector<RunRecord> runs() const;
@@ -149,7 +146,7 @@ public:
     /// One of them, by its label, such as "GR1".
     std::optional<OrbitRecord> orbit(const std::string& run, const std::string& label) const;
 
-    /// Rows of a query, for pictures, exports and tables: numbers, texts, or nothing.
+    /// Rows of a query, for pictures, exports and tables: numbers, texts, or nothing. They may outlive the file.
     class Rows {
     public:
         bool next();
@@ -187,7 +184,7 @@ private:
     struct State;
     std::vector<OrbitRecord> read_orbits(const std::string& run, const std::string& where, double number,
                                          const std::string& label) const;
-    std::unique_ptr<State> state_;
+    std::shared_ptr<State> state_;
 };
 
 } // namespace graze

@@ -18,7 +18,7 @@ struct ResultTableRequest {
     Place place_of_runs = {}, place_of_what = {}; ///< for messages
 };
 
-/// Rows with what is known of their columns. The file must outlive it.
+/// Rows with what is known of their columns.
 struct ResultTable {
     ResultFile::Rows rows;
     std::vector<std::string> units;    ///< of the columns, in their order; empty: none, or several

@@ -37,13 +37,13 @@ struct Selection {
 };
 
 /// One run of a result file, to be read: what is known of it, its model, its columns with their units, and its rows,
-/// which come one after the other however many there are. The file must outlive it.
+/// which come one after the other however many there are. It keeps the file open.
 struct StoredRun {
     /// @param place for messages
     /// @throws InputError when there is no such run, or its model cannot be read
     StoredRun(const ResultFile& from, const std::string& name, const Place& place);
 
-    const ResultFile* file;
+    ResultFile file;
     RunRecord record;
     Model model;
 

@@ -57,7 +57,7 @@ std::size_t points_of(const StudyRun& run);
 /// In how many chains, which can be computed side by side.
 std::size_t chains_of(const StudyRun& run);
 /// Points of a run: chains along its first axis, one for each combination of the others.
-/// @param run must outlive the plan
+/// @param run is copied
 /// @param system of the run's model
 /// @param start where the run begins, instead of at the model's initial state; may be null
 Plan plan_of(const StudyRun& run, const System& system, const PointRecord* start);

@@ -2,7 +2,6 @@
 
 #include "graze/sweep/point_search.hpp"
 
-#include <atomic>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -44,8 +43,7 @@ struct ChainProgress {
 struct ExecutionOptions {
     int jobs = 1; ///< threads
     InstructionSet instruction_set = best_instruction_set();
-    const std::atomic<bool>* stop = nullptr; ///< looked at between points and legs of points
-    /// Also asked; called from any thread.
+    /// Asked between points and legs of points, from any thread.
     std::function<bool()> interrupted{};
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "graze/base/borrowed.hpp"
 #include "graze/flow/roots.hpp"
 
 #include <cstddef>

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -14,7 +15,7 @@ namespace graze {
 class Relay : public Observer {
 public:
     /// @throws InputError for an observer that is none
-    explicit Relay(std::vector<Observer*> observers);
+    explicit Relay(std::vector<std::shared_ptr<Observer>> observers);
 
     void step(const Step& step) override;
     void contact(const Contact& contact) override;
@@ -23,7 +24,7 @@ public:
     bool stop() override;
 
 private:
-    std::vector<Observer*> observers_;
+    std::vector<std::shared_ptr<Observer>> observers_;
 };
 
 /// Keeps all contacts and passages, with their states.

@@ -31,9 +31,11 @@ class Tangents;
 /// Every event function is a polynomial over a step, whose roots are isolated: see docs/method.md.
 class Trajectory {
 public:
-    /// @param parameters of the compiled model, in its order; @param observer must outlive the trajectory
+    /// @param parameters of the compiled model, in its order
+    /// @param observer is told what happens, and shared; null: nobody is told
     /// @throws InputError unless there are as many parameters as the model has
-    Trajectory(const Simulation& simulation, std::span<const double> parameters, Observer& observer);
+    Trajectory(const Simulation& simulation, std::span<const double> parameters,
+               std::shared_ptr<Observer> observer = {});
     ~Trajectory();
     Trajectory(Trajectory&&) noexcept;
 
@@ -206,7 +208,7 @@ private:
 
     Simulation simulation_;
     const System::CompiledMode* compiled_mode_ = nullptr; ///< of mode_; null before the start
-    Observer* observer_;
+    std::shared_ptr<Observer> observer_; ///< never null
     std::vector<double> parameters_;
     StepSize step_size_;
     StepCheck step_check_;
