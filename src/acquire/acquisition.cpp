@@ -28,7 +28,7 @@ public:
             record_all();
         } catch (const InstrumentError& error) {
             report_.ending = error.ending();
-            report_.detail = error.what();
+            report_.detail = error.problem();
         } catch (...) { // told of when the output is safe
             failure = std::current_exception();
         }

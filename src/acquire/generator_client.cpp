@@ -94,7 +94,7 @@ void GeneratorClient::attempt(const Work& work, int factor) {
                     throw InstrumentError(AcquisitionEnding::garbled,
                                           fmt::format("answers of {} are garbled, or come so late that they are not "
                                                       "those to the questions ({})",
-                                                      who, error.what()));
+                                                      who, error.problem()));
             } else if (last) {
                 throw;
             }
@@ -358,9 +358,9 @@ void GeneratorClient::switch_on() {
             silence();
             const bool second = !changed.empty();
             if (is_level && error.ending() == AcquisitionEnding::clipped)
-                changed = fmt::format("{}; so it was since OUTP ON, and it was switched off at once", error.what());
+                changed = fmt::format("{}; so it was since OUTP ON, and it was switched off at once", error.problem());
             if (second || times >= patient * options_.attempts || !is_worth_another(error.ending()))
-                throw InstrumentError(error.ending(), changed.empty() ? error.what() : changed);
+                throw InstrumentError(error.ending(), changed.empty() ? error.problem() : changed);
         }
         // A letter of the answer may have been lost: with its output off it tells the same if not.
         silenced_ = false;
@@ -466,7 +466,7 @@ bool GeneratorClient::make_safe(double amplitude, std::string& problem) noexcept
             try_safe(amplitude);
             safe = true;
         } catch (const InstrumentError& error) {
-            problem = error.what();
+            problem = error.problem();
             lost = lost || error.ending() == AcquisitionEnding::line_lost;
         } catch (const std::exception& error) {
             problem = error.what();

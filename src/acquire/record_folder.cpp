@@ -33,8 +33,8 @@ constexpr std::string_view heading =
     "number,file,frequency [Hz],amplitude [V],direction,told [V],settled,settling [s],samples,bytes\n";
 
 [[noreturn]] void fail(const std::string& path, const char* what, int reason) {
-    throw InputError(
-        Place{path, 0, 0}, fmt::format("it cannot be {} ({})", what, std::strerror(reason)),
+    throw FileError(
+        path, fmt::format("it cannot be {} ({})", what, std::strerror(reason)),
         "look at the permissions of the folder and the room on the disk; records that are there are whole");
 }
 
@@ -98,7 +98,7 @@ RecordFolder::RecordFolder(std::string path, Experiment experiment, double wait)
     while (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
         if (std::chrono::steady_clock::now() >= end) {
             close(lock_);
-            throw InputError(Place{path_, 0, 0}, "another experiment is recorded into this folder",
+            throw FileError(path_, "another experiment is recorded into this folder",
                              "wait for its end, or choose another folder");
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(20));

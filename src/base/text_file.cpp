@@ -28,8 +28,7 @@ PlainFile::PlainFile(const std::string& path, std::string_view what) : path_(pat
     }
     if (!S_ISREG(status.st_mode)) {
         ::close(file_);
-        throw InputError(Place{path, 0, 0},
-                         fmt::format("this is a {}, not a {}",
+        throw FileError(path, fmt::format("this is a {}, not a {}",
                                      S_ISDIR(status.st_mode)    ? "directory"
                                      : S_ISFIFO(status.st_mode) ? "pipe"
                                                                 : "device",
@@ -43,7 +42,7 @@ PlainFile::~PlainFile() {
 }
 
 void PlainFile::fail(int reason) const {
-    throw InputError(Place{path_, 0, 0}, fmt::format("the {} cannot be read ({})", what_, std::strerror(reason)),
+    throw FileError(path_, fmt::format("the {} cannot be read ({})", what_, std::strerror(reason)),
                      reason == ENOENT ? "check the path" : "check the path and the permissions");
 }
 

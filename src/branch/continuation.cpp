@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 namespace graze {
 
@@ -398,7 +397,7 @@ bool Continuation::step() {
     if (outcome_ != ContinuationOutcome::going)
         return false;
     if (point_.u.empty())
-        throw std::logic_error("a continuation has no point to step from before it is started");
+        throw OrderError("a continuation has no point to step from before it is started");
     bool undefined = false;
     problem_->accept(point_.u);
     double length = std::clamp(next_step_, options_.smallest_step,
@@ -468,7 +467,7 @@ bool Continuation::closes() {
 
 bool Continuation::between(double fraction, ContinuationPoint& result) {
     if (steps_ == 0)
-        throw std::logic_error("there are no two points to look between before the first step");
+        throw OrderError("there are no two points to look between before the first step");
     require_finite(fraction, "the fraction");
     const std::size_t count = point_.u.size();
     const double length = point_.arclength - previous_.arclength;

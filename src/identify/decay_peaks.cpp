@@ -306,9 +306,7 @@ void require_no_gap(const std::vector<Period>& periods, const Samples& samples, 
             to - from > much * usual && to > periods.front().begin && from < periods.back().end)
             throw InputError(fmt::format("'{}' has no rows from {:.6g} to {:.6g}, for {:.2g} of its periods", name,
                                          from, to, (to - from) / usual),
-                             fmt::format("give a part without gaps (graze identify ... --from T --to T), as all from "
-                                         "{:.6g} on",
-                                         to));
+                             fmt::format("give a part without gaps, as all from {:.6g} on", to));
 }
 
 } // namespace
@@ -333,17 +331,15 @@ DecayPeaks decay_peaks(SampleSource& source, std::size_t channel, std::size_t mo
     const std::optional<Rest> found = DampedSine(periods, samples, channel, level).fit();
     if (!found)
         throw InputError(fmt::format("'{}' is no oscillation that dies out", name),
-                         "give the record of a single one, from its release on (graze identify ... --from T --to T)");
+                         "give the record of a single one, from its release on");
     const std::vector<PeakFit> fits = fits_of(periods, channel, *found);
     if (fits.size() < 2 && !found->wave.left.is_noise())
         throw InputError(fmt::format("'{}' is not a damped sine: {}", name, found->wave.left.text()),
-                         "look at the record there, and give a part of it that is free of that (graze identify ... "
-                         "--from T --to T)");
+                         "look at the record there, and give a part of it that is free of that");
     if (fits.size() < 2)
         throw InputError(fmt::format("of the peaks of '{}' {} of {} stand out from the noise, of {:.2g} a sample", name,
                                      fits.size(), periods.size(), found->noise),
-                         "take away what is faster, by graze record FILE --pass F --write FILE, or record a larger "
-                         "release");
+                         "take away what is faster by a low-pass filter, or record a larger release");
     DecayPeaks peaks = at_common_times(fits);
     peaks.rest = found->value;
     peaks.rest_error = found->error * found->wave.left.widening;

@@ -118,7 +118,7 @@ void refuse_signs(Identification& found) {
             refuse_value(found, name,
                          fmt::format("the {} comes out below zero, as none of a coil does; {}", name, remedy));
     };
-    refuse("resistance", "look at the sign of the current or the voltage (--scale NAME=-1)");
+    refuse("resistance", "look at the sign of the current or the voltage");
     refuse("inductance", "the current leads the voltage: look at which channel is which, at the frequency, and at "
                          "filters that delay one of them");
     refuse("leakage_inductance", "look at beta1, beta2, gap and clamped displacement, and at their units");

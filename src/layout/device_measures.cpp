@@ -1,7 +1,8 @@
 #include "graze/layout/device_measures.hpp"
 
+#include "graze/base/input_error.hpp"
+
 #include <algorithm>
-#include <stdexcept>
 
 namespace graze {
 
@@ -14,7 +15,7 @@ double micrometres(std::int64_t nanometres) {
 Facing require_facing(const GridPolygon& left, const GridPolygon& right) {
     const auto found = facing(left, right);
     if (!found)
-        throw std::logic_error("two parts of a device do not face each other");
+        throw InternalError("two parts of a device do not face each other");
     return *found;
 }
 

@@ -164,17 +164,16 @@ LumpedModel lumped_model_of(const DeviceFile& file) {
 
 namespace {
 
-/// To be blamed where the etch leaves nothing: what was given on the command line, the etch before what is drawn, or
+/// To be blamed where the etch leaves nothing: what was given beside the file, the etch before what is drawn, or
 /// else what takes most.
 Place place_of_etch(const DeviceFile& file) {
-    const auto is_given = [](const Place& place) { return place.file.starts_with("--set"); };
     const double by_taper = file.conditions.wall().slope * file.process.layer_thickness();
     const bool tapered = std::abs(by_taper) > std::abs(file.conditions.bias);
     for (const char* key : {tapered ? "process.taper" : "process.bias", tapered ? "process.bias" : "process.taper"})
-        if (const Place place = file.place(key); is_given(place))
+        if (const Place place = file.place(key); is_given_place(place))
             return place;
     for (const auto& [key, place] : file.places)
-        if (is_given(place))
+        if (is_given_place(place))
             return place;
     return file.place(tapered ? "process.taper" : "process.bias");
 }

@@ -143,7 +143,7 @@ AcquisitionReport carried_out(const Experiment& experiment, RecordFolder& folder
         report = acquire(experiment, *generator, device, folder, options);
     } catch (const InstrumentError& error) { // nothing has been sent to the generator yet
         report.ending = error.ending();
-        report.detail = error.what();
+        report.detail = error.problem();
         report.before = folder.entries().size();
     } catch (...) {
         guardian.disarm();
@@ -151,34 +151,6 @@ AcquisitionReport carried_out(const Experiment& experiment, RecordFolder& folder
     }
     guardian.disarm();
     return report;
-}
-
-/// What helps: to call the command again does not always.
-const char* remedy_of(AcquisitionEnding ending) {
-    switch (ending) {
-    case AcquisitionEnding::complete:
-    case AcquisitionEnding::interrupted:
-        break;
-    case AcquisitionEnding::line_lost:
-        return "look at its cable and whether it is switched on, then call it again to go on";
-    case AcquisitionEnding::no_answer:
-        return "see whether it is switched on, and at this port with these settings of the line, then call it again to "
-               "go "
-               "on";
-    case AcquisitionEnding::garbled:
-        return "give the settings of the line that the instrument has (baud, parity, stop_bits, flow), or a better "
-               "cable, then call it again to go on";
-    case AcquisitionEnding::foreign:
-        return "nothing was set; give the generator's port, or what it answers as identity";
-    case AcquisitionEnding::refused:
-        return "give levels that it can take, in an experiment and a folder of their own";
-    case AcquisitionEnding::clipped:
-        return "see what limits it, its load or somebody at its knobs, then call it again to go on; or give a larger "
-               "tolerance under [generator]";
-    case AcquisitionEnding::samples:
-        return "see what it is doing, and whether rate, timeout and patience suit it, then call it again to go on";
-    }
-    return "call it again to go on";
 }
 
 int tell(const AcquisitionReport& report, const Experiment& experiment, const std::string& folder,

@@ -48,7 +48,7 @@ void require_even(std::span<const double> times, double spacing, double allowed)
             fmt::format("the samples are not at equal distances of time: from {} to {} they are up to "
                         "{:.3g} beside times that are {:.6g} apart",
                         times.front(), times.back(), stray, spacing),
-            "give a part of the record whose clock is even (--from, --to), or one that has been resampled");
+            "give a part of the record whose clock is even, or one that has been resampled");
 }
 
 double even_sampling_frequency(std::span<const double> times) {

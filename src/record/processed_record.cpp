@@ -23,7 +23,7 @@ public:
         has_rows_ = has_rows_ || samples.rows() > 0;
         if (!more && !has_rows_)
             throw InputError("the record has no rows", by_options_
-                                                           ? "give one with rows, and let --from and --to leave some"
+                                                           ? "give one with rows, and let the times leave some"
                                                            : "give one with rows, and let `part` leave some");
         return more;
     }

@@ -180,8 +180,7 @@ private:
         throw InputError(place(lines_->number()),
                          fmt::format("this row has {} columns, and line {}, which should name them, has {}",
                                      row_fields(row, other).size(), names.number, name_fields(text, one).size()),
-                         "say which line has the names (--names-line N), or pass over lines (--skip N) and say what "
-                         "the columns are (--columns)");
+                         "say which line has the names, or pass over lines and say what the columns are");
     }
 
     /// This is the first row with two numbers. Those directly above it that have one, and are missing the others, are
@@ -274,7 +273,7 @@ private:
         text.remove_prefix(std::min(text.find_first_not_of("#% \t"), text.size()));
         return common_separator(text, row) == 0
                    ? ""
-                   : fmt::format("; if the comment in line {0} does, by --names-line {0}", comment_.number);
+                   : fmt::format("; if the comment in line {0} does, name that line", comment_.number);
     }
 
     /// Rows alone.
@@ -287,7 +286,7 @@ private:
         if (columns != columns_of_dissertation)
             throw InputError(place(rows_.front().number),
                              fmt::format("nothing says what the {} columns of the record are", columns),
-                             "begin the file with a line such as 't [s], V [V], q [mm]', or say it by --columns" +
+                             "begin the file with a line such as 't [s], V [V], q [mm]', or say what they are" +
                                  remedy_of_comment(line));
         table.header = {{"t", "s"}, {{"V", ""}, {"I", ""}, {"q", ""}, {"v", ""}}};
         return table;

@@ -36,7 +36,7 @@ class Handle {
 public:
     Handle(hid_t id, herr_t (*close)(hid_t), const std::string& path) : id_(id), close_(close) {
         if (id < 0)
-            throw InputError(Place{path, 0, 0}, "the HDF5 file cannot be written",
+            throw FileError(path, "the HDF5 file cannot be written",
                              "look at the permissions of the folder and the room on the disk");
     }
     ~Handle() {
@@ -54,7 +54,7 @@ private:
 };
 
 [[noreturn]] void throw_full(const std::string& path) {
-    throw InputError(Place{path, 0, 0}, "the HDF5 file cannot be written", "make room on the disk");
+    throw FileError(path, "the HDF5 file cannot be written", "make room on the disk");
 }
 
 Handle text_type(std::size_t size, H5T_cset_t letters, const std::string& path) {

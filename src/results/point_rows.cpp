@@ -1,5 +1,6 @@
 #include "results/point_columns.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 #include "graze/results/name_advice.hpp"
 #include "results/detail_rows.hpp"
@@ -16,7 +17,7 @@ namespace {
 
 constexpr std::int64_t samples_of_a_point = RunTables::samples_of_a_point;
 
-/// @throws InputError or std::out_of_range for what a run has no columns or names for
+/// @throws InputError for what a run has no columns or names for
 void require_fitting(const RunRecord& run, const PointRecord& point) {
     const PointResult& result = point.result;
     const SampleSet& samples = result.samples;

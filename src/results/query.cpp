@@ -1,7 +1,7 @@
 #include "graze/base/require.hpp"
+#include "graze/base/input_error.hpp"
 #include "results/result_file_state.hpp"
 
-#include <stdexcept>
 
 namespace graze {
 
@@ -11,7 +11,7 @@ struct ResultFile::Rows::State {
     /// The number of a column of the present row.
     int at(std::size_t column) const {
         if (!on_row)
-            throw std::logic_error("there is no row to be read: call next until it says that there is none");
+            throw OrderError("there is no row to be read: call next until it says that there is none");
         require_index(column, static_cast<std::size_t>(statement.columns()), "column");
         return static_cast<int>(column);
     }

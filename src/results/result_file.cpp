@@ -16,7 +16,6 @@
 #include <cmath>
 #include <filesystem>
 
-#include <stdexcept>
 
 namespace graze {
 
@@ -72,8 +71,8 @@ ResultFile::ResultFile(const std::string& path, Access access) {
     const bool writing = access == Access::write;
     std::error_code error;
     if (!writing && !std::filesystem::exists(path, error))
-        throw InputError(Place{path, 0, 0}, "there is no such result file",
-                         "graze run STUDY makes one, in the folder that --output names");
+        throw FileError(path, "there is no such result file",
+                         "run a study, which makes one");
     state_ = std::make_shared<State>(path, writing);
     const Database& database = state_->database;
     const std::int64_t application = database.value("PRAGMA application_id");

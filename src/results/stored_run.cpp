@@ -1,5 +1,6 @@
 #include "graze/results/stored_run.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/results/name_advice.hpp"
 #include "results/run_query.hpp"
 
@@ -7,7 +8,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace graze {
 
@@ -155,7 +155,7 @@ std::optional<std::size_t> StoredRun::nearest(const std::vector<std::pair<std::s
     const std::vector<std::string> known = coordinate_names();
     for (const auto& [name, value] : at)
         if (std::find(known.begin(), known.end(), name) == known.end())
-            throw std::out_of_range(fmt::format("run '{}' does not vary '{}'", record.name, name));
+            throw InputError(fmt::format("run '{}' does not vary '{}'", record.name, name), "");
     return nearest_number(file, record, at, directions);
 }
 

@@ -5,7 +5,7 @@
 namespace graze {
 
 /// d/da of an operation of one operand a, in terms of it and of the operation's value y.
-/// @throws std::invalid_argument for operations of two operands, or none
+/// @throws InputError for operations of two operands, or none
 Expression slope_of(Operation operation, const Expression& y, const Expression& a);
 
 /// Derivative of an operation from those of its operands, which are empty where they are zero (but not all).

@@ -38,7 +38,7 @@ AcquisitionEnding ending_of(const std::function<void()>& work, std::string& what
     try {
         work();
     } catch (const InstrumentError& error) {
-        what = error.what();
+        what = error.problem();
         return error.ending();
     }
     return AcquisitionEnding::complete;

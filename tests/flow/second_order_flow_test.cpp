@@ -473,7 +473,7 @@ TEST(SecondOrderFlow, RefusesWhatDoesNotFit) {
     EXPECT_THROW(SecondOrderFlow(system, tolerance, 3), InputError);
     SecondOrderFlow flow(system, tolerance);
     Numbers state{1, 0, 0}, few{1}, vector(4, 1.0), rows(12), fewer(11);
-    EXPECT_THROW(flow.run(0, state, 1, vector, rows, rows), std::logic_error);
+    EXPECT_THROW(flow.run(0, state, 1, vector, rows, rows), OrderError);
     EXPECT_THROW(flow.set_parameters(Numbers{1.0}), InputError);
     flow.set_parameters(system.system().model().parameter_values());
     EXPECT_THROW(flow.run(2, state, 1, vector, rows, rows), InputError);

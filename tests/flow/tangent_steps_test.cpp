@@ -270,12 +270,12 @@ TEST(TangentSteps, RefuseWhatDoesNotFit) {
     for (ModeJets* all : {&jets, &without})
         all->set_parameters(std::vector{1.0});
     Jet &jet = jets.computed(0, state), &next = jets.next(0);
-    EXPECT_THROW(steps.carry(next, 0.1, after), std::logic_error);
+    EXPECT_THROW(steps.carry(next, 0.1, after), OrderError);
     EXPECT_THROW(steps.begin(jet, 1, state, matrix), InputError);
     EXPECT_THROW(steps.begin(jet, 0, few, matrix), InputError);
     EXPECT_THROW(steps.begin(jet, 0, state, few), InputError);
     EXPECT_THROW(steps.begin(without.computed(0, state), 0, state, matrix), InputError);
-    EXPECT_THROW(steps.begin(next, 0, state, matrix), std::logic_error); // nothing is computed there
+    EXPECT_THROW(steps.begin(next, 0, state, matrix), OrderError); // nothing is computed there
     steps.begin(jet, 0, state, matrix);
     EXPECT_THROW(steps.carry(next, 0.1, few), InputError);
     EXPECT_EQ(steps.carry(next, 0.01, after), 0.01);

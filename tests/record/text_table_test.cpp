@@ -212,7 +212,7 @@ TEST(TextTable, UnitsAreSpeltInManyWays) {
 
 TEST(TextTable, CommentsThatMayNameColumnsAreTold) {
     EXPECT_THAT(refusal_of("# made by hand\n# t [s], v [V]\n0,1\n1,2\n"),
-                HasSubstr("or say it by --columns; if the comment in line 2 does, by --names-line 2"));
+                HasSubstr("or say what they are; if the comment in line 2 does, name that line"));
     EXPECT_THAT(refusal_of("# made by hand\n0,1\n1,2\n"), Not(HasSubstr("names-line")));
 }
 

@@ -1,5 +1,6 @@
 #include "graze/results/stored_run.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/model/model_file.hpp"
 #include "graze/results/result_table.hpp"
@@ -148,7 +149,7 @@ TEST_F(StoredRunTest, points_are_counted_and_found) {
     EXPECT_EQ(run().nearest({{"omega", 1.1}}, {"down"}), 3u);
     EXPECT_EQ(run().nearest({}, {"up"}), 1u);
     EXPECT_FALSE(run().nearest({}, {"sideways"}));
-    EXPECT_THROW(run().nearest({{"sigma", 1}}, {}), std::out_of_range);
+    EXPECT_THROW(run().nearest({{"sigma", 1}}, {}), InputError);
     EXPECT_TRUE(run().parts().empty());
 }
 

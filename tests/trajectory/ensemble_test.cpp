@@ -2,6 +2,8 @@
 
 #include "graze/trajectory/ensemble.hpp"
 
+#include "graze/base/input_error.hpp"
+
 #include "closed_form.hpp"
 #include "simulate.hpp"
 
@@ -276,10 +278,10 @@ TEST(Ensemble, RefusesTrajectoriesOfOtherSimulations) {
     Observer observer;
     std::vector<Trajectory> trajectories;
     trajectories.emplace_back(other, other.model().parameter_values(), observer);
-    EXPECT_THROW(Ensemble(one).run(trajectories), std::invalid_argument);
+    EXPECT_THROW(Ensemble(one).run(trajectories), InputError);
     JetSet jets(one, LaneKind::single), lanes(other, LaneKind::ensemble);
-    EXPECT_THROW(run(trajectories.front(), jets), std::invalid_argument);
-    EXPECT_THROW(run(trajectories.front(), lanes), std::invalid_argument);
+    EXPECT_THROW(run(trajectories.front(), jets), InputError);
+    EXPECT_THROW(run(trajectories.front(), lanes), InputError);
 }
 
 TEST(Ensemble, ThreadsShareASimulation) {

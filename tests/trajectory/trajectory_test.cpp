@@ -687,7 +687,7 @@ TEST(Trajectory, CannotRunBeforeItIsStarted) {
     const Simulation simulation(load_model("impact-oscillator"));
     Trajectory trajectory(simulation, simulation.model().parameter_values());
     JetSet jets(simulation, LaneKind::single);
-    EXPECT_THROW(run(trajectory, jets), std::logic_error);
+    EXPECT_THROW(run(trajectory, jets), OrderError);
 }
 
 } // namespace

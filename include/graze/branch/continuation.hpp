@@ -112,7 +112,7 @@ public:
     bool start_at(std::span<const double> u, std::span<const double> row);
 
     /// Makes the next point. @return false when there is none; `outcome` says why
-    /// @throws std::logic_error before anything has been started
+    /// @throws OrderError before anything has been started
     bool step();
     const ContinuationPoint& point() const { return point_; }
     const ContinuationPoint& previous() const { return previous_; }

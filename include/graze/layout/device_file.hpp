@@ -33,6 +33,9 @@ struct DeviceFile {
 
 /// Lengths in micrometres in the place of those of the file: of [device], of [process] as "process.NAME".
 using GivenLengths = std::vector<std::pair<std::string, double>>;
+/// The place of such a length, "given NAME".
+Place given_place(const std::string& name);
+bool is_given_place(const Place& place);
 
 /// The value of such a number from a text with or without a unit, "12 um" or "2*8 GPa", in its own unit.
 /// @throws InputError with the place

@@ -78,7 +78,7 @@ struct PlacedShape {
     MaskLayer layer;
     GridPolygon polygon;
 };
-/// All polygons of a cell and of what is in it. @throws std::out_of_range when there is no such cell
+/// All polygons of a cell and of what is in it. @throws InputError when there is no such cell
 /// @throws InputError unless each cell of the library stands after those that it contains, under a name of its own
 std::vector<PlacedShape> flattened(const LayoutLibrary& library, std::string_view cell);
 /// Square micrometres of what is drawn in a cell and in those in it, by layer; what overlaps counts twice.

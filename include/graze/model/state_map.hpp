@@ -46,7 +46,7 @@ public:
     /// All the rest, in the places of all states: the same for copies of one map. Null for an empty one.
     const std::shared_ptr<const std::vector<Expression>>& shared() const { return shared_; }
     /// Replaces both; the changes are those that there are, in other words.
-    /// @throws std::invalid_argument unless the rest has as many places as before
+    /// @throws InputError unless the rest has as many places as before
     void replace(std::shared_ptr<const std::vector<Expression>> shared,
                  const std::function<void(Expression&)>& visit_change);
 

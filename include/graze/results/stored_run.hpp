@@ -76,7 +76,7 @@ struct StoredRun {
     std::vector<std::string> special_labels() const;
     /// Number of the point whose coordinates are nearest to those asked for (the first ones matter first), or of the
     /// last point if none are; of some directions only, unless there are none. Nothing when there is no such point.
-    /// @throws std::out_of_range for a name that the run does not vary
+    /// @throws InputError for a name that the run does not vary
     std::optional<std::size_t> nearest(const std::vector<std::pair<std::string, double>>& at,
                                        const std::vector<std::string>& directions) const;
 };

@@ -40,7 +40,7 @@ enum class Operation : std::uint8_t {
     erf,
 };
 
-/// 0 for leaves, 1 for functions and negation, 2 for arithmetic. @throws std::invalid_argument for no operation at all
+/// 0 for leaves, 1 for functions and negation, 2 for arithmetic. @throws InputError for no operation at all
 int arity(Operation operation);
 
 /// Index of a node in its graph. Operands always have smaller indices than the node that uses them, so that a
@@ -61,19 +61,19 @@ public:
     static std::shared_ptr<Graph> create();
     /// Another graph with the same nodes at the same indices, which is not frozen.
     std::shared_ptr<Graph> copy() const;
-    /// From now on nothing can be appended, so that threads may share it: std::logic_error is thrown instead.
+    /// From now on nothing can be appended, so that threads may share it: OrderError is thrown instead.
     void freeze() { frozen_ = true; }
     bool is_frozen() const { return frozen_; }
-    /// The same expression in this graph, by the names of its symbols. @throws std::invalid_argument for an empty one
+    /// The same expression in this graph, by the names of its symbols. @throws InputError for an empty one
     Expression adopt(const Expression& foreign);
 
-    /// @throws std::invalid_argument when the value is not finite. The zeros of both signs are one number.
+    /// @throws InputError when the value is not finite. The zeros of both signs are one number.
     Expression number(double value);
     /// The symbol of this name; the same one each time it is asked for.
     Expression symbol(std::string_view name);
     /// Applies one operation, with the simplifications described in docs/expressions.md: results are equal to
     /// those of the unsimplified expression up to round-off.
-    /// @throws std::invalid_argument for operands of other graphs, or as many as the operation does not take
+    /// @throws InputError for operands of other graphs, or as many as the operation does not take
     Expression apply(Operation operation, const Expression& operand);
     Expression apply(Operation operation, const Expression& left, const Expression& right);
 
@@ -117,12 +117,12 @@ private:
 };
 
 /// A node of a graph that it keeps alive; cheap to copy. Two expressions of one graph are the same expression
-/// exactly if their indices are equal. Operators throw std::invalid_argument for operands of different graphs.
+/// exactly if their indices are equal. Operators throw InputError for operands of different graphs.
 class Expression {
 public:
     /// Names nothing; only assignment and `empty` may be used.
     Expression() = default;
-    /// @throws std::invalid_argument for a node that the graph does not have
+    /// @throws InputError for a node that the graph does not have
     Expression(std::shared_ptr<Graph> graph, NodeIndex index) : graph_(std::move(graph)), index_(index) {
         if (!graph_ || index >= graph_->size())
             refuse_node();
@@ -131,7 +131,7 @@ public:
     bool empty() const { return graph_ == nullptr; }
     const std::shared_ptr<Graph>& graph() const { return graph_; }
     NodeIndex index() const { return index_; }
-    /// @throws std::invalid_argument, here and below, when the expression is empty
+    /// @throws InputError, here and below, when the expression is empty
     const Node& node() const {
         if (!graph_)
             refuse_empty();
@@ -141,7 +141,7 @@ public:
     bool is_number() const { return operation() == Operation::number; }
     bool is_number(double value) const { return is_number() && node().value == value; }
     bool is_symbol() const { return operation() == Operation::symbol; }
-    /// Name of a symbol. @throws std::invalid_argument for any other expression
+    /// Name of a symbol. @throws InputError for any other expression
     const std::string& name() const {
         if (!is_symbol())
             refuse_name();

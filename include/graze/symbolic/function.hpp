@@ -15,7 +15,7 @@ namespace graze {
 class Function {
 public:
     Function() = default;
-    /// @throws std::invalid_argument when an output contains a symbol that is not among the inputs, or an input is
+    /// @throws InputError when an output contains a symbol that is not among the inputs, or an input is
     ///         not a symbol, is named twice, or belongs to another graph
     Function(std::span<const Expression> inputs, std::span<const Expression> outputs);
     Function(const SymbolIndex& inputs, std::span<const Expression> outputs);
@@ -29,7 +29,7 @@ public:
     enum class Others { zero, inputs };
     /// Room and the time to make it go by the size of what is given, not by the number of outputs.
     /// @param outputs their number; @param given by rising place
-    /// @throws std::invalid_argument as above, and for places that do not rise, or outputs that are no inputs
+    /// @throws InputError as above, and for places that do not rise, or outputs that are no inputs
     Function(const SymbolIndex& inputs, std::size_t outputs, std::span<const Output> given, Others others);
 
     std::size_t inputs() const { return inputs_; }
@@ -78,7 +78,7 @@ private:
 };
 
 /// Value of an expression without symbols; NaN outside an operation's domain.
-/// @throws std::invalid_argument when symbols remain
+/// @throws InputError when symbols remain
 double constant_value(const Expression& expression);
 
 } // namespace graze

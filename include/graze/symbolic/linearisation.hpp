@@ -41,7 +41,7 @@ struct Linearisation {
 /// @param variables states, then parameters
 /// @param states    number of states among them. Parameters decide nothing about intermediates
 /// @param directions that share coefficients, which take products of series to be formed, fewer with intermediates
-/// @throws std::invalid_argument for functions of several graphs, a variable of another, more states than variables, or
+/// @throws InputError for functions of several graphs, a variable of another, more states than variables, or
 ///         no directions, or more than a million
 Linearisation linearise(std::span<const Expression> functions, const SymbolIndex& variables, std::size_t states,
                         std::size_t directions = 8);

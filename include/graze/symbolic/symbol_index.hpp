@@ -16,7 +16,7 @@ namespace graze {
 class SymbolIndex {
 public:
     SymbolIndex() = default;
-    /// @throws std::invalid_argument when one is empty or no symbol, or named twice
+    /// @throws InputError when one is empty or no symbol, or named twice
     explicit SymbolIndex(std::span<const Expression> symbols);
 
     std::size_t size() const { return symbols_.size(); }

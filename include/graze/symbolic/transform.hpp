@@ -17,7 +17,7 @@ Expression differentiate(const Expression& expression, const Expression& symbol)
 std::vector<Expression> differentiate(std::span<const Expression> expressions, const Expression& symbol);
 
 /// All partial derivatives with respect to several symbols, row by row: expressions x symbols.
-/// @throws std::invalid_argument for a symbol that is named twice
+/// @throws InputError for a symbol that is named twice
 std::vector<Expression> jacobian(std::span<const Expression> expressions, std::span<const Expression> symbols);
 /// A partial derivative that is not 0 throughout.
 struct JacobianEntry {
@@ -43,7 +43,7 @@ std::vector<Expression> symbols_of(std::span<const Expression> expressions);
 
 /// Infix text that parses back to the same expression (numbers with as many digits as they need), given that the
 /// names of its symbols are valid. Time is linear in the length of the text, in which shared parts are repeated.
-/// @throws std::length_error when that would be about 1e9 characters
+/// @throws InputError when that would be about 1e9 characters
 std::string to_string(const Expression& expression);
 
 } // namespace graze

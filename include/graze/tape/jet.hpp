@@ -60,7 +60,7 @@ public:
     /// Computes the followers of some groups, once all states and outputs have been computed (or, for
     /// `begin_followers`, once coefficients 0 and 1 have been: so many of the followers it finds). Those of group 0 are
     /// among them, and a group may be empty.
-    /// @throws std::logic_error when they have not
+    /// @throws OrderError when they have not
     virtual void follow(std::span<const std::uint32_t> groups) = 0;
     virtual void begin_followers(std::span<const std::uint32_t> groups) = 0;
     /// Coefficients of a follower as those of an output are; of one that is a constant, coefficient 0 alone.
@@ -95,7 +95,7 @@ public:
     /// states and outputs; at most 0 where none does, infinity where something is not finite.
     /// @param end jet of the same tape and order, begun at the ends; @param lengths [lane]
     /// @param values, slopes of the states there, as from `evaluate_states`; @param worst [lane]
-    /// @throws std::invalid_argument for a jet of another tape
+    /// @throws InputError for a jet of another tape
     virtual void find_disagreement(const Jet& end, const EndAllowance& allowance, std::span<const double> lengths,
                                    std::span<const double> values, std::span<const double> slopes,
                                    std::span<double> worst) const = 0;
@@ -117,7 +117,7 @@ int lanes_of(LaneKind kind, InstructionSet set);
 
 /// The tape is not needed afterwards. Nothing is allocated while computing. Without parameters set, they are 0.
 /// @param order 1 .. highest_order
-/// @throws std::invalid_argument when the instruction set is not supported or the order out of range
+/// @throws InputError when the instruction set is not supported or the order out of range
 std::unique_ptr<Jet> make_jet(const Tape& tape, int order, LaneKind kind, InstructionSet set = best_instruction_set());
 
 } // namespace graze

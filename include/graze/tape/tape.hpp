@@ -93,7 +93,7 @@ struct TapeFollower {
 /// constant powers obey a y' = c a' y (at a = 0 not finite, even if c happens to be a parameter equal to an integer).
 /// @param states, parameters symbols; all else may contain no others
 /// @param followers change nothing in how rates and outputs are computed, bit for bit
-/// @throws std::invalid_argument when they do
+/// @throws InputError when they do
 Tape compile_tape(std::span<const Expression> states, std::span<const Expression> parameters,
                   std::span<const Expression> rates, std::span<const Expression> outputs,
                   std::span<const TapeFollower> followers = {});

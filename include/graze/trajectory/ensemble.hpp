@@ -21,7 +21,7 @@ public:
     explicit Ensemble(const Simulation& simulation, InstructionSet set = best_instruction_set());
 
     /// Runs all to their ends. Those already finished are left alone.
-    /// @throws std::invalid_argument for a trajectory of another simulation
+    /// @throws InputError for a trajectory of another simulation
     void run(std::span<Trajectory> trajectories);
 
     /// What is to run in a slot after its trajectory has finished: the same one started anew, another one, or null for
@@ -29,7 +29,7 @@ public:
     using Again = std::function<Trajectory*(std::size_t slot)>;
     /// Runs what is in the slots, and in each what comes after it. Slots may be empty (null); those that begin with a
     /// finished trajectory ask for the next one at once.
-    /// @throws std::invalid_argument for a trajectory of another simulation
+    /// @throws InputError for a trajectory of another simulation
     void run(std::span<Trajectory* const> slots, const Again& again);
 
     /// Leaves trajectories unfinished as soon as this is true, which is asked every some hundred steps; null for never.

@@ -40,7 +40,7 @@ public:
     Trajectory(Trajectory&&) noexcept;
 
     /// Begins at a state; may be called again to begin anew. Before it is called nothing can be run or asked for
-    /// (std::logic_error).
+    /// (OrderError).
     /// @param end_time may be infinite, if the observer stops
     /// @throws InputError for numbers of states that do not fit, states or a time that are not finite, a mode that
     /// there
@@ -257,7 +257,7 @@ private:
 };
 
 /// Drives one trajectory to its end.
-/// @throws std::invalid_argument for jets of another simulation, or of several lanes
+/// @throws InputError for jets of another simulation, or of several lanes
 void run(Trajectory& trajectory, JetSet& jets);
 
 } // namespace graze
