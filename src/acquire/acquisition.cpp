@@ -54,9 +54,11 @@ private:
         try {
             std::rethrow_exception(failure);
         } catch (const std::exception& error) {
-            report_.ending = AcquisitionEnding::interrupted;
             report_.detail = error.what();
+        } catch (...) {
+            report_.detail = "a callback has thrown what is no std::exception";
         }
+        report_.ending = AcquisitionEnding::interrupted;
     }
 
     void record_all() {

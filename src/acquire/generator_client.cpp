@@ -470,6 +470,8 @@ bool GeneratorClient::make_safe(double amplitude, std::string& problem) noexcept
             lost = lost || error.ending() == AcquisitionEnding::line_lost;
         } catch (const std::exception& error) {
             problem = error.what();
+        } catch (...) { // of a line that somebody else has written
+            problem = "its line has failed";
         }
         if (!safe)
             std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -488,7 +490,7 @@ bool GeneratorClient::is_switched_off() noexcept {
             line_->send("OUTP OFF");
             // Between two answers that are those to their questions so is the one that counts.
             off = is_in_step() && tells_off(compared(asked("OUTP?"))) && is_in_step();
-        } catch (const std::exception&) { // then it has not told so
+        } catch (...) { // then it has not told so
             continue;
         }
     }

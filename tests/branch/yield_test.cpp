@@ -1,5 +1,6 @@
 #include "graze/branch/yield.hpp"
 
+#include "branch/solved_devices.hpp"
 #include "driven_oscillator.hpp"
 #include "graze/base/input_error.hpp"
 
@@ -53,9 +54,10 @@ TEST(Yield, OfGivenDevicesIsThatOfTheClosedForm) {
         given.values.push_back({shop.known.omega * (1 + 0.001 * i), shop.known.sigma * (1 - 0.002 * i)});
     given.values.emplace_back(); // one that cannot be made
     std::vector<double> told(given.values.size());
-    shop.settings.solved = [&](std::size_t i, const LocatedSolution& solution) { told[i] = solution.value; };
     shop.settings.least = 0;
-    const Yield yield = yield_of(shop.model, shop.point, shop.force, given, shop.settings);
+    const Yield yield =
+        yield_of(shop.model, shop.point, shop.force, given, shop.settings,
+                 [&](std::size_t i, const LocatedSolution& solution) { told[i] = solution.value; });
     ASSERT_EQ(yield.found, 50U);
     EXPECT_EQ(yield.failed, 1U);
     EXPECT_EQ(yield.problems.front().first, "the device cannot be made");

@@ -48,7 +48,8 @@ struct AcquisitionReport {
 /// To go on in the middle, a device that can (SampleDevice::return_to) is brought back to how it was; with others the
 /// levels before are walked through again, so that the system comes to the next one from the side that it would have.
 /// @param options of the generator's are those of the experiment, except for the interruption
-/// @throws InputError when a record cannot be written, or the device lacks a channel
+/// @throws InputError when a record cannot be written, or the device lacks a channel; what a callback throws. Where the
+///         output could not be made safe nothing is thrown: `detail` then tells it
 AcquisitionReport acquire(const Experiment& experiment, InstrumentLine& generator, SampleDevice& device,
                           RecordFolder& folder, const AcquisitionOptions& options = {});
 

@@ -35,10 +35,8 @@ struct YieldSettings {
     std::vector<double> quantiles{0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99};
     int jobs = 1; ///< threads, on which nothing depends
     LocatedValueOptions solver;
-    std::function<bool()> interrupted;                 ///< asked from any thread
-    std::function<void(std::size_t devices)> progress; ///< how many are done; called from the calling thread
-    /// Told of what has been solved for each device that was found; called from any thread.
-    std::function<void(std::size_t device, const LocatedSolution& solution)> solved;
+    std::function<bool()> interrupted;
+    std::function<void(std::size_t devices)> progress; ///< how many are done
     /// @throws InputError naming what is out of range
     void validate() const;
 };

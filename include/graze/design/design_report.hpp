@@ -56,8 +56,8 @@ struct DesignReport {
 
 struct DesignReportOptions {
     int jobs = 1;
-    std::function<bool()> interrupted;                     ///< asked from any thread
-    std::function<void(const std::string& what)> progress; ///< what is being done; called from the calling thread
+    std::function<bool()> interrupted;
+    std::function<void(const std::string& what)> progress; ///< what is being done
 };
 
 /// Works out everything at a trip point.

@@ -23,8 +23,8 @@ struct MapSettings {
     std::size_t points = 41; ///< in each direction
     int jobs = 1;            ///< threads, on which nothing depends
     LocatedValueOptions solver;
-    std::function<bool()> interrupted;              ///< asked from any thread
-    std::function<void(std::size_t done)> progress; ///< pieces of work; called from the calling thread
+    std::function<bool()> interrupted;
+    std::function<void(std::size_t done)> progress; ///< pieces of work
     /// @throws InputError naming what is out of range
     void validate() const;
 };

@@ -17,8 +17,8 @@ struct WaferYieldSettings {
     std::size_t wafers = 25;
     std::uint64_t seed = 1;
     int jobs = 1;                                      ///< threads, on which nothing depends
-    std::function<bool()> interrupted;                 ///< asked from any thread
-    std::function<void(std::size_t devices)> progress; ///< called from the calling thread
+    std::function<bool()> interrupted;
+    std::function<void(std::size_t devices)> progress;
 };
 
 /// One device of one wafer.

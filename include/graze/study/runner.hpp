@@ -26,8 +26,8 @@ struct RunnerOptions {
     int jobs = 1;                  ///< threads: of one run, and runs that do not start from one another side by side
     bool one_by_one = false;       ///< runs wait for one another, though each uses all threads that it can
     std::vector<std::string> only; ///< names of runs, with those they start from; empty: all
-    std::function<bool()> interrupted; ///< called from any thread
-    /// After each point. Called from one thread at a time, as `orbit` is.
+    std::function<bool()> interrupted;
+    /// After each point.
     std::function<void(const StudyProgress& progress)> progress;
     /// Each orbit of a run of kind orbit or continue, as it is found; those of different runs may take turns.
     std::function<void(const std::string& run, const OrbitRecord& orbit)> orbit;
@@ -72,7 +72,7 @@ std::size_t direction_of(const StudyRun& run, std::size_t point);
 /// Results, and their order in the file, do not depend on the number of threads.
 /// @return reports of the runs, in the order of the study; when it was interrupted, some may be unfinished, and those
 ///         that were not begun are missing
-/// @throws InputError when the file cannot be written
+/// @throws InputError when the file cannot be written; what a callback throws
 std::vector<RunReport> run_study(const Study& study, ResultFile& file, const RunnerOptions& options);
 
 } // namespace graze

@@ -26,7 +26,7 @@ struct Plan {
     /// barrier the point begins at its start or, where that does too, at the nearest admissible state, and its outcome
     /// says so.
     bool carry = false;
-    /// @param point number; must give the same whenever asked, from any thread
+    /// @param point number; must give the same whenever asked
     std::function<PointStart(std::size_t point)> start;
 
     std::size_t points() const { return chains * chain_length; }
@@ -43,7 +43,7 @@ struct ChainProgress {
 struct ExecutionOptions {
     int jobs = 1; ///< threads
     InstructionSet instruction_set = best_instruction_set();
-    /// Asked between points and legs of points, from any thread.
+    /// Asked between points and legs of points, and every some hundred steps.
     std::function<bool()> interrupted{};
 };
 
@@ -52,10 +52,9 @@ bool can_be_carried_on(const PointResult& result);
 
 /// Runs the points of a plan on several threads, and in SIMD lanes within each. Results do not depend on either.
 /// @param progress for each chain what is done already; empty: nothing
-/// @param sink receives results, in order within each chain; called from one thread at a time, with the numbers of
-///        the point and the start it had
+/// @param sink receives results, in order within each chain, with the number of the point and the start it had
 /// @return false when it was stopped
-/// @throws what `sink` throws, after all threads have ended
+/// @throws what a callback throws, after all threads have ended
 bool execute(const Plan& plan, const SearchFactory& searches, std::span<const ChainProgress> progress,
              const ExecutionOptions& options,
              const std::function<void(std::size_t point, const PointStart& start, PointResult& result)>& sink);

@@ -22,8 +22,8 @@ struct NoiseSettings {
     double confidence = 0.95;
     int jobs = 1;                                      ///< threads, on which nothing depends
     double tolerance = 1e-12;                          ///< of the integration
-    std::function<bool()> interrupted;                 ///< asked from any thread
-    std::function<void(std::size_t motions)> progress; ///< how many are done; called from the calling thread
+    std::function<bool()> interrupted;
+    std::function<void(std::size_t motions)> progress; ///< how many are done
     /// @throws InputError naming what is out of range
     void validate() const;
 };
