@@ -65,6 +65,25 @@ void Recorder::clear() {
     passages_.clear();
 }
 
+double RecordedStep::state(std::size_t index, double s) const {
+    require_index(index, states, "state");
+    const auto terms = static_cast<std::size_t>(order) + 1;
+    return evaluate_polynomial(Series{coefficients.data() + index * terms, 1}, terms, s);
+}
+
+void StepRecorder::step(const Step& step) {
+    RecordedStep& record = steps_.emplace_back();
+    record.start = step.start;
+    record.length = step.length;
+    record.mode = step.mode;
+    record.states = step.states.size();
+    record.order = step.order;
+    for (const auto& all : {step.states, step.events, step.observed})
+        for (const Series& one : all)
+            for (int k = 0; k <= step.order; ++k)
+                record.coefficients.push_back(one[static_cast<std::size_t>(k)]);
+}
+
 Sampler::Sampler(double start, double spacing, std::size_t count, std::vector<double> periods, Receiver receiver)
     : start_(start), spacing_(spacing), count_(count), periods_(std::move(periods)), state_(periods_.size()),
       receiver_(std::move(receiver)) {

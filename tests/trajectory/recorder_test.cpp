@@ -94,6 +94,24 @@ TEST(Sampler, CoarsensEvenly) {
     EXPECT_GT(sampler.next(), 27.3);
 }
 
+TEST(StepRecorder, KeepsTheMotionAtAnyTime) {
+    StepRecorder recorder;
+    std::vector<std::pair<double, std::vector<double>>> samples;
+    Sampler sampler(0, 0.7, 30, {0, 0, 0}, [&](double time, std::size_t, std::span<const double> state) {
+        samples.emplace_back(time, std::vector(state.begin(), state.end()));
+    });
+    Relay relay({borrowed(recorder), borrowed(sampler)});
+    run_switch(relay);
+    ASSERT_EQ(samples.size(), 30U);
+    std::size_t at = 0;
+    for (const RecordedStep& step : recorder.steps())
+        for (; at < samples.size() && samples[at].first <= step.start + step.length; ++at)
+            for (std::size_t i = 0; i < 2; ++i)
+                EXPECT_EQ(step.state(i, samples[at].first - step.start), samples[at].second[i]) << at;
+    EXPECT_EQ(at, samples.size());
+    EXPECT_THROW(recorder.steps().front().state(3, 0), InputError);
+}
+
 TEST(ArcMinima, CoverTheTrajectoryWithoutGaps) {
     std::vector<ArcMinimum> minima;
     ArcMinima collector([&](const ArcMinimum& minimum) { minima.push_back(minimum); });

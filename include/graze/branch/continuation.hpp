@@ -17,7 +17,8 @@ class ContinuationProblem {
 public:
     virtual ~ContinuationProblem() = default;
     virtual std::size_t unknowns() const = 0;
-    /// Sizes by which unknowns are measured; constant between calls of `evaluate` that belong to one step.
+    /// Sizes by which unknowns are measured; constant between calls of `evaluate` that belong to one step. The numbers
+    /// must stay where they are until `accept`, as those of `weights`.
     virtual std::span<const double> scales() const = 0;
     /// How much unknowns count in lengths and angles: 0 for those that only repeat what others say. 1 for all, if
     /// empty.

@@ -20,7 +20,8 @@ public:
     /// jets that have been handed out are gone. Again, it does nothing.
     void add_tangents();
     bool has_tangents() const { return has_tangents_; }
-    /// The jet of a mode. @throws InputError, here and below, when there is no such mode
+    /// The jet of a mode. Jets are there as long as this, or until `add_tangents`; `computed` exchanges a mode's two.
+    /// @throws InputError, here and below, when there is no such mode
     Jet& operator()(std::size_t mode) { return made(jets_, mode); }
     /// The jet of a mode, computed from states, which becomes the present one: the next one has begun there if the
     /// states are those at the end of the last step.

@@ -45,8 +45,8 @@ public:
     void set_parameters(std::span<const double> parameters, std::span<const double> seeds);
 
     /// A step begins.
-    /// @param jet single jet with tangents (see ModeJets) that has been computed from the state, and stays as it is
-    /// @param state, matrix where the step begins, which stay as they are
+    /// @param jet single jet with tangents (see ModeJets) that has been computed from the state
+    /// @param state, matrix where the step begins. All three are looked at until the next step begins, and must stay
     void begin(Jet& jet, std::size_t mode, std::span<const double> state, std::span<const double> matrix);
     /// Carries all directions along the step, or along a part of it, as far as all may be carried at once.
     /// @param next another jet of the mode, which is begun at the end; @param length of the step, which may be negative

@@ -69,6 +69,7 @@ struct LayoutLibrary {
     std::string name;
     std::vector<LayoutCell> cells;
 
+    /// Null when there is none of that name; valid until cells are added or removed.
     const LayoutCell* find(std::string_view cell) const;
     bool has(std::string_view cell) const { return find(cell) != nullptr; }
 };

@@ -32,7 +32,8 @@ using Signature = std::vector<Segment>;
 bool can_lead_to(const Transition& transition, std::size_t mode);
 /// How signatures call a cut: "~".
 const std::string& cut_name();
-/// The name of a segment's end in signatures: the transition's label, the section's name, or "~" for a cut.
+/// The name of a segment's end in signatures: the transition's label, the section's name, or "~" for a cut. It is the
+/// model's own, and lives as long.
 const std::string& end_name(const Model& model, const Segment& segment);
 
 /// Reads signatures such as "J1 J8", "{J1,J8}^2", "impact^4" or "(impact release)^2 impact": labels of transitions and

@@ -35,6 +35,7 @@ class ProcessedRecord {
 public:
     /// @throws InputError for channels that are not there, and settings without meaning
     ProcessedRecord(std::shared_ptr<SampleSource> source, const RecordProcessing& processing);
+    /// Its last stage, which lives as long as this.
     SampleSource& source() { return *source_; }
     const RecordHeader& header() const { return source_->header(); }
 

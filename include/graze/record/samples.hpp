@@ -47,6 +47,7 @@ public:
     SampleSource(const SampleSource&) = delete;
     SampleSource& operator=(const SampleSource&) = delete;
 
+    /// The same as long as the source lives.
     virtual const RecordHeader& header() const = 0;
     /// Replaces `samples` by the next ones, some ten thousands at a time.
     /// @return false when there are no more; `samples` then has none

@@ -170,7 +170,7 @@ struct Study {
     std::vector<StudyPicture> pictures;
     std::vector<StudyTable> tables;
 
-    /// Null when there is none of that name.
+    /// Null when there is none of that name; valid until runs are added or removed.
     const StudyRun* find_run(const std::string& run) const;
 };
 

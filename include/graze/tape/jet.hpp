@@ -67,7 +67,8 @@ public:
     virtual const double* follower(std::size_t index) const = 0;
     virtual std::size_t followers() const = 0;
 
-    /// Lane 0 of all states, then of all outputs; other lanes are that many numbers behind.
+    /// Lane 0 of all states, then of all outputs; other lanes are that many numbers behind. Valid until the next
+    /// `compute`.
     virtual std::span<const Series> series() const = 0;
 
     /// How far the series of all states and outputs may be followed in each lane: the largest step at which the last

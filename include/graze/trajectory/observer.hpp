@@ -8,7 +8,8 @@
 
 namespace graze {
 
-/// One step of an arc: Taylor polynomials in s = time - start, valid for 0 <= s <= length.
+/// One step of an arc: Taylor polynomials in s = time - start, valid for 0 <= s <= length. Its series are there during
+/// the call that tells of it; RecordedStep is a copy.
 struct Step {
     double start = 0, length = 0;
     std::size_t mode = 0;
@@ -30,7 +31,7 @@ enum class ContactKind {
     sticking, ///< accumulation of contacts, or contact without speed: the transition's `chatter` is made
 };
 
-/// Something that happened at an event's surface.
+/// Something that happened at an event's surface. Recorder::RecordedContact is a copy.
 struct Contact {
     ContactKind kind = ContactKind::crossing;
     double time = 0;
@@ -44,7 +45,7 @@ struct Contact {
     std::span<const double> before, after; ///< states; valid during the call
 };
 
-/// A probe's surface is passed, or its expression has an extremum.
+/// A probe's surface is passed, or its expression has an extremum. Recorder::RecordedPassage is a copy.
 struct Passage {
     std::size_t probe = 0;
     double time = 0;

@@ -23,7 +23,7 @@ public:
     void find_steps(const Jet& jet);
     /// @param next jet of the same mode, lanes and parameters, which is begun at the ends
     void look(Jet& jet, Jet& next, std::size_t mode);
-    /// The jets that it has looked at last: null before.
+    /// The jets that it has looked at last, which are somebody else's: null before.
     Jet* jet() const { return jet_; }
     Jet* next() const { return next_; }
 

@@ -51,6 +51,28 @@ private:
     std::vector<RecordedPassage> passages_;
 };
 
+/// A step that has been copied, with all of its series.
+struct RecordedStep {
+    double start = 0, length = 0;
+    std::size_t mode = 0, states = 0;
+    int order = 0;
+    std::vector<double> coefficients; ///< of states, watched events, observed expressions: order + 1 of each
+
+    /// A state at start + s. @throws InputError when there is no such state
+    double state(std::size_t index, double s) const;
+};
+
+/// Keeps all steps: the motion at any time. That takes some hundred bytes a state and step.
+class StepRecorder : public Observer {
+public:
+    void step(const Step& step) override;
+    const std::vector<RecordedStep>& steps() const { return steps_; }
+    void clear() { steps_.clear(); }
+
+private:
+    std::vector<RecordedStep> steps_;
+};
+
 /// States at times chosen beforehand, from the Taylor polynomials of the steps: exact to the tolerance, and without
 /// any influence on the steps. A time at which a contact happens belongs to the arc before it.
 class Sampler : public Observer {

@@ -67,6 +67,7 @@ public:
     bool finished() const { return outcome_.ending != Ending::running; }
     const Outcome& outcome() const { return outcome_; }
     double time() const { return time_; }
+    /// At the present time, as `tangents`: valid until the next step.
     std::span<const double> state() const { return state_; }
     std::size_t mode() const { return mode_; }
     std::span<const double> parameters() const { return parameters_; }

@@ -15,7 +15,7 @@ struct OvershootTrip {
     std::optional<TripTime> continued; ///< by the map, then by simulation until the end that was asked for
     std::optional<TripTime> simulated; ///< by simulation alone, where numbers tell the overshoot from none
 
-    /// The best that is known: until the end that was asked for, if it has come.
+    /// The best that is known, one of those above: until the end that was asked for, if it has come. Null: none is.
     const TripTime* best() const;
 };
 
