@@ -269,10 +269,10 @@ void write_run(hid_t output, const StoredRun& stored, const std::string& path) {
     write_attribute(group.id(), "version", run.version, path);
     const RunTables tables(run);
     write_table(group.id(), run.is_branch() ? "orbits" : "points", stored.file,
-                "SELECT * FROM " + tables.points + " ORDER BY number", plans_of(tables.point_columns, stored), path);
+                tables.select_point() + " ORDER BY number", plans_of(tables.point_columns, stored), path);
     write_table(
         group.id(), run.is_branch() ? "segments" : "samples", stored.file,
-        fmt::format("SELECT * FROM {} ORDER BY {}", tables.samples, run.is_branch() ? "point, segment" : "rowid"),
+        tables.select_sample() + " ORDER BY " + (run.is_branch() ? "point, segment" : "rowid"),
         plans_of(tables.sample_columns, stored), path);
     for (const DetailTable& table : detail_tables())
         if (run.is_branch() || !table.of_branches)

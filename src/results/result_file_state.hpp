@@ -34,6 +34,7 @@ struct ResultFile::State {
         std::optional<Model> model; ///< of a branch, once an orbit has been written
     };
     std::map<std::string, Writer, std::less<>> writers; ///< of runs that are written to, some at the same time
+    std::vector<std::string> missing{};                 ///< what a file of another format does not have
     int format = result_format;                         ///< of the file
     bool opened = false;                                ///< it is a result file, and can be finished as one
 

@@ -6,14 +6,19 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace graze {
 
-/// Format of result files that this version writes: to be raised with every column that comes, goes or changes.
+/// Format of result files that this version writes: to be raised with every column that comes, goes or changes. A column
+/// that comes is `added` (see columns.hpp): older files lack it, and it is read from them as absent. One that is called
+/// otherwise says its former name.
 constexpr int result_format = 7;
-/// The oldest that it reads, and goes on with. Of format 6 only the name of a column is different
-/// (`touch_first_speed`, now `touch_speed_factor`): columns are read by their places.
+/// The oldest format whose readers can read what this version writes: with columns and tables that they do not know, but
+/// nothing that they need changed or gone. To be raised to `result_format` only where something changes or goes.
+constexpr int oldest_reader = 7;
+/// The oldest format that this version reads, and goes on with.
 constexpr int oldest_result_format = 6;
 constexpr int result_application = 0x67727a31; ///< "grz1", for tools that recognise files by it
 
@@ -26,6 +31,8 @@ struct DetailTable {
 };
 const std::vector<DetailTable>& detail_tables();
 
+/// Tables of all runs, with what is between their parentheses, that older files may lack.
+std::vector<std::pair<std::string, std::string>> shared_tables();
 /// Tables that every file has.
 std::string common_tables();
 /// Views over all runs, to be made anew whenever runs change.
@@ -59,6 +66,7 @@ struct RunTables {
     std::string insert_point() const;
     std::string insert_sample() const; ///< of samples, the first cell is their rowid
     std::string select_point() const;  ///< columns as insert_point has them
+    std::string select_sample() const; ///< the same, without a rowid
     /// Samples lie in the order of their points' numbers, by which they are found without an index: those of a point
     /// have rowids from this many times its number on.
     static constexpr std::int64_t samples_of_a_point = std::int64_t{1} << 24;

@@ -91,7 +91,9 @@ class ResultFile {
 public:
     enum class Access { read, write };
     /// Opens the file; to write, makes it if there is none.
-    /// @throws InputError when it is no such file, comes from another version, cannot be opened, or another process
+    /// Files of older versions are read and gone on with; what they lack is `missing`, and read as absent. Those of newer
+    /// ones are read where these have only added something.
+    /// @throws InputError when it is no such file, comes from a version too different, cannot be opened, or another process
     ///         writes to it. Results are kept in a file only: an empty name and ":memory:" are none
     ResultFile(const std::string& path, Access access);
 
@@ -177,6 +179,8 @@ public:
     void set_patience(std::chrono::milliseconds patience);
 
     const std::string& path() const;
+    /// What a file of another version does not have of what this one writes: "run.column", or the name of a table.
+    const std::vector<std::string>& missing() const;
     /// Number of the format in which it is written.
     int format() const;
 
