@@ -52,7 +52,7 @@ private:
 void lanes(benchmark::State& state, double tolerance, double voltage, double spread) {
     constexpr int periods = 10;
     const Testbed testbed;
-    const Simulation simulation(testbed.model, {}, {}, {.tolerance = tolerance});
+    const Simulation simulation(System(testbed.model), {}, {}, {.tolerance = tolerance});
     Group side_by_side(testbed, simulation, voltage, spread), in_turn(testbed, simulation, voltage, spread);
     Ensemble ensemble(simulation);
     JetSet jets(simulation, LaneKind::single);

@@ -66,11 +66,11 @@ Totals run_all(const Plan& plan, const SearchFactory& searches, int jobs) {
 /// The whole diagram, against a plain simulation of as many periods as it takes for the motions to settle.
 void diagram(benchmark::State& state, std::size_t lyapunov_cycles) {
     const StudyRun run = sweep_run(lyapunov_cycles, 1);
-    const Plan plan = plan_of(run, run.model, nullptr);
+    const Plan plan = plan_of(run, System(run.model), nullptr);
     const auto searches = searches_of(run);
     Model model = run.model;
     model.set_parameter("V0", 4.95);
-    const Simulation simulation(model);
+    const Simulation simulation{System(model)};
     Totals totals;
     Duel duel(Clock::processor);
     for (auto unused : state)
@@ -90,7 +90,7 @@ void diagram(benchmark::State& state, std::size_t lyapunov_cycles) {
 
 void threads(benchmark::State& state) {
     const StudyRun run = chains_run(32);
-    const Plan plan = plan_of(run, run.model, nullptr);
+    const Plan plan = plan_of(run, System(run.model), nullptr);
     const auto searches = searches_of(run);
     Duel duel;
     for (auto unused : state)
@@ -101,7 +101,7 @@ void threads(benchmark::State& state) {
 /// Sixteen chains side by side against the same ones after each other.
 void lanes(benchmark::State& state) {
     const StudyRun run = chains_run(16);
-    const Plan plan = plan_of(run, run.model, nullptr);
+    const Plan plan = plan_of(run, System(run.model), nullptr);
     const auto searches = searches_of(run);
     Duel duel(Clock::processor);
     for (auto unused : state)
@@ -123,7 +123,7 @@ void lanes(benchmark::State& state) {
 void writing(benchmark::State& state) {
     Study study = load_study("electromagnetic-testbed");
     study.runs = {sweep_run(60, 1)};
-    const Plan plan = plan_of(study.runs[0], study.runs[0].model, nullptr);
+    const Plan plan = plan_of(study.runs[0], System(study.runs[0].model), nullptr);
     const auto searches = searches_of(study.runs[0]);
     const auto folder = std::filesystem::temp_directory_path() / ("graze-benchmark-" + std::to_string(getpid()));
     Duel duel(Clock::processor);

@@ -29,7 +29,7 @@ public:
 
     /// State at phase 0 once the motion from rest has settled on the orbit at 4.833 V.
     std::vector<double> settled() const {
-        const graze::Simulation simulation(model, {}, {}, {.tolerance = 1e-15});
+        const graze::Simulation simulation(graze::System(model), {}, {}, {.tolerance = 1e-15});
         ContactCounter counter;
         graze::Trajectory trajectory(simulation, model.parameter_values(), borrowed(counter));
         std::vector<double> state = model.initial_state();

@@ -15,7 +15,7 @@ struct Counter : Observer {
 
 int main() {
     Model model = load_model("electromagnetic-testbed");
-    const Simulation simulation(model);
+    const Simulation simulation{System(model)};
     constexpr int count = 16;
     std::vector<Counter> counters(count);
     std::vector<Trajectory> trajectories;

@@ -42,7 +42,7 @@ struct Impacts : Observer {
 };
 
 int main() {
-    const Simulation simulation(impact_oscillator(), {}, {}, {.tolerance = 1e-14});
+    const Simulation simulation(System(impact_oscillator()), {}, {}, {.tolerance = 1e-14});
     Trajectory trajectory(simulation, simulation.model().parameter_values(), std::make_shared<Impacts>());
     trajectory.start(simulation.model().initial_state(), 0, 0, 12);
 

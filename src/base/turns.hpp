@@ -14,7 +14,7 @@ class Turns {
 public:
     /// Does something while no callback is being called.
     template <class Work>
-    auto in_turn(const Work& work) const {
+    auto in_turn(const Work& work) const -> decltype(work()) {
         const std::lock_guard lock(state_->mutex);
         return attempt(work);
     }
@@ -45,7 +45,7 @@ public:
 
 private:
     template <class Work>
-    auto attempt(const Work& work) const {
+    auto attempt(const Work& work) const -> decltype(work()) {
         if (state_->thrown)
             std::rethrow_exception(state_->thrown);
         try {

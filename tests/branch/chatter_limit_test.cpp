@@ -17,7 +17,7 @@ namespace {
 using namespace graze::testing;
 
 std::vector<SpecialPoint> climbed(const Model& model, const BranchSettings& settings, std::size_t rungs) {
-    const Ladder ladder = climb(model, first_grazing(model, settings), settings, rungs);
+    const Ladder ladder = climb(System(model), first_grazing(model, settings), settings, rungs);
     EXPECT_EQ(ladder.grazings().size(), rungs) << ladder.why();
     return ladder.grazings();
 }
@@ -155,7 +155,7 @@ TEST(ChatterLimit, of_contacts_that_hardly_lose_speed) {
     const Segment contact{0, SegmentEnd::event, 0};
     const Orbit guess{
         {contact}, {guessed, 1}, {{guessed, 0, std::acos(guessed)}}, {2 * std::numbers::pi / omega}, std::nullopt};
-    const ChatterLimit limit = chatter_limit_near(model, guess, 0, model.independent_parameter("s"));
+    const ChatterLimit limit = chatter_limit_near(System(model), guess, 0, model.independent_parameter("s"));
     ASSERT_TRUE(limit.direct) << limit.problem;
     EXPECT_GT(limit.orbit.segments(), 200U);
     EXPECT_LT(limit.direct->second, 1e-8);
@@ -208,7 +208,7 @@ TEST(ChatterLimit, of_two_masses_is_what_simulation_shows_from_however_long_a_la
     const std::vector<SpecialPoint> grazings = climbed(model, settings, 30);
     std::vector<double> values;
     for (const std::size_t rungs : {12U, 18U, 24U, 30U}) {
-        const ChatterLimit limit = chatter_limit(model, std::span(grazings).first(rungs), settings.parameter);
+        const ChatterLimit limit = chatter_limit(System(model), std::span(grazings).first(rungs), settings.parameter);
         ASSERT_TRUE(limit.direct && limit.extrapolated) << limit.problem;
         EXPECT_NEAR(limit.contacts.restitution, 0.75, 1e-6);
         EXPECT_LT(limit.direct->second, 1e-8);
@@ -217,12 +217,12 @@ TEST(ChatterLimit, of_two_masses_is_what_simulation_shows_from_however_long_a_la
     }
     for (const double value : values)
         EXPECT_NEAR(value, values.back(), 1e-9);
-    const ChatterLimit limit = chatter_limit(model, grazings, settings.parameter);
+    const ChatterLimit limit = chatter_limit(System(model), grazings, settings.parameter);
     // With the stop nearer contacts accumulate in each period, with it farther off there are some.
     for (const double side : {-1e-4, 1e-4}) {
         Orbit orbit = limit.orbit;
         orbit.parameters[settings.parameter.place()] *= 1 + side;
-        const Simulation simulation(model);
+        const Simulation simulation{System(model)};
         Trajectory trajectory(simulation, orbit.parameters);
         constexpr double periods = 10;
         std::vector<double> state = orbit.starts.at(1);
@@ -260,7 +260,7 @@ TEST(ChatterLimit, of_the_microactuator) {
                            .82715666925300, .84240315127881, .85032000894172, .85431167398464};
     for (std::size_t i = 0; i < known.size(); ++i)
         EXPECT_NEAR(rungs[i].parameter, known[i], 2e-12);
-    const ChatterLimit limit = chatter_limit(model, rungs, settings.parameter);
+    const ChatterLimit limit = chatter_limit(System(model), rungs, settings.parameter);
     ASSERT_TRUE(limit.direct) << limit.problem;
     // After each contact a frame slips for a time that falls with the speed: in the end nothing is left of that but
     // 0.5.
@@ -273,7 +273,7 @@ TEST(ChatterLimit, of_the_microactuator) {
 TEST(ChatterLimit, says_what_is_no_ladder) {
     const Model model = chattering_oscillator(0.5, 1, 1);
     const std::vector<SpecialPoint> none(1);
-    EXPECT_THROW(chatter_limit(model, none, model.independent_parameter("s")), InputError);
+    EXPECT_THROW(chatter_limit(System(model), none, model.independent_parameter("s")), InputError);
     const std::vector<SpecialPoint> folds(3, SpecialPoint{.type = PointType::fold,
                                                           .located = true,
                                                           .detail = {},
@@ -288,7 +288,7 @@ TEST(ChatterLimit, says_what_is_no_ladder) {
                                                           .event = 0,
                                                           .time = 0,
                                                           .at_end = false});
-    EXPECT_THROW(chatter_limit(model, folds, model.independent_parameter("s")), InputError);
+    EXPECT_THROW(chatter_limit(System(model), folds, model.independent_parameter("s")), InputError);
 }
 
 } // namespace

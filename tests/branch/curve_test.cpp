@@ -80,7 +80,7 @@ TEST(Curves, of_the_bouncing_ball_have_their_closed_forms) {
         settings.least = 1e-5;
         settings.greatest = 0.01;
         settings.stop_at = {PointType::fold, PointType::flip};
-        const Branch branch = follow_branch(model, orbit, settings);
+        const Branch branch = follow_branch(System(model), orbit, settings);
         ASSERT_EQ(branch.outcome, BranchOutcome::stopped);
         settings.stop_at.clear();
         settings.free_bounds = {{model.independent_parameter("e"), 0.1, 0.95}};
@@ -119,7 +119,7 @@ TEST(Curves, of_the_impact_oscillator_have_their_closed_forms) {
         settings.least = -1;
         settings.greatest = 1;
         settings.direction = direction;
-        const Branch branch = follow_branch(model, start.orbit, settings);
+        const Branch branch = follow_branch(System(model), start.orbit, settings);
         ASSERT_EQ(names(branch), direction > 0 ? "PD GR" : "SN GR");
         settings.free_bounds = {{model.independent_parameter("omega"), 0.7, 6}};
         for (const SpecialPoint& point : branch.special)
@@ -184,7 +184,7 @@ TEST(Curves, of_folds_that_end_in_a_touch_have_no_resonance_there_in_any_units) 
         settings.least = -length;
         settings.greatest = length;
         settings.direction = -1;
-        const Branch branch = follow_branch(model, settled(model, "phase0", 400).orbit, settings);
+        const Branch branch = follow_branch(System(model), settled(model, "phase0", 400).orbit, settings);
         ASSERT_EQ(names(branch), "SN GR") << length;
         settings.free_bounds = {{model.independent_parameter("omega"), 0.7, 6}};
         std::size_t ends = 0;
@@ -209,7 +209,7 @@ TEST(Curves, of_touches_of_a_linear_oscillator_follow_its_response) {
     settings.parameter = model.independent_parameter("amplitude");
     settings.least = 0;
     settings.greatest = 10;
-    const Branch free = follow_branch(model, settled(model, "phase0").orbit, settings);
+    const Branch free = follow_branch(System(model), settled(model, "phase0").orbit, settings);
     ASSERT_EQ(names(free), "GR");
     settings.free_bounds = {{model.independent_parameter("omega"), 0.2, 5}};
     std::size_t turns = 0;
@@ -310,7 +310,7 @@ TEST(Curves, of_touches_find_where_an_impact_does_not_act_on_the_next_one) {
     settings.direction = -1;
     settings.least = -1;
     settings.greatest = 3;
-    const Branch branch = follow_branch(model, settled(model, "phase0", 400).orbit, settings);
+    const Branch branch = follow_branch(System(model), settled(model, "phase0", 400).orbit, settings);
     ASSERT_EQ(names(branch), "GR");
     settings.free_bounds = {{model.independent_parameter("omega"), 0.6, 3}};
     settings.greatest = 30;
@@ -335,7 +335,7 @@ TEST(Curves, of_the_boundary_between_classes_of_touches_have_their_closed_form) 
     settings.direction = -1;
     settings.least = -1;
     settings.greatest = 3;
-    const Branch branch = follow_branch(model, settled(model, "phase0", 400).orbit, settings);
+    const Branch branch = follow_branch(System(model), settled(model, "phase0", 400).orbit, settings);
     ASSERT_EQ(names(branch), "GR");
     settings.free_bounds = {{model.independent_parameter("omega"), 0.6, 3}};
     settings.greatest = 30;
@@ -353,7 +353,7 @@ TEST(Curves, of_the_boundary_between_classes_of_touches_have_their_closed_form) 
         boundary.kept_too = PointType::sensitivity;
         for (const int way : {1, -1}) {
             boundary.direction = way;
-            const Branch curve = follow_branch(model, one.solution.orbit, boundary);
+            const Branch curve = follow_branch(System(model), one.solution.orbit, boundary);
             EXPECT_EQ(curve.outcome, BranchOutcome::bound) << curve.detail;
             ASSERT_GT(curve.points.size(), 5U);
             EXPECT_NEAR(curve.points.back().parameter, way > 0 ? 0.5 : 0.01, 1e-12);
@@ -366,9 +366,9 @@ TEST(Curves, of_the_boundary_between_classes_of_touches_have_their_closed_form) 
             }
         }
         boundary.free.pop_back(); // a point of codimension two needs three parameters
-        EXPECT_THROW(follow_branch(model, one.solution.orbit, boundary), InputError);
+        EXPECT_THROW(follow_branch(System(model), one.solution.orbit, boundary), InputError);
         boundary.kept_too = PointType::fold;
-        EXPECT_THROW(follow_branch(model, one.solution.orbit, boundary), InputError);
+        EXPECT_THROW(follow_branch(System(model), one.solution.orbit, boundary), InputError);
     }
 }
 
@@ -380,7 +380,7 @@ TEST(Curves, of_the_microactuator_have_their_published_values) {
     settings.parameter = model.independent_parameter("V");
     settings.least = 0;
     settings.greatest = 3;
-    const Branch branch = follow_branch(model, settled(model, "longest", 4000).orbit, settings);
+    const Branch branch = follow_branch(System(model), settled(model, "longest", 4000).orbit, settings);
     ASSERT_EQ(names(branch), "PD PD SN GR");
     const SpecialPoint grazing = branch.special.back();
     BranchSettings wide = settings;
@@ -418,7 +418,7 @@ TEST(Curves, of_the_microactuator_have_their_published_values) {
         EXPECT_NEAR(parameter_of(model, meeting.solution, "omega"), parameter_of(model, last.solution, "omega"), 1e-11);
     }
     // That of orbits with an impact ends in the point which is published.
-    const Branch impacting = follow(model, branches_at(model, grazing, settings).at(0), settings);
+    const Branch impacting = follow(model, branches_at(System(model), grazing, settings).at(0), settings);
     const Branch flips = curve_of(model, nearest(impacting, PointType::flip, 0.85), wide, "omega", -1);
     ASSERT_EQ(flips.outcome, BranchOutcome::unphysical);
     const SpecialPoint& last = flips.special.back();
@@ -433,7 +433,7 @@ TEST(Curves, of_torus_points_have_their_closed_form) {
     settings.parameter = model.independent_parameter("p");
     settings.least = -0.2;
     settings.greatest = 0.1;
-    const Branch branch = follow_branch(model, settled(model, "start").orbit, settings);
+    const Branch branch = follow_branch(System(model), settled(model, "start").orbit, settings);
     const auto points = of_type(branch, PointType::torus);
     ASSERT_EQ(points.size(), 1U);
     settings.free_bounds = {{model.independent_parameter("w"), 0.05, 0.45}};
@@ -462,9 +462,9 @@ TEST(Curves, of_torus_points_of_the_testbed_go_from_one_resonance_to_the_other) 
     settings.least = 0.5;
     settings.greatest = 8;
     settings.stop_at = {PointType::grazing, PointType::fold};
-    const Branch free = follow_branch(model, settled(model, "phase0", 600).orbit, settings);
+    const Branch free = follow_branch(System(model), settled(model, "phase0", 600).orbit, settings);
     ASSERT_EQ(names(free), "GR");
-    const Branch impacting = follow(model, branches_at(model, free.special[0], settings).at(0), settings);
+    const Branch impacting = follow(model, branches_at(System(model), free.special[0], settings).at(0), settings);
     const SpecialPoint fold = nearest(impacting, PointType::fold, 2.16);
     settings.stop_at.clear();
     settings.free_bounds = {{model.independent_parameter("f"), 5, 9}};
@@ -503,7 +503,7 @@ TEST(Curves, of_lost_symmetries_have_the_multiplier_of_the_half) {
     std::size_t followed = 0;
     for (const int direction : {1, -1}) {
         settings.direction = direction;
-        const Branch branch = follow_branch(model, start.orbit, settings);
+        const Branch branch = follow_branch(System(model), start.orbit, settings);
         for (const SpecialPoint& point : of_type(branch, PointType::asymmetry)) {
             BranchSettings along = settings;
             along.steps = 20;

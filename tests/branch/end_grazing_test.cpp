@@ -27,7 +27,7 @@ struct Microactuator {
 
     /// Orbits with one contact more than those that touch, both ways from the next grazing that they come to.
     Branch beyond(const SpecialPoint& touch, bool back) const {
-        const Branch branch = follow(model, branches_at(model, touch, settings).at(0), settings);
+        const Branch branch = follow(model, branches_at(System(model), touch, settings).at(0), settings);
         if (!back || branch.special.empty())
             return branch;
         return follow_branch(model, branch.special.back().solution.orbit, settings);
@@ -58,7 +58,7 @@ void expect_same_end(const Microactuator& one, const Branch& stops, const Branch
 
 TEST(EndGrazing, of_a_contact_whose_slip_takes_no_time_is_the_touch_of_the_orbit_without_it) {
     const Microactuator one;
-    const Branch without = follow_branch(one.model, settled(one.model, "longest", 4000).orbit, one.settings);
+    const Branch without = follow_branch(System(one.model), settled(one.model, "longest", 4000).orbit, one.settings);
     const SpecialPoint first = without.special.back();
     const Branch back = one.beyond(first, true);
     ASSERT_EQ(back.special.back().type, PointType::grazing) << names(back);
@@ -80,7 +80,7 @@ TEST(EndGrazing, of_a_contact_whose_slip_takes_no_time_is_the_touch_of_the_orbit
 
 TEST(EndGrazing, of_an_orbit_on_the_other_side_is_no_limit_of_motions) {
     Microactuator one;
-    const Branch without = follow_branch(one.model, settled(one.model, "longest", 4000).orbit, one.settings);
+    const Branch without = follow_branch(System(one.model), settled(one.model, "longest", 4000).orbit, one.settings);
     one.settings.stop_when_unphysical = false;
     const Branch all = one.beyond(without.special.back(), false);
     const auto grazings = of_type(all, PointType::grazing);

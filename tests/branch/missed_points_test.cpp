@@ -52,7 +52,7 @@ TEST(MissedPoints, a_pitchfork_from_the_branch_that_turns_is_one_point) {
     const Model model = map_model("p = 1.3", {"p*x - x^3"});
     BranchSettings settings = in_parameter(model, "p", 0.5, 3);
     settings.direction = -1;
-    const Branch branch = follow_branch(model, fixed_point(model, {std::sqrt(0.3)}), settings);
+    const Branch branch = follow_branch(System(model), fixed_point(model, {std::sqrt(0.3)}), settings);
     EXPECT_EQ(of_type(branch, PointType::fold).size(), 0U) << names(branch);
     ASSERT_EQ(of_type(branch, PointType::branch_point).size(), 1U) << names(branch);
     EXPECT_NEAR(of_type(branch, PointType::branch_point)[0].parameter, 1, 1e-9);

@@ -133,12 +133,12 @@ TEST(OrbitQuantities, vanish_at_the_points_that_their_tests_have_found) {
     settings.parameter = model.independent_parameter("V");
     settings.least = 0;
     settings.greatest = 3;
-    const Branch before = follow_branch(model, settled(model, "longest", 4000).orbit, settings);
-    const Branch impacting = follow(model, branches_at(model, before.special.back(), settings).at(0), settings);
+    const Branch before = follow_branch(System(model), settled(model, "longest", 4000).orbit, settings);
+    const Branch impacting = follow(model, branches_at(System(model), before.special.back(), settings).at(0), settings);
     BranchSettings back = settings;
     back.direction = -1;
     ASSERT_GT(impacting.points.size(), 50U);
-    const Branch returned = follow_branch(model, impacting.points[50].solution.orbit, back);
+    const Branch returned = follow_branch(System(model), impacting.points[50].solution.orbit, back);
     std::size_t grazings = 0;
     for (const Branch* branch : {&before, &returned})
         for (const SpecialPoint& special : branch->special) {
@@ -146,7 +146,7 @@ TEST(OrbitQuantities, vanish_at_the_points_that_their_tests_have_found) {
             if (!make)
                 continue;
             grazings += special.type == PointType::grazing ? 1 : 0;
-            const Simulation simulation(model, {}, {}, integration(1e-13));
+            const Simulation simulation(System(model), {}, {}, integration(1e-13));
             const Orbit& orbit = special.solution.orbit;
             for (const bool by_collocation : {false, true}) {
                 std::unique_ptr<OrbitEquations> equations =

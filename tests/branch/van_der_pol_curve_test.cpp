@@ -54,7 +54,7 @@ TEST(VanDerPolCurves, of_torus_points_go_from_resonance_to_resonance) {
     const Model model = van_der_pol();
     BranchSettings settings = in_parameter(model, "F", 0.05, 3);
     settings.direction = -1;
-    const Branch branch = follow_branch(model, settled(model, "start").orbit, settings);
+    const Branch branch = follow_branch(System(model), settled(model, "start").orbit, settings);
     const auto torus = of_type(branch, PointType::torus);
     ASSERT_EQ(torus.size(), 1U) << names(branch);
     // By the method of averaging the amplitude is 2^(1/2) there, and half of the growth is lost: to the order of its
@@ -85,7 +85,7 @@ TEST(VanDerPolCurves, of_folds_meet_those_of_torus_points_where_two_multipliers_
     const Model model = van_der_pol();
     BranchSettings down = in_parameter(model, "F", 0.02, 3);
     down.direction = -1;
-    const Branch branch = follow_branch(model, settled(model, "start").orbit, down);
+    const Branch branch = follow_branch(System(model), settled(model, "start").orbit, down);
     const auto torus = of_type(branch, PointType::torus);
     ASSERT_EQ(torus.size(), 1U) << names(branch);
     const BranchSettings in_omega = in_parameter(model, "omega", 0.8, 3);

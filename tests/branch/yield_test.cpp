@@ -56,7 +56,7 @@ TEST(Yield, OfGivenDevicesIsThatOfTheClosedForm) {
     std::vector<double> told(given.values.size());
     shop.settings.least = 0;
     const Yield yield =
-        yield_of(shop.model, shop.point, shop.force, given, shop.settings,
+        yield_of(System(shop.model), shop.point, shop.force, given, shop.settings,
                  [&](std::size_t i, const LocatedSolution& solution) { told[i] = solution.value; });
     ASSERT_EQ(yield.found, 50U);
     EXPECT_EQ(yield.failed, 1U);
@@ -71,7 +71,7 @@ TEST(Yield, OfGivenDevicesIsThatOfTheClosedForm) {
     EXPECT_NEAR(yield.within.value().value, 50.0 / 51, 1e-15);
     EXPECT_GT(yield.linear_deviation, 0);
     given.values[0].pop_back();
-    EXPECT_THROW(yield_of(shop.model, shop.point, shop.force, given, shop.settings), InputError);
+    EXPECT_THROW(yield_of(System(shop.model), shop.point, shop.force, given, shop.settings), InputError);
 }
 
 TEST(Yield, where_the_value_is_linear_has_the_statistics_of_what_was_drawn) {
@@ -188,7 +188,7 @@ TEST(Yield, refuses_settings_out_of_range) {
     const auto refused = [&](auto change) {
         YieldSettings wrong = shop.settings;
         change(wrong);
-        EXPECT_THROW(yield_of(shop.model, shop.point, shop.force, wrong), InputError);
+        EXPECT_THROW(yield_of(System(shop.model), shop.point, shop.force, wrong), InputError);
     };
     refused([](YieldSettings& s) { s.devices = 0; });
     refused([](YieldSettings& s) { s.jobs = 0; });

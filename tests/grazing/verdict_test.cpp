@@ -386,7 +386,7 @@ TEST(Verdict, attractors_of_the_map_are_those_of_simulation) {
             std::vector<double> start = one.orbit(model).starts[0];
             for (double& component : start)
                 component *= parameters[model.independent_parameter("force").place()];
-            const Simulation simulation(model, {}, {}, SimulationOptions{.tolerance = 1e-15});
+            const Simulation simulation(System(model), {}, {}, SimulationOptions{.tolerance = 1e-15});
             // Cycles are counted at the start's phase, which is not that of the touch.
             constexpr std::size_t transient = 300, rounds = 20;
             Counter counter(transient * one.period());

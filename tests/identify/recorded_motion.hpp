@@ -58,7 +58,7 @@ struct RecordedMotion {
                         });
         Recorder recorder;
         Relay relay({borrowed(sampler), borrowed(recorder)});
-        const Simulation simulation(model, {}, {}, {.tolerance = tolerance});
+        const Simulation simulation(System(model), {}, {}, {.tolerance = tolerance});
         Trajectory trajectory(simulation, parameters, borrowed(relay));
         trajectory.start(model.initial_state(), model.initial_mode, 0, skipped + spacing * static_cast<double>(count));
         JetSet jets(simulation, LaneKind::single);

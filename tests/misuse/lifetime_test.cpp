@@ -121,7 +121,7 @@ void systems(WrongUses& right) {
         EXPECT_EQ(simulation.probes().size(), 1U);
     });
     right("model_of_a_simulation_copied", [] {
-        Model model = Simulation(oscillator()).model();
+        Model model = Simulation(System(oscillator())).model();
         keep(model.symbol("new"));
     });
 }
@@ -132,20 +132,20 @@ void trajectories(WrongUses& right) {
         run_alone(trajectory);
     });
     right("trajectory_of_temporaries_with_probes", [] {
-        Trajectory trajectory(Simulation(oscillator(), {section_probe(oscillator(), "turning")}),
+        Trajectory trajectory(Simulation(System(oscillator()), {section_probe(oscillator(), "turning")}),
                               oscillator().parameter_values(), std::make_shared<Recorder>());
         run_alone(trajectory);
     });
     right("trajectory_outlives_shares_of_its_observers", [] {
         auto recorder = std::make_shared<Recorder>();
         auto relay = std::make_shared<Relay>(std::vector<std::shared_ptr<Observer>>{recorder});
-        Trajectory trajectory(Simulation(oscillator()), oscillator().parameter_values(),
+        Trajectory trajectory(Simulation(System(oscillator())), oscillator().parameter_values(),
                               std::make_shared<RunControl>(std::move(relay), std::nullopt, std::vector{true}));
         recorder.reset();
         run_alone(trajectory);
     });
     right("trajectory_outlives_simulation", [] {
-        std::optional<Simulation> simulation = Simulation(oscillator());
+        std::optional<Simulation> simulation = Simulation(System(oscillator()));
         Trajectory trajectory(*simulation, oscillator().parameter_values());
         simulation.reset();
         run_alone(trajectory);
@@ -185,25 +185,25 @@ void trajectories(WrongUses& right) {
         keep(motion.trajectory.derivative(0, 0));
     });
     right("jet_set_outlives_simulation", [] {
-        JetSet jets(Simulation(oscillator()), LaneKind::single);
+        JetSet jets(Simulation(System(oscillator())), LaneKind::single);
         Trajectory trajectory(jets.simulation(), oscillator().parameter_values());
         trajectory.start(oscillator().initial_state(), 0, 0, 1);
         run(trajectory, jets);
     });
     right("jet_set_with_temporary_parameters", [] {
-        JetSet jets(Simulation(oscillator()), LaneKind::single);
+        JetSet jets(Simulation(System(oscillator())), LaneKind::single);
         jets.set_parameters(oscillator().parameter_values());
         jets.computed(1, std::vector<double>(3, 0.1));
     });
     right("outlook_outlives_simulation", [] {
-        Outlook outlook(Simulation(oscillator()), 1);
-        JetSet jets(Simulation(oscillator()), LaneKind::single);
+        Outlook outlook(Simulation(System(oscillator())), 1);
+        JetSet jets(Simulation(System(oscillator())), LaneKind::single);
         jets.set_parameters(oscillator().parameter_values());
         outlook.lengths()[0] = 0;
         outlook.find_steps(jets.computed(0, oscillator().initial_state()));
     });
     right("ensemble_outlives_simulation", [] {
-        std::optional<Simulation> simulation = Simulation(oscillator());
+        std::optional<Simulation> simulation = Simulation(System(oscillator()));
         Ensemble ensemble(*simulation);
         std::vector<Trajectory> trajectories;
         for (int i = 0; i < 5; ++i) {
@@ -215,7 +215,7 @@ void trajectories(WrongUses& right) {
         for (const Trajectory& trajectory : trajectories)
             EXPECT_TRUE(trajectory.finished());
     });
-    right("ensemble_of_nothing", [] { Ensemble(Simulation(oscillator())).run(std::span<Trajectory>{}); });
+    right("ensemble_of_nothing", [] { Ensemble(Simulation(System(oscillator()))).run(std::span<Trajectory>{}); });
 }
 
 void searches(WrongUses& right) {
@@ -224,7 +224,7 @@ void searches(WrongUses& right) {
         {
             const Model model = oscillator();
             search =
-                transient_searches(model, {.time = 0.1}, {{.name = "a", .section = "phase0"}}, {model.symbol("x")}, {})
+                transient_searches(System(model), {.time = 0.1}, {{.name = "a", .section = "phase0"}}, {model.symbol("x")}, {})
                     ->make();
         }
         search->begin(oscillator().parameter_values(), oscillator().initial_state(), 0);
@@ -234,7 +234,7 @@ void searches(WrongUses& right) {
         EXPECT_EQ(search->result().label, Label::ended);
     });
     right("attractor_search_of_temporaries", [] {
-        keep(attractor_searches(oscillator(), by_phase(), {{.name = "a", .section = "phase0"}},
+        keep(attractor_searches(System(oscillator()), by_phase(), {{.name = "a", .section = "phase0"}},
                                 {oscillator().symbol("v")}, {}));
     });
     right("execution_of_temporaries", [] {
@@ -245,32 +245,32 @@ void searches(WrongUses& right) {
                  [](std::size_t) {
                      return PointStart{oscillator().parameter_values(), oscillator().initial_state(), 0};
                  }},
-            *transient_searches(oscillator(), {.time = 0.1}, {}, {}, {}), {}, {.jobs = 2}, [&](auto&&...) { ++done; }));
+            *transient_searches(System(oscillator()), {.time = 0.1}, {}, {}, {}), {}, {.jobs = 2}, [&](auto&&...) { ++done; }));
         EXPECT_EQ(done, 3U);
     });
-    right("find_orbit_of_temporaries", [] { keep(find_orbit(calm_oscillator(), by_phase())); });
-    right("solve_orbit_of_temporaries", [] { keep(solve_orbit(calm_oscillator(), calm_orbit())); });
+    right("find_orbit_of_temporaries", [] { keep(find_orbit(System(calm_oscillator()), by_phase())); });
+    right("solve_orbit_of_temporaries", [] { keep(solve_orbit(System(calm_oscillator()), calm_orbit())); });
     right("orbit_monitors_outlive_model", [] {
         OrbitMonitors monitors(
-            calm_oscillator(), calm_orbit().signature,
+            System(calm_oscillator()), calm_orbit().signature,
             {{.name = "m", .kind = Monitor::Kind::mean, .expression = calm_oscillator().symbol("x")}});
         OrbitMonitors moved = std::move(monitors);
         keep(moved(calm_orbit()));
     });
     right("orbit_branch_of_temporaries", [] {
-        OrbitBranch branch(calm_oscillator(), calm_orbit(), by_amplitude());
+        OrbitBranch branch(System(calm_oscillator()), calm_orbit(), by_amplitude());
         EXPECT_TRUE(branch.start());
         EXPECT_TRUE(branch.step());
     });
     right("moved_orbit_branch_goes_on", [] {
-        OrbitBranch branch(calm_oscillator(), calm_orbit(), by_amplitude());
+        OrbitBranch branch(System(calm_oscillator()), calm_orbit(), by_amplitude());
         EXPECT_TRUE(branch.start());
         OrbitBranch moved = std::move(branch);
         EXPECT_TRUE(moved.step());
     });
     right("orbit_branch_outlives_the_one_its_start_came_from", [] {
-        const std::vector<BranchStart> starts = branches_at(calm_oscillator(), grazing_point(), by_amplitude());
-        OrbitBranch branch(calm_oscillator(), BranchStart(starts.at(0)).orbit, by_amplitude());
+        const std::vector<BranchStart> starts = branches_at(System(calm_oscillator()), grazing_point(), by_amplitude());
+        OrbitBranch branch(System(calm_oscillator()), BranchStart(starts.at(0)).orbit, by_amplitude());
         EXPECT_TRUE(branch.start_along(BranchStart(starts.at(0)).direction, starts.at(0).distance));
     });
     right("follow_branch_of_temporaries", [] {
@@ -315,7 +315,7 @@ void searches(WrongUses& right) {
         keep(plan.start(plan.points() - 1));
     });
     right("follow_motion_of_temporaries", [] {
-        keep(follow_motion(Simulation(oscillator()), oscillator().parameter_values(), oscillator().initial_state(), 0,
+        keep(follow_motion(Simulation(System(oscillator())), oscillator().parameter_values(), oscillator().initial_state(), 0,
                            1));
     });
 }

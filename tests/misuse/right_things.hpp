@@ -31,7 +31,7 @@ inline AttractorOptions by_phase() {
     return options;
 }
 inline const OrbitSolution& calm_solution() {
-    static const OrbitSolution solution = find_orbit(calm_oscillator(), by_phase());
+    static const OrbitSolution solution = find_orbit(System(calm_oscillator()), by_phase());
     return solution;
 }
 inline Orbit calm_orbit() {
@@ -46,14 +46,14 @@ inline BranchSettings by_amplitude() {
 }
 /// Where the oscillator grazes the stop.
 inline SpecialPoint grazing_point() {
-    static const SpecialPoint point = follow_branch(calm_oscillator(), calm_orbit(), by_amplitude()).special.back();
+    static const SpecialPoint point = follow_branch(System(calm_oscillator()), calm_orbit(), by_amplitude()).special.back();
     return point;
 }
 
 /// A trajectory with all that it needs; not begun.
 struct Motion {
     Model model = oscillator();
-    Simulation simulation{model};
+    Simulation simulation{System(model)};
     Trajectory trajectory{simulation, model.parameter_values()};
     JetSet jets{simulation, LaneKind::single};
 

@@ -37,7 +37,7 @@ struct RecordedModel {
     /// @param skipped time before the first sample. @param phase name of the cyclic state
     RecordedModel(Model model, const std::string& phase, double skipped, double frequency, std::size_t count,
                   const std::vector<Probe>& probes = {}) {
-        const Simulation simulation(model, probes);
+        const Simulation simulation(System(model), probes);
         std::vector<double> periods;
         std::size_t cyclic = 0;
         for (std::size_t i = 0; i < model.states.size(); ++i) {

@@ -13,7 +13,7 @@ TEST(TableRecorder, TheRunEndsWhenTheTableIsFull) {
     for (const TableKind kind : {TableKind::contacts, TableKind::minima}) {
         SimulationOptions options;
         options.minima = kind == TableKind::minima;
-        const Simulation simulation(model, {}, {}, options);
+        const Simulation simulation(System(model), {}, {}, options);
         TableRequest request;
         request.kind = kind;
         request.events = {true, true};

@@ -221,7 +221,7 @@ TEST(Adversarial, TheFirstOfSeveralBarriers) {
     } observer;
     std::vector<std::unique_ptr<Simulation>> simulations;
     for (const double tolerance : {1e-6, 1e-9, 1e-12, 1e-15})
-        simulations.push_back(std::make_unique<Simulation>(model, std::vector<Probe>{}, std::vector<Expression>{},
+        simulations.push_back(std::make_unique<Simulation>(System(model), std::vector<Probe>{}, std::vector<Expression>{},
                                                            with_tolerance(tolerance)));
     long wrong = 0, late = 0;
     for (int i = 0; i < 8000; ++i) {

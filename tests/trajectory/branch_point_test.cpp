@@ -106,7 +106,7 @@ TEST(BranchPoint, DerivativesPassContactsOfHertz) {
     // Where a body is at a time, by its speed at the start: the closed form by differences.
     const double p = 1.5, k = 20, width = 1, time = 2.2;
     const auto position = [&](double v) { return width - v * (time - 0.5 * width / v - contact_time(k, p, v)); };
-    const Simulation simulation(between_walls(k, width, p));
+    const Simulation simulation{System(between_walls(k, width, p))};
     Trajectory trajectory(simulation, simulation.model().parameter_values());
     JetSet jets(simulation, LaneKind::single);
     trajectory.start(std::vector<double>{0.5 * width, 0.6}, 0, 0, time);

@@ -34,7 +34,7 @@ struct Motion {
 };
 
 Motion motion_of(const Model& model, double end) {
-    const Simulation simulation(model, {}, {}, {.tolerance = tolerance});
+    const Simulation simulation(System(model), {}, {}, {.tolerance = tolerance});
     Motion motion{{}, ContactTimes(model.events.size())};
     JetSet jets(simulation, LaneKind::single);
     Trajectory trajectory(simulation, model.parameter_values(), borrowed(motion.contacts));
@@ -101,7 +101,7 @@ TEST(Chains, CarryDerivativesThroughTheImpactsOfEach) {
     constexpr std::size_t n = 6;
     const double end = 2 * std::numbers::pi / 0.9;
     const Model model = testing::chain(n);
-    const Simulation simulation(model, {}, {}, {.tolerance = tolerance});
+    const Simulation simulation(System(model), {}, {}, {.tolerance = tolerance});
     JetSet jets(simulation, LaneKind::single);
     ContactTimes contacts(n);
     Trajectory trajectory(simulation, model.parameter_values(), borrowed(contacts));

@@ -31,7 +31,7 @@ struct Watcher : Observer {
 struct Watched {
     Watched(const Model& model, std::span<const double> state, double end_time, double tolerance = 1e-12,
             std::size_t mode = 0)
-        : simulation(model, {}, {}, options(tolerance)), trajectory(simulation, model.parameter_values(), watcher),
+        : simulation(System(model), {}, {}, options(tolerance)), trajectory(simulation, model.parameter_values(), borrowed(watcher)),
           jets(simulation, LaneKind::single) {
         trajectory.start(state, mode, 0, end_time);
         graze::run(trajectory, jets);
@@ -208,7 +208,7 @@ TEST(Chatter, AccumulationsUnderFadingGravityCompleteOrAreNotCut) {
     const Model model = model_from(fading_gravity);
     std::vector<std::unique_ptr<Simulation>> simulations;
     for (const double tolerance : {1e-6, 1e-9, 1e-12, 1e-15})
-        simulations.push_back(std::make_unique<Simulation>(model, std::vector<Probe>{}, std::vector<Expression>{},
+        simulations.push_back(std::make_unique<Simulation>(System(model), std::vector<Probe>{}, std::vector<Expression>{},
                                                            Watched::options(tolerance)));
     int completed = 0, escaped = 0, undecided = 0;
     double worst_impact = 0;

@@ -160,7 +160,7 @@ TEST(Ensemble, ShippedModelsInLanesAndAlone) {
         const Model model = load_model(entry.name);
         SimulationOptions options = with_tolerance(1e-10);
         options.minima = true;
-        const Simulation simulation(model, all_probes(model), {}, options);
+        const Simulation simulation(System(model), all_probes(model), {}, options);
         for (const InstructionSet set : supported_sets())
             for (const int count : {1, 2, 3, 5, 8, 17, 40}) {
                 const std::vector<Task> tasks = draw_tasks(model, random, count);
@@ -195,7 +195,7 @@ initial = { mode = "burst" }
 )toml");
     SimulationOptions options;
     options.step_limit = 200;
-    const Simulation simulation(model, {}, {}, options);
+    const Simulation simulation(System(model), {}, {}, options);
     Random random(22);
     std::vector<Task> tasks;
     for (int i = 0; i < 60; ++i) {
@@ -223,7 +223,7 @@ initial = { mode = "burst" }
 
 TEST(Ensemble, MayBeCarriedOnAndUsedAgain) {
     const Model model = load_model("bouncing-ball");
-    const Simulation simulation(model);
+    const Simulation simulation{System(model)};
     Random random(23);
     std::vector<Task> tasks = draw_tasks(model, random, 13);
     Ensemble ensemble(simulation);
@@ -254,7 +254,7 @@ TEST(Ensemble, MayBeCarriedOnAndUsedAgain) {
 
 // One motion may take longer than anybody waits: alone and in lanes it is left when that is wanted.
 TEST(Ensemble, LeavesMotionsUnfinishedWhenAsked) {
-    const Simulation simulation(load_model("impact-oscillator"));
+    const Simulation simulation{System(load_model("impact-oscillator"))};
     Observer observer;
     for (const std::size_t count : {std::size_t{1}, std::size_t{9}}) {
         std::vector<Trajectory> trajectories;
@@ -274,7 +274,7 @@ TEST(Ensemble, LeavesMotionsUnfinishedWhenAsked) {
 }
 
 TEST(Ensemble, RefusesTrajectoriesOfOtherSimulations) {
-    const Simulation one(load_model("bouncing-ball")), other(load_model("mems-switch"));
+    const Simulation one{System(load_model("bouncing-ball"))}, other(load_model("mems-switch"));
     Observer observer;
     std::vector<Trajectory> trajectories;
     trajectories.emplace_back(other, other.model().parameter_values(), observer);
@@ -287,7 +287,7 @@ TEST(Ensemble, RefusesTrajectoriesOfOtherSimulations) {
 TEST(Ensemble, ThreadsShareASimulation) {
     for (const char* name : {"impact-microactuator", "electromagnetic-testbed"}) {
         const Model model = load_model(name);
-        const Simulation simulation(model, all_probes(model));
+        const Simulation simulation(System(model), all_probes(model));
         Random random(24);
         const std::vector<Task> tasks = draw_tasks(model, random, 24);
         std::vector<std::vector<Result>> results(3);

@@ -41,7 +41,7 @@ public:
     Bench(const Model& model, double from, double to, int count) {
         for (int i = 0; i < count; ++i) {
             const double tolerance = from * std::pow(to / from, count > 1 ? i / (count - 1.0) : 0);
-            simulations_.push_back(std::make_unique<Simulation>(model, std::vector<Probe>{}, std::vector<Expression>{},
+            simulations_.push_back(std::make_unique<Simulation>(System(model), std::vector<Probe>{}, std::vector<Expression>{},
                                                                 with_tolerance(tolerance)));
             jets_.push_back(std::make_unique<JetSet>(*simulations_.back(), LaneKind::single));
         }

@@ -29,7 +29,7 @@ public:
 
 std::vector<std::size_t> passages(const Model& model, const std::vector<Probe>& probes, double end_time,
                                   SimulationOptions options = {}) {
-    Simulation simulation(model, probes, {}, options);
+    Simulation simulation(System(model), probes, {}, options);
     Counter counter(probes.size());
     Trajectory trajectory(simulation, model.parameter_values(), borrowed(counter));
     JetSet jets(simulation, LaneKind::single);
@@ -335,7 +335,7 @@ TEST(Probe, StoppingAtPassagesLosesAndDoublesNothing) {
     private:
         bool stop_ = false;
     };
-    Simulation simulation(model, probes, {}, with_tolerance(1e-14));
+    Simulation simulation(System(model), probes, {}, with_tolerance(1e-14));
     Stopper stopper;
     Trajectory trajectory(simulation, model.parameter_values(), borrowed(stopper));
     JetSet jets(simulation, LaneKind::single);
@@ -385,7 +385,7 @@ TEST(Probe, StoppingAtAPassageBeforeAContact) {
         bool stop_ = false;
     };
     const std::vector<Probe> probes = {section_probe(model, "turning"), section_probe(model, "phase0")};
-    Simulation simulation(model, probes, {}, with_tolerance(1e-14));
+    Simulation simulation(System(model), probes, {}, with_tolerance(1e-14));
     Stopper stopper;
     Trajectory trajectory(simulation, model.parameter_values(), borrowed(stopper));
     JetSet jets(simulation, LaneKind::single);
@@ -416,7 +416,7 @@ TEST(CyclicStates, StayWithinTheirPeriodsForAMillionPeriods) {
     for (const double rate : {1.0, -1.0}) {
         const Model model = rotor(rate, 0.37 * rate);
         SimulationOptions options = with_tolerance(1e-14);
-        Simulation simulation(model, {}, {}, options);
+        Simulation simulation(System(model), {}, {}, options);
         Watch watch;
         Trajectory trajectory(simulation, model.parameter_values(), borrowed(watch));
         JetSet jets(simulation, LaneKind::single);

@@ -297,7 +297,7 @@ TEST(ElectromagneticTestbed, LeastGapOverStepsAgreesWithTheExtremum) {
     const Model full = shipped_with("electromagnetic-testbed", {{"V0", 4.5}});
     SimulationOptions options = with_tolerance(1e-14);
     options.minima = true;
-    Simulation simulation(full, {extremum(full, "q", Direction::falling)}, {}, options);
+    Simulation simulation(System(full), {extremum(full, "q", Direction::falling)}, {}, options);
     Recorder recorder;
     double least = 1;
     ArcMinima minima([&](const ArcMinimum& minimum) {

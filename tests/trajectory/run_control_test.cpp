@@ -16,7 +16,7 @@ struct Seen : Observer {
 /// Runs a leg that is not shown and one that is. @return the contacts of the latter
 std::vector<double> contacts_of(const LegEnd& first, const LegEnd& second, RunControl& control, const Seen& seen) {
     const Model model = testing::ball_between_walls(0.5);
-    const Simulation simulation(model, {}, {}, {});
+    const Simulation simulation(System(model), {}, {}, {});
     Trajectory trajectory(simulation, {}, borrowed(control));
     trajectory.start(model.initial_state(), 0, 0, 1e3);
     JetSet jets(simulation, LaneKind::single);

@@ -46,7 +46,7 @@ class Experiment {
 public:
     explicit Experiment(Model model, SimulationOptions options = {}, std::vector<Probe> probes = {},
                         std::vector<Expression> observed = {})
-        : simulation(std::move(model), std::move(probes), std::move(observed), options),
+        : simulation(System(std::move(model)), std::move(probes), std::move(observed), options),
           jets(simulation, LaneKind::single), observer({borrowed(recorder)}),
           trajectory(simulation, simulation.model().parameter_values(), borrowed(observer)) {}
     Experiment(const Experiment&) = delete;

@@ -22,7 +22,7 @@ TEST(Stop, at_a_passage_where_a_clock_switches_loses_nothing) {
     // The pulse begins where the phase begins its period: the section and the event are the same surface.
     for (const char* name : {"microbeam", "mems-switch"}) {
         const Model model = load_model(name);
-        const Simulation simulation(model, {section_probe(model, "phase0")});
+        const Simulation simulation(System(model), {section_probe(model, "phase0")});
         JetSet jets(simulation, LaneKind::single);
         Stopper observer;
         std::vector<std::vector<double>> states;

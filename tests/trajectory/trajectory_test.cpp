@@ -353,7 +353,7 @@ TEST(Options, AreValidated) {
     const auto with = [&](auto change) {
         SimulationOptions options;
         change(options);
-        EXPECT_THROW(Simulation(model, {}, {}, options), InputError);
+        EXPECT_THROW(Simulation(System(model), {}, {}, options), InputError);
     };
     const double nan = std::numeric_limits<double>::quiet_NaN();
     with([](auto& o) { o.tolerance = 0; });
@@ -643,7 +643,7 @@ TEST(Endings, StoppedByTheObserver) {
         int contacts = 0;
     } stopper;
     const Model model = shipped_with("impact-oscillator", {{"omega", 2.8}, {"sigma", 0}});
-    Simulation simulation(model);
+    Simulation simulation{System(model)};
     Trajectory trajectory(simulation, model.parameter_values(), borrowed(stopper));
     JetSet jets(simulation, LaneKind::single);
     trajectory.start(model.initial_state(), 0, 0, 1000);
@@ -662,7 +662,7 @@ TEST(Singular, TimesOfKnownBlowUps) {
     // x' = 1 + x^2: tangent, at pi/2. Also far from t = 0, where the resolution of time is less.
     for (const double start : {0.0, 1000.0}) {
         const Model model = from_rates("x = 0", "x = \"1 + x^2\"");
-        Simulation simulation(model, {}, {}, with_tolerance(1e-14));
+        Simulation simulation(System(model), {}, {}, with_tolerance(1e-14));
         Trajectory trajectory(simulation, model.parameter_values());
         JetSet jets(simulation, LaneKind::single);
         trajectory.start(std::vector<double>{0}, 0, start, start + 10);
@@ -675,7 +675,7 @@ TEST(Singular, TimesOfKnownBlowUps) {
 TEST(Singular, FastMotionAtALateTimeIsNot) {
     // Steps are short against the time that has passed, but they do not shrink.
     const Model model = from_rates("x = 1\nv = 0", "x = \"1e6*v\", v = \"-1e6*x\"");
-    Simulation simulation(model, {}, {}, with_tolerance(1e-14));
+    Simulation simulation(System(model), {}, {}, with_tolerance(1e-14));
     Trajectory trajectory(simulation, model.parameter_values());
     JetSet jets(simulation, LaneKind::single);
     trajectory.start(std::vector<double>{1, 0}, 0, 1e9, 1e9 + 1e-4);
@@ -684,7 +684,7 @@ TEST(Singular, FastMotionAtALateTimeIsNot) {
 }
 
 TEST(Trajectory, CannotRunBeforeItIsStarted) {
-    const Simulation simulation(load_model("impact-oscillator"));
+    const Simulation simulation{System(load_model("impact-oscillator"))};
     Trajectory trajectory(simulation, simulation.model().parameter_values());
     JetSet jets(simulation, LaneKind::single);
     EXPECT_THROW(run(trajectory, jets), OrderError);

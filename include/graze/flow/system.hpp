@@ -22,9 +22,9 @@ namespace graze {
 class System {
 public:
     /// Compiles a copy of the model: what happens to the model later has no effect. Threads may compile one model at
-    /// once. Implicit, so that whatever takes a system can be given a model.
+    /// once. That takes from a fraction of a millisecond to a second: compile once what is used often.
     /// @throws InputError when the model is not valid (Model::validate)
-    System(const Model& model); // NOLINT(google-explicit-constructor)
+    explicit System(const Model& model);
 
     /// The derivatives of a function with respect to states that are not zero throughout.
     struct CompiledGradient {
