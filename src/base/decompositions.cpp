@@ -5,6 +5,7 @@
 #include <Eigen/SVD>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -99,11 +100,31 @@ std::optional<Eigen::VectorXd> symmetric_eigenvalues(const Eigen::MatrixXd& matr
     return solver.eigenvalues();
 }
 
+// Eigen::GeneralizedEigenSolver does the same and takes longer to compile than all else here: its eigenvectors are
+// compiled too.
 std::optional<GeneralizedEigenvalues> generalized_eigenvalues(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-    const Eigen::GeneralizedEigenSolver<Eigen::MatrixXd> solver(a, b, false);
-    if (solver.info() != Eigen::Success)
+    Eigen::RealQZ<Eigen::MatrixXd> factors(a.rows());
+    factors.compute(a, b, false);
+    if (factors.info() != Eigen::Success)
         return std::nullopt;
-    return GeneralizedEigenvalues{solver.alphas(), solver.betas()};
+    const Eigen::MatrixXd &s = factors.matrixS(), &t = factors.matrixT();
+    GeneralizedEigenvalues result{Eigen::VectorXcd(a.rows()), Eigen::VectorXd(a.rows())};
+    for (Eigen::Index i = 0; i < a.rows(); ++i) {
+        if (i + 1 == a.rows() || s(i + 1, i) == 0) {
+            result.numerators[i] = s(i, i);
+            result.denominators[i] = t(i, i);
+            continue;
+        }
+        // A complex pair: a full block of two rows of s over a diagonal one of t.
+        const double first = s(i, i) * t(i + 1, i + 1), second = s(i + 1, i + 1) * t(i, i);
+        const double denominator = t(i, i) * t(i + 1, i + 1), half = 0.5 * (first - second);
+        const double imaginary = std::sqrt(std::abs(half * half + s(i + 1, i) * s(i, i + 1) * denominator));
+        result.numerators[i] = {second + half, imaginary};
+        result.numerators[i + 1] = {second + half, -imaginary};
+        result.denominators[i] = result.denominators[i + 1] = denominator;
+        ++i;
+    }
+    return result;
 }
 
 std::optional<SchurForm> schur_form(const Eigen::MatrixXd& matrix) {

@@ -126,6 +126,28 @@ TEST(Decompositions, generalized_eigenvalues_may_be_infinite) {
     EXPECT_EQ(found->denominators[1 - finite], 0);
 }
 
+TEST(Decompositions, GeneralizedEigenvaluesMakeTheirPencilSingular) {
+    const auto some = matrices(6, 6);
+    for (std::size_t k = 0; k + 1 < some.size(); ++k) {
+        const Eigen::MatrixXd &a = some[k], &b = some[k + 1];
+        const auto found = generalized_eigenvalues(a, b);
+        ASSERT_TRUE(found);
+        std::complex<double> numerators = 1;
+        double denominators = 1;
+        for (Eigen::Index i = 0; i < a.rows(); ++i) {
+            const std::complex<double> top = found->numerators[i];
+            const double bottom = found->denominators[i];
+            const Eigen::VectorXd sizes = singular_values(bottom * a.cast<std::complex<double>>() - top * b);
+            EXPECT_LE(sizes[5], 200 * eps * sizes[0]) << "number " << i << " of pencil " << k;
+            numerators *= top;
+            denominators *= bottom;
+        }
+        // Their product is that of the determinants.
+        EXPECT_LE(std::abs(numerators * b.determinant() - denominators * a.determinant()),
+                  1e4 * eps * std::abs(denominators * a.determinant()));
+    }
+}
+
 TEST(Decompositions, schur_and_orthogonal_factors_put_the_matrix_together_again) {
     for (const Eigen::MatrixXd& matrix : matrices(5, 5)) {
         const auto schur = schur_form(matrix);
