@@ -42,8 +42,7 @@ std::optional<Eigen::VectorXcd> eigenvalues(const Eigen::MatrixXd& matrix);
 /// Returns the eigenvalues of a symmetric matrix, in rising order.
 std::optional<Eigen::VectorXd> symmetric_eigenvalues(const Eigen::MatrixXd& matrix);
 /// The generalized eigenvalues mu, det(a - mu b) = 0, as numerators / denominators; mu is infinite where the
-/// denominator
-/// is zero.
+/// denominator is zero.
 struct GeneralizedEigenvalues {
     Eigen::VectorXcd numerators;
     Eigen::VectorXd denominators;
@@ -69,8 +68,7 @@ OrthogonalFactors orthogonal_factors(const Eigen::MatrixXd& matrix);
 Eigen::MatrixXd orthogonal_complement(const Eigen::VectorXd& vector);
 
 /// Approximate null vectors of a nearly rank-deficient matrix with one column more than rows, by QR with column
-/// pivoting:
-/// matrix * right and left.transpose() * matrix are nearly zero.
+/// pivoting: matrix * right and left.transpose() * matrix are nearly zero.
 struct NearlyNull {
     Eigen::MatrixXd right; ///< two orthonormal columns
     Eigen::VectorXd left;  ///< of norm 1

@@ -71,8 +71,7 @@ private:
 };
 
 /// The least-squares solution with a matrix that has at least as many rows as columns, and the upper triangular factor
-/// R of
-/// the matrix A, for which R^T R = A^T A.
+/// R of the matrix A, for which R^T R = A^T A.
 struct LeastSquares {
     Eigen::VectorXd solution;
     Eigen::MatrixXd triangle;

@@ -10,9 +10,8 @@ namespace graze {
 inline constexpr std::size_t longest_name = 100;
 
 /// Returns whether a name chosen by a user is safe as the name of a file, a table or a picture's title: at most
-/// `longest_name`
-/// ASCII letters, digits, '.', '_' and '-', not starting with '.' or '-'. Such a name cannot lead out of a folder, is
-/// never read as a command's option, and needs no quotes anywhere.
+/// `longest_name` ASCII letters, digits, '.', '_' and '-', not starting with '.' or '-'. Such a name cannot lead out of
+/// a folder, is never read as a command's option, and needs no quotes anywhere.
 bool is_file_name(std::string_view name);
 
 /// Checks that `is_file_name(name)`.

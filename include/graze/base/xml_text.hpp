@@ -10,8 +10,7 @@ namespace graze {
 std::string xml_text(std::string_view text);
 
 /// Returns an XML document written by another program so that it can be embedded in a CDATA section: characters that
-/// XML
-/// forbids become U+FFFD, and "]]>" is escaped; the rest is unchanged.
+/// XML forbids become U+FFFD, and "]]>" is escaped; the rest is unchanged.
 std::string well_formed(std::string_view document);
 
 } // namespace graze
