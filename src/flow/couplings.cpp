@@ -223,7 +223,7 @@ void Couplings::find_strengths() {
     };
     for (std::size_t row = 0; row < intermediates_.size() + states_; ++row) {
         for (; entry != equations.entries.end() && entry->row == row; ++entry) {
-            const double value = *jet_->follower(entry->follower);
+            const double value = *jet_->deferred(entry->deferred);
             if (entry->source < states_)
                 add(entry->source, value);
             else if (entry->source >= states_ + equations.parameters)
@@ -250,7 +250,7 @@ void Couplings::measure(std::span<const double> states) {
     require_size(states.size(), states_, "states");
     constexpr std::uint32_t groups[] = {LinearMode::by_states};
     jet().begin(states);
-    jet().begin_followers(groups);
+    jet().begin_deferred(groups);
     find_strengths();
     const bool finite =
         std::all_of(entries_.begin(), entries_.end(), [](const Entry& e) { return std::isfinite(e.strength); });

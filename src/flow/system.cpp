@@ -280,12 +280,12 @@ LinearMode SystemCompiler::linearise(const System& system, std::size_t mode, std
                                   events = watched_functions(system.mode(mode));
     const std::size_t states = states_.size();
     LinearMode linear;
-    std::vector<TapeFollower> followers;
+    std::vector<DeferredExpression> deferred;
     const auto add = [&](std::vector<TangentEntry>& entries, std::size_t row, std::size_t source, Expression value,
                          std::uint32_t group) {
         const bool by_parameter = source >= states && source < inputs_.size();
-        entries.push_back({row, source, followers.size()});
-        followers.push_back({std::move(value), by_parameter ? LinearMode::by_parameter(source - states) : group});
+        entries.push_back({row, source, deferred.size()});
+        deferred.push_back({std::move(value), by_parameter ? LinearMode::by_parameter(source - states) : group});
     };
     Linearisation linearisation = graze::linearise(rates, inputs_, states);
     linear.equations = {states, parameters_.size(), linearisation.intermediates, {}};
@@ -293,8 +293,8 @@ LinearMode SystemCompiler::linearise(const System& system, std::size_t mode, std
         add(linear.equations.entries, entry.row, entry.source, std::move(entry.coefficient), LinearMode::by_states);
     for (JacobianEntry& entry : sparse_jacobian(events, inputs_))
         add(linear.events, entry.row, entry.column, std::move(entry.value), LinearMode::of_events);
-    linear.tape = graze::compile_tape(states_.symbols(), parameters_.symbols(), rates, with_observed(events, observed),
-                                      followers);
+    linear.tape =
+        graze::compile_tape(states_.symbols(), parameters_.symbols(), rates, with_observed(events, observed), deferred);
     return linear;
 }
 

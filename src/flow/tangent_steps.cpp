@@ -65,14 +65,14 @@ void TangentSteps::begin(Jet& jet, std::size_t mode, std::span<const double> sta
     require_size(state.size(), states_, "states");
     require_size(matrix.size(), states_ * directions_, "derivatives");
     require_index(0, directions_, "direction");
-    require_size(jet.followers(), system_.linear(mode).tape.followers.size(), "followers of a jet");
+    require_size(jet.deferred_count(), system_.linear(mode).tape.deferred.size(), "deferred expressions of a jet");
     jet_ = &jet;
     mode_ = mode;
     place_ = state;
     matrix_ = matrix;
     measured_ = nullptr;
     loaded_ = false;
-    jet.follow(groups_);
+    jet.compute_deferred(groups_);
 }
 
 /// Computes the series of some directions, from one on.
@@ -135,7 +135,7 @@ std::span<const double> TangentSteps::noise() {
 /// What follows the motion begins at the end of a step, where `state_` is.
 void TangentSteps::begin_end(Jet& next, double step) {
     next.begin(state_);
-    next.begin_followers(groups_);
+    next.begin_deferred(groups_);
     at_ = step;
 }
 
@@ -199,12 +199,12 @@ std::vector<std::uint32_t> TangentSteps::groups_with_events() const {
 void TangentSteps::event_at_end(Jet& next, std::span<const double> after, std::size_t watched,
                                 std::span<double> row) const {
     require_size(row.size(), directions_, "derivatives of an event");
-    next.begin_followers(groups_with_events());
+    next.begin_deferred(groups_with_events());
     std::fill(row.begin(), row.end(), 0.0);
     for (const TangentEntry& entry : system_.linear(mode_).events) {
         if (entry.row != watched || (entry.source >= states_ && moving_[entry.source - states_] == 0))
             continue;
-        const double slope = *next.follower(entry.follower);
+        const double slope = *next.deferred(entry.deferred);
         const double* change = entry.source < states_ ? &after[entry.source * directions_]
                                                       : &parameter_seeds_[(entry.source - states_) * directions_];
         for (std::size_t d = 0; d < directions_; ++d)
@@ -214,7 +214,7 @@ void TangentSteps::event_at_end(Jet& next, std::span<const double> after, std::s
 
 void TangentSteps::event_coefficient(std::size_t watched, std::size_t k, std::span<double> row) {
     require_size(row.size(), directions_, "derivatives of an event");
-    jet_->follow(groups_with_events());
+    jet_->compute_deferred(groups_with_events());
     std::fill(row.begin(), row.end(), 0.0);
     const LinearMode& linear = system_.linear(mode_);
     const std::size_t width = lanes_of_mode().here->width();
@@ -225,8 +225,8 @@ void TangentSteps::event_coefficient(std::size_t watched, std::size_t k, std::sp
             const double* change = here.source(entry.source);
             if (entry.row != watched || change == nullptr)
                 continue;
-            const double* slope = jet_->follower(entry.follower);
-            const std::size_t degree = linear.tape.followers[entry.follower].constant ? 0 : k;
+            const double* slope = jet_->deferred(entry.deferred);
+            const std::size_t degree = linear.tape.deferred[entry.deferred].constant ? 0 : k;
             for (std::size_t j = 0; j <= degree; ++j)
                 for (std::size_t l = 0; l < width && first + l < directions_; ++l)
                     row[first + l] += slope[j] * change[(k - j) * width + l];

@@ -300,7 +300,7 @@ void Trajectory::advance(const Outlook& outlook, std::size_t lane) {
     }
     if (tangents_) {
         Jet* const jet = outlook.jet();
-        const bool usable = jet != nullptr && jet->width() == 1 && jet->followers() > 0;
+        const bool usable = jet != nullptr && jet->width() == 1 && jet->deferred_count() > 0;
         tangents_->use(usable ? jet : nullptr, outlook.next());
     }
     double step = outlook.length(lane);

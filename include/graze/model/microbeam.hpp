@@ -46,19 +46,20 @@ enum class TrialFunctions {
 };
 enum class Quadrature { simpson, gauss };
 
-/// Options of `microbeam`. Quantities are nondimensional as in section 3.2.4 of the dissertation.
+/// Options of `microbeam`. Quantities are nondimensional as in section 3.2.4 of the dissertation: lengths in
+/// units of the beam's length l.
 struct MicrobeamOptions {
     int modes = 1;                                     ///< number N of trial functions; more resolve the shape better
     TrialFunctions trial = TrialFunctions::eigenmodes; ///< the polynomial allows one mode only
     bool steady = false; ///< constant voltage instead of pulses: orbits are equilibria, their folds are pull-in
     Quadrature quadrature = Quadrature::simpson; ///< rule for the electrostatic force
-    int points = 20;          ///< intervals of Simpson's rule (even), or nodes of Gauss's; more for larger deflections
-    double gamma = 3e4;       ///< gamma, strength of the electrostatic force
-    double thickness = 0.02;  ///< h, relative to the length of the beam
-    double width = 0.01;      ///< b, relative to the length of the beam
-    double gap = 0.04;        ///< g0, distance to the electrode, relative to the length of the beam
+    int points = 20;         ///< intervals of Simpson's rule (even), or nodes of Gauss's; more for larger deflections
+    double gamma = 3e4;      ///< b h l^2/I, stiffening by stretching of the mid-line
+    double thickness = 0.02; ///< h
+    double width = 0.01;     ///< b
+    double gap = 0.04;       ///< g0, distance of the electrode from the undeformed beam
     double stop_position = 0.5;    ///< x0, between 0 and 1
-    double stop_distance = -0.004; ///< d, deflection at which the beam touches the stop
+    double stop_distance = -0.004; ///< d, distance of the stop from the undeformed beam, towards the electrode; not 0
     double stop_stiffness = 100;
     double frequency = 28; ///< angular frequency of the pulses
     double voltage = 0.03;
@@ -68,8 +69,8 @@ struct MicrobeamOptions {
 /// The microbeam of chapter 3 with N trial functions: modes of motion (pulse on or off) x (free or in contact).
 /// @throws InputError for invalid options
 Model microbeam(const MicrobeamOptions& options = {});
-/// Returns the options of a named variant: "microbeam-9" with nine modes, "microbeam-polynomial" with the trial function
-/// of Eq. (3.20), "microbeam-steady" under a constant voltage. None for other names, including "microbeam".
+/// Returns the options of a named variant: "microbeam-9" with nine modes, "microbeam-polynomial" with the trial
+/// function of Eq. (3.20), "microbeam-steady" under a constant voltage. None for other names, including "microbeam".
 std::optional<MicrobeamOptions> microbeam_member(std::string_view model_name);
 
 } // namespace graze
