@@ -1,7 +1,7 @@
 #include "trajectory/probe_tracker.hpp"
 
 #include "flow/kept_sign.hpp"
-#include "flow/lone_crossing.hpp"
+#include "flow/single_crossing.hpp"
 #include "tape/smallest_size.hpp"
 #include "trajectory/series.hpp"
 
@@ -243,9 +243,9 @@ void ProbeTracker::search_series(std::size_t probe, std::span<const double> c, d
             return search_from_zero(probe, c, length, noise);
     }
     begin_on(now, probe);
-    if (const auto lone = roots::lone_crossing(c, length)) {
-        if (lone->crosses)
-            note(probe, followed_[probe].wants(-now) ? lone->place(c, length) : unplaced, -now, false);
+    if (const auto single = roots::single_crossing(c, length)) {
+        if (single->crosses)
+            note(probe, followed_[probe].wants(-now) ? single->place(c, length) : unplaced, -now, false);
     } else if (!as_before || roots::kept_sign(c, length) != now) {
         note_crossings(probe, c, length, RootStart::as_is);
     }
@@ -277,8 +277,8 @@ double ProbeTracker::place(std::size_t probe, const Step& step) {
     const Followed& followed = followed_[probe];
     const std::span<const double> series = without_gaps(step.observed[followed.index], work_.size());
     const std::span<const double> c = followed.kind == Probe::Kind::crossing ? series : rate_of(series);
-    const auto lone = roots::lone_crossing(c, step.length);
-    return lone ? lone->place(c, step.length) : unplaced;
+    const auto single = roots::single_crossing(c, step.length);
+    return lone ? single->place(c, step.length) : unplaced;
 }
 
 std::span<const double> ProbeTracker::gather(const Series& series, std::size_t size) {

@@ -27,7 +27,7 @@ Trajectory::Trajectory(const Simulation& simulation, std::span<const double> par
     : simulation_(simulation), observer_(&observer), parameters_(parameters.begin(), parameters.end()),
       step_size_(simulation.order(), simulation.options().tolerance),
       step_check_(simulation.system(), simulation.order(), simulation.options().tolerance),
-      late_states_(simulation.system()), roots_(simulation.order()), states_(simulation.system().states()),
+      dormant_states_(simulation.system()), roots_(simulation.order()), states_(simulation.system().states()),
       order_(simulation.order()), longest_allowed_(simulation.options().largest_step) {
     const System& compiled = simulation.system();
     require_size(parameters_.size(), compiled.parameters(), "independent parameters");
@@ -49,7 +49,7 @@ Trajectory::Trajectory(const Simulation& simulation, std::span<const double> par
     holds_.resize(histories_.size());
     uncertain_.resize(inputs_.size());
     step_check_.set_parameters(parameters_);
-    late_states_.set_parameters(parameters_);
+    dormant_states_.set_parameters(parameters_);
     periods_.resize(states_);
     compiled.periods().evaluate(parameters_, periods_, work_);
     for (std::size_t i = 0; i < states_; ++i)
@@ -93,7 +93,7 @@ void Trajectory::start(std::span<const double> state, std::size_t mode, double t
     end_time_ = end_time;
     previous_step_ = largest_step_ = believed_ = descent_start_ = 0;
     floored_ = false;
-    late_states_.begin();
+    dormant_states_.begin();
     arc_start_ = true;
     branch_ahead_ = states_;
     stuck_ = false;
@@ -215,7 +215,7 @@ double Trajectory::propose(const Jet& jet, double step, std::size_t lane) {
     if ((leap_ || unlimited) && !floored_)
         step = step_size_(series_, previous_step_);
     if (!floored_ && !compiled_mode_->has_roots)
-        step = late_states_.step(step_size_, mode_, series_, step, previous_step_);
+        step = dormant_states_.step(step_size_, mode_, series_, step, previous_step_);
     const double remaining = (end_time_ - time_) - time_low_;
     proposed_ = !std::isinf(step) ? step : std::isinf(remaining) ? 1.0 : std::max(remaining, 1.0);
     if (believed_ > 0)
@@ -253,7 +253,7 @@ double Trajectory::limited_by_floors(double step) {
 
 /// Sizes below which nothing need be known over this step; none for most.
 std::span<const double> Trajectory::floors() const {
-    return floored_ ? std::span<const double>(floors_) : late_states_.floors();
+    return floored_ ? std::span<const double>(floors_) : dormant_states_.floors();
 }
 
 /// Shortens a step until polynomials and model agree at its end, and within as well if it is a leap. Returns false if

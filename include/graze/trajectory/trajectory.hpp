@@ -1,6 +1,6 @@
 #pragma once
 
-#include "graze/flow/late_states.hpp"
+#include "graze/flow/dormant_states.hpp"
 #include "graze/flow/roots.hpp"
 #include "graze/flow/step_check.hpp"
 #include "graze/flow/step_size.hpp"
@@ -210,7 +210,7 @@ private:
     std::vector<double> parameters_;
     StepSize step_size_;
     StepCheck step_check_;
-    LateStates late_states_;
+    DormantStates dormant_states_;
     RootFinder roots_;
     std::unique_ptr<ProbeTracker> probes_;
     std::unique_ptr<Tangents> tangents_;

@@ -1,4 +1,4 @@
-#include "graze/flow/late_states.hpp"
+#include "graze/flow/dormant_states.hpp"
 
 #include "flow/couplings.hpp"
 #include "graze/base/require.hpp"
@@ -12,22 +12,21 @@ namespace graze {
 
 namespace {
 
-/// Steps before the first look, and most of them between two: a look costs about as much as a step.
-constexpr int first_look = 16, longest_interval = 1024;
-/// How much longer steps have to become for floors to be worth what they cost, and for how long. Longer steps raise
-/// them.
-constexpr double worth_beginning = 1.5, worth_going_on = 1.2;
-/// How far a step is looked ahead, as a multiple of the last one.
+/// Number of steps before the first test, and largest number between two tests: a test costs about as much as a step.
+constexpr int first_interval = 16, longest_interval = 1024;
+/// Factors by which floors must lengthen steps to be worth their cost, when they are first used and later.
+constexpr double gain_to_begin = 1.5, gain_to_continue = 1.2;
+/// The test assumes a step of at most this multiple of the last one.
 constexpr double growth = 2;
 
 } // namespace
 
-LateStates::LateStates(const System& system) : system_(system) {}
-LateStates::~LateStates() = default;
-LateStates::LateStates(LateStates&&) noexcept = default;
-LateStates& LateStates::operator=(LateStates&&) noexcept = default;
+DormantStates::DormantStates(const System& system) : system_(system) {}
+DormantStates::~DormantStates() = default;
+DormantStates::DormantStates(DormantStates&&) noexcept = default;
+DormantStates& DormantStates::operator=(DormantStates&&) noexcept = default;
 
-void LateStates::set_parameters(std::span<const double> parameters) {
+void DormantStates::set_parameters(std::span<const double> parameters) {
     require_size(parameters.size(), system_.parameters(), "independent parameters");
     parameters_.assign(parameters.begin(), parameters.end());
     if (couplings_)
@@ -35,41 +34,42 @@ void LateStates::set_parameters(std::span<const double> parameters) {
     begin();
 }
 
-void LateStates::begin() {
-    late_ = false;
-    until_look_ = interval_ = first_look;
+void DormantStates::begin() {
+    dormant_ = false;
+    until_test_ = interval_ = first_interval;
 }
 
-double LateStates::step(const StepSize& step_size, std::size_t mode, std::span<const Series> series, double step,
+double DormantStates::step(const StepSize& step_size, std::size_t mode, std::span<const Series> series, double step,
                         double previous) {
-    if (!late_ && --until_look_ > 0)
+    if (!dormant_ && --until_test_ > 0)
         return step;
-    // Steps that shrink have other reasons.
-    if (!(previous > 0 && std::isfinite(step)) || (!late_ && step < previous)) {
-        late_ = false;
-        until_look_ = first_look;
+    // Steps that become shorter are not limited by dormant states.
+    if (!(previous > 0 && std::isfinite(step)) || (!dormant_ && step < previous)) {
+        dormant_ = false;
+        until_test_ = first_interval;
         return step;
     }
     const double longer = with_floors(step_size, mode, series, previous);
-    const bool was_late = late_;
-    late_ = std::isfinite(longer) && longer > (was_late ? worth_going_on : worth_beginning) * step;
-    if (late_)
+    const bool was_dormant = dormant_;
+    dormant_ = std::isfinite(longer) && longer > (was_dormant ? gain_to_continue : gain_to_begin) * step;
+    if (dormant_)
         return std::min(longer, growth * previous);
-    interval_ = was_late ? first_look : std::min(2 * interval_, longest_interval);
-    until_look_ = interval_;
+    interval_ = was_dormant ? first_interval : std::min(2 * interval_, longest_interval);
+    until_test_ = interval_;
     return step;
 }
 
-/// The step by what a state is now and by what comes to it from others until its end; 0 where no state can be late.
-double LateStates::with_floors(const StepSize& step_size, std::size_t mode, std::span<const Series> series,
+/// Returns the step if states are measured by their size or by the effect of other states until its end; 0 if none is
+/// dormant.
+double DormantStates::with_floors(const StepSize& step_size, std::size_t mode, std::span<const Series> series,
                                double previous) {
     const std::size_t states = system_.states();
     if (!couplings_) {
         couplings_ = std::make_unique<ModeCouplings>(system_);
         couplings_->set_parameters(parameters_);
     }
-    if (!couplings_->of(mode).push_steadily())
-        return 0; // no state can be late
+    if (!couplings_->of(mode).any_constant_drive())
+        return 0; // no state can be dormant
     state_.resize(states);
     for (std::size_t i = 0; i < states; ++i)
         state_[i] = series[i][0];
@@ -85,14 +85,14 @@ double LateStates::with_floors(const StepSize& step_size, std::size_t mode, std:
     others_.clear();
     raised_floors_.clear();
     for (std::size_t i = 0; i < series.size(); ++i) {
-        const bool raised = i < states && couplings.is_pushed_steadily(i) &&
+        const bool raised = i < states && couplings.has_constant_drive(i) &&
                             (floors_[i] > sizes_[i] || sizes_[i] < StepCheck::smallest_size);
         floors_[i] = raised ? std::max(floors_[i], StepCheck::smallest_size) : 0;
         (raised ? raised_ : others_).push_back(series[i]);
         if (raised)
             raised_floors_.push_back(floors_[i]);
     }
-    // The others are measured as ever.
+    // The other states are measured by their own sizes.
     const double step = others_.empty() ? std::numeric_limits<double>::infinity() : step_size(others_, previous);
     return std::min(step, step_size.with_floors(raised_, previous, raised_floors_));
 }
