@@ -80,7 +80,7 @@ void Sampler::step(const Step& step) {
     require_size(periods_.size(), step.states.size(), "periods of states");
     for (; taken_ < count_; ++taken_) {
         const double time = next();
-        // Start and length have each lost what time does not resolve.
+        // Start and length of the step are both rounded.
         if (!(time <= step.start + step.length + 2 * std::numeric_limits<double>::epsilon() * std::abs(time)))
             return;
         const double s = std::clamp(time - step.start, 0.0, step.length);
@@ -92,7 +92,7 @@ void Sampler::step(const Step& step) {
 
 void Sampler::coarsen() {
     spacing_ *= 2;
-    taken_ = (taken_ + 1) / 2 - 1; // the present one is not counted yet
+    taken_ = (taken_ + 1) / 2 - 1; // the present sample has not been counted yet
 }
 
 void ArcMinima::step(const Step& step) {
