@@ -34,7 +34,7 @@ PlainFile::PlainFile(const std::string& path, std::string_view what) : path_(pat
                                      : S_ISFIFO(status.st_mode) ? "pipe"
                                                                 : "device",
                                      what),
-                         "give the name of a file, into which what comes from elsewhere can be copied");
+                         "give the name of a regular file; copy other sources into one first");
     }
 }
 

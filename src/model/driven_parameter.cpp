@@ -36,7 +36,7 @@ bool contains(const Expression& expression, const Expression& symbol) {
 void require_fixed(Model& model, const Expression& expression, const Expression& symbol, const std::string& what) {
     if (!expression.empty() && contains(model.expand(expression), symbol))
         throw InputError(
-            fmt::format("{} depends on '{}', which cannot change in time therefore", what, to_string(symbol)),
+            fmt::format("{} depends on '{}', which therefore cannot change in time", what, to_string(symbol)),
             "choose another parameter");
 }
 

@@ -125,7 +125,7 @@ std::size_t Trajectory::limit_to_branch(double& step) {
 void Trajectory::finish_at_branch(std::size_t state) {
     finish(
         Ending::undefined, time_,
-        fmt::format("the rate of state '{}' jumps {}: what stands under a root or a power reaches zero; end the mode "
+        fmt::format("the rate of state '{}' jumps {}: the argument of a root or power reaches zero; end the mode "
                     "by an event before it does",
                     simulation_.model().states[state].name, where()));
 }
@@ -233,7 +233,7 @@ void Trajectory::finish_singular() {
         }
         if (finite && lost < states_) {
             finish(Ending::undefined, std::min(time_ + radius, end_time_),
-                   fmt::format("what stands under a root or a power in the rate of state '{}' reaches zero {}, and no "
+                   fmt::format("the argument of a root or power in the rate of state '{}' reaches zero {}, and no "
                                "rate is known beyond: make that zero an event, and what follows a mode",
                                simulation_.model().states[lost].name, where()));
             return;

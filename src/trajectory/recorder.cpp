@@ -13,12 +13,12 @@ namespace graze {
 
 Relay::Relay(std::vector<Observer*> observers) : observers_(std::move(observers)) {
     if (std::find(observers_.begin(), observers_.end(), nullptr) != observers_.end())
-        throw InputError("one of the observers is none", "leave it out");
+        throw InputError("one of the observers is null", "leave it out");
 }
 
 ArcMinima::ArcMinima(Receiver receiver) : receiver_(std::move(receiver)) {
     if (!receiver_)
-        throw InputError("nobody receives the minima", "give a function");
+        throw InputError("there is no receiver of the minima", "give a function");
 }
 
 void Relay::step(const Step& step) {
@@ -71,9 +71,9 @@ Sampler::Sampler(double start, double spacing, std::size_t count, std::vector<do
     require_finite(start, "the time of the first sample");
     require_finite(periods_, "the period of a state");
     if (!(spacing > 0) || !std::isfinite(spacing))
-        throw InputError(fmt::format("the spacing {} of samples is no length of time", spacing), "give a positive one");
+        throw InputError(fmt::format("the spacing {} of samples is not a positive time", spacing), "give a positive one");
     if (!receiver_)
-        throw InputError("nobody receives the samples", "give a function");
+        throw InputError("there is no receiver of the samples", "give a function");
 }
 
 void Sampler::step(const Step& step) {

@@ -124,7 +124,7 @@ void Trajectory::set_mode(std::size_t mode) {
 
 void Trajectory::limit_step(double longest) {
     if (!(longest >= 0))
-        throw InputError(fmt::format("the longest step {} is no length of time", longest), "give 0 for no bound");
+        throw InputError(fmt::format("the longest step {} is not a positive time", longest), "give 0 for no bound");
     const double largest = simulation_.options().largest_step;
     longest_allowed_ = longest > 0 && largest > 0 ? std::min(longest, largest) : std::max(longest, largest);
 }
@@ -421,8 +421,8 @@ std::string Trajectory::where() const {
 
 void Trajectory::finish_unresolved() {
     finish(Ending::undefined, time_,
-           fmt::format("no step could be found over which the rates are those that their series foretell {}: make what "
-                       "changes abruptly an event, or smooth it",
+           fmt::format("no step could be found at whose end the rates agree with their Taylor series {}: make "
+                       "abrupt changes events, or smooth them",
                        where()));
 }
 

@@ -205,7 +205,7 @@ TEST(BallAndShaker, VelocityJumpsGrowAsTheSquareRootOfTheLast) {
 }
 
 TEST(BallAndShaker, MotionOfFigure42aHasGrowingImpacts) {
-    // Impacts grow, and the ball is always above the shaker.
+    // Impacts grow, and the ball stays in front of the shaker.
     SimulationOptions options = with_tolerance(1e-13);
     Experiment experiment(load_model("ball-and-shaker"), options);
     experiment.run(3);
@@ -581,7 +581,7 @@ TEST(Microbeam, LowPenetrationBranchEndsAtThePublishedVoltage) {
     EXPECT_GT(penetration_at(0.03282566, 6000), 0.016);
 }
 
-TEST(Microbeam, HigherModesReduceThePenetrationOfAStiffStop) {
+TEST(Microbeam, HigherModesInContactWithAStiffStopHaveThePublishedSizes) {
     std::map<int, double> first_amplitude;
     for (const int modes : {1, 9}) {
         const Model model = microbeam(beam(0.03, 5000, modes));

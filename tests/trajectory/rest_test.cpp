@@ -21,7 +21,7 @@ constexpr std::array gaps{
     "2*x - (a*sin(theta) + x)", "a*(x/a - sin(theta))",         "x^2 - (a*sin(theta))^2 + (x - a*sin(theta))*3*a"};
 
 /// A ball on a table.
-/// @param lands whether another mode puts it on the table again where it is released
+/// @param lands whether the jump at the release puts it exactly on the table once more
 /// @param sticks whether a contact at zero speed leads to rest as well
 Model ball(const std::string& gap, bool lands, bool sticks) {
     return model_from(fmt::format(
