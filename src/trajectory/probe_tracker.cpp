@@ -278,7 +278,7 @@ double ProbeTracker::place(std::size_t probe, const Step& step) {
     const std::span<const double> series = without_gaps(step.observed[followed.index], work_.size());
     const std::span<const double> c = followed.kind == Probe::Kind::crossing ? series : rate_of(series);
     const auto single = roots::single_crossing(c, step.length);
-    return lone ? single->place(c, step.length) : unplaced;
+    return single ? single->place(c, step.length) : unplaced;
 }
 
 std::span<const double> ProbeTracker::gather(const Series& series, std::size_t size) {
