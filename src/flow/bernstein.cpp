@@ -104,8 +104,7 @@ void expand(std::span<const double> c, double left, double width, double error, 
         power *= width;
     }
     // The error of the shift is about n 2^-104 sum |c_k| s^k; error is at least 4 u times that sum, and bounds are
-    // multiplied
-    // by more than 8 u.
+    // multiplied by more than 8 u.
     b[0].bound += 64 * error;
     from_power(b, reciprocals);
 }

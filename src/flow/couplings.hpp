@@ -74,11 +74,11 @@ private:
     System system_;
     std::size_t mode_;
     std::vector<double> parameters_;
-    std::unique_ptr<Jet> jet_;                      ///< jet of the first variational equations, made by the first `measure`
-    std::vector<Entry> entries_;                    ///< row by row
-    std::vector<std::size_t> row_starts_;           ///< in `entries_`
+    std::unique_ptr<Jet> jet_;            ///< jet of the first variational equations, made by the first `measure`
+    std::vector<Entry> entries_;          ///< row by row
+    std::vector<std::size_t> row_starts_; ///< in `entries_`
     std::vector<std::vector<std::size_t>> columns_; ///< entries of each column
-    std::vector<Coupling> sweeps_[2];                     ///< all couplings in two orders: by rising and by falling state
+    std::vector<Coupling> sweeps_[2];               ///< all couplings in two orders: by rising and by falling state
     /// Entries between states that act on each other, sorted by row or by column: `starts` has the beginning of each.
     struct Sorted {
         std::vector<std::size_t> starts, entries, others;

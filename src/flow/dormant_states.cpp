@@ -40,7 +40,7 @@ void DormantStates::begin() {
 }
 
 double DormantStates::step(const StepSize& step_size, std::size_t mode, std::span<const Series> series, double step,
-                        double previous) {
+                           double previous) {
     if (!dormant_ && --until_test_ > 0)
         return step;
     // Steps that become shorter are not limited by dormant states.
@@ -62,7 +62,7 @@ double DormantStates::step(const StepSize& step_size, std::size_t mode, std::spa
 /// Returns the step if states are measured by their size or by the effect of other states until its end; 0 if none is
 /// dormant.
 double DormantStates::with_floors(const StepSize& step_size, std::size_t mode, std::span<const Series> series,
-                               double previous) {
+                                  double previous) {
     const std::size_t states = system_.states();
     if (!couplings_) {
         couplings_ = std::make_unique<ModeCouplings>(system_);

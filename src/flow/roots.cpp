@@ -1,8 +1,8 @@
 #include "graze/flow/roots.hpp"
 
 #include "flow/kept_sign.hpp"
-#include "flow/single_crossing.hpp"
 #include "flow/number_pair.hpp"
+#include "flow/single_crossing.hpp"
 #include "graze/base/input_error.hpp"
 #include "root_isolation.hpp"
 

@@ -35,9 +35,9 @@ double tangent_reach(const TangentSeries& series, double tolerance, double step,
 /// Derivatives along a step and at the end of a part of it.
 struct TangentEndpoints {
     const TangentSeries& here;
-    const TangentSeries& there;            ///< with coefficients 0 and 1 at the end
-    std::span<const double> sums, slopes;  ///< of the polynomials at the end, [state * width + direction]
-    std::size_t states, count;             ///< number of states, and of directions in use
+    const TangentSeries& there;                   ///< with coefficients 0 and 1 at the end
+    std::span<const double> sums, slopes;         ///< of the polynomials at the end, [state * width + direction]
+    std::size_t states, count;                    ///< number of states, and of directions in use
     std::function<void(double step)> evaluate_at; ///< computes `there`, sums and slopes at the end of another part
 };
 

@@ -157,8 +157,9 @@ double TangentSteps::follow(Jet& next, double length) {
         lanes.there->load(sums_, *lanes.here);
         lanes.there->begin(next);
     };
-    const TangentEndpoints places{
-        *lanes.here, *lanes.there, sums_, slopes_, states_, std::min(lanes.here->width(), directions_ - first_), evaluate_at};
+    const TangentEndpoints places{*lanes.here, *lanes.there, sums_,
+                                  slopes_,     states_,      std::min(lanes.here->width(), directions_ - first_),
+                                  evaluate_at};
     return follow_tangents(places, tolerance_, std::copysign(reach, length), least, [this] { return noise(); });
 }
 

@@ -22,12 +22,13 @@ std::string transition_text(const Model& model, const Transition& transition) {
     std::vector<std::string> alternatives;
     for (const Alternative& alternative : transition.next)
         alternatives.push_back((alternative.mode ? model.modes[*alternative.mode].name : "end") +
-                       (alternative.when.empty() ? "" : fmt::format(" [{}]", alternative.when_text)));
-    std::string text = fmt::format("{}: {}{} -> {}", model.modes[transition.mode].name,
-                                  model.events[transition.event].name, through(transition.jump), fmt::join(alternatives, ", "));
+                               (alternative.when.empty() ? "" : fmt::format(" [{}]", alternative.when_text)));
+    std::string text =
+        fmt::format("{}: {}{} -> {}", model.modes[transition.mode].name, model.events[transition.event].name,
+                    through(transition.jump), fmt::join(alternatives, ", "));
     if (transition.chatter)
         text += fmt::format("; chatter{} -> {}", through(transition.chatter->jump),
-                           model.modes[transition.chatter->mode].name);
+                            model.modes[transition.chatter->mode].name);
     return text;
 }
 

@@ -136,7 +136,7 @@ bool AttractorSearch::is_behind_event(std::span<const double> state) {
 }
 
 /// Returns whether the orbit is a point: Newton's method has converged to a corner where modes meet and nothing moves
-/// in any of them. Motions about such a corner look alike on all scales, so that the return map has no derivative there.
+/// in any of them. Motions about such a corner look alike on all scales, so the return map has no derivative there.
 bool AttractorSearch::has_no_size() {
     constexpr double nothing = 1e-10; ///< relative to the extent of the motion
     const std::vector<std::uint32_t>& contacts = finder_.contacts();

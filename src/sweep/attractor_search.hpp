@@ -128,14 +128,14 @@ private:
     std::size_t chaotic_ = 0;                  ///< number of times that the motion was considered chaotic
     std::size_t chaotic_since_ = 0;            ///< return at which this happened last
     std::size_t collapses_ = 0;                ///< number of times that all neighbouring motions have merged into one
-    double last_grown_ = 0, grown_before_ = 0; ///< logarithms of the separation of neighbours before the last two collapses
-    bool landing_unseen_ = false;              ///< it is unknown whether neighbours merged at the last accumulation of contacts
-    std::size_t passed_period_ = 0;            ///< period of a stable orbit that the motion has passed by; 0: none
-    bool finding_ = false;                     ///< an orbit is being searched: the finder's trajectory is to be run
-    bool centre_tried_ = false;                ///< a stable orbit was searched in the centre of a possible torus
-    bool limits_tried_ = false;                ///< orbits were searched at the possible limits of a slow motion
-    bool guessed_ = false;                     ///< the orbit being searched is one of these
-    bool near_stable_ = false;                 ///< a stable orbit is too close for a torus
+    double last_grown_ = 0, grown_before_ = 0; ///< log separation of neighbours before the last two collapses
+    bool landing_unseen_ = false;   ///< it is unknown whether neighbours merged at the last accumulation of contacts
+    std::size_t passed_period_ = 0; ///< period of a stable orbit that the motion has passed by; 0: none
+    bool finding_ = false;          ///< an orbit is being searched: the finder's trajectory is to be run
+    bool centre_tried_ = false;     ///< a stable orbit was searched in the centre of a possible torus
+    bool limits_tried_ = false;     ///< orbits were searched at the possible limits of a slow motion
+    bool guessed_ = false;          ///< the orbit being searched is one of these
+    bool near_stable_ = false;      ///< a stable orbit is too close for a torus
     std::vector<Guess> guesses_;
     std::vector<double> parameters_, periods_, thresholds_;
     VisitedStates visited_;           ///< states at returns after `cycles`

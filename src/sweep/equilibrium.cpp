@@ -17,15 +17,15 @@ namespace graze {
 namespace {
 
 constexpr std::size_t most_iterations = 20;
-constexpr double furthest = 3;                ///< largest correction, relative to the extent of the motion
-constexpr double converged = 1e-14;           ///< corrections that are round-off
-constexpr double round_off = 1e-10;           ///< the same where the field is a small difference
-constexpr std::size_t phases = 16;            ///< number of clock phases at which the field must vanish
-constexpr double neutral = 1e-10;             ///< relative real part that is indistinguishable from zero
-constexpr double nearly = 0.1;                ///< allowed nonlinear part relative to the linear part
-constexpr double ill = 1e-7;                  ///< reciprocal condition number of nearly parallel eigenvectors
-constexpr double largest_number = 1e150;      ///< beyond which squares leave the range of numbers
-constexpr double unbalanced = 1e3;            ///< ratio of row and column sizes of the field above which scales are meaningless
+constexpr double furthest = 3;           ///< largest correction, relative to the extent of the motion
+constexpr double converged = 1e-14;      ///< corrections that are round-off
+constexpr double round_off = 1e-10;      ///< the same where the field is a small difference
+constexpr std::size_t phases = 16;       ///< number of clock phases at which the field must vanish
+constexpr double neutral = 1e-10;        ///< relative real part that is indistinguishable from zero
+constexpr double nearly = 0.1;           ///< allowed nonlinear part relative to the linear part
+constexpr double ill = 1e-7;             ///< reciprocal condition number of nearly parallel eigenvectors
+constexpr double largest_number = 1e150; ///< beyond which squares leave the range of numbers
+constexpr double unbalanced = 1e3; ///< ratio of row and column sizes of the field above which scales are meaningless
 constexpr double golden = 0.6180339887498949; ///< golden ratio: its multiples fill the unit interval evenly
 
 /// Returns element k of a fixed, evenly spread sequence in [-1, 1].

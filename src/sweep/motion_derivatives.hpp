@@ -64,8 +64,8 @@ private:
         std::size_t event = 0, transition = 0; ///< of the contact
         double rate = 0;                       ///< rate of the event's function before the contact
         double time = 0;                       ///< time of the mark; length of the step
-        std::size_t numbers = 0;               ///< index of the state at the start or mark; of those before and after the contact
-        std::size_t map = 0;                   ///< index of the step's map, once added
+        std::size_t numbers = 0; ///< index of the state at the start or mark; of those before and after the contact
+        std::size_t map = 0;     ///< index of the step's map, once added
     };
     struct Ahead {
         double time;

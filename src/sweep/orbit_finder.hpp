@@ -55,8 +55,9 @@ public:
     const std::vector<std::uint32_t>& contacts() const { return contacts_; }
     std::optional<bool> symmetric() const { return symmetric_; }
     SampleSet& samples() { return recorder_.samples(); }
-    const std::vector<std::vector<double>>& returns() const { return recorded_; } ///< states at the returns of the orbit
-    std::size_t returns_run() const { return returns_; }                          ///< since `begin`
+    /// Returns the states at the returns of the orbit.
+    const std::vector<std::vector<double>>& returns() const { return recorded_; }
+    std::size_t returns_run() const { return returns_; } ///< since `begin`
 
 private:
     enum class Stage { iterating, recording, comparing, found, failed };

@@ -52,7 +52,7 @@ void OrbitStay::begin(const OrbitFinder& orbit, const ReturnWatcher& motion, std
 }
 
 OrbitStay::Verdict OrbitStay::judge(const OrbitFinder& orbit, const ReturnWatcher& motion,
-                                   std::span<const double> periods) const {
+                                    std::span<const double> periods) const {
     const std::size_t gone = this->gone(motion);
     if (needed_ == 0)
         return Verdict::stayed;

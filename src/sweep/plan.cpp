@@ -104,8 +104,8 @@ private:
             start_.state = *nearest;
             start_.mode = from_carried ? mode_ : initial_.mode;
             start_note_ = fmt::format("began anew at the admissible state nearest to the {} one, since that and the "
-                                     "initial one violate a barrier",
-                                     from_carried ? "carried" : "initial");
+                                      "initial one violate a barrier",
+                                      from_carried ? "carried" : "initial");
         } else {
             return false;
         }
@@ -152,7 +152,7 @@ private:
     std::size_t chain_ = 0, index_ = 0, mode_ = 0;
     std::vector<double> state_;
     PointStart start_, initial_;
-    enum class Attempt { carried, initial, nearest } attempt_ = Attempt::initial; ///< the kind of the point's initial state
+    enum class Attempt { carried, initial, nearest } attempt_ = Attempt::initial; ///< kind of the initial state
     std::string start_note_; ///< note on a point that does not start where it should
 };
 

@@ -25,7 +25,7 @@ constexpr double approaching = 30;
 /// Distance of a return that repeats an earlier one exactly.
 constexpr double exact = 1e-10;
 constexpr std::size_t most_steps = 100'000; ///< longest run without a return
-constexpr std::size_t first_check = 64;      ///< steps without a return after which the motion is first examined
+constexpr std::size_t first_check = 64;     ///< steps without a return after which the motion is first examined
 
 } // namespace
 

@@ -45,7 +45,7 @@ private:
 /// lanes, one step per lane.
 ///
 /// Where derivatives change faster than the motion, steps are taken in parts. The error of a direction is relative to
-/// its size, with states in given units; at the end of each part, derivatives must agree with the variational equations.
+/// its size, with states in given units; at the end of each part, derivatives must obey the variational equations.
 class StepMaps {
 public:
     explicit StepMaps(const VariationalModes& modes);

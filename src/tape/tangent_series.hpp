@@ -11,9 +11,9 @@
 
 namespace graze {
 
-/// Taylor coefficients of what changes along a motion in some directions: of the solutions of the first variational
-/// equations. The motion's series are computed once, by a single jet of which the equations' coefficients are
-/// followers; for each direction there are convolutions with these.
+/// Taylor coefficients of the changes of a motion in some directions: solutions of the first variational equations. The
+/// series of the motion are computed once, by a single jet whose deferred expressions are the coefficients of the
+/// equations; each direction is convolved with them.
 class TangentSeries {
 public:
     /// @param tape with the equations' coefficients among its deferred expressions; @param like any single jet of the

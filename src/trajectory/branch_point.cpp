@@ -123,11 +123,10 @@ std::size_t Trajectory::limit_to_branch(double& step) {
 }
 
 void Trajectory::finish_at_branch(std::size_t state) {
-    finish(
-        Ending::undefined, time_,
-        fmt::format("the rate of state '{}' jumps {}: the argument of a root or power reaches zero; end the mode "
-                    "by an event before it does",
-                    simulation_.model().states[state].name, where()));
+    finish(Ending::undefined, time_,
+           fmt::format("the rate of state '{}' jumps {}: the argument of a root or power reaches zero; end the mode "
+                       "by an event before it does",
+                       simulation_.model().states[state].name, where()));
 }
 
 /// Computes the state after a short time by the trapezoidal rule. Returns false if any radicand is not clear of zero

@@ -130,7 +130,8 @@ std::size_t Ensemble::most_frequent_mode() {
     std::fill(waiting_in_mode_.begin(), waiting_in_mode_.end(), 0);
     for (const std::size_t i : waiting_)
         ++waiting_in_mode_[slots_[i]->mode()];
-    return static_cast<std::size_t>(std::max_element(waiting_in_mode_.begin(), waiting_in_mode_.end()) - waiting_in_mode_.begin());
+    return static_cast<std::size_t>(std::max_element(waiting_in_mode_.begin(), waiting_in_mode_.end()) -
+                                    waiting_in_mode_.begin());
 }
 
 /// Assigns the waiting trajectories of one mode to lanes, each to its earlier lane if possible.
@@ -154,12 +155,14 @@ void Ensemble::assign_lanes(std::size_t mode) {
             const auto free = std::find(slot_in_lane_.begin(), slot_in_lane_.end(), no_slot);
             if (free == slot_in_lane_.end())
                 break;
-            if (slots_[i]->mode() == mode && std::find(slot_in_lane_.begin(), slot_in_lane_.end(), i) == slot_in_lane_.end())
+            if (slots_[i]->mode() == mode &&
+                std::find(slot_in_lane_.begin(), slot_in_lane_.end(), i) == slot_in_lane_.end())
                 *free = i;
         }
         const std::size_t count = simulation_.system().parameters();
         // Empty lanes repeat an occupied one: their results are not used, but must not trap or be slow.
-        const std::size_t stand_in = *std::find_if(slot_in_lane_.begin(), slot_in_lane_.end(), [](auto i) { return i != no_slot; });
+        const std::size_t stand_in =
+            *std::find_if(slot_in_lane_.begin(), slot_in_lane_.end(), [](auto i) { return i != no_slot; });
         for (std::size_t lane = 0; lane < lanes_; ++lane) {
             lanes[lane] = slot_in_lane_[lane];
             const auto from = slots_[slot_in_lane_[lane] == no_slot ? stand_in : slot_in_lane_[lane]]->parameters();
@@ -171,7 +174,8 @@ void Ensemble::assign_lanes(std::size_t mode) {
 }
 
 void Ensemble::load_states() {
-    const std::size_t stand_in = *std::find_if(slot_in_lane_.begin(), slot_in_lane_.end(), [](auto i) { return i != no_slot; });
+    const std::size_t stand_in =
+        *std::find_if(slot_in_lane_.begin(), slot_in_lane_.end(), [](auto i) { return i != no_slot; });
     const std::size_t count = simulation_.system().states();
     for (std::size_t lane = 0; lane < lanes_; ++lane) {
         const auto from = slots_[slot_in_lane_[lane] == no_slot ? stand_in : slot_in_lane_[lane]]->state();

@@ -80,7 +80,7 @@ private:
     /// A cyclic state and its phase probes.
     struct Phase {
         std::size_t state;
-        std::vector<std::size_t> sizes;  ///< number of coefficients of its series in each mode (2 if its rate is constant)
+        std::vector<std::size_t> sizes;  ///< [mode] number of coefficients of its series (2 if its rate is constant)
         std::vector<std::size_t> probes; ///< rising
         double low = 0, high = 0;        ///< no probe's value is near while the phase is between these
         bool is_line(std::size_t mode) const { return sizes[mode] <= 2; }

@@ -71,7 +71,8 @@ Sampler::Sampler(double start, double spacing, std::size_t count, std::vector<do
     require_finite(start, "the time of the first sample");
     require_finite(periods_, "the period of a state");
     if (!(spacing > 0) || !std::isfinite(spacing))
-        throw InputError(fmt::format("the spacing {} of samples is not a positive time", spacing), "give a positive one");
+        throw InputError(fmt::format("the spacing {} of samples is not a positive time", spacing),
+                         "give a positive one");
     if (!receiver_)
         throw InputError("there is no receiver of the samples", "give a function");
 }

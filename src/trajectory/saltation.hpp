@@ -20,7 +20,7 @@ struct Saltation {
     std::span<const double> field_before, field_after; ///< rates of the states
     const System::CompiledJump& jump;
     std::span<const double> jacobian;        ///< values of the jump's entries
-    std::span<const double> parameter_seeds; ///< [parameter * directions + direction]; empty: no direction changes a parameter
+    std::span<const double> parameter_seeds; ///< [parameter * directions + direction]; empty: all are zero
 };
 /// Propagates derivatives through the jump. @param room workspace of the size of the matrix
 void pass_jump(const Saltation& saltation, std::span<double> matrix, std::span<double> room);

@@ -38,7 +38,7 @@ public:
                      std::span<double> row);
 
     /// Propagates derivatives along the arc that starts at `state`, over a time s.
-    /// @param row receives the derivatives of a watched event's function at the end, one for each direction; may be empty
+    /// @param row receives the derivatives of a watched event's function at the end, by direction; may be empty
     void advance(std::size_t mode, std::span<const double> state, double s, std::size_t watched = 0,
                  std::span<double> row = {});
     /// Propagates derivatives through a jump whose time changes by `shift`, one number for each direction: at a
@@ -61,8 +61,8 @@ private:
     std::size_t states_, directions_;
     TangentSteps steps_;
     std::vector<double> parameter_seeds_, matrix_, next_;
-    std::vector<double> period_rates_;         ///< derivatives of the states' periods; empty: no direction changes a period
-    std::vector<double> here_;                 ///< state within an arc that is propagated in parts
+    std::vector<double> period_rates_; ///< derivatives of the states' periods; empty: no direction changes a period
+    std::vector<double> here_;         ///< state within an arc that is propagated in parts
     Jet *jet_ = nullptr, *next_jet_ = nullptr; ///< the trajectory's jets, while they are at its state
     std::unique_ptr<ModeJets> jets_;           ///< own jets, used without those of the trajectory
     bool valid_ = true;

@@ -12,7 +12,8 @@
 namespace graze {
 namespace {
 
-// Reference values are computed in extended precision: 64 bits or more, so that its own errors are below the bounds tested.
+// Reference values are computed in extended precision: 64 bits or more, so that its own errors are below the bounds
+// tested.
 using Wide = long double;
 constexpr bool wide_enough = std::numeric_limits<Wide>::digits >= 64;
 constexpr double unit = 0x1p-53;
@@ -618,7 +619,7 @@ TEST(RootFinder, HandlesIllConditionedPolynomials) {
             ASSERT_EQ(found.size(), roots.size());
         }
     }
-    for (const int degree : {10, 20, 30, 45, 64}) { // Chebyshev's on [0, 1]: the highest degrees are dominated by round-off
+    for (const int degree : {10, 20, 30, 45, 64}) { // Chebyshev's on [0, 1]: the last ones are round-off only
         std::vector<Wide> previous{1}, current{-1, 2};
         for (int k = 2; k <= degree; ++k) {
             std::vector<Wide> next = product({-2, 4}, current);

@@ -336,7 +336,8 @@ void drivers(WrongUses& wrong) {
               [](Motion& m) { keep(JetSet(m.simulation, LaneKind::single, static_cast<InstructionSet>(9))); });
     of_motion("ensemble_no_set", [](Motion& m) { keep(Ensemble(m.simulation, static_cast<InstructionSet>(9))); });
     for (const int width : {0, -1, std::numeric_limits<int>::min()})
-        of_motion("preview_width_" + std::to_string(width), [width](Motion& m) { keep(StepPreview(m.simulation, width)); });
+        of_motion("preview_width_" + std::to_string(width),
+                  [width](Motion& m) { keep(StepPreview(m.simulation, width)); });
     of_motion("preview_of_another_width", [](Motion& m) {
         m.jets.set_parameters(m.model.parameter_values());
         StepPreview(m.simulation, 8).find_steps(m.jets.computed(0, m.model.initial_state()));
@@ -344,9 +345,12 @@ void drivers(WrongUses& wrong) {
     for (const auto& [kind, index] : wrong_indices(1)) {
         of_motion("preview_length_" + kind, [i = index](Motion& m) { keep(StepPreview(m.simulation, 1).length(i)); });
         of_motion("preview_agrees_" + kind, [i = index](Motion& m) { keep(StepPreview(m.simulation, 1).agrees(i)); });
-        of_motion("preview_state_lane_" + kind, [i = index](Motion& m) { keep(StepPreview(m.simulation, 1).state(2, i)); });
-        of_motion("preview_least_lane_" + kind, [i = index](Motion& m) { keep(StepPreview(m.simulation, 1).least(0, i)); });
-        of_motion("preview_size_lane_" + kind, [i = index](Motion& m) { keep(StepPreview(m.simulation, 1).size(0, i)); });
+        of_motion("preview_state_lane_" + kind,
+                  [i = index](Motion& m) { keep(StepPreview(m.simulation, 1).state(2, i)); });
+        of_motion("preview_least_lane_" + kind,
+                  [i = index](Motion& m) { keep(StepPreview(m.simulation, 1).least(0, i)); });
+        of_motion("preview_size_lane_" + kind,
+                  [i = index](Motion& m) { keep(StepPreview(m.simulation, 1).size(0, i)); });
     }
     of_motion("ensemble_unstarted", [](Motion& m) { Ensemble(m.simulation).run(std::span(&m.trajectory, 1)); });
     of_motion("ensemble_of_another_simulation",

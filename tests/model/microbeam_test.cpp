@@ -122,7 +122,7 @@ TEST(ClampedBeamPolynomial, HasTheIntegralsOfTheChapter) {
     const double gap = 0.04, mass = 128 * gap * gap / 315, slopes = 512 * gap * gap / 105,
                  curvatures = 1024 * gap * gap / 5;
     const ClampedBeamPolynomial beam;
-    const auto curvature = [](double x) { return 32 * (1 - 6 * x + 6 * x * x); }; // second derivative of 16 x^2 (x - 1)^2
+    const auto curvature = [](double x) { return 32 * (1 - 6 * x + 6 * x * x); }; // (16 x^2 (x - 1)^2)''
     for (const double x : {0.0, 0.1, 0.37, 0.5, 0.9, 1.0}) {
         EXPECT_NEAR(beam.shape(x) * std::sqrt(mass), 16 * gap * x * x * (x - 1) * (x - 1), 4 * epsilon);
         EXPECT_NEAR(beam.shape(x), beam.shape(1 - x), 8 * epsilon);

@@ -161,7 +161,8 @@ TEST(Microactuator, OnlyFrictionChangesMomentum) {
         };
         EXPECT_NEAR(rate("slip_plus"), -friction, 64 * epsilon * friction);
         EXPECT_NEAR(rate("slip_minus"), friction, 64 * epsilon * friction);
-        EXPECT_NEAR(rate("stick"), quantity(model, "F", state), 64 * epsilon); // static friction is minus the reaction force
+        // Static friction is minus the reaction force.
+        EXPECT_NEAR(rate("stick"), quantity(model, "F", state), 64 * epsilon);
         EXPECT_EQ(rates(model, "stick", state)[1], 0);
     }
 }

@@ -74,7 +74,7 @@ TEST(AttractorEvidence, PeriodicLabelsHoldForThousandsOfPeriods) {
         model.set_parameter("zeta", zeta);
         model.set_parameter("omega", omega);
         model.set_parameter("e", 0.6 + 0.05 * (k % 6));
-        model.set_parameter("sigma", 1.001 / std::abs(1 - omega * omega)); // larger than the amplitude of the free motion
+        model.set_parameter("sigma", 1.001 / std::abs(1 - omega * omega)); // above the free motion's amplitude
         AttractorOptions options;
         options.section = "phase0";
         const PointResult result = settle(model, options);

@@ -185,7 +185,7 @@ mode = "R"
 }
 
 TEST(AttractorPlane, AMotionThatShrinksIntoACornerIsNotLabelledPeriodic) {
-    for (const double left : {-0.6, -0.3, -0.21}) { // the logarithm of the amplitude falls by -pi (0.1 + left/2) in each turn
+    for (const double left : {-0.6, -0.3, -0.21}) { // log(amplitude) changes by pi (0.1 + left/2) in each turn
         const PointResult result = settle(two_zones(left));
         EXPECT_TRUE(result.label == Label::equilibrium || result.label == Label::unsettled)
             << left << " " << name_of(result.label);

@@ -106,7 +106,7 @@ TEST(Adversarial, FastVaryingSurfacesAreMet) {
             if (surface == 1) // farther away the bell underflows
                 one.x = -std::min(-one.x, std::sqrt(600 / one.k));
             one.limit = 1 - draw_depth(random);
-            noise = (std::abs(one.x) + one.u * one.end) * std::sqrt(one.k); // round-off of arguments, amplified by slopes
+            noise = (std::abs(one.x) + one.u * one.end) * std::sqrt(one.k); // arguments, amplified by slopes
         }
         if (!(one.height(surface, 0).value < 0))
             continue;

@@ -74,7 +74,8 @@ struct Peak {
 
 /// The allowed error of the engine, as a distance from the surface.
 struct Band {
-    Real contact; ///< a peak beyond the surface by more must cause a contact, which must be within this distance of the surface
+    Real contact; ///< a peak beyond the surface by more must cause a contact, which must be within this distance of the
+                  ///< surface
     Real touch;   ///< a peak within this distance of the surface must be reported, as contact or as touch
 };
 

@@ -124,7 +124,7 @@ TEST(HiddenPeaks, KinksOfSectionsArePassed) {
             with_tolerance(random.log_uniform(1e-13, 1e-6)));
         const Outcome outcome = experiment.run(1);
         EXPECT_LT(experiment.trajectory.steps(), 500U);
-        if (outcome.ending == Ending::undefined) { // a step has ended exactly on the kink, where the function is undefined
+        if (outcome.ending == Ending::undefined) { // a step has ended exactly on the kink
             EXPECT_NEAR(outcome.time, at, 1e-15);
             continue;
         }

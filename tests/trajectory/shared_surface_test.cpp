@@ -112,7 +112,7 @@ TEST(SharedSurface, ASectionThatCoincidesWithABarrierIsHandledToo) {
         Experiment experiment(counting_ball(e, 0, fmt::format("{:.17g}*x", factor), first),
                               with_tolerance(random.log_uniform(1e-15, 1e-6)));
         const double fall = std::sqrt(2 * height), rest = fall * (1 + e) / (1 - e);
-        const double early = starts_at_rest ? 0 : random.uniform(0.05, 0.3) * fall; // the start has the speed of that time
+        const double early = starts_at_rest ? 0 : random.uniform(0.05, 0.3) * fall; // with the speed of that time
         const double end = random.uniform(0.5, 0.9) * rest;
         const Outcome outcome = experiment.run_from({height - early * early / 2, -early, 0}, 0, end - early);
         ASSERT_EQ(outcome.ending, Ending::end_time) << outcome.detail;

@@ -433,8 +433,8 @@ TEST(Guards, ChooseTheFirstAlternativeWhoseConditionsHold) {
         const char* mode;
     };
     const Case cases[] = {
-        {R"([{ when = "v > limit", mode = "slow" }, { mode = "flight" }])", "flight"}, // a strict comparison
-        {R"([{ when = "v >= limit", mode = "slow" }, { mode = "flight" }])", "slow"},  // a comparison that is not strict
+        {R"([{ when = "v > limit", mode = "slow" }, { mode = "flight" }])", "flight"}, // strict
+        {R"([{ when = "v >= limit", mode = "slow" }, { mode = "flight" }])", "slow"},  // not strict
         {R"([{ when = "v > 0 and x < 0.5", mode = "slow" }, { mode = "flight" }])", "slow"},
         {R"([{ when = "v > 0 and v < 0.5", mode = "slow" }, { mode = "flight" }])", "flight"},
         {R"([{ mode = "flight" }, { when = "v > 0", mode = "slow" }])", "flight"},

@@ -14,7 +14,7 @@ namespace graze {
 enum class RootStart {
     as_is,   ///< the value at 0 is exact
     deflate, ///< the value at 0 is zero up to round-off, because a jump or section put it there: this root is
-         ///< divided out, and roots of the quotient are sought
+             ///< divided out, and roots of the quotient are sought
 };
 
 enum class RootKind { falling, rising, touch };

@@ -10,7 +10,7 @@ namespace graze {
 
 /// How a parameter changes during the motion.
 enum class DriveKind {
-    shift, ///< parameter + s, where s is a new state with ds/dt = a new parameter: a ramp, or steps applied from outside
+    shift, ///< parameter + s with a new state s, whose rate is a new parameter: a ramp, or steps from outside
     wave,  ///< parameter + amplitude * sin(phase), with a new amplitude, phase (a state) and angular frequency
 };
 

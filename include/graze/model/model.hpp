@@ -84,7 +84,7 @@ struct Section {
     Expression function{};                 ///< empty for a phase section
     std::optional<std::size_t> state{};    ///< cyclic state of a phase section
     Expression value{};                    ///< value of that state, in terms of parameters
-    Direction direction = Direction::both; ///< in which `function` crosses zero; a phase section is crossed in the direction of its phase
+    Direction direction = Direction::both; ///< of the crossings of `function`; a phase section follows its phase
 };
 
 /// A map of states that maps solutions to solutions.

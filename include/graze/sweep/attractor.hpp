@@ -18,7 +18,7 @@ enum class Label {
     periodic,       ///< a stable periodic orbit, confirmed by Newton's method
     quasi_periodic, ///< averages converge fast and the largest Lyapunov exponent is zero
     chaotic,        ///< the largest Lyapunov exponent is positive and remains so
-    transient,      ///< chaotic for all `cycles`, but not forever: the motion left later, or similar motions do (EscapeLaw)
+    transient,      ///< chaotic for all `cycles` but not forever: it left later, or similar motions do (EscapeLaw)
     equilibrium,    ///< a stable state at which everything except clocks and drifting states is at rest
     unbounded,      ///< grows forever: it has grown by decades, and the field is affine beyond
     unsettled,      ///< none of these could be shown within the allowed cycles
@@ -75,12 +75,12 @@ struct AttractorOptions {
 
 /// End conditions of a plain simulation: whichever comes first; 0 means never.
 struct TransientOptions {
-    std::string section = {};       ///< whose passages are periods; may be empty
-    double skip_time = 0, time = 0; ///< time without samples; then time with samples
+    std::string section = {};                  ///< whose passages are periods; may be empty
+    double skip_time = 0, time = 0;            ///< time without samples; then time with samples
     std::size_t skip_periods = 0, periods = 0; ///< periods without samples; then periods with samples
     std::size_t contacts = 0;                  ///< number of contacts at the events `counted`
-    std::vector<std::size_t> counted = {}; ///< indices of events in the model
-    std::vector<StateBounds> bounds = {}; ///< leaving them ends the simulation
+    std::vector<std::size_t> counted = {};     ///< indices of events in the model
+    std::vector<StateBounds> bounds = {};      ///< leaving them ends the simulation
     /// Approach speed at a counted contact above which the simulation ends; 0: no limit.
     double greatest_speed = 0;
     /// @throws InputError naming the option that is out of range, or if no end condition is given
@@ -97,11 +97,11 @@ struct PointResult {
     std::optional<bool> symmetric; ///< whether a periodic orbit is its own image under the model's (first) symmetry
     std::vector<std::complex<double>> multipliers; ///< of the return map, largest first
     double residual = 0; ///< defect of the periodic orbit, relative to the spread of the states
-    std::optional<double> lyapunov, lyapunov_error; ///< largest Lyapunov exponent, per unit of time, and its error (95 %)
+    std::optional<double> lyapunov, lyapunov_error; ///< largest exponent, per unit of time, and its error (95 %)
     std::size_t cycles = 0;                         ///< returns simulated until the result was known
-    std::size_t periods_run = 0;                    ///< all returns simulated, including those for Newton's method and exponents
-    double time = 0;                                ///< simulated time
-    std::vector<double> state; ///< final state; on the section for attractors. The next point may start from it
+    std::size_t periods_run = 0; ///< all returns simulated, including those for Newton's method and exponents
+    double time = 0;             ///< simulated time
+    std::vector<double> state;   ///< final state; on the section for attractors. The next point may start from it
     std::size_t mode = 0;
     Outcome outcome;   ///< outcome of the trajectory
     SampleSet samples; ///< over one period, the last `keep` returns, or the requested time

@@ -22,7 +22,7 @@ struct Sampling {
     Expression expression;                 ///< its extrema are sampled
     Direction direction = Direction::both; ///< for extrema: falling = maxima, rising = minima
     std::vector<std::size_t> events;       ///< events whose contacts are sampled
-    std::optional<std::size_t> symmetry;   ///< if given, values are taken at the image of the state under Model::symmetries[symmetry]
+    std::optional<std::size_t> symmetry;   ///< values are taken at the image under Model::symmetries[symmetry]
 };
 
 /// Samples along a motion, in the order of time.

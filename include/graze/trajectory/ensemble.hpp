@@ -51,11 +51,11 @@ private:
     JetSet jets_, single_;
     StepPreview preview_;
     std::vector<Trajectory*> slots_;
-    std::unordered_set<const Trajectory*> present_; ///< the trajectories in the slots
-    std::vector<std::size_t> waiting_;              ///< slots of unfinished trajectories
-    std::vector<std::size_t> slot_in_lane_;                ///< slot in each lane of the current mode
-    std::vector<std::vector<std::size_t>> slots_of_mode_;  ///< for each mode, the slot whose parameters each lane of its jet has
-    std::vector<std::size_t> waiting_in_mode_;                ///< number of unfinished trajectories in each mode
+    std::unordered_set<const Trajectory*> present_;       ///< the trajectories in the slots
+    std::vector<std::size_t> waiting_;                    ///< slots of unfinished trajectories
+    std::vector<std::size_t> slot_in_lane_;               ///< slot in each lane of the current mode
+    std::vector<std::vector<std::size_t>> slots_of_mode_; ///< [mode][lane]: slot whose parameters the jet's lane has
+    std::vector<std::size_t> waiting_in_mode_;            ///< number of unfinished trajectories in each mode
     std::vector<double> states_, parameters_;
     std::function<bool()> is_stopped_;
     std::size_t steps_ = 0;

@@ -58,7 +58,8 @@ public:
     using Receiver = std::function<void(double time, std::size_t mode, std::span<const double> state)>;
 
     /// Samples at start, start + spacing, ..., `count` times in all.
-    /// @param periods one for each state (0 if not cyclic); states are reduced to them. @throws InputError for a wrong number
+    /// @param periods one for each state (0 if not cyclic); states are reduced to them
+    /// @throws InputError for a wrong number of periods
     Sampler(double start, double spacing, std::size_t count, std::vector<double> periods, Receiver receiver);
 
     void step(const Step& step) override;

@@ -13,13 +13,13 @@ namespace graze {
 
 /// Options of `Simulation`.
 struct SimulationOptions {
-    double tolerance = 1e-12; ///< error of each step relative to the size of each state, 1e-16 .. 1e-2; larger is faster
+    double tolerance = 1e-12; ///< error of a step relative to the size of each state, 1e-16 .. 1e-2; larger is faster
     int order = 0;            ///< order of the Taylor polynomials, 4 .. 32; 0: chosen from the tolerance
     double largest_step = 0;  ///< longest step, in units of time; 0: no bound (steps are chosen by accuracy)
     std::size_t step_limit = 100'000'000; ///< more steps end in Ending::step_limit; a guard against endless runs
-    int contacts_at_once = 100; ///< more events than this at one time end in Ending::no_progress
-    double touch = 0;           ///< barrier minima between 0 and this are touches; 0: 100 tolerances of their size
-    bool minima = false;        ///< report the least value of each watched event over each step; costs time
+    int contacts_at_once = 100;           ///< more events than this at one time end in Ending::no_progress
+    double touch = 0;    ///< barrier minima between 0 and this are touches; 0: 100 tolerances of their size
+    bool minima = false; ///< report the least value of each watched event over each step; costs time
     /// @throws InputError naming the option that is out of range
     void validate() const;
 };

@@ -7,8 +7,8 @@
 #include "graze/trajectory/jet_set.hpp"
 #include "graze/trajectory/observer.hpp"
 #include "graze/trajectory/outcome.hpp"
-#include "graze/trajectory/step_preview.hpp"
 #include "graze/trajectory/simulation.hpp"
+#include "graze/trajectory/step_preview.hpp"
 
 #include <cstddef>
 #include <initializer_list>
