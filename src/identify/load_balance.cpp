@@ -14,10 +14,10 @@ namespace graze {
 
 namespace {
 
-constexpr double hardly = 1e-4;  // that chance makes as much
-constexpr double nothing = 1e-9; // of the balance's parts: round-off
+constexpr double hardly = 1e-4;  // level of the tests
+constexpr double nothing = 1e-9; // relative to the terms of the balance: round-off
 
-/// What the balances of loads are by, each divided by what noise makes of it.
+/// Residuals of the balances of the loads, each divided by its standard deviation.
 class LoadTest {
 public:
     LoadTest(std::span<const StaticLoad> loads, std::span<const StaticLoad> points, const CouplingSettings& settings,
@@ -39,7 +39,7 @@ public:
     }
     bool is_exact() const { return is_exact_; }
 
-    /// The chance that errors of displacement and current of this form explain as much as they do.
+    /// p value of errors of displacement or current of this form (offset, drift, curvature).
     template <class Form>
     double chance(bool of_displacement, const Form& form) const {
         std::vector<double> column = of_displacement ? by_displacement_ : by_current_;
@@ -47,8 +47,8 @@ public:
             column[i] *= form(i);
         return chance_of_fit(left_, own_, {column});
     }
-    /// The load that lies furthest from what all others say, and the chance that one lies so far (an F test whose
-    /// further column is that load alone).
+    /// The load furthest from what all others predict, and its p value (an F test whose further column is that load
+    /// alone).
     std::pair<std::size_t, double> furthest() const {
         const std::vector<double> first = unit(own_[0]), second = unit(without(own_[1], first)),
                                   left = without(without(left_, first), second);
@@ -65,7 +65,7 @@ public:
         }
         return found;
     }
-    /// In the order of displacements.
+    /// Tests the residuals in the order of displacements.
     ResidualTest in_order() const {
         std::vector<std::size_t> order(left_.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
