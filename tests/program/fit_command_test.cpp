@@ -182,7 +182,7 @@ TEST_F(FitCommand, SaysWhatIsNotFinite) {
     for (const char* reading : {"x=1/0", "x=log(-1-x^2)"}) {
         const Printed printed = run_graze(fit(record("a.csv", 1, "m") + " --free c,k --reading " + reading));
         EXPECT_EQ(printed.code, 3) << reading;
-        EXPECT_THAT(printed.err, HasSubstr("is not finite: look at what they mean")) << reading;
+        EXPECT_THAT(printed.err, HasSubstr("are not finite: check the outputs")) << reading;
         EXPECT_EQ(std::count(printed.err.begin(), printed.err.end(), '\n'), 1) << printed.err;
     }
 }
