@@ -12,7 +12,7 @@ namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); // an empty cell
 
-/// Rows of facts.
+/// The table of facts.
 class FactRows {
 public:
     FactRows() : table_({{"quantity", ""}, {"value", ""}, {"unit", ""}, {"meaning", ""}}) {}
@@ -51,7 +51,7 @@ std::string_view name_of_class(const MappedValue& one) {
     return !one.found ? "not found" : !one.admissible ? "inadmissible" : class_name(one.outcome);
 }
 
-/// What comes before the trip point on its way, if it changes the motion, and the nearest.
+/// Adds the first and the nearest earlier point that changes the motion.
 void add_earlier(FactRows& facts, const TripPoint& trip, const DesignReport& report, const std::string& unit) {
     const EarlierPoint *first = nullptr, *nearest = nullptr;
     for (const EarlierPoint& one : trip.earlier) {
@@ -110,7 +110,7 @@ void add_yield(FactRows& facts, const DesignReport& report, const Design& design
     }
 }
 
-/// Whether all that was wanted has been found, and what is in the way.
+/// Adds whether the requirements are met, and which are not.
 void add_wishes(FactRows& facts, const MetWishes& wishes) {
     facts.add("wishes", name_of(wishes.found.outcome),
               wishes.found.reason.empty() ? "the device has all that is wanted" : wishes.found.reason);
@@ -124,7 +124,7 @@ void add_wishes(FactRows& facts, const MetWishes& wishes) {
     }
 }
 
-/// Without a bound the cell is empty.
+/// A cell for a bound; empty if it is infinite.
 double bound_of(double value) {
     return std::isfinite(value) ? value : nothing;
 }
