@@ -22,7 +22,7 @@ namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); // an empty cell
 
-/// The design whose device is that of the folder, whatever its file begins with.
+/// Returns the design with the device of the folder as its first device.
 Design with_device(const Design& own, const Model& device) {
     Design result = own;
     result.set.clear();
@@ -36,7 +36,7 @@ Design with_device(const Design& own, const Model& device) {
     return result;
 }
 
-/// The designed device's trip point, which follows from that of the drawn one.
+/// Finds the designed device's trip point from that of the drawn one.
 std::optional<TripPoint> designed_trip(const TripPoint& drawn, const Design& designed) {
     const std::vector<ParameterId> others = parameters_but(drawn.system.model(), drawn.control);
     const std::vector<std::string> names = drawn.system.model().independent_parameters();
@@ -50,7 +50,7 @@ std::optional<TripPoint> designed_trip(const TripPoint& drawn, const Design& des
     return moved_to(drawn, found.orbit);
 }
 
-/// Rows of what was designed and what is drawn.
+/// The table that compares designed and drawn values.
 class Comparison {
 public:
     void add(const std::string& name, double designed, double drawn, const std::string& unit, const std::string& text) {
@@ -81,7 +81,7 @@ void add_quantities(Comparison& rows, const DesignedDevice& designed) {
         rows.add(one.parameter, one.designed, one.drawn, one.unit,
                  one.met ? fmt::format("by {} = {:.9g} {}", one.number, one.after, one.number_unit)
                          : "not as designed: " + one.reason);
-    // What is not drawn but chosen, as the drive's frequency.
+    // Chosen numbers that are not drawn, such as the drive's frequency.
     for (const DesignDimension& one : designed.own.dimensions) {
         bool is_drawn = false;
         for (const MatchedQuantity& quantity : designed.matched.quantities)
@@ -94,8 +94,8 @@ void add_quantities(Comparison& rows, const DesignedDevice& designed) {
     }
 }
 
-/// The drawn device has what is wanted. Of values to be met exactly the grid keeps it, by far less than a share of
-/// them.
+/// Whether the drawn device meets the requirements; the grid prevents exact values, by far less than this relative
+/// error.
 bool has_what_is_wanted(const MetWishes& wishes) {
     constexpr double grid = 1e-2;
     for (std::size_t i = 0; i < wishes.found.wants.size(); ++i) {
@@ -144,7 +144,7 @@ std::optional<DrawnDesign> drawn_design(const DesignedDevice& designed, const st
                                         const DesignReportOptions& options) {
     const Design found = with_device(designed.own, designed.device);
     Design drawn = with_place(found.approach.place, [&] { return design_of_device(found, designed.matched.file); });
-    drawn.dimensions = found.dimensions; // of which wishes tell
+    drawn.dimensions = found.dimensions; // they are part of the requirements' table
     const std::optional<TripPoint> trip = locate_trip(drawn, results, options);
     if (!trip)
         return std::nullopt;
