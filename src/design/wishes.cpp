@@ -47,7 +47,7 @@ double countable(double share, std::size_t devices) {
     return std::clamp(share, least, 1 - least);
 }
 
-/// Simulates devices with the tolerances, and replaces the yield by derivatives by the counted one.
+/// Draws devices with the tolerances, and replaces the yield by derivatives by the counted one.
 /// @return the share; nothing if no design was found or the work was interrupted
 std::optional<double> make_devices(MetWishes& result, WishMaker& maker, const Design& design,
                                    const WishesOptions& options) {

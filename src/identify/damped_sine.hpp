@@ -34,7 +34,7 @@ struct DecayFit {
 class DampedSine {
 public:
     DampedSine(const std::vector<Period>& periods, const Samples& samples, std::size_t channel, double level);
-    /// @return nothing when the Gauss-Newton iteration does not converge
+    /// @return nothing when there are too few samples, or the Gauss-Newton iteration does not converge
     std::optional<DecayFit> fit();
 
 private:

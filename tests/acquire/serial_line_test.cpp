@@ -290,7 +290,7 @@ TEST(Acquisition, TakesSamplesOverASerialLine) {
     EXPECT_EQ(different_files(folder / "direct", folder / "serial"), std::vector<std::string>());
 }
 
-TEST(Acquisition, FollowsTheClockUnlessSamplesAreOnDemand) {
+TEST(Acquisition, RunsAtTheSpeedOfTheClock) {
     const TemporaryFolder folder;
     ServiceSettings fast;
     fast.speed = 40;

@@ -33,7 +33,8 @@ struct MetWishes {
 /// used as they are. The class is replaced by the least projection of a contact, normalised by the decay of the leading
 /// multiplier and by the largest projection: "trips" if negative, otherwise "persists". A trip time is computed by the
 /// map and simulation. Values without a known gradient are differentiated by differences. A yield is first estimated by
-/// derivatives, as if trip values were normally distributed, and then corrected by counting simulated devices.
+/// derivatives, as if trip values were normally distributed, and then corrected by counting devices that are drawn with
+/// the tolerances.
 /// @param trip trip point of the first device
 /// @throws InputError for requirements that the device cannot have at all, such as a reset value if it does not reset
 MetWishes meet_wishes(const Design& design, const TripPoint& trip, const WishesOptions& options = {});

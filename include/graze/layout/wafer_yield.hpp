@@ -32,7 +32,7 @@ struct WaferDevice {
     DeviceOutcome outcome = DeviceOutcome::not_made;
     double value = 0;                                 ///< trip value, if found
     GrazingOutcome found = GrazingOutcome::undecided; ///< class, if found
-    std::optional<double> trip_time;                  ///< in the model's unit, at the overshoot of the settings
+    std::optional<double> trip_time;                  ///< in the model's unit, at WaferYield::overshoot
     std::string problem;                              ///< why it cannot be made
 };
 
