@@ -160,7 +160,7 @@ std::string undecided_above(const DeviceTrial& trial, const TripPoint& trip, con
     const TripTime grown =
         tripping(trial, trip, orbit, {.speed = prediction.level, .quantity = {}, .level = 0}, request.cycles, options);
     if (grown.ended)
-        return fmt::format("contacts have become harder than the map can tell of, {:.6g}, after {:.6g} cycles, but the "
+        return fmt::format("contacts have become harder than the map describes, {:.6g}, after {:.6g} cycles, but the "
                            "end that counts as tripped has not come in time; {}",
                            prediction.level, grown.cycles, longer);
     return "";

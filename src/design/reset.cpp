@@ -110,7 +110,7 @@ bool reset_by_orbit(Reset& reset, const TripPoint& trip, const System& system, c
         return true;
     }
     if (tripped->outcome != OrbitOutcome::converged) {
-        reset.reason = "the tripped motion is no orbit that was found: " + tripped->detail;
+        reset.reason = "no orbit of the tripped motion was found: " + tripped->detail;
         return false;
     }
     reset.motion = to_string(system.model(), tripped->orbit.signature);

@@ -200,10 +200,10 @@ private:
             result.outcome = WishOutcome::unfinished;
             result.reason = fmt::format("{} devices were tried, as many as are allowed; {}", wishes_.evaluations,
                                         best_ ? "the best of them misses " + missed(result)
-                                              : "none of them has all that is asked for: " + wishes_.problem);
+                                              : "none of them has all required values: " + wishes_.problem);
         } else if (!best_) {
             result.outcome = WishOutcome::nowhere;
-            result.reason = fmt::format("none of the {} devices that were tried has all that is asked for: {}",
+            result.reason = fmt::format("none of the {} devices that were tried has all required values: {}",
                                         wishes_.evaluations, wishes_.problem);
         } else {
             result.outcome = WishOutcome::unmet;
@@ -231,9 +231,8 @@ private:
                                      one.lowest, one.highest);
             }
         if (!result.stationary && wishes_.missing > 0)
-            return fmt::format(
-                "missed: {}; the closest device lies beside others that have not all that is asked for: {}",
-                missed(result), wishes_.problem);
+            return fmt::format("missed: {}; the closest device is next to others without all required values: {}",
+                               missed(result), wishes_.problem);
         return result.stationary ? "no device near this one comes closer; in the way: " + names
                                  : "missed: " + missed(result) + "; no closer device was found";
     }
