@@ -28,7 +28,7 @@ public:
 private:
     Conversion take(Channel& column, const std::string& role);
 
-    /// units so far by channel name; the time has an empty name
+    /// Units so far by channel name; the time has an empty name.
     std::vector<std::pair<std::string, std::string>> units_;
 };
 

@@ -122,7 +122,7 @@ private:
         FitPoint point;
         StageReport report;
         std::vector<PieceRows> known;
-        /// negative log-likelihood; infinite if its pieces do not join
+        /// Negative log-likelihood; infinite if its pieces do not join.
         double negative_log_likelihood = std::numeric_limits<double>::infinity();
         std::size_t contacts = 0;
         bool exact = false, noise_alone = false; ///< residuals are round-off; residuals are random noise

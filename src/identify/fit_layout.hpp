@@ -22,7 +22,7 @@ struct FitPiece {
 /// Values of all unknowns, each divided by its scale.
 struct FitPoint {
     Eigen::VectorXd shared; ///< parameters, then unknown gains, then unknown offsets
-    /// initial states of the pieces; of a record's first piece only the unknown ones
+    /// Initial states of the pieces; of a record's first piece only the unknown ones.
     std::vector<Eigen::VectorXd> states;
 };
 

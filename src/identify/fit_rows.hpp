@@ -25,7 +25,7 @@ struct PieceRows {
     std::string detail;
     /// Sum of the squared residuals.
     double squares() const { return readings.col(readings.cols() - 1).squaredNorm(); }
-    /// periods of cyclic states, and their derivatives by the unknown parameters (unscaled)
+    /// Periods of cyclic states, and their derivatives by the unknown parameters (unscaled).
     std::vector<double> periods, period_slopes;
 };
 
@@ -35,7 +35,7 @@ public:
     const char* what() const noexcept override { return "the fit was interrupted"; }
 };
 
-/// Cost of a residual: its square for least squares, less for outliers under a robust loss. @param rest residual in
+/// Cost of a residual: its square for least squares, less for outliers under a robust loss. @param residual in
 /// standard deviations
 double cost_of(double residual, FitLoss loss);
 
@@ -93,11 +93,11 @@ private:
     const FitTask* task_;
     FitLoss loss_;
     double reach_;
-    /// derivatives of periods by the unknown parameters (unscaled), for the last motion
+    /// Derivatives of periods by the unknown parameters (unscaled), for the last motion.
     std::vector<double> period_slopes_;
     std::vector<double> ranges_, values_, periods_, inputs_, work_, gradient_;
-    std::vector<Function> outputs_,
-        initials_; ///< with gradients: the outputs, and the model's initial states
+    /// The outputs, and the model's initial states, with gradients.
+    std::vector<Function> outputs_, initials_;
     PieceMotion motion_;
     Side side_, beyond_;
     Eigen::MatrixXd raw_;

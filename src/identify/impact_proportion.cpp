@@ -46,7 +46,7 @@ public:
     double information() const { return information_; }
     std::size_t count() const { return left_.size(); }
 
-    /// p value of further terms by the velocities' own errors; 1 if the residuals exceed these errors even with the
+    /// The p value of further terms by the velocities' own errors; 1 if the residuals exceed these errors even with the
     /// terms.
     template <class... Term>
     double chance(const Term&... terms) const {

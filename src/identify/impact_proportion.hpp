@@ -14,7 +14,7 @@ namespace graze {
 struct ImpactProportion {
     double offset = 1; ///< p value: errors alone produce an offset of the velocity, or a drift, as large
     double change = 1; ///< p value of a change of the restitution with speed or from impact to impact
-    /// p value of the scatter about the line through the origin for errors twice as large in the square, since the
+    /// The p value of the scatter about the line through the origin for errors twice as large in the square, since the
     /// errors of an impact are themselves estimated.
     double unlike = 1;
     double scatter = 0; ///< mean square of the residuals of the line, in units of the own errors

@@ -39,7 +39,7 @@ public:
     }
     bool is_exact() const { return is_exact_; }
 
-    /// p value of errors of displacement or current of this form (offset, drift, curvature).
+    /// The p value of errors of displacement or current of this form (offset, drift, curvature).
     template <class Form>
     double chance(bool of_displacement, const Form& form) const {
         std::vector<double> column = of_displacement ? by_displacement_ : by_current_;

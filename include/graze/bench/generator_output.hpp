@@ -14,7 +14,7 @@ struct GeneratorOutput {
     /// Peak-to-peak amplitude of the wave's fundamental, which drives models with a sinusoidal input.
     double fundamental() const;
 
-    /// range of the generator's amplitude, in V into 50 ohm
+    /// Range of the generator's amplitude, in V into 50 ohm.
     static constexpr double least_amplitude = 0.05, most_amplitude = 10;
     /// Whether an amplitude is within the generator's range.
     static bool reaches(double amplitude);

@@ -74,7 +74,7 @@ struct Wanted {
     std::optional<double> clear; ///< least distance of the trip value from every earlier point on the branch
     /// Largest sensitivities: percent of the trip value per percent of a parameter.
     std::vector<std::pair<ParameterId, double>> sensitivities;
-    /// least yield: share of devices, made with the tolerances, that meet the limits
+    /// Least yield: share of devices, made with the tolerances, that meet the limits.
     std::optional<double> least_yield;
     Place yield_place{};
     /// Weights of violations by the key of the requirement, such as "trip_time"; 1 by default.
@@ -102,7 +102,7 @@ struct Design {
     Approach approach;
     TripRequest trip;
     std::vector<DesignDimension> dimensions;
-    /// pairs of dimensions that are mapped; empty: the first two
+    /// Pairs of dimensions that are mapped; empty: the first two.
     std::vector<std::pair<std::size_t, std::size_t>> planes;
     std::optional<std::size_t> adjustable;            ///< dimension that is adjusted on the finished device
     std::size_t curve_points = 41, plane_points = 31; ///< points along each dimension

@@ -23,7 +23,7 @@ struct Sensitivity {
     ParameterId parameter;
     double value = 0;
     double derivative = 0; ///< exact derivative of the trip value
-    /// percent of the trip value per percent of the parameter; empty if the trip value is 0
+    /// Percent of the trip value per percent of the parameter; empty if the trip value is 0.
     std::optional<double> relative;
 };
 

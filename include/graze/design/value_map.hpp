@@ -25,7 +25,7 @@ struct MapSettings {
     int jobs = 1;            ///< threads; the results do not depend on their number
     LocatedValueOptions solver;
     std::function<bool()> interrupted; ///< called from any thread; returning true interrupts
-    /// called with the number of points or tiles done, from the calling thread
+    /// Called with the number of points or tiles done, from the calling thread.
     std::function<void(std::size_t done)> progress;
     /// @throws InputError naming what is out of range
     void validate() const;

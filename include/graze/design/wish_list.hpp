@@ -59,8 +59,8 @@ struct WishList {
 struct WishOptions {
     double tolerance = 1e-9;        ///< a requirement with at most this violation (in its scale) is met
     std::size_t evaluations = 4000; ///< largest number of evaluated designs, including those of differences
-    /// number of starting points: the given start, and others all over the ranges; more make a local minimum less
-    /// likely
+    /// Number of starting points: the given start, and others all over the ranges; more make a local minimum less
+    /// likely.
     std::size_t starts = 8;
     double difference = 3e-5; ///< step of finite differences, in scales of the dimension
     std::function<bool()> interrupted;

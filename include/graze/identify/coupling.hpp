@@ -25,7 +25,7 @@ struct CouplingSettings {
 /// Estimated constants of the force beta1 I^2/(2 (beta2 + d - q)^2) between coil and mass.
 struct Coupling {
     Estimate beta1, beta2;
-    /// correlation of beta1 and beta2 by the noise of the loads alone (not by errors of gap and stiffness)
+    /// Correlation of beta1 and beta2 by the noise of the loads alone (not by errors of gap and stiffness).
     double correlation = 0;
     /// The same constants by the regression of Eqs. (5.15) and (5.16) of B. E. Wilcox's dissertation, which takes
     /// measured displacements as exact.

@@ -33,7 +33,7 @@ struct DampedOscillation {
     Estimate frequency;    ///< w0, in radians per unit of time
     Estimate damping;      ///< zeta
     double covariance = 0; ///< of the two
-    /// p value of the hypothesis that all releases are of one oscillator (F test); 1 for a single release.
+    /// The p value of the hypothesis that all releases are of one oscillator (F test); 1 for a single release.
     double chance = 1;
 };
 

@@ -29,7 +29,7 @@ struct MeasuredOutput {
     std::string name{};
     Expression value{}; ///< function of states and independent parameters; may belong to any expression graph
     double gain = 1, offset = 0;
-    /// true: it is fitted, and the number above is its initial guess
+    /// True: it is fitted, and the number above is its initial guess.
     bool gain_unknown = false, offset_unknown = false;
     double noise = 0; ///< standard deviation of a reading; 0: estimated from the residuals
 };
@@ -93,7 +93,7 @@ enum class FitEnding {
     apart,        ///< pieces do not join: no motion of this model near the guess reproduces the records
     broken,       ///< the model's motion ends before its record does
     undetermined, ///< converged, but the readings do not determine all numbers
-    /// converged, but the residuals are not random noise: true errors exceed the stated ones, or a contact was missed
+    /// Converged, but the residuals are not random noise: true errors exceed the stated ones, or a contact was missed.
     misfit,
 };
 /// Stable name for tables and files, such as "converged".
@@ -113,7 +113,7 @@ struct FittedNumber {
 struct FreeCombination {
     struct Part {
         std::size_t number = 0; ///< index in Fit::numbers
-        /// change relative to the number's value, or to its scale if the value is 0; the largest is 1
+        /// Change relative to the number's value, or to its scale if the value is 0; the largest is 1.
         double change = 0;
     };
     std::vector<Part> parts{}; ///< the parts of noticeable size, largest first
@@ -123,7 +123,7 @@ struct FreeCombination {
 
 /// Another set of numbers that fits the readings equally well, such as the mirror image of a symmetric motion.
 struct AlternativeSolution {
-    /// the numbers that differ (index in Fit::numbers), with their values
+    /// The numbers that differ (index in Fit::numbers), with their values.
     std::vector<std::pair<std::size_t, double>> numbers{};
     std::string text{}; ///< such as "a = -0.002, theta(0) = 3.1416"
 };

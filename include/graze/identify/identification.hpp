@@ -15,7 +15,7 @@ namespace graze {
 /// that are known beforehand, in the units of the records. Each field says which estimates use it.
 struct IdentificationSettings {
     std::string channel = "v"; ///< velocity channel (decrement, restitution)
-    /// displacement channel: coupling (empty: q); restitution: optional, for the times of impacts
+    /// Displacement channel: coupling (empty: q); restitution: optional, for the times of impacts.
     std::string displacement = "";
     std::string voltage = "V", current = "I";  ///< voltage (impedance) and current (impedance, coupling) channels
     std::size_t peaks = 10;                    ///< largest number of peaks of each release (decrement)
@@ -24,9 +24,9 @@ struct IdentificationSettings {
     std::optional<double> gap{}, stiffness{};  ///< coupling, see CouplingSettings; the gap also for leakage inductance
     double gap_error = 0, stiffness_error = 0; ///< standard errors of gap and stiffness
     double displacement_noise = 0, current_noise = 0; ///< coupling, see CouplingSettings
-    /// coupling: true: the means of a record are one equilibrium; false: each row is one
+    /// Coupling: true: the means of a record are one equilibrium; false: each row is one.
     bool one_load_a_record = false;
-    /// impedance: initial guess of the voltage's frequency, in cycles per unit of time
+    /// Impedance: initial guess of the voltage's frequency, in cycles per unit of time.
     std::optional<double> frequency{};
     std::optional<Estimate> beta1{}, beta2{}; ///< result of a coupling, for the leakage inductance
     double clamped = 0;                       ///< impedance: displacement at which the mass is clamped

@@ -12,7 +12,7 @@ namespace graze {
 struct ResidualTest {
     double deviation = 0;   ///< root mean square of the residuals
     double correlation = 0; ///< correlation of neighbouring residuals
-    /// reasons why the residuals are not random noise, in words; empty: no test fails
+    /// Reasons why the residuals are not random noise, in words; empty: no test fails.
     std::vector<std::string> reasons;
     /// Factor for the standard errors where the residuals are not random but tiny (round-off, steps of a converter):
     /// they only limit the accuracy of the estimate, and in the worst case all act in the same direction.

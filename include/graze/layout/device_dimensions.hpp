@@ -37,7 +37,7 @@ struct DeviceDimensions {
     // The stops.
     double stop_gap = 9;     ///< gap between a stop and the mass
     double stop_width = 150; ///< width of a stop, along y
-    /// width along y of the channel between the stops, which continues to the edge of the die
+    /// Width along y of the channel between the stops, which continues to the edge of the die.
     double channel_width = 200;
 
     // The die.

@@ -11,7 +11,7 @@ namespace graze {
 /// that of the H.
 struct FlexureDrawing {
     std::vector<GridBox> beams; ///< from left to right
-    /// trusses, first those near the bridge (the middle one first), then those near the frame
+    /// Trusses, first those near the bridge (the middle one first), then those near the frame.
     std::vector<GridBox> trusses;
     GridBox finger; ///< part of the frame from which the first beams hang; it ends at the level of the bars' ends
     std::vector<GridBox> lugs;       ///< parts of the mass that join the last beams to the bars

@@ -18,7 +18,7 @@ namespace graze {
 /// belong to the design itself.
 struct DeviceFile {
     std::string name, text, file;
-    /// shipped model or path of a model, whose parameters the device determines
+    /// Shipped model or path of a model, whose parameters the device determines.
     std::string model = "mems-switch-device";
     DeviceDimensions device;
     ProcessData process;

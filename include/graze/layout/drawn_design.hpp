@@ -19,7 +19,8 @@ struct DesignedDevice {
 
 /// Comparison of a drawn device with the designed one.
 struct DrawnDesign {
-    /// columns: quantity, designed, drawn, percent, unit, meaning; rows: numbers, trip value, class, time, requirements
+    /// Columns: quantity, designed, drawn, percent, unit, meaning; rows: numbers, trip value, class, time,
+    /// requirements.
     Table table;
     bool met = true; ///< the drawing agrees with the design, and the device meets the requirements
 };

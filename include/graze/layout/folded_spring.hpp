@@ -20,7 +20,7 @@ struct FoldedSpring {
     double modulus = 0;      ///< Young's modulus, in Pa
 
     // Adjacent compliant parts; a length of 0 makes them rigid.
-    /// finger of the frame, from which both halves hang: as wide as the first beams with the middle
+    /// Finger of the frame, from which both halves hang: as wide as the first beams with the middle.
     double finger_length = 0;
     double bar_length = 0; ///< bar of the mass: clear length from the last link along the beams to the bridge
     EtchedWidth bar_width; ///< in the direction of motion
@@ -28,11 +28,11 @@ struct FoldedSpring {
 
 /// Properties of one half.
 struct SpringProperties {
-    /// in N/m, at the bar's end at the bridge, or at the last link, guided: it neither turns nor moves along the beams
+    /// In N/m, at the bar's end at the bridge, or at the last link, guided: it neither turns nor moves along the beams.
     double stiffness = 0;
     double stiff_trusses = 0;     ///< the same if only beams bend: 12 E I/(n L^3)
     double stress_per_travel = 0; ///< largest stress of a beam per displacement of the mass, in Pa/m
-    /// area of a plate with the same kinetic energy as beams and trusses, without links, in m^2
+    /// Area of a plate with the same kinetic energy as beams and trusses, without links, in m^2.
     double moving_area = 0;
 };
 

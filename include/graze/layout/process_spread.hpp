@@ -12,7 +12,7 @@ namespace graze {
 /// Variation of one number of the process about its nominal value.
 struct SpreadParts {
     double wafer = 0; ///< standard deviation from wafer to wafer
-    /// systematic excess at the edge of each wafer; proportional to the squared distance from the middle
+    /// Systematic excess at the edge of each wafer; proportional to the squared distance from the middle.
     double radial = 0;
     double device = 0; ///< standard deviation within a wafer
 };
@@ -22,7 +22,7 @@ struct ProcessSpread {
     SpreadParts thickness; ///< um, of moving parts
     SpreadParts taper;     ///< deg
     SpreadParts stop_gap;  ///< um, in addition to the effect of the other numbers
-    /// um, correlation length of the variation within a wafer; 0: independent from device to device
+    /// Correlation length of the variation within a wafer, in um; 0: independent from device to device.
     double correlation = 0;
     bool tuned = false; ///< whether each device is driven at the nominal ratio to its own natural frequency
 

@@ -21,10 +21,10 @@ struct RecordedImpact {
 struct ImpactSettings {
     std::size_t velocity = 0;                  ///< velocity channel
     std::optional<std::size_t> displacement{}; ///< displacement channel; if given, impacts are timed by its corners
-    /// samples before and after an impact to which velocities are fitted, 5 or more; fewer find impacts that follow one
-    /// another closely, more reduce noise
+    /// Samples before and after an impact to which velocities are fitted, 5 or more; fewer find impacts that follow one
+    /// another closely, more reduce noise.
     std::size_t window = 12;
-    /// samples before and after an impact that are ignored, as the impact itself disturbs them
+    /// Samples before and after an impact that are ignored, as the impact itself disturbs them.
     std::size_t transition = 0;
     double least_jump = 0;   ///< smaller jumps of the velocity are ignored
     double significance = 6; ///< a jump must exceed its standard error by this factor; raise it against false impacts

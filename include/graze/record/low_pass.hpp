@@ -9,7 +9,7 @@ namespace graze {
 
 /// Options of `LowPass`.
 struct LowPassSettings {
-    /// end of the pass band, and start of the stop band, in cycles per unit of time; 0: see LowPass
+    /// End of the pass band, and start of the stop band, in cycles per unit of time; 0: see LowPass.
     double pass = 0, stop = 0;
     double attenuation = 80; ///< attenuation of the stop band in dB; it also bounds the ripple of the pass band
     std::size_t every = 1;   ///< decimation: one of this many samples is kept

@@ -23,7 +23,7 @@ struct RecordLayout {
     /// HDF5: the group whose datasets are the channels.
     std::string group = "/";
     std::size_t skip = 0; ///< text: number of lines to skip at the beginning
-    /// text: line with the names of columns, counted from 1; rows begin after it. 0: found automatically
+    /// Text: line with the names of columns, counted from 1; rows begin after it. 0: found automatically.
     std::size_t names_line = 0;
     std::size_t units_line = 0; ///< text: line with the units of columns, likewise
     /// Called with remarks on what was left out.
