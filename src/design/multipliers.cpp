@@ -15,7 +15,7 @@ namespace {
 /// Solves the nonnegative least-squares problem |A x - b| (C. L. Lawson and R. J. Hanson, "Solving Least Squares
 /// Problems", 1974, chapter 23), slightly damped so that equal columns share a multiplier.
 Eigen::VectorXd nonnegative(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
-    constexpr double damping = 1e-5, nothing = 1e-12;
+    constexpr double damping = 1e-5, negligible = 1e-12;
     const Eigen::Index n = a.cols();
     Eigen::VectorXd norms = a.colwise().norm().transpose();
     norms = (norms.array() > 0).select(norms, 1);
@@ -30,7 +30,7 @@ Eigen::VectorXd nonnegative(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) 
         for (const Eigen::Index i : used)
             wish[i] = -1;
         Eigen::Index best = 0;
-        if (!(wish.maxCoeff(&best) > nothing))
+        if (!(wish.maxCoeff(&best) > negligible))
             break;
         used.push_back(best);
         while (!used.empty()) {
@@ -44,7 +44,7 @@ Eigen::VectorXd nonnegative(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) 
             if (part == 1)
                 break;
             std::erase_if(used, [&](Eigen::Index i) {
-                if (x[i] > nothing)
+                if (x[i] > negligible)
                     return false;
                 x[i] = 0;
                 return true;
@@ -139,8 +139,8 @@ Multipliers multipliers_of_violation(const ScaledWishes& wishes, const Candidate
 
 Multipliers multipliers_of_distance(const ScaledWishes& wishes, const Candidate& at) {
     const double distance = at.z.norm();
-    const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(wishes.size());
-    return multipliers_at(wishes, at, distance > limit_distance ? (at.z / distance).eval() : nothing, false);
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(wishes.size());
+    return multipliers_at(wishes, at, distance > limit_distance ? (at.z / distance).eval() : none, false);
 }
 
 bool is_best(const ScaledWishes& wishes, const Candidate& at, double share) {

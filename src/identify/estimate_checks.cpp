@@ -41,20 +41,20 @@ void check_impacts(Identification& found, const std::string& name, const std::st
     }
     // Levels of the tests by the scatter about the line, and by the velocities' own errors, which an offset does not
     // enlarge.
-    constexpr double hardly = 1e-5, hardly_by_errors = 1e-3, hardly_unlike = 1e-6;
+    constexpr double level = 1e-5, level_by_errors = 1e-3, level_unlike = 1e-6;
     const ImpactProportion proportion = test_proportion(impacts, one.coefficient.value);
-    if (chance_of_fit(left, {speeds}, {constant}) < hardly ||
-        (proportion.offset < hardly_by_errors && proportion.offset <= proportion.change))
+    if (chance_of_fit(left, {speeds}, {constant}) < level ||
+        (proportion.offset < level_by_errors && proportion.offset <= proportion.change))
         warn(fmt::format("velocities after impacts are not in proportion to those before ('{}' may have an offset)",
                          channel));
-    else if (chance_of_fit(left, {speeds}, {squares, order}) < hardly || proportion.change < hardly_by_errors)
+    else if (chance_of_fit(left, {speeds}, {squares, order}) < level || proportion.change < level_by_errors)
         warn("the restitution changes with the speed, or in the course of the record");
-    else if (proportion.unlike < hardly_unlike)
+    else if (proportion.unlike < level_unlike)
         found.warnings.push_back(fmt::format("{}: the restitution changes from impact to impact: they differ by {:.2g} "
                                              "times the errors of their velocities; the interval is that of its mean",
                                              name, std::sqrt(proportion.scatter)));
-    constexpr double hardly_excess = 3; // standard errors: chance 1e-3 for an elastic impact
-    if (proportion.excess > hardly_excess)
+    constexpr double excess_limit = 3; // standard errors: chance 1e-3 for an elastic impact
+    if (proportion.excess > excess_limit)
         warn(fmt::format("the restitution is above one by {:.2g} times the errors of velocities, which no impact has "
                          "('{}' may have an offset)",
                          proportion.excess, channel));

@@ -52,9 +52,9 @@ std::vector<FitStage> stages_of(const FitRows& rows, const FitSettings& settings
 }
 
 bool is_settled(const std::vector<double>& noise, const std::vector<double>& before, const FitRows& rows) {
-    constexpr double enough = 0.01, nothing = 1e-9;
+    constexpr double enough = 0.01, negligible = 1e-9;
     for (std::size_t o = 0; o < noise.size(); ++o)
-        if (std::abs(noise[o] - before[o]) > enough * before[o] && noise[o] + before[o] > nothing * rows.range(o))
+        if (std::abs(noise[o] - before[o]) > enough * before[o] && noise[o] + before[o] > negligible * rows.range(o))
             return false;
     return true;
 }

@@ -144,7 +144,7 @@ std::string text_of(const std::vector<FreeCombination::Part>& parts, const std::
 
 FreeCombination combination(const FitDecomposition& parts, Eigen::Index k, const std::vector<FittedNumber>& numbers,
                             const std::vector<double>& scales, const std::vector<std::size_t>& order) {
-    constexpr double least = 0.01, nothing = 1e-6;
+    constexpr double least = 0.01, negligible = 1e-6;
     FreeCombination result;
     result.strength = parts.values[0] > 0 ? parts.values[k] / parts.values[0] : 0;
     std::vector<FreeCombination::Part> all;
@@ -153,7 +153,7 @@ FreeCombination combination(const FitDecomposition& parts, Eigen::Index k, const
         const auto c = static_cast<Eigen::Index>(i);
         const double length = parts.lengths[c] > 0 ? parts.lengths[c] : 1, value = numbers[order[i]].estimate.value;
         const double change = parts.directions(c, k) / length;
-        all.push_back({order[i], std::abs(value) > nothing * scales[i] ? change * scales[i] / value : change});
+        all.push_back({order[i], std::abs(value) > negligible * scales[i] ? change * scales[i] / value : change});
         largest = std::abs(all.back().change) > std::abs(largest) ? all.back().change : largest;
     }
     for (FreeCombination::Part part : all) {
@@ -323,7 +323,7 @@ std::string unreadable(const FitRows& rows, const std::vector<PieceRows>& known)
 }
 
 FitChecks check_point(const FitRows& rows, const FitPoint& point, const std::vector<PieceRows>& known, double joint) {
-    constexpr double nothing = 1e-9, part_of_noise = 1e-3;
+    constexpr double negligible = 1e-9, part_of_noise = 1e-3;
     FitChecks checks;
     double squares = 0;
     const std::vector<FitPiece>& pieces = rows.layout.pieces;
@@ -339,7 +339,7 @@ FitChecks check_point(const FitRows& rows, const FitPoint& point, const std::vec
     }
     const double freedom = static_cast<double>(readings_of(rows.task())) - static_cast<double>(unknowns_of(rows));
     const double size = std::sqrt(squares / freedom);
-    checks.allowed_gap = std::max(nothing, part_of_noise * size);
+    checks.allowed_gap = std::max(negligible, part_of_noise * size);
     std::vector<double> scales;
     std::vector<bool> held;
     for (const FittedNumber& number : numbers_at(rows, point, scales))
@@ -355,7 +355,7 @@ FitChecks check_point(const FitRows& rows, const FitPoint& point, const std::vec
         const double slope = information.rows.col(first + j).dot(information.rows.col(count));
         beyond = beyond && (unknown.greatest - value < value - unknown.least ? slope <= 0 : slope >= 0);
     }
-    checks.remaining_step = parts.step.size() == 0 || parts.step.lpNorm<Eigen::Infinity>() <= nothing
+    checks.remaining_step = parts.step.size() == 0 || parts.step.lpNorm<Eigen::Infinity>() <= negligible
                                 ? 0
                                 : std::sqrt(parts.gain + information.eliminated) / size;
     checks.bounds_hold = beyond;
@@ -388,11 +388,11 @@ double negative_log_likelihood(const FitRows& rows, const std::vector<PieceRows>
 }
 
 bool is_exact(const FitRows& rows, const std::vector<PieceRows>& known) {
-    constexpr double nothing = 1e-9;
+    constexpr double negligible = 1e-9;
     const Residuals residuals = residuals_of(rows, known);
     for (std::size_t o = 0; o < residuals.of_output.size(); ++o)
         for (const double residual : residuals.of_output[o])
-            if (!(std::abs(residual) <= nothing * rows.range(o)))
+            if (!(std::abs(residual) <= negligible * rows.range(o)))
                 return false;
     return true;
 }

@@ -88,7 +88,7 @@ FitInformation information_of(const FitRows& rows, const FitPoint& point, const 
 
 FitDecomposition decompose(const FitInformation& information, const std::vector<bool>& held) {
     // Derivatives are accurate to about ten digits; smaller singular values may be their error.
-    constexpr double nothing = 1e-9, involved = 1e-3;
+    constexpr double negligible = 1e-9, involved = 1e-3;
     const Eigen::Index count = information.rows.cols() - 1;
     FitDecomposition result;
     Eigen::MatrixXd scaled = information.rows.topLeftCorner(count, count);
@@ -108,7 +108,7 @@ FitDecomposition decompose(const FitInformation& information, const std::vector<
     const Eigen::VectorXd left = factors.left.transpose() * information.rows.col(count).head(count);
     result.known.assign(static_cast<std::size_t>(count), true);
     for (Eigen::Index k = 0; k < count; ++k) {
-        const bool determined = result.values[k] > nothing * result.values[0];
+        const bool determined = result.values[k] > negligible * result.values[0];
         result.determined.push_back(determined);
         const Eigen::VectorXd direction = result.directions.col(k);
         if (determined) {

@@ -85,11 +85,11 @@ FitStage FitInitialisation::alone(std::size_t piece) const {
 /// near the start of the piece can cause: then the piece starts from the prediction instead, or is merged with the one
 /// before.
 StageReport FitInitialisation::initialise_piece(std::size_t& piece) {
-    constexpr double amiss = 3;
+    constexpr double suspicious = 3;
     StageReport report = best_initial_state(alone(piece), piece);
     const auto readings = [&](std::size_t k) { return static_cast<double>(pieces()[k].last - pieces()[k].first); };
     if (pieces()[piece].is_first || usual_costs_.empty() || report.interrupted ||
-        report.cost < amiss * readings(piece) * usual_cost()) {
+        report.cost < suspicious * readings(piece) * usual_cost()) {
         usual_costs_.push_back(report.cost / readings(piece));
         return report;
     }
@@ -99,7 +99,7 @@ StageReport FitInitialisation::initialise_piece(std::size_t& piece) {
         report = other;
     else
         point_->states[piece] = first;
-    if (report.cost < amiss * readings(piece) * usual_cost())
+    if (report.cost < suspicious * readings(piece) * usual_cost())
         return report;
     const FitPoint apart = *point_;
     const FitLayout layout = rows_->layout;

@@ -146,8 +146,8 @@ Identification identify_decrement(const EachRecord& records, const Identificatio
     found.values.push_back({"rest_position", velocity.unit, combine(rests).mean});
     for (std::size_t r = 0; r < releases.size(); ++r)
         check_residuals(found, names[r], velocity.name, releases[r].wave.left, "a damped sine");
-    constexpr double hardly = 1e-4;
-    if (oscillation.chance < hardly)
+    constexpr double level = 1e-4;
+    if (oscillation.chance < level)
         found.warnings.emplace_back(
             "the releases differ by more than their noise: frequency or damping changes from one "
             "to the next, and intervals are too narrow");

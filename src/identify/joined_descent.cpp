@@ -106,8 +106,8 @@ private:
         remaining_step_ = size_ > 0 ? left_.norm() / size_ : 0;
     }
     bool is_determined(Eigen::Index k) const {
-        constexpr double nothing = 1e-9; // as in FitDecomposition
-        return values_[k] > nothing * values_[0];
+        constexpr double negligible = 1e-9; // as in FitDecomposition
+        return values_[k] > negligible * values_[0];
     }
     double readings() const {
         double count = 0;

@@ -14,8 +14,8 @@ namespace graze {
 
 namespace {
 
-constexpr double hardly = 1e-4;  // level of the tests
-constexpr double nothing = 1e-9; // relative to the terms of the balance: round-off
+constexpr double test_level = 1e-4; // significance level of the tests
+constexpr double negligible = 1e-9; // relative to the terms of the balance: round-off
 
 /// Residuals of the balances of the loads, each divided by its standard deviation.
 class LoadTest {
@@ -35,7 +35,7 @@ public:
             squares += left_.back() * left_.back();
             sizes += std::pow(weight * balance.by_beta1 * beta1, 2);
         }
-        is_exact_ = !(squares > nothing * nothing * sizes);
+        is_exact_ = !(squares > negligible * negligible * sizes);
     }
     bool is_exact() const { return is_exact_; }
 
@@ -116,12 +116,12 @@ std::vector<std::string> reasons_against(std::span<const StaticLoad> loads, std:
     const double offset = std::min(test.chance(true, one), test.chance(false, one)),
                  drift = std::min(test.chance(true, row), test.chance(false, row)),
                  bend = std::min(test.chance(true, square_q), test.chance(false, square_i));
-    if (std::min({offset, drift, bend}) < hardly)
+    if (std::min({offset, drift, bend}) < test_level)
         reasons.emplace_back(offset <= drift && offset <= bend ? "displacement or current may have an offset"
                              : drift <= bend                   ? "displacement or current may drift from row to row"
                                              : "displacement or current may be no straight scale, or the "
                                                "gap another one");
-    if (const auto [load, chance] = test.furthest(); chance * static_cast<double>(loads.size()) < hardly)
+    if (const auto [load, chance] = test.furthest(); chance * static_cast<double>(loads.size()) < test_level)
         reasons.push_back(fmt::format("load {} lies far off", load + 1));
     if (const ResidualTest order = test.in_order(); !order.is_noise())
         reasons.push_back("in the order of displacements: " + order.text());

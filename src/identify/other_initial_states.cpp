@@ -129,7 +129,7 @@ private:
     /// The state that the jump maps to the present one, by Newton's method in the unknown states.
     std::optional<std::vector<double>> state_before(const System::CompiledJump& jump) {
         constexpr int most = 20;
-        constexpr double nothing = 1e-9;
+        constexpr double negligible = 1e-9;
         const std::vector<std::size_t>& unknown = record_.unknown_states;
         const auto rows = static_cast<Eigen::Index>(jump.changed.size());
         const auto columns = static_cast<Eigen::Index>(unknown.size());
@@ -151,7 +151,7 @@ private:
             }
             if (!off.allFinite() || !slopes.allFinite())
                 return std::nullopt;
-            if (off.lpNorm<Eigen::Infinity>() <= nothing)
+            if (off.lpNorm<Eigen::Infinity>() <= negligible)
                 return state;
             const Eigen::VectorXd step = shortest_solution(slopes, off);
             for (Eigen::Index c = 0; c < columns; ++c)

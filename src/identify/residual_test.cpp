@@ -23,7 +23,7 @@ constexpr double deviations = 4;      ///< a level of 1/16,000 for normal variab
 constexpr double small_chance = 1e-5; ///< level for the largest line of the periodogram
 constexpr std::size_t fewest = 12;    ///< fewer residuals are not tested
 constexpr double far_off = 6;         ///< outliers, in standard deviations
-constexpr double nothing = 1e-6;      ///< smaller residuals, relative to the readings' deviation, are ignored
+constexpr double negligible = 1e-6;   ///< smaller residuals, relative to the readings' deviation, are ignored
 
 double square_sum_of(std::span<const double> values) {
     double sum = 0;
@@ -214,7 +214,7 @@ ResidualTest test_residuals(std::span<const double> left, std::span<const double
     test.reasons = reasons_of(left, test.correlation);
     constexpr double of_step = 0.6; // independent rounding errors have 0.29
     const bool rounded = !readings.empty() && test.deviation <= of_step * step_of({readings.begin(), readings.end()});
-    const bool small = rounded || (!readings.empty() && test.deviation <= nothing * deviation_of(readings));
+    const bool small = rounded || (!readings.empty() && test.deviation <= negligible * deviation_of(readings));
     if (small && !test.reasons.empty()) {
         test.reasons.clear();
         test.widening = std::sqrt(count);
