@@ -99,8 +99,8 @@ DecayFit DampedSine::result_of(const Eigen::MatrixXd& slopes, const Eigen::Vecto
 /// Converts frequency and decay, which the fit has over the whole window, to rates in time.
 DecayWave DampedSine::wave_of(const Eigen::MatrixXd& covariance, const Eigen::VectorXd& left) const {
     DecayWave wave;
-    wave.left = test_residuals({left.data(), static_cast<std::size_t>(left.size())}, values_);
-    const double scale = std::pow(wave.left.widening / length_, 2);
+    wave.residual_test = test_residuals({left.data(), static_cast<std::size_t>(left.size())}, values_);
+    const double scale = std::pow(wave.residual_test.widening / length_, 2);
     wave.turn = turn_ / length_;
     wave.decay = decay_ / length_;
     wave.turn_variance = scale * covariance(3, 3);

@@ -337,8 +337,8 @@ DecayPeaks decay_peaks(SampleSource& source, std::size_t channel, std::size_t mo
         throw InputError(fmt::format("'{}' is not a decaying oscillation", name),
                          "give the record of a single one, from its release on (graze identify ... --from T --to T)");
     const std::vector<PeakFit> fits = fits_of(periods, channel, *found);
-    if (fits.size() < 2 && !found->wave.left.is_noise())
-        throw InputError(fmt::format("'{}' is not a damped sine: {}", name, found->wave.left.text()),
+    if (fits.size() < 2 && !found->wave.residual_test.is_noise())
+        throw InputError(fmt::format("'{}' is not a damped sine: {}", name, found->wave.residual_test.text()),
                          "look at the record there, and give a part of it that is free of that (graze identify ... "
                          "--from T --to T)");
     if (fits.size() < 2)
@@ -348,7 +348,7 @@ DecayPeaks decay_peaks(SampleSource& source, std::size_t channel, std::size_t mo
                          "release");
     DecayPeaks peaks = at_common_times(fits);
     peaks.rest = found->value;
-    peaks.rest_error = found->error * found->wave.left.widening;
+    peaks.rest_error = found->error * found->wave.residual_test.widening;
     peaks.wave = found->wave;
     return peaks;
 }

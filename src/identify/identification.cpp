@@ -91,7 +91,7 @@ void require_three_peaks(const std::vector<DecayPeaks>& releases, const std::vec
         std::any_of(releases.begin(), releases.end(), [](const DecayPeaks& one) { return one.times.size() >= fewest; }))
         return;
     for (std::size_t r = 0; r < releases.size(); ++r)
-        if (const ResidualTest& left = releases[r].wave.left; !left.is_noise())
+        if (const ResidualTest& left = releases[r].wave.residual_test; !left.is_noise())
             throw InputError(fmt::format("{}: this is not a damped sine: {}", names[r], left.text()),
                              "look at the record there, and give a part of it that is free of that (--from T --to T)");
     throw InputError(
@@ -145,7 +145,7 @@ Identification identify_decrement(const EachRecord& records, const Identificatio
         rests.push_back({peaks.rest, peaks.rest_error, decrement.damping.freedom});
     found.values.push_back({"rest_position", velocity.unit, combine(rests).mean});
     for (std::size_t r = 0; r < releases.size(); ++r)
-        check_residuals(found, names[r], velocity.name, releases[r].wave.left, "a damped sine");
+        check_residuals(found, names[r], velocity.name, releases[r].wave.residual_test, "a damped sine");
     constexpr double level = 1e-4;
     if (oscillation.chance < level)
         found.warnings.emplace_back(
@@ -363,9 +363,9 @@ Identification identify_impedance(const EachRecord& records, const Identificatio
         frequencies.push_back({one.frequency / (2 * std::numbers::pi), 0, 0});
         resistances.push_back(one.resistance);
         inductances.push_back(one.inductance);
-        check_residuals(found, name, header.channels[v].name, one.voltage_left, "a sine");
-        check_residuals(found, name, header.channels[c].name, one.current_left, "a sine");
-        if (const auto gap = longest_gap(all.times); gap && !settings.frequency && !one.voltage_left.is_noise())
+        check_residuals(found, name, header.channels[v].name, one.voltage_test, "a sine");
+        check_residuals(found, name, header.channels[c].name, one.current_test, "a sine");
+        if (const auto gap = longest_gap(all.times); gap && !settings.frequency && !one.voltage_test.is_noise())
             found.warnings.push_back(fmt::format("{}: there are no rows from {:.6g} to {:.6g}, so the frequency may "
                                                  "be wrong: give an approximate one by {}frequency",
                                                  name, gap->from, gap->to, asked));

@@ -116,9 +116,9 @@ Impedance impedance(std::span<const double> times, std::span<const double> volta
     const double size = result.voltage.amplitude(), flow = result.current.amplitude();
     if (!(flow > 0) || !(size > 0))
         throw InputError("there is no voltage or no current", "give both, of a coil that carries a current");
-    result.voltage_left = test_sine(centred, voltage, result.voltage);
-    result.current_left = test_sine(centred, current, result.current);
-    const double wider_voltage = result.voltage_left.widening, wider_current = result.current_left.widening;
+    result.voltage_test = test_sine(centred, voltage, result.voltage);
+    result.current_test = test_sine(centred, current, result.current);
+    const double wider_voltage = result.voltage_test.widening, wider_current = result.current_test.widening;
     constexpr double unknowns = 3;
     const double freedom = static_cast<double>(times.size()) - unknowns;
     const double magnitude = size / flow;

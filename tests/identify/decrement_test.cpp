@@ -104,7 +104,7 @@ TEST(Decrement, IsFoundWithFewSamplesAPeriod) {
                 StoredSamples source({{"t", "s"}, {{"v", "m/s"}}}, std::move(samples));
                 const DecayPeaks peaks = decay_peaks(source, 0, 10);
                 EXPECT_GE(peaks.times.size(), 3U) << in_a_period << ' ' << k;
-                EXPECT_TRUE(peaks.wave.left.is_noise()) << peaks.wave.left.text();
+                EXPECT_TRUE(peaks.wave.residual_test.is_noise()) << peaks.wave.residual_test.text();
                 const DampedOscillation found = damped_oscillation({&peaks.wave, 1});
                 const double roundoff = 1e-10;
                 frequencies +=

@@ -60,7 +60,7 @@ TEST(Impedance, IsFoundInARecordWithGaps) {
         }
         const Impedance found = impedance(record.times, record.voltage, record.current);
         EXPECT_NEAR(found.frequency, omega, 1e-3 * omega);
-        EXPECT_TRUE(found.voltage_left.is_noise()) << found.voltage_left.text();
+        EXPECT_TRUE(found.voltage_test.is_noise()) << found.voltage_test.text();
         EXPECT_NEAR(found.resistance.value, resistance, 4 * found.resistance.error);
     }
 }

@@ -78,7 +78,7 @@ TEST(ResidualTest, FindsAClockThatJitters) {
                                             0.002 * noise.normal());
             }
             StoredSamples source({{"t", "s"}, {{"v", "m/s"}}}, std::move(samples));
-            (jitter > 0 ? told : wrong) += decay_peaks(source, 0, 10).wave.left.is_noise() ? 0 : 1;
+            (jitter > 0 ? told : wrong) += decay_peaks(source, 0, 10).wave.residual_test.is_noise() ? 0 : 1;
         }
     EXPECT_GE(told, 38U);
     EXPECT_LE(wrong, 1U);
@@ -186,7 +186,7 @@ TEST(DampedOscillationSlow, IntervalsCoverTheTruthAtAnyNoise) {
                     }
                     StoredSamples source({{"t", "s"}, {{"v", "m/s"}}}, std::move(samples));
                     waves.push_back(decay_peaks(source, 0, 10).wave);
-                    doubted += waves.back().left.is_noise() ? 0 : 1;
+                    doubted += waves.back().residual_test.is_noise() ? 0 : 1;
                 }
                 const DampedOscillation found = damped_oscillation(waves);
                 dampings += std::abs(found.damping.value - zeta) < found.damping.half_width() ? 1 : 0;

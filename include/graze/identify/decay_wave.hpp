@@ -11,7 +11,7 @@ struct DecayWave {
     double turn_variance = 0, decay_variance = 0; ///< squared standard errors of `turn` and `decay`
     double covariance = 0;                        ///< covariance of `turn` and `decay`
     double freedom = 0;                           ///< degrees of freedom: samples less unknowns
-    ResidualTest left{};                          ///< test of whether the samples are a damped sine with random noise
+    ResidualTest residual_test{};                 ///< test of whether the samples are a damped sine with random noise
 };
 
 } // namespace graze

@@ -16,7 +16,7 @@ struct Impedance {
     Estimate lag;              ///< phase phi by which the current lags, in radians
     Estimate resistance;       ///< R
     Estimate inductance;       ///< total inductance L
-    ResidualTest voltage_left{}, current_left{}; ///< tests of whether the channels are sines with random noise
+    ResidualTest voltage_test{}, current_test{}; ///< tests of whether the channels are sines with random noise
 };
 
 /// Estimates the impedance from amplitudes and phases of voltage and current: R = V0/I0 cos(phi), w L = V0/I0 sin(phi),
