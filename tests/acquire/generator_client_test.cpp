@@ -148,11 +148,11 @@ TEST(GeneratorClient, IdentifiesTheInstrumentBeforeItSetsAnything) {
     GeneratorClient client(altered.line, other);
     std::string what;
     EXPECT_EQ(ending_of([&] { client.begin(6, 1, 0); }, what), AcquisitionEnding::foreign);
-    EXPECT_THAT(what, HasSubstr("there is 'HEWLETT-PACKARD,33120A"));
+    EXPECT_THAT(what, HasSubstr("the instrument on the line is 'HEWLETT-PACKARD,33120A"));
     EXPECT_EQ(altered.generator.output(), GeneratorOutput());
     // also when another process, which has not identified it yet, makes it safe
     EXPECT_FALSE(client.make_safe(0.1, what));
-    EXPECT_THAT(what, HasSubstr("there is 'HEWLETT-PACKARD,33120A"));
+    EXPECT_THAT(what, HasSubstr("the instrument on the line is 'HEWLETT-PACKARD,33120A"));
     for (const std::string& said : altered.line.said)
         EXPECT_TRUE(said == "*IDN?" || said == "SYST:REM") << said;
     EXPECT_EQ(altered.line.said.front(), "*IDN?");

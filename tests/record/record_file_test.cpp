@@ -93,9 +93,9 @@ TEST(RecordFile, ErrorsHaveTheirPlace) {
         {"t\n0\n", "r.csv:1:1: there is only one column"},
         {"t,v,v\n", "r.csv:1:5: column 'v' occurs twice"},
         {"t,t\n", "r.csv:1:3: column 't' occurs twice"},
-        {"t,,v\n", "r.csv:1:3: '' is no name"},
-        {"t,\x1b[2J\n", "r.csv:1:3: '\\u001b[2J' is no name"},
-        {"nan,1,2\n", "r.csv:1:1: 'nan' is no name"},
+        {"t,,v\n", "r.csv:1:3: '' is not a name"},
+        {"t,\x1b[2J\n", "r.csv:1:3: '\\u001b[2J' is not a name"},
+        {"nan,1,2\n", "r.csv:1:1: 'nan' is not a name"},
         {"t,v\n0,\x1b[2J\n", "r.csv:2:3: '\\u001b[2J' is not a finite number"},
     };
     for (const auto& [text, message] : mistakes)
