@@ -66,7 +66,9 @@ void BranchOfTheMicroactuator(benchmark::State& state) {
     OdeintFlows peer;
     for (auto _ : state)
         state.SetIterationTime(duel.round(
-            [&] { benchmark::DoNotOptimize(follow_branch(System(model), orbit, microactuator_settings()).points.size()); },
+            [&] {
+                benchmark::DoNotOptimize(follow_branch(System(model), orbit, microactuator_settings()).points.size());
+            },
             [&] {
                 for (const BranchPoint& point : known.points) // the tangent takes one more evaluation
                     for (std::size_t i = 0; i <= point.iterations; ++i)

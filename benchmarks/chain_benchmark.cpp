@@ -66,7 +66,8 @@ class ChainRun {
 public:
     ChainRun(std::size_t oscillators, double force)
         : model_(chain(oscillators, force)), simulation_(System(model_), {}, {}, {.tolerance = tolerance}),
-          jets_(simulation_, LaneKind::single), trajectory_(simulation_, model_.parameter_values(), borrowed(observer_)) {
+          jets_(simulation_, LaneKind::single),
+          trajectory_(simulation_, model_.parameter_values(), borrowed(observer_)) {
         constexpr int settling = 40;
         trajectory_.start(model_.initial_state(), model_.initial_mode, 0, 0);
         run(settling);

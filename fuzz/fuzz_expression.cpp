@@ -1,7 +1,7 @@
 // Any bytes must either give an expression that prints and parses back to itself, or one clean InputError.
 
-#include "graze/symbolic/function.hpp"
 #include "graze/base/input_error.hpp"
+#include "graze/symbolic/function.hpp"
 #include "graze/symbolic/parser.hpp"
 #include "graze/symbolic/transform.hpp"
 

@@ -103,8 +103,8 @@ private:
                 const bool is_told = std::isfinite(found[k].value) && found[k].error < allowed;
                 constexpr double doubt = 10; // the error is what differences tell of themselves
                 if (is_told && !(std::abs(known - found[k].value) <= allowed + doubt * found[k].error))
-                    findings_.push_back({part, fmt::format("{} by {}", outputs[k], names_[i]), known, found[k].value,
-                                         found[k].error});
+                    findings_.push_back(
+                        {part, fmt::format("{} by {}", outputs[k], names_[i]), known, found[k].value, found[k].error});
             }
         }
     }
@@ -161,13 +161,14 @@ private:
         std::vector<std::string> outputs;
         for (std::size_t i = 0; i < states(); ++i)
             outputs.push_back(fmt::format("{} after {:.3g}", names_[i], duration));
-        compare(part, outputs,
-                [&](const std::vector<double>& inputs) {
-                    auto [state, given] = split(inputs);
-                    flow.set_parameters(given);
-                    return flow.run(m, state, duration) == ModeFlow::Ending::done ? state : std::vector<double>();
-                },
-                exact);
+        compare(
+            part, outputs,
+            [&](const std::vector<double>& inputs) {
+                auto [state, given] = split(inputs);
+                flow.set_parameters(given);
+                return flow.run(m, state, duration) == ModeFlow::Ending::done ? state : std::vector<double>();
+            },
+            exact);
     }
 
     void check_jump(std::size_t j) {
@@ -183,8 +184,9 @@ private:
         std::vector<std::string> outputs;
         for (std::size_t i = 0; i < states(); ++i)
             outputs.push_back(names_[i] + " behind");
-        compare("jumps." + system_.model().jumps[j].name, outputs,
-                [&](const std::vector<double>& inputs) { return jump.map(inputs); }, exact);
+        compare(
+            "jumps." + system_.model().jumps[j].name, outputs,
+            [&](const std::vector<double>& inputs) { return jump.map(inputs); }, exact);
     }
 
     const System& system_;

@@ -245,8 +245,8 @@ Signature parse_signature(const Model& model, std::string_view text, const Place
     }
     const auto signature = choose(model, places);
     if (!signature)
-        reader.fail("no cycle of the model's graph has these transitions",
-                    "look at the transitions of the model", names.front().column);
+        reader.fail("no cycle of the model's graph has these transitions", "look at the transitions of the model",
+                    names.front().column);
     return *signature;
 }
 

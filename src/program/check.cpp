@@ -69,8 +69,7 @@ std::vector<ModelWarning> derivative_warnings(const System& system) {
     const Model& model = system.model();
     if (system.states() + system.parameters() > most)
         return warnings;
-    for (const DerivativeFinding& finding :
-         check_derivatives(system, model.initial_state(), model.parameter_values()))
+    for (const DerivativeFinding& finding : check_derivatives(system, model.initial_state(), model.parameter_values()))
         warnings.push_back({finding.part, finding.text()});
     return warnings;
 }

@@ -50,14 +50,17 @@ constexpr Words remedies[] = {
     {"or pass over lines and say what the columns are",
      "or pass over lines (--skip N) and say what the columns are (--columns)"},
     {"q [mm]', or say what they are", "q [mm]', or say it by --columns"},
-    {"permissions of the folder, or choose another one", "permissions of the folder, or choose another one by --output"},
-    {"wait until it has ended, or choose another folder", "wait until it has ended, or choose another folder by --output"},
+    {"permissions of the folder, or choose another one",
+     "permissions of the folder, or choose another one by --output"},
+    {"wait until it has ended, or choose another folder",
+     "wait until it has ended, or choose another folder by --output"},
     {"run a study, which makes one", "graze run STUDY makes one, in the folder that --output names"},
     {"or choose the folder that it leads to", "or choose the folder that it leads to by --output"},
     {"export one of them at a time, or list their points",
      "export one of them at a time, by --run NAME, or all into a folder, by --output FOLDER/, or see graze points FILE "
      "--all"},
-    {"export one of them at a time", "export one of them at a time, by --run NAME, or all into a folder, by --output FOLDER/"},
+    {"export one of them at a time",
+     "export one of them at a time, by --run NAME, or all into a folder, by --output FOLDER/"},
     {"; name states or expressions", "; name states or expressions by --y"},
 };
 
@@ -66,7 +69,8 @@ constexpr std::pair<const char*, const char*> patterns[] = {
     {R"(make it by designing (\S+) into (\S+)$)", "make it by: graze design $1 --output $2"},
     {R"(run '(\S+)' has no orbit number (\S+); give one of its (\d+) orbits$)",
      "run '$1' has no orbit number $2; graze points --run $1 --all lists its $3 orbits"},
-    {R"(run '(\S+)' is of kind (.*); see its points$)", "run '$1' is of kind $2; see its results by graze export --run $1"},
+    {R"(run '(\S+)' is of kind (.*); see its points$)",
+     "run '$1' is of kind $2; see its results by graze export --run $1"},
     {R"(if the comment in line (\d+) does, name that line$)", "if the comment in line $1 does, by --names-line $1"},
 };
 

@@ -12,7 +12,7 @@ namespace graze {
 
 namespace {
 
-/// Passes samples on. Where there are none at all, whatever is made of them would be an empty answer.
+/// Passes samples on, and throws if there are none at all, since any result would be empty.
 class RequiredRows : public SampleSource {
 public:
     RequiredRows(std::shared_ptr<SampleSource> source, bool by_options)
@@ -22,9 +22,8 @@ public:
         const bool more = source_->read(samples);
         has_rows_ = has_rows_ || samples.rows() > 0;
         if (!more && !has_rows_)
-            throw InputError("the record has no rows", by_options_
-                                                           ? "give one with rows, and let the times leave some"
-                                                           : "give one with rows, and let `part` leave some");
+            throw InputError("the record has no rows", by_options_ ? "give one with rows, and let the times leave some"
+                                                                   : "give one with rows, and let `part` leave some");
         return more;
     }
 

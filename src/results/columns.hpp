@@ -40,8 +40,8 @@ struct ColumnKind {
     ColumnUnit unit = ColumnUnit::none;
     bool in_views = false; ///< of all runs
     ColumnGroup group = ColumnGroup::single;
-    const char* former = "";  ///< its name in older files; empty: the same
-    bool may_lack = false;    ///< in older files: what reads it takes nothing for an absent value
+    const char* former = ""; ///< its name in older files; empty: the same
+    bool may_lack = false;   ///< in older files: what reads it takes nothing for an absent value
 };
 
 /// A column that was not always there.

@@ -36,11 +36,10 @@ void require_plain_file(const std::string& path, bool writing) {
     std::error_code error;
     const auto type = std::filesystem::status(path, error).type();
     if (type != std::filesystem::file_type::regular && type != std::filesystem::file_type::not_found)
-        throw FileError(path, "this is no plain file",
-                         "give the results.sqlite of a study, or its folder");
+        throw FileError(path, "this is no plain file", "give the results.sqlite of a study, or its folder");
     if (writing && std::filesystem::is_symlink(path, error))
         throw FileError(path, "this is a link, and results are written only into the folder itself",
-                         "remove the link, or choose the folder that it leads to");
+                        "remove the link, or choose the folder that it leads to");
 }
 
 } // namespace
@@ -51,12 +50,12 @@ void throw_database_error(int code, const std::string& message, const std::strin
     case SQLITE_FULL:
     case SQLITE_IOERR:
         throw FileError(path, fmt::format("it cannot be written to ({})", message),
-                         "make room on the disk and run the same command again: it goes on from what is there");
+                        "make room on the disk and run the same command again: it goes on from what is there");
     case SQLITE_READONLY:
     case SQLITE_CANTOPEN:
     case SQLITE_PERM:
         throw FileError(path, fmt::format("the result file cannot be opened or written ({})", message),
-                         "look at the permissions of file and folder, or choose another folder");
+                        "look at the permissions of file and folder, or choose another folder");
     case SQLITE_AUTH:
         throw InputError(place, fmt::format("a query may only read ({})", message), "give one SELECT");
     case SQLITE_BUSY:

@@ -70,7 +70,9 @@ TableForm form_of(const Database& database, const std::string& table, const std:
                   std::map<ColumnGroup, std::vector<std::string>> own) {
     TableForm form{table};
     const std::vector<std::string> there = columns_of_table(database, table);
-    const auto has = [&](const std::string& name) { return std::find(there.begin(), there.end(), name) != there.end(); };
+    const auto has = [&](const std::string& name) {
+        return std::find(there.begin(), there.end(), name) != there.end();
+    };
     std::set<std::string> taken; // by a run's own things, whatever a column of this format is called
     for (const RunColumn& column : columns)
         taken.insert(own[column.kind.group].begin(), own[column.kind.group].end());

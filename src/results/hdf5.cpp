@@ -37,7 +37,7 @@ public:
     Handle(hid_t id, herr_t (*close)(hid_t), const std::string& path) : id_(id), close_(close) {
         if (id < 0)
             throw FileError(path, "the HDF5 file cannot be written",
-                             "look at the permissions of the folder and the room on the disk");
+                            "look at the permissions of the folder and the room on the disk");
     }
     ~Handle() {
         if (id_ >= 0)
@@ -270,10 +270,9 @@ void write_run(hid_t output, const StoredRun& stored, const std::string& path) {
     const RunTables tables(run);
     write_table(group.id(), run.is_branch() ? "orbits" : "points", stored.file,
                 tables.select_point() + " ORDER BY number", plans_of(tables.point_columns, stored), path);
-    write_table(
-        group.id(), run.is_branch() ? "segments" : "samples", stored.file,
-        tables.select_sample() + " ORDER BY " + (run.is_branch() ? "point, segment" : "rowid"),
-        plans_of(tables.sample_columns, stored), path);
+    write_table(group.id(), run.is_branch() ? "segments" : "samples", stored.file,
+                tables.select_sample() + " ORDER BY " + (run.is_branch() ? "point, segment" : "rowid"),
+                plans_of(tables.sample_columns, stored), path);
     for (const DetailTable& table : detail_tables())
         if (run.is_branch() || !table.of_branches)
             write_details(group.id(), stored, table, path);

@@ -128,8 +128,8 @@ std::optional<PointRecord> ResultFile::point(const std::string& name, std::size_
     PointRecord point = read_point(row, *run);
     SampleSet& samples = point.result.samples;
     samples.width = run->values.size();
-    Statement rows = state_->database.prepare(
-        tables.select_sample() + " WHERE rowid >= ?1 AND rowid < ?2 ORDER BY rowid");
+    Statement rows =
+        state_->database.prepare(tables.select_sample() + " WHERE rowid >= ?1 AND rowid < ?2 ORDER BY rowid");
     const auto first = static_cast<std::int64_t>(number) * samples_of_a_point;
     rows.bind(1, first).bind(2, first + samples_of_a_point);
     require_columns(rows, tables.sample_columns.size(), path());

@@ -1,7 +1,6 @@
-#include "graze/base/require.hpp"
 #include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
 #include "results/result_file_state.hpp"
-
 
 namespace graze {
 

@@ -18,7 +18,6 @@
 #include <filesystem>
 #include <limits>
 
-
 namespace graze {
 
 namespace {
@@ -80,8 +79,7 @@ ResultFile::ResultFile(const std::string& path, Access access) {
     const bool writing = access == Access::write;
     std::error_code error;
     if (!writing && !std::filesystem::exists(path, error))
-        throw FileError(path, "there is no such result file",
-                         "run a study, which makes one");
+        throw FileError(path, "there is no such result file", "run a study, which makes one");
     state_ = std::make_shared<State>(path, writing);
     const Database& database = state_->database;
     const std::int64_t application = database.value("PRAGMA application_id");
@@ -123,8 +121,7 @@ ResultFile::ResultFile(const std::string& path, Access access) {
         state_->at_once([&] {
             database.execute(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}; {}", result_application,
                                          result_format, common_tables()));
-            database.execute(
-                fmt::format("INSERT INTO meta VALUES('{}', '{}')", oldest_reader_key, oldest_reader));
+            database.execute(fmt::format("INSERT INTO meta VALUES('{}', '{}')", oldest_reader_key, oldest_reader));
         });
     else if (format < result_format)
         state_->at_once([&] {

@@ -66,9 +66,8 @@ OrbitRecord orbit_of_run(const ResultFile& file, const RunRecord& run, const std
     if (auto record = look_up(file, run, point))
         return std::move(*record);
     if (is_number(point))
-        throw InputError(
-            place, fmt::format("run '{}' has no orbit number {}", run.name, point),
-            fmt::format("give one of its {} orbits", file.point_count(run.name)));
+        throw InputError(place, fmt::format("run '{}' has no orbit number {}", run.name, point),
+                         fmt::format("give one of its {} orbits", file.point_count(run.name)));
     throw InputError(place, fmt::format("run '{}' has no orbit '{}'", run.name, point),
                      name_advice(point, StoredRun(file, run.name, place).special_labels(),
                                  "none of its orbits has a label; give a number"));

@@ -102,8 +102,7 @@ std::shared_ptr<Graph> Graph::copy() const {
 
 void Graph::require_growing() const {
     if (frozen_)
-        throw OrderError(
-            "the graph of a compiled system cannot grow: make new expressions in a copy of its model");
+        throw OrderError("the graph of a compiled system cannot grow: make new expressions in a copy of its model");
 }
 
 Expression Graph::adopt(const Expression& foreign) {
@@ -131,7 +130,7 @@ NodeIndex Graph::intern(Node node) {
     require_growing();
     if (nodes_.size() >= std::numeric_limits<NodeIndex>::max())
         throw InputError("an expression graph is full", "");
-    // What could be folded has been; constant operands that are left have no finite value.
+    // Constants have been folded wherever the result is finite, so constant operands mean that there is none.
     bool undefined = false;
     const auto is_number = [&](NodeIndex operand) { return nodes_[operand].operation == Operation::number; };
     if (arity(node.operation) == 1)
@@ -150,7 +149,8 @@ NodeIndex Graph::intern(Node node) {
 NodeIndex Graph::own(const Expression& expression) const {
     if (expression.graph().get() != this)
         throw InputError(expression.empty() ? "an operand is an empty expression"
-                                                       : "expressions of different graphs cannot be combined", "");
+                                            : "expressions of different graphs cannot be combined",
+                         "");
     return expression.index();
 }
 

@@ -2,7 +2,6 @@
 
 #include "graze/base/input_error.hpp"
 
-
 namespace graze {
 
 SymbolIndex::SymbolIndex(std::span<const Expression> symbols) : symbols_(symbols.begin(), symbols.end()) {

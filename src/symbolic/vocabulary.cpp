@@ -1,7 +1,7 @@
 #include "symbolic/vocabulary.hpp"
 
-#include "symbolic/function_table.hpp"
 #include "graze/base/input_error.hpp"
+#include "symbolic/function_table.hpp"
 
 #include <fmt/format.h>
 

@@ -46,7 +46,9 @@ TEST(Error, HasAKindHoweverItIsCaught) {
     Mistakes mistakes;
     mistakes.attempt([] { throw FileError("results.sqlite", "a", "b"); });
     EXPECT_EQ(kind_of([&] { mistakes.throw_noted(); }), "file");
-    EXPECT_EQ(kind_of([] { with_place({"study.toml", 1, 1}, [] { throw FileError("results.sqlite", "a", "b"); }); }),
+    EXPECT_EQ(kind_of([] {
+                  with_place({"study.toml", 1, 1}, [] { throw FileError("results.sqlite", "a", "b"); });
+              }),
               "file");
 }
 

@@ -90,7 +90,8 @@ TEST(Bounds, hold_beside_a_pitchfork_and_a_fold) {
     // On the parabola mu = u^2 the parameter turns where the other branch crosses.
     const Model pitchfork = about_a_clock("mu*u - u^3");
     for (const double bound : {1e-2, 1e-4, 1e-7})
-        expect_within(follow_branch(System(pitchfork), orbit_at(pitchfork, 1, 1), between(pitchfork, bound, 2, -1)), bound, 2);
+        expect_within(follow_branch(System(pitchfork), orbit_at(pitchfork, 1, 1), between(pitchfork, bound, 2, -1)),
+                      bound, 2);
     const Model fold = about_a_clock("mu - u^2");
     for (const double bound : {1e-2, 1e-5, 1e-9})
         expect_within(follow_branch(System(fold), orbit_at(fold, 1, 1), between(fold, bound, 2, -1)), bound, 2);

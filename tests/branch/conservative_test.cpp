@@ -199,7 +199,8 @@ direction = "falling"
     std::size_t found = 0;
     for (const int direction : {1, -1}) {
         settings.direction = direction;
-        for (const SpecialPoint& special : of_type(follow_branch(System(model), start, settings), PointType::extremum)) {
+        for (const SpecialPoint& special :
+             of_type(follow_branch(System(model), start, settings), PointType::extremum)) {
             const double amplitude = std::abs(special.solution.orbit.starts[0][0]);
             if (amplitude < 1e-6) { // at rest, where the one side becomes the other: the shortest one
                 EXPECT_NEAR(special.solution.orbit.period(), 2 * pi, 1e-12);

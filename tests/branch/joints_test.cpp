@@ -208,7 +208,8 @@ value = 0
 mode = "free"
 )toml");
     BranchSettings settings = in_parameter(model, "F", 0.1, 10);
-    const SpecialPoint touch = only(follow_branch(System(model), settled(model, "phase").orbit, settings), PointType::grazing);
+    const SpecialPoint touch =
+        only(follow_branch(System(model), settled(model, "phase").orbit, settings), PointType::grazing);
     EXPECT_EQ(touch.detail, "lower");
     const Branch curve = curve_of(model, touch, settings, "a", 0.5, 3, 1);
     EXPECT_EQ(curve.outcome, BranchOutcome::unphysical) << curve.detail;

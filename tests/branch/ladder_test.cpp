@@ -31,7 +31,9 @@ TEST(Ladder, ends_where_it_cannot_go_on_and_says_why) {
     EXPECT_EQ(ladder.why(), "bound: s = 0.93");
     EXPECT_EQ(climb(System(model), first, settings, 2).grazings().size(), 2U);
     // The visitor may end it.
-    EXPECT_EQ(climb(System(model), first, settings, 6, [](std::size_t, const Branch&) { return false; }).grazings().size(), 2U);
+    EXPECT_EQ(
+        climb(System(model), first, settings, 6, [](std::size_t, const Branch&) { return false; }).grazings().size(),
+        2U);
 
     settings.greatest = 1;
     EXPECT_THROW(climb(System(model), first, settings, 3), InputError); // outside of the bounds

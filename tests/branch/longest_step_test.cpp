@@ -91,7 +91,8 @@ TEST(LongestStep, passes_no_fold) {
                 BranchSettings settings;
                 settings.greatest = 120;
                 settings.steps = 4000;
-                const Branch branch = follow_branch(System(model), orbit_from(model, {unit * (1.5 - height), 0}), settings);
+                const Branch branch =
+                    follow_branch(System(model), orbit_from(model, {unit * (1.5 - height), 0}), settings);
                 ASSERT_EQ(names(branch), "SN SN BD") << place << ' ' << width;
                 const double off = height * std::tanh(half) - width * half;
                 EXPECT_NEAR(branch.special[0].parameter, place + off, 1e-9);

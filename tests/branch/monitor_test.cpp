@@ -89,9 +89,9 @@ TEST(OrbitMonitors, say_which_segments_there_are) {
     const Model model = model_from(linear);
     const OrbitSolution solution = settled(model, "phase0");
     for (const char* const wrong : {"2", "0", "impact", "phase0#2", "phase0#"})
-        EXPECT_THROW(
-            OrbitMonitors(System(model), solution.orbit.signature, {monitor("m", Monitor::Kind::value, model, "x", wrong)}),
-            InputError)
+        EXPECT_THROW(OrbitMonitors(System(model), solution.orbit.signature,
+                                   {monitor("m", Monitor::Kind::value, model, "x", wrong)}),
+                     InputError)
             << wrong;
 }
 

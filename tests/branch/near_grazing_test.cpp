@@ -95,7 +95,8 @@ TEST(NearGrazing, folds_and_flips_of_slow_impacts_are_found_from_the_touch) {
             const Branch free = follow_branch(System(model), settled(model, "phase0").orbit, settings);
             ASSERT_EQ(names(free), "GR");
             EXPECT_NEAR(free.special[0].parameter, static_cast<double>(known.amplitude(0)), 1e-11);
-            const Branch impacting = follow(model, branches_at(System(model), free.special[0], settings).front(), settings);
+            const Branch impacting =
+                follow(model, branches_at(System(model), free.special[0], settings).front(), settings);
             ASSERT_EQ(names(impacting), fold ? "SN BD" : "PD BD") << speed;
             EXPECT_NEAR(impacting.special[0].parameter,
                         static_cast<double>(known.amplitude(fold ? known.fold() : known.flip())), 1e-10)

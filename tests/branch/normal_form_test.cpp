@@ -25,7 +25,8 @@ double coefficient_of(const SpecialPoint& point) {
 
 TEST(NormalForm, flip_of_the_logistic_map_is_supercritical) {
     const Model model = map_model("r = 2.5", {"r*x*(1 - x)", "0.1*y"});
-    const Branch branch = follow_branch(System(model), fixed_point(model, {0.6, 0}), in_parameter(model, "r", 1.5, 3.4));
+    const Branch branch =
+        follow_branch(System(model), fixed_point(model, {0.6, 0}), in_parameter(model, "r", 1.5, 3.4));
     ASSERT_EQ(names(branch), "PD BD") << name_of(branch.outcome) << branch.detail << branch.points.size();
     EXPECT_NEAR(branch.special[0].parameter, 3, 1e-12);
     // f'' = -2 r and f''' = 0: c = (f'' / 2)^2 + f''' / 6.
@@ -38,7 +39,8 @@ TEST(NormalForm, cubic_terms_make_flips_subcritical) {
     for (const double s : {-2.0, -0.5, 1.0}) {
         const Model model =
             map_model(fmt::format("p = -0.2\nq = 1.0\ns = {}", s), {"-(1 + p)*x + q*x^2 + s*x^3", "0.1*y"});
-        const Branch branch = follow_branch(System(model), fixed_point(model, {0, 0}), in_parameter(model, "p", -0.5, 0.5));
+        const Branch branch =
+            follow_branch(System(model), fixed_point(model, {0, 0}), in_parameter(model, "p", -0.5, 0.5));
         ASSERT_EQ(names(branch), "PD BD");
         EXPECT_NEAR(coefficient_of(branch.special[0]), 1 + s, 1e-5);
         EXPECT_EQ(branch.special[0].detail.starts_with("super"), 1 + s > 0) << branch.special[0].detail;
@@ -234,7 +236,8 @@ double coefficient_of_spiral(double w, double k) {
 TEST(NormalForm, torus_has_the_coefficient_of_its_map) {
     for (const double w : {0.7, 1.1, 2.4}) {
         const Model model = spiral(-0.1, w);
-        const Branch branch = follow_branch(System(model), fixed_point(model, {0, 0}), in_parameter(model, "p", -0.3, 0.3));
+        const Branch branch =
+            follow_branch(System(model), fixed_point(model, {0, 0}), in_parameter(model, "p", -0.3, 0.3));
         ASSERT_EQ(names(branch), "NS BD") << w;
         EXPECT_NEAR(branch.special[0].parameter, 0, 1e-12);
         const double expected = coefficient_of_spiral(w, -0.4);

@@ -115,8 +115,8 @@ TEST(OrbitBranch, stops_where_it_is_told) {
     EXPECT_EQ(follow_branch(System(one.model), one.orbit, one.settings).points.size(), 1U);
     one.settings.steps = 100;
     std::size_t seen = 0;
-    const Branch visited =
-        follow_branch(System(one.model), one.orbit, one.settings, [&](const BranchPoint&, const auto&) { return ++seen < 4; });
+    const Branch visited = follow_branch(System(one.model), one.orbit, one.settings,
+                                         [&](const BranchPoint&, const auto&) { return ++seen < 4; });
     EXPECT_EQ(visited.outcome, BranchOutcome::stopped);
     EXPECT_EQ(visited.points.size(), 4U);
 }
@@ -215,7 +215,8 @@ TEST(OrbitBranch, says_what_is_wrong) {
     EXPECT_NE(refused([](auto& s) { s.orbit.tolerance = 1; }).find("tolerance"), std::string::npos);
     Orbit wrong = one.orbit;
     wrong.starts[0].pop_back();
-    EXPECT_NE(refusal([&] { follow_branch(System(one.model), wrong, one.settings); }).find("states"), std::string::npos);
+    EXPECT_NE(refusal([&] { follow_branch(System(one.model), wrong, one.settings); }).find("states"),
+              std::string::npos);
     OrbitBranch branch(System(one.model), one.orbit, one.settings);
     EXPECT_NE(refusal([&] { branch.start_along({{{1, 2}}, {1}, {}}, 0.1); }).find("direction"), std::string::npos);
     EXPECT_FALSE(branch.step());
@@ -235,11 +236,13 @@ TEST(OrbitBranch, says_where_nothing_leads_on) {
     BranchSettings settings = one.settings;
     settings.direction = -1;
     const Branch branch = follow_branch(System(one.model), one.orbit, settings);
-    EXPECT_NE(refusal([&] { branches_at(System(one.model), branch.special.at(0), settings); }).find("SN"), std::string::npos);
+    EXPECT_NE(refusal([&] { branches_at(System(one.model), branch.special.at(0), settings); }).find("SN"),
+              std::string::npos);
     settings.direction = 1;
     settings.greatest = 0.05;
     const Branch bounded = follow_branch(System(one.model), one.orbit, settings);
-    EXPECT_NE(refusal([&] { branches_at(System(one.model), bounded.special.at(0), settings); }).find("BD"), std::string::npos);
+    EXPECT_NE(refusal([&] { branches_at(System(one.model), bounded.special.at(0), settings); }).find("BD"),
+              std::string::npos);
 }
 
 /// An oscillator that hits a stop, and beside it u' = u (p - u^2) about a motion: branches cross at p = 0 whatever the

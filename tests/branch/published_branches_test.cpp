@@ -106,7 +106,8 @@ TEST(PublishedBranches, microactuator_with_one_contact_has_its_flip) {
 TEST(PublishedBranches, microactuator_loses_its_contact_where_it_was_gained) {
     const Microactuator one(0.9189);
     const Branch before = one.without_contact();
-    Branch branch = follow(one.model, branches_at(System(one.model), before.special.back(), one.settings).at(0), one.settings);
+    Branch branch =
+        follow(one.model, branches_at(System(one.model), before.special.back(), one.settings).at(0), one.settings);
     const auto far = std::find_if(branch.points.begin(), branch.points.end(),
                                   [](const BranchPoint& point) { return point.parameter > 0.65; });
     ASSERT_NE(far, branch.points.end());

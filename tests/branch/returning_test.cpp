@@ -51,7 +51,8 @@ TEST(ReturningBranches, come_back_where_the_more_regular_orbits_change_again) {
         const Branch symmetric = follow_branch(System(model), settled(model, "start").orbit, settings);
         ASSERT_EQ(symmetric.outcome, BranchOutcome::stopped) << names(symmetric);
         settings.stop_at = {};
-        const Branch asymmetric = follow(model, branches_at(System(model), symmetric.special.back(), settings).at(0), settings);
+        const Branch asymmetric =
+            follow(model, branches_at(System(model), symmetric.special.back(), settings).at(0), settings);
         const auto flips = of_type(asymmetric, PointType::flip);
         EXPECT_EQ(asymmetric.outcome, BranchOutcome::returned) << names(asymmetric);
         ASSERT_EQ(flips.size(), 2U) << names(asymmetric);

@@ -113,7 +113,8 @@ state = "theta"
 value = 0
 )toml");
     const BranchSettings settings = along(model, "amplitude", 1, 0.1, 1.6);
-    const auto touches = of_type(follow_branch(System(model), settled(model, "phase0").orbit, settings), PointType::grazing);
+    const auto touches =
+        of_type(follow_branch(System(model), settled(model, "phase0").orbit, settings), PointType::grazing);
     ASSERT_FALSE(touches.empty());
     const double zeta = 0.05, omega = 0.6, turn = 2 * std::numbers::pi / omega, own = std::sqrt(1 - zeta * zeta);
     const double amplitude = touches[0].solution.orbit.parameters[settings.parameter.place()];
@@ -134,7 +135,8 @@ TEST(Sliding, goes_on_with_dry_friction) {
     model.set_parameter("friction_static", 0.3);
     model.set_parameter("omega", 0.2);
     const BranchSettings settings = along(model, "omega", 1, 0.15, 0.22);
-    const auto touches = of_type(follow_branch(System(model), settled(model, "phase0").orbit, settings), PointType::grazing);
+    const auto touches =
+        of_type(follow_branch(System(model), settled(model, "phase0").orbit, settings), PointType::grazing);
     ASSERT_EQ(touches.size(), 1U);
     const Judgement one = judgement(model, touches[0], settings.parameter);
     EXPECT_EQ(one.verdict.outcome, GrazingOutcome::persists) << one.verdict.reason;
@@ -210,7 +212,8 @@ std::map<std::string, int> try_random(int count, unsigned seed) {
         for (const int direction : {-1, 1}) {
             BranchSettings settings = along(model, "amplitude", direction, 0.2 * amplitude, 3 * amplitude);
             settings.steps = 100;
-            for (const SpecialPoint& point : of_type(follow_branch(System(model), start.orbit, settings), PointType::grazing)) {
+            for (const SpecialPoint& point :
+                 of_type(follow_branch(System(model), start.orbit, settings), PointType::grazing)) {
                 const Judgement one = judgement(model, point, settings.parameter);
                 if (one.map.contact.order != MapOrder::linear) {
                     ++counts["not grazing-sliding"];

@@ -108,7 +108,8 @@ TEST(SmoothSwitch, no_extremum_of_the_period_is_where_the_force_fixes_it) {
     // The contact loses its speed at the end of the branch, where the frequency goes on.
     const SoftStop stop{1, 1.472, 0.03, 20, 0.2};
     const Model model = stop.model("section");
-    const Branch branch = follow_branch(System(model), settled(model, "ph", 400).orbit, in_parameter(model, "w", 0.2, 4));
+    const Branch branch =
+        follow_branch(System(model), settled(model, "ph", 400).orbit, in_parameter(model, "w", 0.2, 4));
     EXPECT_TRUE(of_type(branch, PointType::extremum).empty()) << names(branch);
     ASSERT_FALSE(of_type(branch, PointType::grazing).empty()) << names(branch);
 }

@@ -119,7 +119,8 @@ TEST(TouchedSection, flip_beyond_it_is_found_and_left) {
     settings.least = 0.02;
     settings.greatest = 0.9;
     settings.direction = -1;
-    const Branch branch = follow_branch(System(model), on_circle(model, 0.9, std::sqrt(0.9), level, true, {0, 0}), settings);
+    const Branch branch =
+        follow_branch(System(model), on_circle(model, 0.9, std::sqrt(0.9), level, true, {0, 0}), settings);
     ASSERT_EQ(names(branch), "PD BD") << branch.detail;
     expect_flip(branch.special[0]);
     EXPECT_NEAR(branch.special[0].parameter, 0.1, 1e-9);

@@ -55,9 +55,8 @@ TEST(Yield, OfGivenDevicesIsThatOfTheClosedForm) {
     given.values.emplace_back(); // one that cannot be made
     std::vector<double> told(given.values.size());
     shop.settings.least = 0;
-    const Yield yield =
-        yield_of(System(shop.model), shop.point, shop.force, given, shop.settings,
-                 [&](std::size_t i, const LocatedSolution& solution) { told[i] = solution.value; });
+    const Yield yield = yield_of(System(shop.model), shop.point, shop.force, given, shop.settings,
+                                 [&](std::size_t i, const LocatedSolution& solution) { told[i] = solution.value; });
     ASSERT_EQ(yield.found, 50U);
     EXPECT_EQ(yield.failed, 1U);
     EXPECT_EQ(yield.problems.front().first, "the device cannot be made");

@@ -481,7 +481,8 @@ TEST(DiscontinuityMap, of_the_end_of_sliding_is_refused_with_the_reason) {
 
 TEST(DiscontinuityMap, of_sliding_is_refused_with_the_reason) {
     const auto reason_of = [](const Model& model) {
-        const DiscontinuityMap map = discontinuity_map(System(model), touch_of(model, "free", "touch", touch_of_relay()));
+        const DiscontinuityMap map =
+            discontinuity_map(System(model), touch_of(model, "free", "touch", touch_of_relay()));
         EXPECT_FALSE(map.exists());
         return map.reason;
     };
@@ -500,7 +501,8 @@ TEST(DiscontinuityMap, of_sliding_is_refused_with_the_reason) {
 
 TEST(DiscontinuityMap, is_refused_with_the_reason) {
     const auto reason = [](const Model& model, std::vector<double> state = at_wall) {
-        const DiscontinuityMap map = discontinuity_map(System(model), touch_of(model, "free", "touch", std::move(state)));
+        const DiscontinuityMap map =
+            discontinuity_map(System(model), touch_of(model, "free", "touch", std::move(state)));
         EXPECT_FALSE(map.exists());
         return map.reason;
     };

@@ -188,7 +188,8 @@ void settings(WrongUses& wrong) {
     setting("steps_0", [](BranchSettings& s) { s.steps = 0; });
     const auto monitor = [&](const std::string& name, const Monitor& one) {
         setting("monitor_" + name, [one](BranchSettings& s) { s.monitors = {one}; });
-        wrong("monitors_" + name, [one] { keep(OrbitMonitors(System(calm_oscillator()), calm_orbit().signature, {one})); });
+        wrong("monitors_" + name,
+              [one] { keep(OrbitMonitors(System(calm_oscillator()), calm_orbit().signature, {one})); });
     };
     using Kind = Monitor::Kind;
     const Expression x = Graph::create()->symbol("x"), unknown = Graph::create()->symbol("unknown");

@@ -194,10 +194,10 @@ void jets(WrongUses& wrong) {
         });
     }
     for (const auto& [how, index] : wrong_indices(0))
-        wrong("jet_follower_" + how, [index = index] { keep(Pendulum().jet()->follower(index)); });
+        wrong("jet_deferred_" + how, [index = index] { keep(Pendulum().jet()->deferred(index)); });
     wrong("jet_follow_before_it_is_computed", [] {
         constexpr std::uint32_t group = 0;
-        make_jet(Pendulum().tape(), 8, LaneKind::single)->follow({&group, 1});
+        make_jet(Pendulum().tape(), 8, LaneKind::single)->compute_deferred({&group, 1});
     });
 }
 
@@ -249,7 +249,8 @@ void steps(WrongUses& wrong) {
     }
     for (const int order : {0, -1, highest_order + 1, std::numeric_limits<int>::max()}) {
         wrong("step_size_order_" + std::to_string(order), [order] { keep(StepSize(order, 1e-10)); });
-        wrong("step_check_order_" + std::to_string(order), [order] { keep(StepCheck(System(oscillator()), order, 1e-10)); });
+        wrong("step_check_order_" + std::to_string(order),
+              [order] { keep(StepCheck(System(oscillator()), order, 1e-10)); });
     }
     wrong("root_finder_degree_negative", [] { keep(RootFinder(-1)); });
     wrong("root_finder_degree_huge", [] { keep(RootFinder(std::numeric_limits<int>::max())); });
@@ -341,7 +342,8 @@ void mode_flows(WrongUses& wrong) {
         wrong("mode_flow_tolerance_" + std::to_string(tolerance),
               [tolerance] { keep(ModeFlow(System(oscillator()), tolerance)); });
     for (const int order : {3, -1, highest_order + 1})
-        wrong("mode_flow_order_" + std::to_string(order), [order] { keep(ModeFlow(System(oscillator()), 1e-10, order)); });
+        wrong("mode_flow_order_" + std::to_string(order),
+              [order] { keep(ModeFlow(System(oscillator()), 1e-10, order)); });
     for (const auto& [how, index] : wrong_indices(parameters))
         wrong("mode_flow_free_" + how,
               [index = index] { keep(ModeFlow(System(oscillator()), 1e-10, 0, {ParameterId(index)})); });

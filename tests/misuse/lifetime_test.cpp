@@ -29,7 +29,7 @@ void run_alone(Trajectory& trajectory) {
     JetSet jets(trajectory.simulation(), LaneKind::single);
     run(trajectory, jets);
     if (trajectory.outcome().ending != Ending::end_time)
-        throw std::logic_error(trajectory.outcome().detail);
+        throw OrderError(trajectory.outcome().detail);
 }
 
 void expressions(WrongUses& right) {
@@ -195,12 +195,12 @@ void trajectories(WrongUses& right) {
         jets.set_parameters(oscillator().parameter_values());
         jets.computed(1, std::vector<double>(3, 0.1));
     });
-    right("outlook_outlives_simulation", [] {
-        Outlook outlook(Simulation(System(oscillator())), 1);
+    right("preview_outlives_simulation", [] {
+        StepPreview preview(Simulation(System(oscillator())), 1);
         JetSet jets(Simulation(System(oscillator())), LaneKind::single);
         jets.set_parameters(oscillator().parameter_values());
-        outlook.lengths()[0] = 0;
-        outlook.find_steps(jets.computed(0, oscillator().initial_state()));
+        preview.lengths()[0] = 0;
+        preview.find_steps(jets.computed(0, oscillator().initial_state()));
     });
     right("ensemble_outlives_simulation", [] {
         std::optional<Simulation> simulation = Simulation(System(oscillator()));
@@ -223,9 +223,9 @@ void searches(WrongUses& right) {
         std::unique_ptr<PointSearch> search;
         {
             const Model model = oscillator();
-            search =
-                transient_searches(System(model), {.time = 0.1}, {{.name = "a", .section = "phase0"}}, {model.symbol("x")}, {})
-                    ->make();
+            search = transient_searches(System(model), {.time = 0.1}, {{.name = "a", .section = "phase0"}},
+                                        {model.symbol("x")}, {})
+                         ->make();
         }
         search->begin(oscillator().parameter_values(), oscillator().initial_state(), 0);
         run(search->trajectory(), *std::make_unique<JetSet>(search->trajectory().simulation(), LaneKind::single));
@@ -239,13 +239,14 @@ void searches(WrongUses& right) {
     });
     right("execution_of_temporaries", [] {
         std::size_t done = 0;
-        EXPECT_TRUE(execute(
-            {.chains = 3,
-             .start =
-                 [](std::size_t) {
-                     return PointStart{oscillator().parameter_values(), oscillator().initial_state(), 0};
-                 }},
-            *transient_searches(System(oscillator()), {.time = 0.1}, {}, {}, {}), {}, {.jobs = 2}, [&](auto&&...) { ++done; }));
+        EXPECT_TRUE(
+            execute({.chains = 3,
+                     .start =
+                         [](std::size_t) {
+                             return PointStart{oscillator().parameter_values(), oscillator().initial_state(), 0};
+                         }},
+                    *transient_searches(System(oscillator()), {.time = 0.1}, {}, {}, {}), {}, {.jobs = 2},
+                    [&](auto&&...) { ++done; }));
         EXPECT_EQ(done, 3U);
     });
     right("find_orbit_of_temporaries", [] { keep(find_orbit(System(calm_oscillator()), by_phase())); });
@@ -315,8 +316,8 @@ void searches(WrongUses& right) {
         keep(plan.start(plan.points() - 1));
     });
     right("follow_motion_of_temporaries", [] {
-        keep(follow_motion(Simulation(System(oscillator())), oscillator().parameter_values(), oscillator().initial_state(), 0,
-                           1));
+        keep(follow_motion(Simulation(System(oscillator())), oscillator().parameter_values(),
+                           oscillator().initial_state(), 0, 1));
     });
 }
 

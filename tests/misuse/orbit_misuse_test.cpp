@@ -72,7 +72,8 @@ void defective_orbits(WrongUses& wrong) {
         with("whole_orbit", [](const Model& m, const Orbit& o) { keep(whole_orbit(System(m), o)); });
         with("half_orbit", [](const Model& m, const Orbit& o) { keep(half_orbit(System(m), o)); });
         with("orbit_branch", [](const Model& m, const Orbit& o) { keep(OrbitBranch(System(m), o, by_amplitude())); });
-        with("follow_branch", [](const Model& m, const Orbit& o) { keep(follow_branch(System(m), o, by_amplitude())); });
+        with("follow_branch",
+             [](const Model& m, const Orbit& o) { keep(follow_branch(System(m), o, by_amplitude())); });
         with("monitors", [](const Model& m, const Orbit& o) {
             OrbitMonitors monitors(System(m), calm_orbit().signature, {{.name = "period"}});
             keep(monitors(o));
@@ -115,7 +116,8 @@ void signatures(WrongUses& wrong) {
     segment("no_end", {.end = static_cast<SegmentEnd>(9)});
     segment("transition_of_another_mode", {.mode = 1});
     wrong("validate_signature_empty", [] { validate_signature(oscillator(), {}); });
-    wrong("orbit_monitors_signature_empty", [] { keep(OrbitMonitors(System(oscillator()), {}, {{.name = "period"}})); });
+    wrong("orbit_monitors_signature_empty",
+          [] { keep(OrbitMonitors(System(oscillator()), {}, {{.name = "period"}})); });
     wrong("orbit_with_signature_empty", [] { keep(orbit_with_signature(System(oscillator()), {})); });
 }
 
@@ -127,7 +129,8 @@ void options(WrongUses& wrong) {
             return options;
         };
         wrong("orbit_options_" + name, [made] { made().validate(); });
-        wrong("solve_orbit_with_" + name, [made] { keep(solve_orbit(System(calm_oscillator()), calm_orbit(), made())); });
+        wrong("solve_orbit_with_" + name,
+              [made] { keep(solve_orbit(System(calm_oscillator()), calm_orbit(), made())); });
         wrong("find_orbit_with_" + name, [made] { keep(find_orbit(System(calm_oscillator()), by_phase(), made())); });
         wrong("orbit_with_signature_with_" + name, [made] {
             keep(orbit_with_signature(System(calm_oscillator()), parse_signature(oscillator(), "phase0"), made()));
@@ -151,7 +154,8 @@ void options(WrongUses& wrong) {
               [v = value] { keep(half_orbit(System(symmetric_oscillator()), calm_orbit(), v)); });
     const auto search = [&](const std::string& name, const SignatureSearchOptions& limits) {
         wrong("signature_search_" + name, [limits] {
-            keep(orbit_with_signature(System(calm_oscillator()), parse_signature(oscillator(), "phase0"), {}, {}, limits));
+            keep(orbit_with_signature(System(calm_oscillator()), parse_signature(oscillator(), "phase0"), {}, {},
+                                      limits));
         });
     };
     search("no_steps", {.steps = 0});
@@ -169,7 +173,8 @@ void motions(WrongUses& wrong) {
         wrong("follow_motion_" + name, [spoil] {
             Given given;
             spoil(given);
-            keep(follow_motion(Simulation(System(oscillator())), given.parameters, given.state, given.mode, given.time));
+            keep(
+                follow_motion(Simulation(System(oscillator())), given.parameters, given.state, given.mode, given.time));
         });
     };
     for (const auto& [kind, length] : wrong_lengths(5))

@@ -151,9 +151,7 @@ void writers(WrongUses& wrong) {
 void stages(WrongUses& wrong) {
     using Source = std::shared_ptr<SampleSource>;
     const auto on_record = [&](const std::string& name, const std::function<void(const Source&)>& use) {
-        wrong(name, [use] {
-            use(std::make_shared<StoredSamples>(header(), wave()));
-        });
+        wrong(name, [use] { use(std::make_shared<StoredSamples>(header(), wave())); });
     };
     wrong("calibrated_without_source", [] { Calibrated({}, {}); });
     wrong("low_pass_without_source", [] { LowPass({}, {.pass = 1}); });

@@ -46,7 +46,8 @@ inline BranchSettings by_amplitude() {
 }
 /// Where the oscillator grazes the stop.
 inline SpecialPoint grazing_point() {
-    static const SpecialPoint point = follow_branch(System(calm_oscillator()), calm_orbit(), by_amplitude()).special.back();
+    static const SpecialPoint point =
+        follow_branch(System(calm_oscillator()), calm_orbit(), by_amplitude()).special.back();
     return point;
 }
 

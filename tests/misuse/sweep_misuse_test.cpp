@@ -60,7 +60,8 @@ void transient_options(WrongUses& wrong) {
             return options;
         };
         wrong("transient_options_" + name, [made] { made().validate(oscillator()); });
-        wrong("transient_searches_" + name, [made] { keep(transient_searches(System(oscillator()), made(), {}, {}, {})); });
+        wrong("transient_searches_" + name,
+              [made] { keep(transient_searches(System(oscillator()), made(), {}, {}, {})); });
     };
     option("no_end", [](TransientOptions& o) { o.time = 0; });
     option("section_unknown", [](TransientOptions& o) { o.section = "unknown"; });
@@ -115,8 +116,9 @@ void samplings(WrongUses& wrong) {
         sampling("symmetry_" + kind, [i = index](Sampling& s) { s.symmetry = i; });
     for (const auto& [kind, value] : std::vector<std::pair<std::string, Expression>>{
              {"nothing", {}}, {"unknown", Graph::create()->symbol("unknown")}}) {
-        wrong("attractor_value_" + kind,
-              [value = value] { keep(attractor_searches(System(oscillator()), by_phase(), {at_phase()}, Values{value}, {})); });
+        wrong("attractor_value_" + kind, [value = value] {
+            keep(attractor_searches(System(oscillator()), by_phase(), {at_phase()}, Values{value}, {}));
+        });
         wrong("transient_value_" + kind, [value = value] {
             keep(transient_searches(System(oscillator()), {.time = 1}, {at_phase()}, Values{value}, {}));
         });
@@ -213,7 +215,7 @@ void executions(WrongUses& wrong) {
     start("mode", {parameters, state, 2});
     execution("start_that_throws", [](Execution& e) {
         e.options.jobs = 2;
-        e.plan.start = [](std::size_t) -> PointStart { throw std::invalid_argument("no such point"); };
+        e.plan.start = [](std::size_t) -> PointStart { throw InputError("no such point", ""); };
     });
     wrong("name_of_no_label", [] { keep(std::string(name_of(static_cast<Label>(99)))); });
 }

@@ -21,8 +21,8 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using ::testing::UnorderedElementsAre;
 using testing::TemporaryFolder;
+using ::testing::UnorderedElementsAre;
 
 /// A file with an orbit that touches, and a sweep of one point with a sample.
 class FileForm : public ::testing::Test {
@@ -38,8 +38,8 @@ protected:
         solution.orbit.parameters = model.parameter_values();
         solution.orbit.starts = {{1, 2, 3}};
         solution.orbit.durations = {4};
-        solution.certificate.approach_speeds = solution.certificate.departures = solution.certificate.guard_margins = {
-            1};
+        solution.certificate.approach_speeds = solution.certificate.departures =
+            solution.certificate.guard_margins = {1};
         point.coordinates = {2.5};
         point.result.state = {1, 2, 3};
         point.result.lyapunov = 0.25;
@@ -148,12 +148,13 @@ TEST_F(FileForm, a_newer_file_that_has_only_added_something_is_read) {
 }
 
 TEST_F(FileForm, a_newer_file_that_has_changed_something_is_refused) {
-    for (const char* reader : {"UPDATE meta SET value = '8' WHERE key = 'oldest reader'",
-                               "UPDATE meta SET value = 'x' WHERE key = 'oldest reader'",
-                               "DELETE FROM meta WHERE key = 'oldest reader'"}) {
+    for (const char* reader :
+         {"UPDATE meta SET value = '8' WHERE key = 'oldest reader'",
+          "UPDATE meta SET value = 'x' WHERE key = 'oldest reader'", "DELETE FROM meta WHERE key = 'oldest reader'"}) {
         change(std::string("PRAGMA user_version = 8; ") + reader);
         for (const auto access : {ResultFile::Access::read, ResultFile::Access::write})
-            EXPECT_THAT(refusal([&] { ResultFile(path, access); }), HasSubstr("has format 8, this version of graze knows"))
+            EXPECT_THAT(refusal([&] { ResultFile(path, access); }),
+                        HasSubstr("has format 8, this version of graze knows"))
                 << reader;
         change("INSERT OR REPLACE INTO meta VALUES('oldest reader', '7')");
     }

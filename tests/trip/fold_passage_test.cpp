@@ -72,7 +72,8 @@ TEST(FoldPassage, takes_as_long_as_simulation_and_as_the_map_by_itself) {
             const double overshoot = one.fold.side * std::pow(10, -decade);
             TripOptions options;
             options.cycles = 100'000;
-            const SimulatedPassage simulated = simulated_passage(System(one.model), one.fold, overshoot, {}, true, options);
+            const SimulatedPassage simulated =
+                simulated_passage(System(one.model), one.fold, overshoot, {}, true, options);
             ASSERT_TRUE(simulated.passed);
             // The map iterated in the plainest way, for w = |a| u up to the same gate, from the value of the fold.
             double w = -0.05, last = w;

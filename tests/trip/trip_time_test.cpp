@@ -463,8 +463,8 @@ TEST(TripTime, OfSlidingOnABeltGoesByLogarithms) {
     for (const SpecialPoint& point : testing::of_type(branch, PointType::grazing)) {
         CycleMapOptions options;
         options.parameter = settings.parameter;
-        const CycleMap map =
-            cycle_map(System(model), point.solution.orbit, {point.segment, point.event, point.time, point.at_end}, options);
+        const CycleMap map = cycle_map(System(model), point.solution.orbit,
+                                       {point.segment, point.event, point.time, point.at_end}, options);
         const Verdict verdict = verdict_of(map);
         if (verdict.outcome == GrazingOutcome::undecided)
             continue;

@@ -48,7 +48,8 @@ private:
     std::string remedy_;
 };
 
-/// A function was called before what it needs, such as a step of what was not started: a mistake of the calling program.
+/// A function was called before what it needs, such as a step of what was not started: a mistake of the calling
+/// program.
 class OrderError : public Error {
 public:
     explicit OrderError(const std::string& problem, const std::string& remedy = "")
@@ -59,7 +60,8 @@ public:
 class InternalError : public Error {
 public:
     explicit InternalError(const std::string& problem)
-        : Error(ErrorKind::internal, {}, problem, "this is a mistake in graze: please report it, with what led to it") {}
+        : Error(ErrorKind::internal, {}, problem, "this is a mistake in graze: please report it, with what led to it") {
+    }
 };
 
 } // namespace graze

@@ -20,12 +20,12 @@ struct DerivativeFinding {
 };
 
 struct DerivativeCheckOptions {
-    double duration = 0; ///< of the flow; 0: a tenth of the time in which the state changes by its size
+    double duration = 0;     ///< of the flow; 0: a tenth of the time in which the state changes by its size
     double tolerance = 1e-6; ///< departure that counts, relative to the derivative's own size and to those beside it
 };
 
-/// Compares exact derivatives with differences at one state: of rates, watched events and sections, of jumps, and of the
-/// flow of each mode over a short time, by states and parameters (as Ceres Solver's GradientChecker does). An event
+/// Compares exact derivatives with differences at one state: of rates, watched events and sections, of jumps, and of
+/// the flow of each mode over a short time, by states and parameters (as Ceres Solver's GradientChecker does). An event
 /// whose function is not defined there cannot be watched, and is told as well. What differences cannot tell, as next to
 /// a singularity, is passed over; a corner that is very near is told as a disagreement.
 /// @param state, parameters as many as the system has. @return what disagrees; nothing where all is well

@@ -91,9 +91,10 @@ class ResultFile {
 public:
     enum class Access { read, write };
     /// Opens the file; to write, makes it if there is none.
-    /// Files of older versions are read and gone on with; what they lack is `missing`, and read as absent. Those of newer
-    /// ones are read where these have only added something.
-    /// @throws InputError when it is no such file, comes from a version too different, cannot be opened, or another process
+    /// Files of older versions are read and gone on with; what they lack is `missing`, and read as absent. Those of
+    /// newer ones are read where these have only added something.
+    /// @throws InputError when it is no such file, comes from a version too different, cannot be opened, or another
+    /// process
     ///         writes to it. Results are kept in a file only: an empty name and ":memory:" are none
     ResultFile(const std::string& path, Access access);
 

@@ -11,10 +11,10 @@
 
 namespace graze {
 
-/// Passes everything on to several observers, in their order. Asks to stop as soon as one of them does.
+/// Forwards all calls to several observers, in their order. Stops as soon as one of them does.
 class Relay : public Observer {
 public:
-    /// @throws InputError for an observer that is none
+    /// @throws InputError for a null observer
     explicit Relay(std::vector<std::shared_ptr<Observer>> observers);
 
     void step(const Step& step) override;
@@ -27,7 +27,7 @@ private:
     std::vector<std::shared_ptr<Observer>> observers_;
 };
 
-/// Keeps all contacts and passages, with their states.
+/// Stores all contacts and passages, with their states.
 class Recorder : public Observer {
 public:
     struct RecordedContact {
@@ -51,18 +51,18 @@ private:
     std::vector<RecordedPassage> passages_;
 };
 
-/// A step that has been copied, with all of its series.
+/// A copy of a step with all of its series.
 struct RecordedStep {
     double start = 0, length = 0;
     std::size_t mode = 0, states = 0;
     int order = 0;
     std::vector<double> coefficients; ///< of states, watched events, observed expressions: order + 1 of each
 
-    /// A state at start + s. @throws InputError when there is no such state
+    /// Returns a state at start + s. @throws InputError for an unknown state
     double state(std::size_t index, double s) const;
 };
 
-/// Keeps all steps: the motion at any time. That takes some hundred bytes a state and step.
+/// Keeps copies of all steps, and so the states at any time. A step takes 8 (order + 1) bytes per series.
 class StepRecorder : public Observer {
 public:
     void step(const Step& step) override;
@@ -73,24 +73,25 @@ private:
     std::vector<RecordedStep> steps_;
 };
 
-/// States at times chosen beforehand, from the Taylor polynomials of the steps: exact to the tolerance, and without
-/// any influence on the steps. A time at which a contact happens belongs to the arc before it.
+/// Samples states at given times from the Taylor polynomials of the steps: accurate to the tolerance, without influence
+/// on the steps. A time at which a contact occurs belongs to the arc before it.
 class Sampler : public Observer {
 public:
     /// @param state valid during the call
     using Receiver = std::function<void(double time, std::size_t mode, std::span<const double> state)>;
 
     /// Samples at start, start + spacing, ..., `count` times in all.
-    /// @param periods of all states (0 of those not cyclic), within which they are kept; InputError if not as many
+    /// @param periods one for each state (0 if not cyclic); states are reduced to them
+    /// @throws InputError for a wrong number of periods
     Sampler(double start, double spacing, std::size_t count, std::vector<double> periods, Receiver receiver);
 
     void step(const Step& step) override;
-    /// How many have been taken.
+    /// Returns the number of samples taken.
     std::size_t taken() const { return taken_; }
     double spacing() const { return spacing_; }
-    /// Time of the next sample.
+    /// Returns the time of the next sample.
     double next() const { return start_ + static_cast<double>(taken_) * spacing_; }
-    /// Doubles the spacing, as if every other sample had not been taken. To be called by the receiver, of the second,
+    /// Doubles the spacing, as if every other sample had not been taken. To be called by the receiver of the second,
     /// fourth, ... sample.
     void coarsen();
 
@@ -101,11 +102,11 @@ private:
     Receiver receiver_;
 };
 
-/// Least value of one event function over one arc, from contact to contact.
+/// The least value of one event function over one arc, from contact to contact.
 struct ArcMinimum {
     std::size_t arc = 0; ///< counts from 0
     std::size_t mode = 0, event = 0;
-    double start = 0, end = 0; ///< of the arc
+    double start = 0, end = 0; ///< start and end time of the arc
     double time = 0, value = 0;
     double lower_bound = 0; ///< guaranteed
 };
@@ -119,7 +120,7 @@ public:
     void step(const Step& step) override;
     void contact(const Contact& contact) override;
     void minimum(const StepMinimum& minimum) override;
-    /// Hands over the minima of the arc in progress: call at the end of the trajectory.
+    /// Reports the minima of the arc in progress; to be called at the end of the trajectory.
     void finish();
 
 private:

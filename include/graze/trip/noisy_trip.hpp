@@ -20,8 +20,8 @@ struct NoiseSettings {
     std::size_t motions = 1000, cycles = 100; ///< cycles of each, at most
     std::uint64_t seed = 1;
     double confidence = 0.95;
-    int jobs = 1;                                      ///< threads, on which nothing depends
-    double tolerance = 1e-12;                          ///< of the integration
+    int jobs = 1;             ///< threads, on which nothing depends
+    double tolerance = 1e-12; ///< of the integration
     std::function<bool()> interrupted;
     std::function<void(std::size_t motions)> progress; ///< how many are done
     /// @throws InputError naming what is out of range
