@@ -261,7 +261,7 @@ TEST(TangentSteps, AgreeWithTheVariationalSystemOfAMeanField) {
 TEST(TangentSteps, MisuseThrows) {
     const Model model = parse_model(chain_of(1, 1, 1, 1).model(), "chain.toml");
     TangentSteps steps(System(model), 1e-9, 2);
-    ModeJets jets(System(model), 10, LaneKind::single), without(model, 10, LaneKind::single);
+    ModeJets jets(System(model), 10, LaneKind::single), without(System(model), 10, LaneKind::single);
     jets.add_tangents();
     EXPECT_THROW(steps.set_parameters({}, {}), InputError);
     EXPECT_THROW(steps.set_parameters(std::vector{1.0}, std::vector{1.0}), InputError);
