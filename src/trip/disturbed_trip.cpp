@@ -15,8 +15,8 @@ namespace graze {
 namespace {
 
 /// A motion in a model whose parameter changes, from the origin.
-TripTime follow(const TripOrigin& origin, const DrivenParameter& driven, const std::vector<double>& further,
-                double longest, const TripEnd& end, const TripOptions& options) {
+TripTime follow_disturbed(const TripOrigin& origin, const DrivenParameter& driven, const std::vector<double>& further,
+                          double longest, const TripEnd& end, const TripOptions& options) {
     TripEnd here = end;
     if (end.quantity)
         here.quantity = driven.of(*end.quantity);
@@ -31,7 +31,7 @@ TripTime follow(const TripOrigin& origin, const DrivenParameter& driven, const s
     return trip;
 }
 
-const std::string name_of(const System& system, const TripOrigin& origin) {
+const std::string name_of_origin(const System& system, const TripOrigin& origin) {
     return system.model().independent_parameters().at(origin.parameter.place());
 }
 
@@ -53,9 +53,9 @@ RampedTrip ramped_trip(const System& system, const TripOrigin& origin, double ra
     if (!(rate * way > 0 && std::isfinite(rate)))
         throw InputError(fmt::format("with the rate {} the parameter does not come to the point", rate),
                          way > 0 ? "give a positive rate" : "give a negative rate");
-    const DrivenParameter driven = drive_parameter(system.model(), name_of(system, origin), DriveKind::shift);
+    const DrivenParameter driven = drive_parameter(system.model(), name_of_origin(system, origin), DriveKind::shift);
     RampedTrip result;
-    result.trip = follow(origin, driven, {rate}, way / rate + options.cycles * origin.cycle, end, options);
+    result.trip = follow_disturbed(origin, driven, {rate}, way / rate + options.cycles * origin.cycle, end, options);
     result.value = origin.value + rate * result.trip.time;
     return result;
 }
@@ -73,9 +73,9 @@ TripTime swung_trip(const System& system, const TripOrigin& origin, double ampli
     if (!(period > 0 && std::isfinite(period)) || !std::isfinite(amplitude))
         throw InputError(fmt::format("nothing swings by {} with the period {}", amplitude, period),
                          "give finite numbers, and a positive period");
-    const DrivenParameter driven = drive_parameter(system.model(), name_of(system, origin), DriveKind::wave);
-    return follow(origin, driven, {2 * std::numbers::pi / period, amplitude}, options.cycles * origin.cycle, end,
-                  options);
+    const DrivenParameter driven = drive_parameter(system.model(), name_of_origin(system, origin), DriveKind::wave);
+    return follow_disturbed(origin, driven, {2 * std::numbers::pi / period, amplitude}, options.cycles * origin.cycle,
+                            end, options);
 }
 
 } // namespace graze

@@ -13,7 +13,7 @@ namespace graze {
 
 namespace {
 
-constexpr double tolerance = 1e-14;
+constexpr double closing_tolerance = 1e-14;
 
 void require_before(const System& system, ParameterId parameter, double value, double point, int side) {
     if (!std::isfinite(value))
@@ -66,7 +66,7 @@ TripOrigin beginning_on(const System& system, const Orbit& orbit, ParameterId pa
         ++longest;
     origin.mode = orbit.signature[longest].mode;
     origin.state = orbit.starts[longest];
-    ModeFlow flow(system, tolerance);
+    ModeFlow flow(system, closing_tolerance);
     flow.set_parameters(orbit.parameters);
     if (flow.run(origin.mode, origin.state, orbit.durations[longest] / 2) != ModeFlow::Ending::done)
         throw InputError("the orbit cannot be followed", "give a value nearer to the point");
@@ -111,7 +111,7 @@ TripOrigin trip_origin(const System& system, const FoldPassage& fold, double val
     for (std::size_t i = 0; i < state.size(); ++i)
         state[i] -= along * fold.critical[i];
     constexpr double more = 1.5; // than one cycle
-    const Simulation simulation(system, {}, {}, integration(tolerance));
+    const Simulation simulation(system, {}, {}, integration(closing_tolerance));
     const FollowedMotion motion =
         follow_motion(simulation, guess.parameters, state, guess.signature.front().mode, more * fold.cycle);
     const auto sections = std::any_of(guess.signature.begin(), guess.signature.end(),
