@@ -193,7 +193,7 @@ bool AccumulatingOrbit::follow(std::size_t count, Rest& rest) {
     std::vector<double> state = numbers_of(rest.start);
     if (orbit.symmetry)
         state = system.symmetry(*orbit.symmetry).map(inputs(vector_of(state)));
-    const double round = orbit.round();
+    const double round = orbit.return_time();
     const std::vector<double> start = state;
     if (flow_.run(first_mode_, state, leaving * round) != ModeFlow::Ending::done)
         return false;
@@ -354,7 +354,7 @@ std::optional<Orbit> AccumulatingOrbit::shown(double& gap) {
                 gap = std::max(gap, std::abs(period > 0 ? std::remainder(apart, period) : apart) / scales_[i]);
         }
         result = orbit;
-        if (-heights(after)[2] < little * orbit.round() * heights(after)[3])
+        if (-heights(after)[2] < little * orbit.return_time() * heights(after)[3])
             break;
     }
     return result;

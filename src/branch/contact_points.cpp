@@ -34,10 +34,10 @@ std::size_t own_event(const TestedPoint& point, std::size_t segment) {
 
 /// Whether a segment is held to take no time all along a curve: then nothing happens within it, or at its ends, but
 /// what is held.
-bool is_without_time(const TestedPoint& point, std::size_t segment) {
+bool has_zero_duration(const TestedPoint& point, std::size_t segment) {
     const auto& kept = point.settings.kept;
     const auto held = kept ? held_limit_of(*kept) : std::nullopt;
-    return held && held->holds_without_time(segment, point.equations.signature().size());
+    return held && held->has_zero_duration(segment, point.equations.signature().size());
 }
 
 /// Where contacts are without speed, as on curves of touches, the ends of arcs have least values too: of the next
@@ -49,7 +49,7 @@ bool is_of_contact(const TestedPoint& point, const OrbitMinimum& minimum) {
     const SpecialPoint& kept = *point.settings.kept;
     const auto& signature = point.equations.signature();
     const double duration = std::abs(point.solution.orbit.durations[minimum.segment]);
-    const std::size_t after = kept.at_end ? 1 + held_limit_of(kept)->without_time : 1;
+    const std::size_t after = kept.at_end ? 1 + held_limit_of(kept)->zero_durations : 1;
     const bool own =
         signature[minimum.segment].end == SegmentEnd::event && own_event(point, minimum.segment) == minimum.event;
     return (own && minimum.time > (1 - at_end) * duration) ||
@@ -74,7 +74,7 @@ void test_grazing(const TestedPoint& point, std::vector<BranchTest>& tests) {
                          .segment = s,
                          .event = own_event(point, s),
                          .value = event && !kept ? certificate.approach_speeds[s] : nothing,
-                         .noise = noise * point.equations.usual_rate(point.at, s),
+                         .noise = noise * point.equations.typical_rate(point.at, s),
                          .time = point.solution.orbit.durations[s],
                          .at_end = true,
                          .appears = true});
@@ -85,7 +85,7 @@ void test_grazing(const TestedPoint& point, std::vector<BranchTest>& tests) {
             const bool kept = is_kept(point, PointType::grazing, s, event);
             for (const OrbitMinimum& minimum : certificate.minima)
                 if (minimum.segment == s && minimum.event == event && !(minimum.value >= test.value) &&
-                    !is_without_time(point, s) &&
+                    !has_zero_duration(point, s) &&
                     !(kept && (point.settings.kept->at_end || minimum.time == point.settings.kept->time)) &&
                     !is_of_contact(point, minimum)) {
                     test.value = minimum.value;
@@ -182,7 +182,7 @@ void test_vanishing(const TestedPoint& point, std::vector<BranchTest>& tests) {
         tests.push_back({.type = PointType::vanishing,
                          .segment = s,
                          .event = own_event(point, s),
-                         .value = is_without_time(point, s) ? nothing : point.solution.orbit.durations[s]});
+                         .value = has_zero_duration(point, s) ? nothing : point.solution.orbit.durations[s]});
 }
 
 bool confirm_vanishing(BranchState&, SpecialPoint& special, const BranchTest&) {
@@ -201,8 +201,8 @@ namespace {
 /// at the end of that one at its own.
 bool belongs_to_vanishing(const TestedPoint& point, const EndValue& end) {
     const std::size_t next = (end.segment + 1) % point.equations.signature().size();
-    return is_without_time(point, end.segment) ||
-           (is_without_time(point, next) && own_event(point, next) == end.event &&
+    return has_zero_duration(point, end.segment) ||
+           (has_zero_duration(point, next) && own_event(point, next) == end.event &&
             point.equations.signature()[next].end == SegmentEnd::event);
 }
 
@@ -227,7 +227,7 @@ bool confirm_two_events(BranchState& state, SpecialPoint& special, const BranchT
     constexpr double without_speed = 1e-6; // of rates of the same function
     const OrbitEquations& equations = state.problem().equations();
     const OrbitEvaluation& at = state.problem().evaluation();
-    if (std::abs(test.rate) < without_speed * equations.usual_rate(at, special.segment, special.event)) {
+    if (std::abs(test.rate) < without_speed * equations.typical_rate(at, special.segment, special.event)) {
         special.type = PointType::grazing;
         special.time = special.solution.orbit.durations[special.segment];
     }
@@ -247,7 +247,7 @@ namespace {
 bool is_stop_of_slip(const TestedPoint& point, std::size_t segment) {
     const auto& kept = point.settings.kept;
     const auto held = kept ? held_limit_of(*kept) : std::nullopt;
-    return held && held->kind == HeldLimit::Kind::stop && held->segment == segment && held->without_time > 0;
+    return held && held->kind == HeldLimit::Kind::stop && held->segment == segment && held->zero_durations > 0;
 }
 
 } // namespace
@@ -301,7 +301,7 @@ void test_sensitivity(const TestedPoint& point, std::vector<BranchTest>& tests) 
                 size *= 1 + std::abs(one);
         }
     }
-    const double noise = least * point.solution.orbit.round();
+    const double noise = least * point.solution.orbit.return_time();
     tests.push_back({.type = PointType::sensitivity, .value = next, .noise = noise});
     tests.push_back({.type = PointType::fold_degenerate, .value = same, .noise = noise * size});
     tests.push_back({.type = PointType::flip_degenerate, .value = alternating, .noise = noise * size});
@@ -320,13 +320,14 @@ void test_acceleration(const TestedPoint& point, std::vector<BranchTest>& tests)
     const auto& last = point.at.pieces[equations.layout().last_piece(kept->segment)];
     std::vector<double> inputs = last.end;
     inputs.insert(inputs.end(), point.at.parameters.begin(), point.at.parameters.end());
-    tests.push_back({.type = PointType::zero_acceleration,
-                     .segment = kept->segment,
-                     .event = kept->event,
-                     .value = equations.system().function_of({&acceleration, 1})(inputs).front(),
-                     .noise = least * equations.usual_rate(point.at, kept->segment) / point.solution.orbit.round(),
-                     .time = point.solution.orbit.durations[kept->segment],
-                     .at_end = true});
+    tests.push_back(
+        {.type = PointType::zero_acceleration,
+         .segment = kept->segment,
+         .event = kept->event,
+         .value = equations.system().function_of({&acceleration, 1})(inputs).front(),
+         .noise = least * equations.typical_rate(point.at, kept->segment) / point.solution.orbit.return_time(),
+         .time = point.solution.orbit.durations[kept->segment],
+         .at_end = true});
 }
 
 bool confirm_acceleration(BranchState& state, SpecialPoint& special, const BranchTest&) {

@@ -124,7 +124,7 @@ bool Continuation::correct(std::vector<double>& u, std::span<const double> row, 
                            std::size_t& iterations) {
     for (const bool renewed : {false, true}) {
         std::vector<double> trial = u;
-        if (!problem_->has_chords() || (!renewed && !problem_->derivatives_are_dear()) ||
+        if (!problem_->has_chords() || (!renewed && !problem_->derivatives_are_expensive()) ||
             !chords(trial, row, allowed, renewed, iterations))
             continue;
         u = std::move(trial);
@@ -211,7 +211,7 @@ bool Continuation::chords(std::vector<double>& u, std::span<const double> row, d
         before = size;
         made_.push_back(step);
     }
-    if (!problem_->derivatives_are_dear())
+    if (!problem_->derivatives_are_expensive())
         pace_ = quick ? growth : shrinkage;
     else if (!renewed) // more corrections cost less than a shorter step
         pace_ = iterations <= few ? growth : 1;

@@ -29,7 +29,7 @@ bool is_idle(const System& system, const Orbit& orbit, std::size_t segment) {
     inputs.insert(inputs.end(), orbit.parameters.begin(), orbit.parameters.end());
     const std::vector<double> after = jump.map(inputs), rates = system.mode(one.mode).rates(inputs);
     return std::all_of(jump.changed.begin(), jump.changed.end(), [&](std::size_t i) {
-        double size = std::abs(rates[i]) * orbit.round();
+        double size = std::abs(rates[i]) * orbit.return_time();
         for (const std::vector<double>& start : orbit.starts)
             size = std::max(size, std::abs(start[i]));
         return std::abs(after[i] - state[i]) <= nothing * size;
@@ -45,7 +45,7 @@ bool drifts(const Model& model) {
 /// @return whether it has
 bool join_across_contact(const System& system, Orbit& orbit, SpecialPoint& kept) {
     const std::size_t count = orbit.segments();
-    const auto takes_time = [&](std::size_t s) { return std::abs(orbit.durations[s]) > no_time * orbit.round(); };
+    const auto takes_time = [&](std::size_t s) { return std::abs(orbit.durations[s]) > no_time * orbit.return_time(); };
     std::size_t before = kept.segment;
     for (std::size_t i = 0; i < count && !takes_time(before); ++i)
         before = (before + count - 1) % count;
@@ -111,7 +111,7 @@ bool touches_at_start(const System& system, const Orbit& orbit, ModeFlow& flow) 
             greatest[i] = std::max(greatest[i], std::abs(here[i]));
         if (part == 0)
             first = here;
-        if (flow.run(orbit.signature[0].mode, state, orbit.round() / parts) != ModeFlow::Ending::done)
+        if (flow.run(orbit.signature[0].mode, state, orbit.return_time() / parts) != ModeFlow::Ending::done)
             return false;
     }
     for (std::size_t w = 0; w < count; ++w)

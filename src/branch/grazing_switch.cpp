@@ -152,7 +152,7 @@ std::optional<Orbit> followed_after_contact(const Simulation& simulation, const 
                                             const std::vector<double>& after, std::size_t mode, const Segment& last,
                                             std::string& why) {
     const Orbit& grazing = point.solution.orbit;
-    const double round = grazing.round();
+    const double round = grazing.return_time();
     const FollowedMotion motion =
         follow_motion(simulation, grazing.parameters, after, mode, (1 - before_next_touch) * round);
     if (!motion.problem.empty()) {
@@ -328,7 +328,7 @@ BranchStart with_one_contact_fewer(const System& system, const SpecialPoint& poi
     const Orbit& old = point.solution.orbit;
     const Touch touch(simulation, point);
     const std::string& name = model.events[touch.event()].name;
-    const double round = old.round();
+    const double round = old.return_time();
     const std::vector<double> state = touch.displaced(clearance * touch.greatest_value(), 0);
     FollowedMotion motion =
         follow_motion(simulation, old.parameters, state, touch.mode(), (1 - before_next_touch) * round);

@@ -63,7 +63,7 @@ std::optional<Orbit> with_contact_inserted(const Simulation& simulation, const S
     std::vector<Entry> entries;
     std::vector<double> start = after;
     if (mode != grazing.signature[touching].mode) {
-        const FollowedMotion motion = follow_motion(simulation, grazing.parameters, after, mode, grazing.round());
+        const FollowedMotion motion = follow_motion(simulation, grazing.parameters, after, mode, grazing.return_time());
         std::size_t back = 1;
         while (back < motion.segments.size() && motion.segments[back].mode != grazing.signature[touching].mode)
             ++back;

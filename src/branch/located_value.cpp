@@ -305,7 +305,7 @@ private:
         result.problem.clear();
         result.orbit = equations_.orbit_of(at_.unknowns);
         if (!(result.orbit.period() > 0)) {
-            result.problem = "Newton's method has gone to an orbit that takes no time";
+            result.problem = "Newton's method converged to an orbit of zero duration";
             return;
         }
         result.found = true;

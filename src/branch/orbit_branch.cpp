@@ -113,7 +113,7 @@ public:
                            : BranchOutcome::no_convergence,
                        state_.problem().problem());
         }
-        if (turned_section(rates, rates_here()) || (hopf_ && !equilibrium_))
+        if (reversed_section(rates, rates_here()) || (hopf_ && !equilibrium_))
             return step_without_touch(here);
         approach(before.solution.orbit);
         describe_here();
@@ -181,7 +181,7 @@ private:
         if (state_.settings().kept)
             return true;
         const bool round = has_turned_round(state_, from, orbit_here());
-        if (!round && !turned_section(rates, rates_here()))
+        if (!round && !reversed_section(rates, rates_here()))
             return true;
         const double length = continuation.point().arclength - before.point().arclength;
         hopf_ = hopf_ahead(state_, before.point(), length);

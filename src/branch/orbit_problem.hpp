@@ -60,7 +60,7 @@ public:
     bool solve(std::span<const double> row, double right, bool homogeneous, std::span<double> step,
                double* determinant) override;
     bool has_chords() const override { return held_.empty() && equations_->has_chords(); }
-    bool derivatives_are_dear() const override { return equations_->derivatives_are_dear(); }
+    bool derivatives_are_expensive() const override { return equations_->derivatives_are_expensive(); }
     bool chord(std::span<const double> u, std::span<const double> row, std::span<double> step) override;
     void accept(std::span<const double> u) override {
         // Scales need not be exact: what they cost is saved most of the time.

@@ -296,11 +296,12 @@ bool is_point_label(std::string_view text) {
 namespace {
 
 /// Segments after one that take no time.
-std::size_t without_time_after(const Orbit& orbit, std::size_t segment) {
+std::size_t zero_durations_after(const Orbit& orbit, std::size_t segment) {
     constexpr double nothing = 1e-8; // of a round: what is located is known far better
     const std::size_t count = orbit.durations.size();
     std::size_t result = 0;
-    while (result + 1 < count && std::abs(orbit.durations[(segment + result + 1) % count]) < nothing * orbit.round())
+    while (result + 1 < count &&
+           std::abs(orbit.durations[(segment + result + 1) % count]) < nothing * orbit.return_time())
         ++result;
     return result;
 }
@@ -314,7 +315,7 @@ std::optional<HeldLimit> held_limit_of(const SpecialPoint& point) {
         if (!point.at_end)
             return held(HeldLimit::Kind::touch);
         return HeldLimit{HeldLimit::Kind::stop, point.segment, point.event,
-                         without_time_after(point.solution.orbit, point.segment)};
+                         zero_durations_after(point.solution.orbit, point.segment)};
     case PointType::vanishing:
         return held(HeldLimit::Kind::vanishing);
     case PointType::guard:

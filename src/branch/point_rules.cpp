@@ -21,7 +21,7 @@ bool repeats_in_half(BranchState& state, const Orbit& orbit, double same) {
     ModeFlow flow = flow_of(state.problem().equations().simulation());
     flow.set_parameters(orbit.parameters);
     std::vector<double> there = orbit.starts.front();
-    if (flow.run(orbit.signature.front().mode, there, 0.5 * orbit.round()) != ModeFlow::Ending::done)
+    if (flow.run(orbit.signature.front().mode, there, 0.5 * orbit.return_time()) != ModeFlow::Ending::done)
         return false;
     const auto& active = state.problem().evaluation().active;
     return std::all_of(active.begin(), active.end(), [&](std::size_t i) {

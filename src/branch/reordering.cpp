@@ -32,7 +32,7 @@ constexpr Rounds all_rounds[] = {next_round, {1, 1}, {2, 1}, {1, 2}, {2, 2}};
 /// What the model does for some rounds from the middle of an orbit's longest segment, as an orbit.
 std::optional<Orbit> followed(const Simulation& simulation, const Orbit& orbit, const Rounds& rounds,
                               std::string& why) {
-    const double round = orbit.round() * rounds.taken;
+    const double round = orbit.return_time() * rounds.taken;
     const auto longest = static_cast<std::size_t>(std::max_element(orbit.durations.begin(), orbit.durations.end()) -
                                                   orbit.durations.begin());
     std::vector<double> state = orbit.starts[longest];
@@ -45,7 +45,7 @@ std::optional<Orbit> followed(const Simulation& simulation, const Orbit& orbit, 
     }
     if (rounds.before > 0) {
         const FollowedMotion before =
-            follow_motion(simulation, orbit.parameters, state, mode, orbit.round() * rounds.before);
+            follow_motion(simulation, orbit.parameters, state, mode, orbit.return_time() * rounds.before);
         why = before.problem;
         if (!why.empty())
             return std::nullopt;

@@ -122,7 +122,7 @@ std::vector<std::vector<double>> states_along(BranchState& state, const Orbit& o
     std::vector<std::vector<double>> result{orbit.starts[0]};
     for (int i = 1; i < count; ++i) {
         result.push_back(result.back());
-        if (flow.run(orbit.signature[0].mode, result.back(), orbit.round() / count) != ModeFlow::Ending::done)
+        if (flow.run(orbit.signature[0].mode, result.back(), orbit.return_time() / count) != ModeFlow::Ending::done)
             return {};
     }
     return result;
@@ -185,7 +185,7 @@ std::optional<UncutOrbit> begun_for_shrinking(BranchState& state, const Orbit& o
     UncutOrbit result{orbit, {}};
     result.orbit.signature = {{orbit.signature[0].mode, SegmentEnd::cut, 0}};
     result.orbit.starts = {*farthest};
-    result.orbit.durations = {orbit.round()};
+    result.orbit.durations = {orbit.return_time()};
     const Orbit rest = at_rest_in(result.orbit, hopf, state.settings().parameter);
     OrbitDirection& direction = result.direction;
     direction.starts = rest.starts;

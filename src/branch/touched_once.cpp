@@ -18,12 +18,12 @@ constexpr double slow = 1e-4;     // of usual rates
 bool may_touch_at_ends(const Shooting& equations, const OrbitEvaluation& at, const Certificate& certificate) {
     for (std::size_t s = 0; s < equations.signature().size(); ++s) {
         const Segment& segment = equations.signature()[s];
-        if (segment.end == SegmentEnd::event && !is_harmless(equations.system(), segment.index) &&
-            !(std::abs(certificate.approach_speeds[s]) > touching * equations.usual_rate(at, s)))
+        if (segment.end == SegmentEnd::event && !is_identity_transition(equations.system(), segment.index) &&
+            !(std::abs(certificate.approach_speeds[s]) > touching * equations.typical_rate(at, s)))
             return true;
     }
     return std::any_of(certificate.end_values.begin(), certificate.end_values.end(), [&](const EndValue& one) {
-        return !(std::abs(one.rate) > slow * equations.usual_rate(at, one.segment, one.event));
+        return !(std::abs(one.rate) > slow * equations.typical_rate(at, one.segment, one.event));
     });
 }
 

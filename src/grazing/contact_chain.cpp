@@ -188,7 +188,7 @@ private:
         Next first{0, never, false};
         const System::CompiledMode& mode = system_.mode(mode_);
         for (std::size_t w = 0; w < mode.watched.size(); ++w) {
-            if (is_harmless(system_, mode.transitions[w]))
+            if (is_identity_transition(system_, mode.transitions[w]))
                 continue;
             const std::size_t event = mode.watched[w];
             const std::vector<double> values = system_.event(event)(inputs_);

@@ -124,7 +124,7 @@ void add_times(CycleMap& map, const System& system, const Orbit& orbit) {
     const auto since = [&](double time) { return within_period(time - touched, map.period); };
     const auto event_at_end = [&](std::size_t s) -> std::optional<std::size_t> {
         const Segment& segment = whole.signature[s];
-        if (segment.end != SegmentEnd::event || is_harmless(system, segment.index))
+        if (segment.end != SegmentEnd::event || is_identity_transition(system, segment.index))
             return std::nullopt;
         return system.model().transitions[segment.index].event;
     };
@@ -161,8 +161,8 @@ std::vector<OrbitTouch> touches_in(Shooting& shooting, const OrbitEvaluation& at
     for (std::size_t s = 0; s < orbit.segments(); ++s) {
         const Segment& segment = orbit.signature[s];
         // A contact whose speed is a share of the usual one goes as deep as the square of that.
-        if (segment.end == SegmentEnd::event && !is_harmless(system, segment.index) &&
-            std::abs(certificate.approach_speeds[s]) < touching * shooting.usual_rate(at, s))
+        if (segment.end == SegmentEnd::event && !is_identity_transition(system, segment.index) &&
+            std::abs(certificate.approach_speeds[s]) < touching * shooting.typical_rate(at, s))
             found.push_back({s, system.model().transitions[segment.index].event, orbit.durations[s], true});
     }
     for (const OrbitMinimum& one : certificate.minima)
@@ -175,8 +175,9 @@ std::vector<OrbitTouch> touches_in(Shooting& shooting, const OrbitEvaluation& at
         for (const OrbitMinimum& other : certificate.minima)
             if (other.segment == one.segment && other.event == one.event)
                 size = std::max(size, other.size);
-        const double rate = shooting.usual_rate(at, one.segment, one.event);
-        if (std::abs(one.rate) < slow * rate && std::abs(one.value) < touching * std::max(size, rate * orbit.round()))
+        const double rate = shooting.typical_rate(at, one.segment, one.event);
+        if (std::abs(one.rate) < slow * rate &&
+            std::abs(one.value) < touching * std::max(size, rate * orbit.return_time()))
             found.push_back({one.segment, one.event, orbit.durations[one.segment], false});
     }
     if (found.size() < 2)
@@ -220,7 +221,7 @@ CycleMap cycle_map_of(const OrbitEquations& equations, const OrbitEvaluation& at
     CycleMap map;
     map.touch = touch;
     map.half = equations.symmetry().has_value();
-    map.time = equations.orbit_of(at.unknowns).round();
+    map.time = equations.orbit_of(at.unknowns).return_time();
     const ReturnMap back = return_map(equations, at, touch, functions, free);
     map.reason = back.reason;
     if (!map.reason.empty())

@@ -89,7 +89,7 @@ private:
     bool polish() {
         constexpr int iterations = 30;
         constexpr double farthest = 0.05, enough = 1e-14; // of a round
-        const double round = equations_.orbit_of(at_.unknowns).round(), first = time_;
+        const double round = equations_.orbit_of(at_.unknowns).return_time(), first = time_;
         for (int iteration = 0; iteration < iterations; ++iteration) {
             std::vector<double> state = start(piece_);
             if (flow_.run(functions_.mode(), state, time_) != ModeFlow::Ending::done)
@@ -110,7 +110,7 @@ private:
     bool is_beyond_its_arc() const {
         constexpr double late = 1e-9; // of a round
         const std::size_t pieces = equations_.layout().pieces();
-        const double away = late * equations_.orbit_of(at_.unknowns).round();
+        const double away = late * equations_.orbit_of(at_.unknowns).return_time();
         return (time_ > duration(piece_) + away && changes_something(piece_)) ||
                (time_ < -away && changes_something((piece_ + pieces - 1) % pieces));
     }
@@ -146,7 +146,7 @@ private:
     bool pass_from_end() {
         const OrbitLayout& layout = equations_.layout();
         const std::size_t pieces = layout.pieces();
-        const double round = equations_.orbit_of(at_.unknowns).round();
+        const double round = equations_.orbit_of(at_.unknowns).return_time();
         begin();
         std::size_t mode = functions_.mode(), k = 1;
         pass_symmetry(piece_, mode);
@@ -191,7 +191,7 @@ private:
     bool changes_something(std::size_t piece) const {
         const Segment& segment = equations_.signature()[equations_.layout().segment_of(piece)];
         return equations_.layout().is_last(piece) && segment.end == SegmentEnd::event &&
-               !is_harmless(equations_.system(), segment.index);
+               !is_identity_transition(equations_.system(), segment.index);
     }
 
     /// What ends a piece: the event and not the time says when (saltation), then jump and image.
@@ -200,7 +200,7 @@ private:
         if (changes_something(piece)) {
             const double rate = one.condition.head(n_).dot(one.field);
             const std::size_t segment = equations_.layout().segment_of(piece);
-            if (!(std::abs(rate) > least_rate * equations_.usual_rate(at_, segment)))
+            if (!(std::abs(rate) > least_rate * equations_.typical_rate(at_, segment)))
                 return refuse(fmt::format("the contact that ends segment {} has no speed", segment + 1));
             Eigen::RowVectorXd row = one.condition.head(n_).transpose() * rows_;
             if (free_)

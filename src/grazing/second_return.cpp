@@ -121,7 +121,7 @@ private:
         const std::size_t s = layout.segment_of(piece);
         const Segment& segment = equations_.signature()[s];
         std::vector<double> state = at_.pieces[piece].end;
-        if (segment.end == SegmentEnd::event && !is_harmless(equations_.system(), segment.index)) {
+        if (segment.end == SegmentEnd::event && !is_identity_transition(equations_.system(), segment.index)) {
             const Transition& transition = equations_.model().transitions[segment.index];
             onto_surface(equations_.mode_of(piece), state, system_.event(transition.event));
             pass(system_.jump(transition.jump), state);

@@ -138,7 +138,7 @@ FoldPassage fold_passage(const System& system, const SpecialPoint& point, Parame
     result.coefficient = form->coefficient;
     result.rate = form->rate;
     result.side = form->rate > 0 ? 1 : -1;
-    result.cycle = result.orbit.round();
+    result.cycle = result.orbit.return_time();
     result.attracting = is_attracting(fold.solution);
     result.critical = form->critical;
     result.adjoint = form->adjoint;

@@ -43,7 +43,8 @@ TripTime follow(const System& system, const CycleMap& map, Beginning begin, cons
     // anyway do not count.
     const double period = map.half ? map.time : map.period;
     const auto counts = [&](const Contact& contact) {
-        return (contact.event == map.touch.event || (map.half && !is_harmless(system, contact.transition))) &&
+        return (contact.event == map.touch.event ||
+                (map.half && !is_identity_transition(system, contact.transition))) &&
                is_at_touch(map, contact.time - early, period);
     };
     EndWatch watch(end, counts, options.interrupted);

@@ -56,7 +56,7 @@ TripOrigin beginning_on(const System& system, const Orbit& orbit, ParameterId pa
     origin.parameter = parameter;
     origin.point = point;
     origin.value = orbit.parameters[parameter.place()];
-    origin.cycle = orbit.round();
+    origin.cycle = orbit.return_time();
     origin.parameters = orbit.parameters;
     // Of arcs as long as each other but for round-off, the first.
     constexpr double alike = 1 - 1e-9;

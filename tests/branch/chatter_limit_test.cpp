@@ -144,7 +144,7 @@ TEST(ChatterLimit, of_an_oscillator_is_that_of_its_closed_form) {
     EXPECT_NEAR(limit.extrapolated->first, known, limit.extrapolated->second);
     // The last segment stands for all contacts to come: the orbit takes the whole period.
     EXPECT_LT(limit.gap, 1e-8);
-    EXPECT_NEAR(limit.orbit.round(), 2 * std::numbers::pi / omega, 1e-10);
+    EXPECT_NEAR(limit.orbit.return_time(), 2 * std::numbers::pi / omega, 1e-10);
 }
 
 /// Near a restitution of 1 it takes hundreds of contacts until little is left.
@@ -228,7 +228,7 @@ TEST(ChatterLimit, of_two_masses_is_what_simulation_shows_from_however_long_a_la
         constexpr double periods = 10;
         std::vector<double> state = orbit.starts.at(1);
         state[0] = orbit.parameters[settings.parameter.place()]; // on the stop that has moved
-        trajectory.start(state, 0, 0, periods * orbit.round());
+        trajectory.start(state, 0, 0, periods * orbit.return_time());
         JetSet jets(simulation, LaneKind::single);
         run(trajectory, jets);
         EXPECT_EQ(name_of(trajectory.outcome().ending), name_of(side < 0 ? Ending::chatter : Ending::end_time)) << side;

@@ -67,7 +67,8 @@ TEST(SubharmonicCurves, of_folds_and_flips_with_one_impact_in_two_and_three_peri
                         } else if (std::abs(after) > 1e-3 * there.radius) {
                             EXPECT_NEAR(off_flip(there, after, sigma), 0, 1e-9);
                         }
-                        EXPECT_NEAR(one.solution.orbit.round(), 2 * std::numbers::pi * periods / there.omega, 1e-12);
+                        EXPECT_NEAR(one.solution.orbit.return_time(), 2 * std::numbers::pi * periods / there.omega,
+                                    1e-12);
                     }
                 }
             }

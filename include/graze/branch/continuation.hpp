@@ -29,7 +29,7 @@ public:
     /// Whether F alone can be evaluated, by `chord`; and whether that costs so much less than derivatives that those of
     /// the last point are worth a try.
     virtual bool has_chords() const { return false; }
-    virtual bool derivatives_are_dear() const { return false; }
+    virtual bool derivatives_are_expensive() const { return false; }
     /// Solves derivatives * step = -F(u) together with row . step = 0, with the derivatives of the last `evaluate`,
     /// which stay. @return false where F is not defined or the matrix is singular
     virtual bool chord(std::span<const double>, std::span<const double>, std::span<double>) { return false; }
