@@ -96,7 +96,8 @@ public:
                 return fmt::format("event '{}' happens within segment {}", event.name, segment_ + 1);
             // Without a fall the orbit entered the forbidden side at the start, with zero speed.
             if (event.kind == EventKind::barrier && std::isinf(falls_[w]) && lowest_[w] < -zero)
-                return fmt::format("segment {} leaves the surface of event '{}' on the forbidden side", segment_ + 1, event.name);
+                return fmt::format("segment {} leaves the surface of event '{}' on the forbidden side", segment_ + 1,
+                                   event.name);
             if (!is_own(w) && event.kind == EventKind::barrier && ends[w] < -zero)
                 return fmt::format("segment {} ends beyond event '{}'", segment_ + 1, event.name);
         }
@@ -299,7 +300,7 @@ private:
         }
         if (!held_ ||
             !held_->has_zero_duration(
-                s, equations_->signature().size())) // the violation on a segment of no duration would be round-off
+                s, equations_->signature().size())) // a verdict on a segment of no duration would be round-off
             reject(watcher.violation(begin, values_, rates, round_off));
         for (const OrbitMinimum& minimum : watcher.minima(values_))
             certificate_.minima.push_back(minimum);

@@ -287,7 +287,7 @@ void OrbitEquations::assemble(const Eigen::VectorXd& unknowns, OrbitEvaluation& 
 
 /// Clears the neutral flag of states that are neutral only at this parameter: at a branch point a state that is zero
 /// along the orbit may have an identity return map by accident. A state counts as neutral only if at shifted parameters
-/// the flow and the jump still return a state_shift change of it.
+/// the flow and the jump still return a small change of it.
 void OrbitEquations::drop_accidentally_neutral(const OrbitEvaluation& at, std::vector<bool>& neutral) {
     constexpr double parameter_shift = 1e-2, state_shift = 1e-9,
                      identity_tolerance =

@@ -214,8 +214,8 @@ OrbitSolution solve_orbit(const System& system, const Orbit& candidate, const Or
     const std::size_t spurious_segment = segment_below_round_off(shooting, at, solution.orbit);
     if (spurious_segment < solution.orbit.segments() && solution.certificate.admissible) {
         solution.certificate.admissible = false;
-        solution.certificate.reason = fmt::format(
-            "the duration of segment {} is below round-off", spurious_segment + 1);
+        solution.certificate.reason =
+            fmt::format("the duration of segment {} is below round-off", spurious_segment + 1);
     }
     if (moving_neutral_states(shooting, at) > 0 || is_in_family(shooting, at))
         solution.detail = "one of a family of orbits at the same parameters: a multiplier is 1";
