@@ -86,7 +86,7 @@ public:
             return end(BranchOutcome::steps, "");
         if (equilibrium_)
             return end_at_equilibrium();
-        if (state_.pieces_are_unfit() ||
+        if (state_.pieces_need_renewal() ||
             cuts_are_oblique(state_.problem().equations(), state_.problem().evaluation())) {
             state_.renew_pieces(point);
             renewed();
@@ -224,7 +224,7 @@ private:
             return false;
         tried_ = point.arclength;
         const auto begun = begun_for_shrinking(state_, point.solution.orbit, *hopf_);
-        if (!begun || !state_.begin_anew(point, *begun))
+        if (!begun || !state_.replace_orbit(point, *begun))
             return false;
         renewed();
         approached_ = hopf_;
@@ -515,7 +515,7 @@ private:
 
     /// The same along a curve: beyond, near the point that is kept, from what the model does there. Beside a curve of
     /// touches, on one side or the other: what is touched would be met or missed by chance.
-    bool go_on_curve(const SpecialPoint& special) {
+    bool continue_curve(const SpecialPoint& special) {
         constexpr double distances[] = {1e-4, 1e-5, 1e-3}; // in units of the scales
         constexpr double share = 0.1;                      // beside the curve, of that
         const double rise = special.tangent.parameters.empty() ? 0 : special.tangent.parameters.front();
@@ -525,7 +525,7 @@ private:
                 for (const double aside : beside) {
                     const auto guess = reordered_beyond(state_.system(), special, state_.settings(), side * distance,
                                                         aside * distance);
-                    if (!guess || !state_.go_on_curve(*guess, side * rise < 0 ? -1 : 1, special.arclength))
+                    if (!guess || !state_.continue_curve(*guess, side * rise < 0 ? -1 : 1, special.arclength))
                         continue;
                     describe_here();
                     if (is_beyond_bounds(tests_))
@@ -575,7 +575,7 @@ private:
             guesses.push_back(problem.orbit_of(there));
         }
         for (const Orbit& guess : guesses) {
-            if (!state_.go_on_curve(guess, rise < 0 ? -1 : 1, arclength))
+            if (!state_.continue_curve(guess, rise < 0 ? -1 : 1, arclength))
                 continue;
             // The only segment of an orbit is its own neighbour: the touch goes on at its other end.
             const SpecialPoint& kept = *state_.settings().kept;
@@ -609,11 +609,11 @@ private:
             return false;
         try {
             if (state_.settings().kept) {
-                if (!go_on_curve(special))
+                if (!continue_curve(special))
                     return false;
             } else {
                 const BranchStart start = branches_at(state_.system(), special, state_.settings()).front();
-                state_.go_on(start, special.arclength);
+                state_.continue_on(start, special.arclength);
             }
         } catch (const InputError& error) { // nothing beyond: the branch ends
             special.detail += fmt::format("; {}", error.problem());
