@@ -18,12 +18,12 @@ std::unique_ptr<OrbitCondition> SensitivityCondition::of_touch(const OrbitEquati
     if (touch.at_end)
         return nullptr;
     std::unique_ptr<SensitivityCondition> condition(new SensitivityCondition(equations, touch));
-    const bool alike = condition->beside_.unknowns() == equations.unknowns(); // laid out for the same orbit
+    const bool alike = condition->beside_.unknowns() == equations.unknowns(); // false: the equations have another layout
     return alike && condition->projection(equations, at) ? std::move(condition) : nullptr;
 }
 
-/// Also a little off the touch, where it is that of the contact at the nearest touching state: any smooth function
-/// that is the projection at touches would do.
+/// Returns the first projection. Off the touch it is that of the nearest touching state: any smooth extension of the
+/// projection would do.
 std::optional<double> SensitivityCondition::projection(const OrbitEquations& equations,
                                                        const OrbitEvaluation& at) const {
     const double duration = equations.orbit_of(at.unknowns).durations[segment_];
@@ -36,7 +36,7 @@ std::optional<double> SensitivityCondition::projection(const OrbitEquations& equ
 }
 
 bool SensitivityCondition::evaluate(const OrbitEquations& equations, const OrbitEvaluation& at) {
-    constexpr double step = 1e-5; // in sizes: errors of the value over it and the square of it are both some 1e-9
+    constexpr double step = 1e-5; // scaled step: round-off and truncation errors are both about 1e-9
     const auto here = projection(equations, at);
     if (!here)
         return false;
@@ -60,7 +60,7 @@ bool SensitivityCondition::evaluate(const OrbitEquations& equations, const Orbit
     return gradient_.allFinite();
 }
 
-/// The touch is looked for where it is now.
+/// Updates the time of the touch.
 void SensitivityCondition::renew(const OrbitEquations& equations, const OrbitEvaluation& at) {
     if (!beside_.evaluate(at.unknowns, tried_))
         return;
