@@ -136,7 +136,8 @@ bool AccumulatingOrbit::project(VectorXd& state) const {
     return last < 1e-10;
 }
 
-bool AccumulatingOrbit::compare_with_self_similar(const VectorXd& before, const VectorXd& after, Remainder& remainder) const {
+bool AccumulatingOrbit::compare_with_self_similar(const VectorXd& before, const VectorXd& after,
+                                                  Remainder& remainder) const {
     const double arriving = -heights(before)[1];
     const VectorXd leaves = heights(after);
     const double speed = leaves[1], deceleration = -leaves[2], third = leaves[3], restitution = speed / arriving;
@@ -217,7 +218,8 @@ bool AccumulatingOrbit::follow(std::size_t count, Remainder& remainder) {
     const VectorXd after = vector_of(motion.starts[remainder.segments]);
     motion.starts[0] = start;
     motion.durations[0] += blind_share * period;
-    return compare_with_self_similar(vector_of(before), after, remainder) && find_accumulation(vector_of(before), after, remainder);
+    return compare_with_self_similar(vector_of(before), after, remainder) &&
+           find_accumulation(vector_of(before), after, remainder);
 }
 
 bool AccumulatingOrbit::residuals(const VectorXd& unknowns, VectorXd& values, Remainder& remainder) {
@@ -342,8 +344,8 @@ std::optional<Orbit> AccumulatingOrbit::orbit_for_output(double& gap) {
         const auto taken = [&](const auto& values) {
             return std::vector(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(remainder.segments));
         };
-        Orbit orbit{taken(remainder.motion.segments), parameters_, taken(remainder.motion.starts), taken(remainder.motion.durations),
-                    like_.symmetry};
+        Orbit orbit{taken(remainder.motion.segments), parameters_, taken(remainder.motion.starts),
+                    taken(remainder.motion.durations), like_.symmetry};
         const VectorXd after = vector_of(remainder.motion.starts[remainder.segments]);
         // One last segment stands for all remaining contacts: the orbit ends where they accumulate.
         orbit.signature.push_back(orbit.signature[remainder.contact]);
@@ -351,7 +353,8 @@ std::optional<Orbit> AccumulatingOrbit::orbit_for_output(double& gap) {
         orbit.durations.push_back(remainder.left);
         gap = 0;
         for (Eigen::Index i = 0; i < n; ++i) {
-            const double period = periods_[static_cast<std::size_t>(i)], apart = remainder.state[i] - remainder.start[i];
+            const double period = periods_[static_cast<std::size_t>(i)],
+                         apart = remainder.state[i] - remainder.start[i];
             if (is_closed_[static_cast<std::size_t>(i)])
                 gap = std::max(gap, std::abs(period > 0 ? std::remainder(apart, period) : apart) / scales_[i]);
         }

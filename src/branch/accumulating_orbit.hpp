@@ -54,7 +54,9 @@ private:
         double uncertainty = 0; ///< uncertainty of the excess due to round-off of heights
         SelfSimilarContacts contacts;
         FollowedMotion motion;
-        std::size_t contact = 0, segments = 0; ///< index of the last simulated contact; number of segments up to the return to the mode
+        std::size_t contact = 0,
+                    segments =
+                        0; ///< index of the last simulated contact; number of segments up to the return to the mode
     };
     Eigen::Index parameter_place() const { return scales_.size() - 1; }
     std::vector<double> inputs(const Eigen::VectorXd& state) const;
@@ -65,7 +67,8 @@ private:
     Eigen::VectorXd field(const Eigen::VectorXd& state) const;
     bool project(Eigen::VectorXd& state) const;
     bool follow(std::size_t count, Remainder& remainder);
-    bool compare_with_self_similar(const Eigen::VectorXd& before, const Eigen::VectorXd& after, Remainder& remainder) const;
+    bool compare_with_self_similar(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
+                                   Remainder& remainder) const;
     bool find_accumulation(const Eigen::VectorXd& before, const Eigen::VectorXd& after, Remainder& remainder) const;
     bool residuals(const Eigen::VectorXd& unknowns, Eigen::VectorXd& values, Remainder& remainder);
     bool differentiate(const Eigen::VectorXd& values);
@@ -81,9 +84,10 @@ private:
     std::vector<double> periods_, parameters_;
     Eigen::VectorXd solution_; ///< unknowns of the last solution
     std::size_t solution_count_ = 0;
-    Eigen::VectorXd scales_, unknowns_, rows_; ///< scales of the states, then of the parameter; unknowns; scales of the equations
-    Eigen::MatrixXd jacobian_;                 ///< in scaled unknowns
-    std::vector<bool> is_closed_;                 ///< true for states that are not drifting
+    Eigen::VectorXd scales_, unknowns_,
+        rows_;                    ///< scales of the states, then of the parameter; unknowns; scales of the equations
+    Eigen::MatrixXd jacobian_;    ///< in scaled unknowns
+    std::vector<bool> is_closed_; ///< true for states that are not drifting
     std::size_t count_ = 2, added_ = 1;
     bool solved_ = false;
     double uncertainty_ = 0;

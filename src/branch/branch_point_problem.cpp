@@ -46,7 +46,8 @@ bool BranchPointProblem::evaluate(std::span<const double> u) {
         return true;
     at_.clear();
     matrix_ = derivatives(evaluation());
-    if (!matrix_.allFinite() || (border_.size() == 0 && !choose_borders()) || !solve_null_vectors() || !differentiate(u))
+    if (!matrix_.allFinite() || (border_.size() == 0 && !choose_borders()) || !solve_null_vectors() ||
+        !differentiate(u))
         return false;
     at_.assign(u.begin(), u.end());
     return true;

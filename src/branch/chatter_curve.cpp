@@ -51,7 +51,7 @@ public:
     /// @param ahead the step in the plane; @param before an earlier orbit, for extrapolation of the start; @param
     /// way_before its distance
     std::optional<Reached> step_from(const Orbit& here, const Place& ahead, const Orbit* before, double length_before,
-                              std::string& why) const {
+                                     std::string& why) const {
         const std::size_t held = std::abs(ahead[0]) >= std::abs(ahead[1]) ? 0 : 1;
         auto reached = hold(held, here, ahead, before, length_before, why);
         if (!reached)

@@ -115,7 +115,8 @@ double sum(const std::vector<double>& values) {
 
 /// Moves an orbit, with the parameter, to where the event of its last segment is reached at a given speed.
 /// @return tangent of the branch there, towards higher speeds; empty when Newton's method fails
-OrbitDirection solve_for_speed(const Simulation& simulation, Orbit& orbit, double speed, const BranchSettings& settings) {
+OrbitDirection solve_for_speed(const Simulation& simulation, Orbit& orbit, double speed,
+                               const BranchSettings& settings) {
     constexpr double far = 1e3; // scaled step beyond which Newton's method has diverged
     Shooting shooting(simulation, orbit, {settings.parameter});
     OrbitQuantity condition = OrbitQuantity::of_speed(shooting, orbit.segments() - 1, speed);
@@ -282,7 +283,9 @@ BranchStart with_one_more_contact(const System& system, const SpecialPoint& poin
 }
 
 Orbit with_contact_of_no_speed(const System& system, const SpecialPoint& point, const BranchSettings& settings) {
-    constexpr double shares[] = {1e-6, 1e-5, 1e-4}; // shares of the largest speed: a small speed is needed to follow the motion after the contact
+    constexpr double shares[] = {
+        1e-6, 1e-5,
+        1e-4}; // shares of the largest speed: a small speed is needed to follow the motion after the contact
     const NewContact contact(system, point, settings);
     std::string why = "Newton's method does not find it";
     for (const double share : shares)
@@ -302,7 +305,7 @@ namespace {
 /// Cuts off a motion where it returns to the contact that the orbit shall not have. It may reach it early, by a time
 /// that grows with the square root of the clearance.
 void cut_off_return(const System& system, FollowedMotion& motion, const Orbit& old, std::size_t segment,
-                      double period) {
+                    double period) {
     constexpr double earliest = 0.02; // share of the period
     const double early = std::min(earliest * period, 0.5 * old.durations[segment]);
     Segment contact = old.signature[segment];
@@ -342,8 +345,9 @@ BranchStart with_one_contact_fewer(const System& system, const SpecialPoint& poi
     if (!motion.problem.empty())
         fail(motion.problem);
     std::optional<Orbit> orbit =
-        motion.segments.empty() ? close_at_section(system, old.parameters, state, touch.mode(), period, "", old.symmetry)
-                                : std::optional(begun_after_first_contact(system, old, motion, period));
+        motion.segments.empty()
+            ? close_at_section(system, old.parameters, state, touch.mode(), period, "", old.symmetry)
+            : std::optional(begun_after_first_contact(system, old, motion, period));
     if (!orbit)
         fail("it passes none of the model's sections");
     const OrbitSolution solution = solve_orbit(system, *orbit, settings.orbit);

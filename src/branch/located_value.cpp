@@ -19,7 +19,7 @@ namespace graze {
 
 namespace {
 
-constexpr int most_halvings = 8;    ///< largest number of halvings of one correction
+constexpr int most_halvings = 8;       ///< largest number of halvings of one correction
 constexpr double largest_change = 0.5; ///< largest scaled change of the orbit in one part of the path
 
 std::vector<ParameterId> with_control(const Model& model, ParameterId control, const std::vector<ParameterId>& others) {
@@ -71,8 +71,7 @@ public:
         options_.validate();
         Eigen::VectorXd unknowns = equations_.unknowns_of(point.solution.orbit);
         if (!equations_.evaluate(unknowns, nominal_))
-            throw InputError(fmt::format("the orbit cannot be followed: {}", nominal_.problem),
-                             "choose another point");
+            throw InputError(fmt::format("the orbit cannot be followed: {}", nominal_.problem), "choose another point");
         make_condition(nominal_);
         const Eigen::VectorXd wanted = unknowns.tail(index(others_.size()));
         std::string problem;
@@ -180,7 +179,8 @@ private:
     /// Damped Newton's method from `unknowns`. Sets `at_` to the evaluation at the solution.
     bool correct(Eigen::VectorXd& unknowns, const Eigen::VectorXd& wanted, std::size_t& iterations,
                  std::string& problem) {
-        constexpr double nearly = 1e-6; // corrections below this are accepted without a decrease of the residual, which is round-off
+        constexpr double nearly =
+            1e-6; // corrections below this are accepted without a decrease of the residual, which is round-off
         unknowns.tail(wanted.size()) = wanted;
         if (!equations_.evaluate(unknowns, at_) || !condition_->evaluate(equations_, at_)) {
             problem = at_.problem.empty()
@@ -211,7 +211,9 @@ private:
             }
             if (!improved) {
                 problem =
-                    tried_.problem.empty() ? "residuals do not fall" : tried_.problem; // without numbers, so that devices with the same problem are counted together
+                    tried_.problem.empty()
+                        ? "residuals do not fall"
+                        : tried_.problem; // without numbers, so that devices with the same problem are counted together
                 return false;
             }
             std::swap(at_, tried_);
@@ -231,7 +233,7 @@ private:
     /// Solves for one part of the path. The correction must be small against the prediction; otherwise Newton's method
     /// may have converged to another solution.
     bool solve_part(const OrbitEvaluation& from, const Eigen::MatrixXd& directions, const Eigen::VectorXd& wanted,
-            LocatedSolution& result) {
+                    LocatedSolution& result) {
         constexpr double negligible_correction = 1e-6, largest_part = 0.3;
         const Eigen::VectorXd change = directions * (wanted - from.unknowns.tail(wanted.size()));
         const Eigen::VectorXd predicted = from.unknowns + change;
@@ -251,7 +253,8 @@ private:
     }
 
     /// Finds a touch that has left its segment in the other segments of the predicted orbit.
-    bool move_touch_to_segment(const OrbitEvaluation& from, const Eigen::MatrixXd& directions, const Eigen::VectorXd& wanted) {
+    bool move_touch_to_segment(const OrbitEvaluation& from, const Eigen::MatrixXd& directions,
+                               const Eigen::VectorXd& wanted) {
         constexpr double near = 1e-2; // share of the function's size along the arc
         if (point_.type != PointType::grazing || point_.at_end)
             return false;

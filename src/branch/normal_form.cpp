@@ -141,7 +141,8 @@ void null_vectors(const MatrixXcd& matrix, VectorXcd& right, VectorXcd& left) {
         bordered(count, i) = std::cos(1.7 * static_cast<double>(i) + 1);
     }
     const VectorXcd last = VectorXcd::Unit(count + 1, count);
-    for (int repetition = 0; repetition < 2; ++repetition) { // the second pass uses the null vectors as well-conditioned borders
+    for (int repetition = 0; repetition < 2;
+         ++repetition) { // the second pass uses the null vectors as well-conditioned borders
         right = PartialLU<Complex>(bordered).solve(last).head(count).normalized();
         left = PartialLU<Complex>(bordered.transpose()).solve(last).head(count).normalized();
         bordered.col(count).head(count) = left.conjugate();

@@ -228,7 +228,8 @@ private:
             return false;
         renewed();
         approached_ = hopf_;
-        state_.continuation().set_next_step(approach_share * distance_to(state_, state_.continuation().point(), *hopf_));
+        state_.continuation().set_next_step(approach_share *
+                                            distance_to(state_, state_.continuation().point(), *hopf_));
         return true;
     }
     /// Ends the branch in the equilibrium to which its orbits shrink.
@@ -292,7 +293,7 @@ private:
     /// Result of Newton's method at a distance from the original branch.
     enum class Found { nothing, left_branch, other_branch };
     Found search_other_branch(const std::vector<double>& u, const std::vector<double>& direction, double distance,
-                         bool was_simpler) {
+                              bool was_simpler) {
         if (!state_.continuation().start_along(u, direction, distance))
             return Found::nothing;
         // From a flip or symmetry breaking the new branch leaves the simpler orbits, or it returns to them.
@@ -667,7 +668,8 @@ private:
         const auto& kept = state_.settings().kept;
         if (!kept || !state_.settings().stop_when_unphysical)
             return false;
-        const bool without = is_grazing(kept->type) && kept->at_end; // the speed is zero all along: its sign is round-off
+        const bool without =
+            is_grazing(kept->type) && kept->at_end; // the speed is zero all along: its sign is round-off
         const auto& first = before.solution.certificate.approach_speeds;
         const auto& here = point.solution.certificate.approach_speeds;
         for (std::size_t s = 0; s < std::min(first.size(), here.size()); ++s)
@@ -765,10 +767,10 @@ private:
     std::vector<BranchTest> tests_; ///< tests at the last point
     PointLocator locator_;
     std::size_t reorderings_ = 0;
-    bool is_kept_point_;                      ///< a curve begins at its kept point, not at changed parameters
-    bool returned_ = false;                  ///< the last step has led to simpler orbits
-    bool starts_simpler_ = false;                 ///< the first orbit is a repeated orbit, or symmetric but not given as a half orbit
-    int attempts_ = 0;                        ///< number of repetitions of the current step
+    bool is_kept_point_;          ///< a curve begins at its kept point, not at changed parameters
+    bool returned_ = false;       ///< the last step has led to simpler orbits
+    bool starts_simpler_ = false; ///< the first orbit is a repeated orbit, or symmetric but not given as a half orbit
+    int attempts_ = 0;            ///< number of repetitions of the current step
     std::optional<SpecialPoint> equilibrium_; ///< the equilibrium ahead to which the orbits shrink, if any
     std::optional<HopfPoint> hopf_;           ///< Hopf point that may lie within the last attempted step
     std::optional<HopfPoint> approached_;     ///< Hopf point that the next step approaches

@@ -33,10 +33,11 @@ struct BranchTest {
     /// For bound and crossing: index of the monitor, and of its crossing. Empty for bounds of parameters.
     std::optional<std::size_t> monitor = std::nullopt;
     std::size_t crossing = 0;
-    std::optional<std::size_t> free = std::nullopt;      ///< for bound: index in BranchSettings::free_bounds
-    std::optional<std::size_t> parameter = std::nullopt; ///< for extremum: index of the varying parameter; empty: the period
-    bool singular = false;                               ///< the equations are singular at the zero
-    bool appears = false; ///< the value may become undefined while negative; it then counts as a zero within the step
+    std::optional<std::size_t> free = std::nullopt; ///< for bound: index in BranchSettings::free_bounds
+    std::optional<std::size_t> parameter =
+        std::nullopt;      ///< for extremum: index of the varying parameter; empty: the period
+    bool singular = false; ///< the equations are singular at the zero
+    bool appears = false;  ///< the value may become undefined while negative; it then counts as a zero within the step
 };
 
 /// The data of a branch point that test functions use.

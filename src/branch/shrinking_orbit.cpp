@@ -200,7 +200,9 @@ std::optional<UncutOrbit> begun_for_shrinking(BranchState& state, const Orbit& o
 
 bool shrinks_to(const HopfPoint& hopf, ParameterId parameter, const Orbit& before, const Orbit& now) {
     constexpr double share = 0.3, round_off = 1e-9;
-    const auto error = [&](const Orbit& orbit) { return std::abs(orbit.parameters[parameter.place()] - hopf.parameter); };
+    const auto error = [&](const Orbit& orbit) {
+        return std::abs(orbit.parameters[parameter.place()] - hopf.parameter);
+    };
     const auto off_period = [&](const Orbit& orbit) { return std::abs(orbit.period() - hopf.period); };
     return error(now) <= share * error(before) + round_off * std::abs(hopf.parameter) &&
            off_period(now) <= share * off_period(before) + round_off * hopf.period;

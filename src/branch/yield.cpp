@@ -50,7 +50,7 @@ public:
     using Changes = std::function<std::vector<double>(std::size_t device, const std::vector<double>& nominal)>;
 
     DeviceSolver(const System& system, const SpecialPoint& point, ParameterId control, std::vector<ParameterId> others,
-             std::size_t devices, Changes changes, const YieldSettings& settings)
+                 std::size_t devices, Changes changes, const YieldSettings& settings)
         : system_(&system), point_(&point), control_(control), others_(std::move(others)), devices_(devices),
           changes_(std::move(changes)), settings_(&settings), nominal_(make_solver()) {}
 

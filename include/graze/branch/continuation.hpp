@@ -66,15 +66,15 @@ struct ContinuationPoint {
     std::vector<double> u;
     std::vector<double> tangent; ///< unit tangent, in scaled unknowns
     double arclength = 0;        ///< arclength since the start, in scaled unknowns
-    double determinant = 0;      ///< determinant of the derivatives bordered by the tangent: changes sign at branch points
-    std::size_t iterations = 0;  ///< iterations of Newton's method
+    double determinant = 0; ///< determinant of the derivatives bordered by the tangent: changes sign at branch points
+    std::size_t iterations = 0; ///< iterations of Newton's method
 };
 
 struct ContinuationOptions {
     double first_step = 0.01;    ///< length of the first step, in scaled unknowns
     double smallest_step = 1e-8; ///< the continuation ends when the step falls below this
-    double largest_step = 0.05; ///< make it smaller where special points are missed
-    double accuracy = 1e-10;     ///< Newton's method stops when its last correction, scaled, is below this; 1e-15 .. 1e-2
+    double largest_step = 0.05;  ///< make it smaller where special points are missed
+    double accuracy = 1e-10; ///< Newton's method stops when its last correction, scaled, is below this; 1e-15 .. 1e-2
     double largest_angle = 0.35; ///< largest angle between tangents of successive points, in radians, below 1.5
     std::size_t iterations = 7;  ///< largest number of Newton iterations per point; beyond it the step is halved
     /// @throws InputError naming the option that is out of range
@@ -150,7 +150,7 @@ private:
     std::size_t steps_ = 0;
     std::vector<double> step_;
     std::vector<std::vector<double>> corrections_; ///< chord corrections of the current point
-    double step_growth_ = 1;                       ///< suggested ratio of the next step to the last one, from the work that the last one took
+    double step_growth_ = 1; ///< suggested ratio of the next step to the last one, from the work that the last one took
 };
 
 } // namespace graze

@@ -14,7 +14,8 @@ namespace graze {
 
 struct LocatedValueOptions {
     OrbitOptions orbit;       ///< tolerances of integration and Newton's method; the error is not estimated
-    std::size_t halvings = 6; ///< how often the path from the known point may be halved where Newton's method does not converge at once, up to 30
+    std::size_t halvings = 6; ///< how often the path from the known point may be halved where Newton's method does not
+                              ///< converge at once, up to 30
     bool map = false;         ///< compute LocatedSolution::map too
     /// @throws InputError naming the option that is out of range
     void validate() const;

@@ -14,17 +14,17 @@ namespace graze {
 
 /// Types of points on a branch of periodic orbits. Each has an entry at the same index in the table of kinds.
 enum class PointType {
-    fold,         ///< SN: the branch has a fold; a multiplier is 1
-    flip,         ///< PD: a multiplier is -1
-    torus,        ///< NS: two multipliers lie on the unit circle
-    branch_point, ///< BP: another branch crosses
-    asymmetry,    ///< SB: symmetry breaking; the half map of a symmetric orbit has a multiplier -1
-    grazing,      ///< GR: the surface of an event is touched with zero speed, inside an arc or at its end
-    vanishing,    ///< DZ: a segment's duration reaches zero
-    two_events,   ///< EE: two events happen simultaneously
-    guard,        ///< GU: the guard after a jump is about to choose another mode
-    cusp,         ///< CP: on a curve of folds: two folds meet
-    generalised,  ///< GF: on a curve of flips or symmetry breakings: criticality changes (generalised flip)
+    fold,              ///< SN: the branch has a fold; a multiplier is 1
+    flip,              ///< PD: a multiplier is -1
+    torus,             ///< NS: two multipliers lie on the unit circle
+    branch_point,      ///< BP: another branch crosses
+    asymmetry,         ///< SB: symmetry breaking; the half map of a symmetric orbit has a multiplier -1
+    grazing,           ///< GR: the surface of an event is touched with zero speed, inside an arc or at its end
+    vanishing,         ///< DZ: a segment's duration reaches zero
+    two_events,        ///< EE: two events happen simultaneously
+    guard,             ///< GU: the guard after a jump is about to choose another mode
+    cusp,              ///< CP: on a curve of folds: two folds meet
+    generalised,       ///< GF: on a curve of flips or symmetry breakings: criticality changes (generalised flip)
     generalised_torus, ///< GT: on a curve of torus points: criticality changes
     resonance_1,       ///< R1: on a curve of folds or torus points: two multipliers are 1
     resonance_2,       ///< R2: on a curve of flips or torus points: two multipliers are -1
@@ -32,7 +32,8 @@ enum class PointType {
     resonance_4,       ///< R4: on a curve of torus points: a pair of multipliers is i and -i
     sensitivity,       ///< VS: on a curve of touches: a slow impact has no effect on the next pass
     fold_degenerate,   ///< DF: on a curve of touches: the curve of folds of orbits with an impact ends
-    flip_degenerate,   ///< DP: on a curve of touches: the curve of flips (or symmetry breakings) of orbits with an impact ends
+    flip_degenerate, ///< DP: on a curve of touches: the curve of flips (or symmetry breakings) of orbits with an impact
+                     ///< ends
     zero_acceleration, ///< ZA: on a curve of touches: the contact with zero speed has zero acceleration too
     double_grazing,    ///< DG: on a curve of touches: the orbit has a second touch
     fold_flip,         ///< FP: on a curve of folds or flips: one multiplier is 1, another -1
@@ -95,7 +96,8 @@ struct SpecialPoint {
     // For grazing, double_grazing, two_events, vanishing and guard:
     std::size_t segment = 0, event = 0;
     double time = 0;     ///< since the start of the segment
-    bool at_end = false; ///< the event that ends the segment is reached with zero speed; false: an event is touched inside the segment
+    bool at_end = false; ///< the event that ends the segment is reached with zero speed; false: an event is touched
+                         ///< inside the segment
 };
 
 } // namespace graze

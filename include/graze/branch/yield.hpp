@@ -28,15 +28,16 @@ struct Tolerance {
 
 struct YieldSettings {
     std::vector<Tolerance> tolerances;
-    std::size_t devices = 10'000; ///< number of devices; raise it for narrower confidence intervals
-    std::uint64_t seed = 1; ///< of the random numbers
+    std::size_t devices = 10'000;          ///< number of devices; raise it for narrower confidence intervals
+    std::uint64_t seed = 1;                ///< of the random numbers
     std::optional<double> least, greatest; ///< specification limits of the value; empty: no limit
     double confidence = 0.95;              ///< confidence level of all intervals
     std::vector<double> quantiles{0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99};
     int jobs = 1; ///< number of threads; results do not depend on it
     LocatedValueOptions solver;
-    std::function<bool()> interrupted;                 ///< called from any thread; returns true to stop
-    std::function<void(std::size_t devices)> progress; ///< called with the number of finished devices, from the calling thread
+    std::function<bool()> interrupted; ///< called from any thread; returns true to stop
+    std::function<void(std::size_t devices)>
+        progress; ///< called with the number of finished devices, from the calling thread
     /// Called with the solution of each device that was found, from any thread.
     std::function<void(std::size_t device, const LocatedSolution& solution)> solved;
     /// @throws InputError naming the setting that is out of range
@@ -57,8 +58,9 @@ struct QuantileEstimate {
 /// Linear contribution of one parameter to the scatter of the value.
 struct Contribution {
     ParameterId parameter;
-    double deviation = 0; ///< standard deviation of the value due to this parameter alone, with the sign of the derivative
-    double share = 0;     ///< share of the variance; 0 if the variance is zero
+    double deviation =
+        0;            ///< standard deviation of the value due to this parameter alone, with the sign of the derivative
+    double share = 0; ///< share of the variance; 0 if the variance is zero
 };
 
 enum class DeviceOutcome {
@@ -78,7 +80,8 @@ struct Yield {
     double nominal = 0;
     std::vector<Device> devices; ///< in order of their numbers
     std::size_t made = 0, found = 0, inadmissible = 0, failed = 0;
-    std::vector<std::pair<std::string, std::size_t>> problems; ///< reasons why devices were not found, with their counts
+    std::vector<std::pair<std::string, std::size_t>>
+        problems; ///< reasons why devices were not found, with their counts
     bool interrupted = false;
 
     std::optional<ConfidenceInterval> mean, deviation; ///< over the devices found; empty for fewer than two
@@ -87,9 +90,9 @@ struct Yield {
     /// outside.
     std::optional<ConfidenceInterval> within;
 
-    double linear_deviation = 0;             ///< standard deviation in the linear approximation, exact
-    std::optional<double> linear_within;     ///< share of the same devices within the limits, in the linear approximation
-    double largest_departure = 0;            ///< largest difference between a found value and its linear prediction
+    double linear_deviation = 0;         ///< standard deviation in the linear approximation, exact
+    std::optional<double> linear_within; ///< share of the same devices within the limits, in the linear approximation
+    double largest_departure = 0;        ///< largest difference between a found value and its linear prediction
     std::vector<Contribution> contributions; ///< contributions of the parameters, largest first
 };
 
@@ -106,7 +109,8 @@ Yield yield_of(const System& system, const SpecialPoint& point, ParameterId cont
 /// Given devices, whose parameters may be correlated, as those made by one process.
 struct MadeDevices {
     std::vector<ParameterId> parameters;
-    std::vector<std::vector<double>> values; ///< for each device one value per parameter; empty: the device cannot be made
+    std::vector<std::vector<double>>
+        values; ///< for each device one value per parameter; empty: the device cannot be made
 };
 
 /// The same for given devices: without contributions, and with the linear deviation computed from these devices.
