@@ -281,7 +281,7 @@ private:
         }
         return result;
     }
-    /// Length of some unknowns, or of all, scaled.
+    /// Returns the scaled length of the chosen unknowns; of all if `chosen` is empty.
     double size_of(const std::vector<double>& unknowns, const std::vector<bool>& chosen) {
         double sum = 0;
         for (std::size_t i = 0; i < unknowns.size(); ++i) {

@@ -20,7 +20,7 @@ struct CompliantContact {
 /// (damping). Pulled back by the flow of the touching mode, the motion obeys y' = D + t [D] + t^2/2 [[D]] with Lie
 /// brackets along the field, which is integrated over the time beyond the surface (di Bernardo et al. 2008, section
 /// 7.2, where M is zero).
-/// @param mode mode during the contact
+/// @param mode during the contact
 CompliantContact compliant_contact(const TouchFunctions& functions, const TouchState& touch,
                                    const TouchGeometry& geometry, const TouchSizes& sizes, std::size_t mode);
 

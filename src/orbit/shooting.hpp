@@ -11,7 +11,7 @@ namespace graze {
 /// tolerance.
 class Shooting : public OrbitEquations {
 public:
-    /// @param simulation simulation of the orbit's model, with the tolerance of the integration
+    /// @param simulation of the orbit's model, with the tolerance of the integration
     /// @param parameters that are unknowns of the equations
     /// @param ranges lengths of the intervals in which the free parameters vary; 0 where unknown
     /// @throws InputError when the orbit does not fit the model

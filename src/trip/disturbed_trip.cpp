@@ -14,7 +14,7 @@ namespace graze {
 
 namespace {
 
-/// A motion in a model whose parameter changes, from the origin.
+/// Simulates a motion from the origin in a model whose parameter varies in time.
 TripTime follow(const TripOrigin& origin, const DrivenParameter& driven, const std::vector<double>& further,
                 double longest, const TripEnd& end, const TripOptions& options) {
     TripEnd here = end;
@@ -38,30 +38,30 @@ const std::string name_of(const System& system, const TripOrigin& origin) {
 } // namespace
 
 double beginning_of_ramp(const LossPoint& point, double rate) {
-    constexpr double cycles = 100, delays = 5, tellable = 10;
-    double way = cycles * std::abs(rate) * point.cycle;
+    constexpr double cycles = 100, delays = 5, resolvable = 10;
+    double distance = cycles * std::abs(rate) * point.cycle;
     if (point.fold)
-        way = std::max(way, delays * std::abs(delay_of_ramp(*point.fold, rate)));
+        distance = std::max(distance, delays * std::abs(delay_of_ramp(*point.fold, rate)));
     const double least = point.fold ? least_overshoot(*point.fold) : least_overshoot(point.map, point.parameter);
-    return point.value - point.side * std::max(way, tellable * least);
+    return point.value - point.side * std::max(distance, resolvable * least);
 }
 
 RampedTrip ramped_trip(const System& system, const TripOrigin& origin, double rate, const TripEnd& end,
                        const TripOptions& options) {
     options.validate();
-    const double way = origin.point - origin.value;
-    if (!(rate * way > 0 && std::isfinite(rate)))
+    const double distance = origin.point - origin.value;
+    if (!(rate * distance > 0 && std::isfinite(rate)))
         throw InputError(fmt::format("with the rate {} the parameter does not come to the point", rate),
-                         way > 0 ? "give a positive rate" : "give a negative rate");
+                         distance > 0 ? "give a positive rate" : "give a negative rate");
     const DrivenParameter driven = drive_parameter(system.model(), name_of(system, origin), DriveKind::shift);
     RampedTrip result;
-    result.trip = follow(origin, driven, {rate}, way / rate + options.cycles * origin.cycle, end, options);
+    result.trip = follow(origin, driven, {rate}, distance / rate + options.cycles * origin.cycle, end, options);
     result.value = origin.value + rate * result.trip.time;
     return result;
 }
 
 double delay_of_ramp(const FoldPassage& fold, double rate) {
-    constexpr double first_zero = 2.338107410459767; // of the Airy function, without its sign
+    constexpr double first_zero = 2.338107410459767; // magnitude of the first zero of the Airy function
     const double of_cycle = std::abs(rate) * fold.cycle;
     return std::copysign(first_zero, rate) * std::pow(of_cycle, 2.0 / 3) /
            std::cbrt(fold.coefficient * std::abs(fold.rate));

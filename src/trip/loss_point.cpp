@@ -12,7 +12,7 @@ namespace graze {
 
 namespace {
 
-/// A point of another kind may be on a curve of folds. Touches come first.
+/// True for folds and for points on curves of folds that are not touches.
 bool is_fold(const SpecialPoint& point) {
     if (point.type == PointType::fold)
         return true;

@@ -50,10 +50,10 @@ struct CycleMap {
     DiscontinuityMap contact;
     bool half = false; ///< the orbit is a half orbit, and the cycle is its half period
     double time = 0;   ///< duration of a cycle
-    /// Times since the touch, in one period period of the whole orbit, at which the orbit touches the event's surface
+    /// Times since the touch, in one period of the whole orbit, at which the orbit touches the event's surface
     /// (0 first), and at which it has other contacts there.
     std::vector<double> touch_times, contact_times;
-    double period = 0;               ///< of the whole orbit
+    double period = 0;               ///< period of the whole orbit
     std::vector<std::size_t> active; ///< indices of the states that are neither drifting nor neutral
     std::vector<double> scales;      ///< scales of the active states
     std::vector<double> matrix;      ///< P of the active states, row by row
