@@ -1,6 +1,6 @@
 #pragma once
 
-#include "../duel.hpp"
+#include "../timing.hpp"
 
 #include <algorithm>
 #include <cmath>
