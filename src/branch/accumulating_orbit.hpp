@@ -55,8 +55,8 @@ private:
         SelfSimilarContacts contacts;
         FollowedMotion motion;
         std::size_t contact = 0,
-                    segments =
-                        0; ///< index of the last simulated contact; number of segments up to the return to the mode
+                    /// Index of the last simulated contact; number of segments up to the return to the mode.
+            segments = 0;
     };
     Eigen::Index parameter_place() const { return scales_.size() - 1; }
     std::vector<double> inputs(const Eigen::VectorXd& state) const;

@@ -129,7 +129,7 @@ bool BranchPointProblem::solve(std::span<const double> row, double right, bool h
     const double beta = std::abs(solution[rows + 2]);
     broken_.clear();
     if (!homogeneous && beta > zero && solution.head(columns).cwiseAbs().maxCoeff() < converged) {
-        broken_ = "the two branches part there: nothing of the model keeps them together";
+        broken_ = "the two branches separate there: no property of the model keeps them together";
         return false;
     }
     Eigen::Map<VectorXd>(step.data(), columns) = solution.head(columns).cwiseProduct(units);

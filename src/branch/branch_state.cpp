@@ -43,7 +43,7 @@ BranchState::BranchState(const System& system, const Orbit& candidate, const Bra
     hold(candidate);
     if (!make_problem(candidate))
         throw InputError(
-            fmt::format("what makes a point of type {} cannot be held there", short_name(settings.kept->type)),
+            fmt::format("the condition of a point of type {} cannot be held there", short_name(settings.kept->type)),
             "choose another point");
 }
 

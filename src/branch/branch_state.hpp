@@ -87,8 +87,8 @@ private:
     Simulation simulation_;
     std::optional<Simulation> tighter_; ///< made when first needed
     std::unique_ptr<OrbitMonitors> monitors_;
-    std::vector<std::unique_ptr<OrbitCondition>>
-        held_; ///< one condition for each additional free parameter, those of the kept point last
+    /// One condition for each additional free parameter, those of the kept point last.
+    std::vector<std::unique_ptr<OrbitCondition>> held_;
     std::unique_ptr<OrbitProblem> problem_;
     std::unique_ptr<Continuation> continuation_;
     double arclength_ = 0, growth_ = 1;

@@ -112,8 +112,8 @@ bool confirm_grazing(BranchState& state, SpecialPoint& special, const BranchTest
 
 /// The kept touch may reach the end of its segment: this is not a second touch.
 bool confirm_double_grazing(BranchState& state, SpecialPoint& special, const BranchTest& test) {
-    constexpr double at_end =
-        1e-3; // share of the segment: the distance of the touch from the end vanishes with a square root
+    // Share of the segment: the distance of the touch from the end vanishes with a square root.
+    constexpr double at_end = 1e-3;
     const SpecialPoint& kept = *state.settings().kept;
     confirm_grazing(state, special, test);
     const double duration = special.solution.orbit.durations[special.segment];
@@ -285,8 +285,8 @@ std::vector<BranchStart> leave_order(const System& system, const SpecialPoint& p
 /// and H. Dankowicz, "Co-dimension-two grazing bifurcations in single-degree-of-freedom impact oscillators", J. Comput.
 /// Nonlinear Dynam. 1, 2006).
 void test_sensitivity(const TestedPoint& point, std::vector<BranchTest>& tests) {
-    constexpr double least =
-        1e-9; // share of the period: smaller values are round-off, as where impacts do not affect the next pass
+    // Share of the period: smaller values are round-off, as where impacts do not affect the next pass.
+    constexpr double least = 1e-9;
     const auto& kept = point.settings.kept;
     if (!kept || kept->type != PointType::grazing || kept->at_end)
         return;

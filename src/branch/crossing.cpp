@@ -152,8 +152,8 @@ std::optional<double> possible_dip(const TestValue& before, const TestValue& low
 std::optional<Dip> dip_between(TestValue low, TestValue high, double within,
                                const std::function<double(double)>& value_at) {
     constexpr int most = 8;
-    constexpr double deep =
-        1e-10; // share of the values at the ends: smaller values are round-off, as where a test only touches zero
+    // Share of the values at the ends: smaller values are round-off, as where a test only touches zero.
+    constexpr double deep = 1e-10;
     const double sign = low.value < 0 ? -1 : 1, size = std::min(std::abs(low.value), std::abs(high.value));
     TestValue middle{within, value_at(within)};
     for (int i = 0; i < most; ++i) {

@@ -364,7 +364,7 @@ BranchStart with_one_contact_fewer(const System& system, const SpecialPoint& poi
         std::vector<double> row(problem.unknowns(), 0.0), tangent(problem.unknowns());
         row[problem.parameter_place()] = sign;
         if (!problem.evaluate(problem.unknowns_of(solution.orbit)) || !problem.solve(row, 1, true, tangent, nullptr))
-            fail("the branch turns right there");
+            fail("the branch has a fold there");
         direction = problem.direction_of(tangent);
         OrbitBranch branch(system, solution.orbit, trial);
         if (branch.start_along(direction, 0) && branch.step() && branch.point().solution.certificate.admissible)

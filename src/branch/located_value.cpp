@@ -45,7 +45,7 @@ void LocatedValueOptions::validate() const {
     orbit.validate();
     constexpr std::size_t most = 30;
     if (halvings > most)
-        throw InputError(fmt::format("the way cannot be halved {} times", halvings),
+        throw InputError(fmt::format("the path cannot be halved {} times", halvings),
                          fmt::format("choose from 0 to {}", most));
 }
 
@@ -179,8 +179,8 @@ private:
     /// Damped Newton's method from `unknowns`. Sets `at_` to the evaluation at the solution.
     bool correct(Eigen::VectorXd& unknowns, const Eigen::VectorXd& wanted, std::size_t& iterations,
                  std::string& problem) {
-        constexpr double nearly =
-            1e-6; // corrections below this are accepted without a decrease of the residual, which is round-off
+        // Corrections below this are accepted without a decrease of the residual, which is round-off.
+        constexpr double nearly = 1e-6;
         unknowns.tail(wanted.size()) = wanted;
         if (!equations_.evaluate(unknowns, at_) || !condition_->evaluate(equations_, at_)) {
             problem = at_.problem.empty()
@@ -239,14 +239,14 @@ private:
         const Eigen::VectorXd predicted = from.unknowns + change;
         Eigen::VectorXd unknowns = predicted;
         if (!(size_of(change) <= largest_change)) {
-            result.problem = "the orbit changes too much on the way";
+            result.problem = "the orbit changes too much along the path";
             return false;
         }
         if (!correct(unknowns, wanted, result.iterations, result.problem))
             return false;
         const double correction = size_of(unknowns - predicted), change_size = size_of(change);
         if (correction > std::max(largest_part * change_size, negligible_correction)) {
-            result.problem = "Newton's method leads too far away from what is predicted";
+            result.problem = "Newton's method leads too far from the prediction";
             return false;
         }
         return true;

@@ -28,7 +28,7 @@ constexpr double same_orbit = 1e-6;
 /// Orders of magnitude above and below the other states that are tried for the size of a state that leaves zero.
 constexpr int most_decades = 15;
 
-const char* const returned_to_simpler = "back on the branch of more regular orbits";
+const char* const returned_to_simpler = "back on the branch of simpler orbits";
 
 bool is_among(PointType type, const std::vector<PointType>& types) {
     return std::find(types.begin(), types.end(), type) != types.end();
@@ -126,11 +126,11 @@ public:
         }
         if (point.step == 1 && is_beyond_torus(tests_before)) {
             point = before;
-            return end(BranchOutcome::stopped, "this way the two multipliers are real");
+            return end(BranchOutcome::stopped, "in this direction the two multipliers are real");
         }
         if (point.step == 1 && has_no_contact(before)) {
             point = before;
-            return end(BranchOutcome::stopped, "this way the contact that begins there has a negative speed");
+            return end(BranchOutcome::stopped, "in this direction the new contact has a negative speed");
         }
         if (equilibrium_ && point.arclength > equilibrium_->arclength) {
             point = before;
@@ -322,7 +322,7 @@ private:
             return false;
         begin(false);
         if (came_back)
-            detail = "Newton's method comes back to the branch that was to be left";
+            detail = "Newton's method returns to the original branch";
         return false;
     }
     /// Starts on another branch where states leave zero that are zero all along the original branch. Their size is
@@ -345,7 +345,7 @@ private:
         }
         problem.equations().set_scales(OrbitProblem::vector_of(u));
         begin(false);
-        detail = "at no distance from the branch that was to be left an orbit is found on another one";
+        detail = "no orbit on another branch was found at any distance from the original one";
         return false;
     }
     /// Returns the length of a direction in the norm of the continuation.
@@ -402,7 +402,7 @@ private:
         else if (shorter * length > state_.settings().continuation.smallest_step)
             state_.continuation().set_next_step(shorter * length);
         else
-            return end(BranchOutcome::no_convergence, "the orbit is only touched by a plane that is laid across it");
+            return end(BranchOutcome::no_convergence, "the orbit is tangent to the plane of its cut");
         return step();
     }
     /// Repeats a step that passed a bound which could not be located, with a shorter step; after several attempts the
@@ -668,8 +668,8 @@ private:
         const auto& kept = state_.settings().kept;
         if (!kept || !state_.settings().stop_when_unphysical)
             return false;
-        const bool without =
-            is_grazing(kept->type) && kept->at_end; // the speed is zero all along: its sign is round-off
+        // The speed is zero all along: its sign is round-off.
+        const bool without = is_grazing(kept->type) && kept->at_end;
         const auto& first = before.solution.certificate.approach_speeds;
         const auto& here = point.solution.certificate.approach_speeds;
         for (std::size_t s = 0; s < std::min(first.size(), here.size()); ++s)

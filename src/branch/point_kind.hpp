@@ -34,8 +34,8 @@ struct BranchTest {
     std::optional<std::size_t> monitor = std::nullopt;
     std::size_t crossing = 0;
     std::optional<std::size_t> free = std::nullopt; ///< for bound: index in BranchSettings::free_bounds
-    std::optional<std::size_t> parameter =
-        std::nullopt;      ///< for extremum: index of the varying parameter; empty: the period
+    /// For extremum: index of the varying parameter; empty: the period.
+    std::optional<std::size_t> parameter = std::nullopt;
     bool singular = false; ///< the equations are singular at the zero
     bool appears = false;  ///< the value may become undefined while negative; it then counts as a zero within the step
 };

@@ -18,8 +18,8 @@ std::unique_ptr<OrbitCondition> SensitivityCondition::of_touch(const OrbitEquati
     if (touch.at_end)
         return nullptr;
     std::unique_ptr<SensitivityCondition> condition(new SensitivityCondition(equations, touch));
-    const bool alike =
-        condition->beside_.unknowns() == equations.unknowns(); // false: the equations have another layout
+    // False: the equations have another layout.
+    const bool alike = condition->beside_.unknowns() == equations.unknowns();
     return alike && condition->projection(equations, at) ? std::move(condition) : nullptr;
 }
 

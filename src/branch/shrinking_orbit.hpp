@@ -35,7 +35,7 @@ std::optional<UncutOrbit> begun_for_shrinking(BranchState& state, const Orbit& o
 /// True when the parameter approaches that of the Hopf point with the square of the orbit's size.
 bool shrinks_to(const HopfPoint& hopf, ParameterId parameter, const Orbit& before, const Orbit& now);
 
-/// Returns the end of the branch at the Hopf point. @param arclength of the current point; @param way distance from it
+/// Returns the end of the branch at the Hopf point. @param arclength of the current point; @param distance from it
 std::optional<SpecialPoint> end_in(BranchState& state, const HopfPoint& hopf, double arclength, double distance);
 
 /// Returns the arclength between an orbit of the current problem and the orbit at rest.

@@ -87,8 +87,8 @@ SlidingContact sliding_contact(const TouchFunctions& functions, const TouchState
           small * scaled(difference.derivatives)))
         return fail(
             fmt::format("the field of mode '{}' is not that of mode '{}' wherever the surface is touched", name, own));
-    const Eigen::VectorXd bend =
-        difference.second - a * off - difference.jerk * slowing; // second derivative of D, on the surface
+    // Second derivative of D, on the surface.
+    const Eigen::VectorXd bend = difference.second - a * off - difference.jerk * slowing;
     const double terms = gradient.cwiseAbs().dot(difference.second.cwiseAbs() + a * off.cwiseAbs() +
                                                  std::abs(difference.jerk) * slowing.cwiseAbs());
     if (!(std::abs(gradient.dot(slowing) + 1) <= small) ||

@@ -216,8 +216,8 @@ bool CyclicMatrix::plane_near(std::complex<double> one, std::complex<double> oth
     // A(mu) = A_0 + mu N, where N is the closing block. Normalise: left^T N right is the identity.
     const Eigen::Matrix2d product =
         result.left.bottomRows(n_ + 1).transpose() * (next_.back() * result.right.topRows(n_));
-    constexpr double least =
-        1e-20; // of the product of angles between left and right plane: below it, other multipliers are as near
+    // Of the product of angles between left and right plane: below it, other multipliers are as near.
+    constexpr double least = 1e-20;
     const double sizes = result.left.colwise().norm().prod() * result.right.colwise().norm().prod();
     if (!(std::abs(product.determinant()) > least * sizes))
         return false;

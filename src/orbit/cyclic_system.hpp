@@ -59,8 +59,8 @@ public:
     private:
         friend class CyclicSystem;
         FullLU<double> lu_;
-        std::vector<Eigen::MatrixXd>
-            shares_; ///< per segment: coefficients by which its equations enter the borders; empty: zero
+        /// Per segment: coefficients by which its equations enter the borders; empty: zero.
+        std::vector<Eigen::MatrixXd> shares_;
         bool regular_ = false;
         double determinant_ = 0;
     };

@@ -14,8 +14,8 @@ double largest(const Eigen::VectorXd& step, const Eigen::VectorXd& scales) {
 
 bool is_in_family(Shooting& equations, const OrbitEvaluation& at) {
     constexpr double distance = 1e-2,
-                     kept_share =
-                         0.5; // displacement in units of the scales; share of it that must remain after the corrections
+                     // Displacement in units of the scales; share of it that must remain after the corrections.
+        kept_share = 0.5;
     constexpr double solved = 1e-11;
     constexpr int iterations = 8;
     const Eigen::MatrixXd no_borders(0, static_cast<Eigen::Index>(at.system.unknowns()));

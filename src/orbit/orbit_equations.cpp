@@ -290,8 +290,8 @@ void OrbitEquations::assemble(const Eigen::VectorXd& unknowns, OrbitEvaluation& 
 /// the flow and the jump still return a small change of it.
 void OrbitEquations::drop_accidentally_neutral(const OrbitEvaluation& at, std::vector<bool>& neutral) {
     constexpr double parameter_shift = 1e-2, state_shift = 1e-9,
-                     identity_tolerance =
-                         1e-6; // shift of parameters and of the state, in scales; tolerance, as a share of the latter
+                     // Shift of parameters and of the state, in scales; tolerance, as a share of the latter.
+        identity_tolerance = 1e-6;
     const std::size_t n = layout_.states();
     if (free().empty() || std::find(neutral.begin(), neutral.end(), true) == neutral.end())
         return;

@@ -71,8 +71,9 @@ TripTime swung_trip(const System& system, const TripOrigin& origin, double ampli
                     const TripOptions& options) {
     options.validate();
     if (!(period > 0 && std::isfinite(period)) || !std::isfinite(amplitude))
-        throw InputError(fmt::format("nothing swings by {} with the period {}", amplitude, period),
-                         "give finite numbers, and a positive period");
+        throw InputError(
+            fmt::format("a wave with the amplitude {} and the period {} is not possible", amplitude, period),
+            "give finite numbers, and a positive period");
     const DrivenParameter driven = drive_parameter(system.model(), name_of(system, origin), DriveKind::wave);
     return follow(origin, driven, {2 * std::numbers::pi / period, amplitude}, options.cycles * origin.cycle, end,
                   options);

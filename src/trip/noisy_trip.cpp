@@ -181,7 +181,7 @@ std::size_t count_beyond(const TripOrigin& origin, double level, const NoiseSett
 void NoiseSettings::validate() const {
     constexpr std::size_t most = 100'000'000;
     if (!(memory >= 0 && memory <= 1e9))
-        throw InputError(fmt::format("noise cannot remember {} cycles", memory), "give 0 to 1e9");
+        throw InputError(fmt::format("the memory of {} cycles is out of range", memory), "give 0 to 1e9");
     if (motions == 0 || motions > most)
         throw InputError(fmt::format("{} motions are out of range", motions), fmt::format("choose from 1 to {}", most));
     if (cycles == 0 || cycles > most)

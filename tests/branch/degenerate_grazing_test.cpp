@@ -134,7 +134,7 @@ Branch onward(const Touches& from, const SpecialPoint& point, PointType type, do
         Branch curve = curve_of(from.model, start, from.settings, "omega", least, greatest, way);
         if (curve.points.size() < 2) {
             EXPECT_EQ(curve.outcome, BranchOutcome::stopped) << curve.detail;
-            EXPECT_EQ(curve.detail, "this way the contact that begins there has a negative speed");
+            EXPECT_EQ(curve.detail, "in this direction the new contact has a negative speed");
             continue;
         }
         EXPECT_TRUE(result.points.empty());

@@ -313,7 +313,7 @@ TEST(NormalForm, TorusCurvesBeginAtResonancesOnTheSideOfTheComplexPair) {
             const Branch torus = curve_of(model, start, settings, "b", -0.5, 1.5, way);
             EXPECT_EQ(torus.outcome, BranchOutcome::stopped) << torus.detail;
             if (torus.points.size() == 1) {
-                EXPECT_EQ(torus.detail, "this way the two multipliers are real");
+                EXPECT_EQ(torus.detail, "in this direction the two multipliers are real");
                 continue;
             }
             ++followed;

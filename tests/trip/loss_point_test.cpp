@@ -55,7 +55,7 @@ TEST(LossPoint, TouchUsesTheFirstParameterThatMovesTheOrbit) {
     TripEnd soft;
     soft.speed = 0.5 * lost.level;
     EXPECT_EQ(level_until(lost, soft), soft.speed);
-    EXPECT_EQ(problem_of(one, {}), "nothing is said to move the orbit from its touch");
+    EXPECT_EQ(problem_of(one, {}), "no parameter is given that moves the orbit from its touch");
 }
 
 TEST(LossPoint, OrbitWithoutTouchIsRefusedByItsName) {

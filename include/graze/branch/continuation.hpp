@@ -26,9 +26,9 @@ public:
     /// @return false when the matrix is singular
     virtual bool solve(std::span<const double> row, double right, bool homogeneous, std::span<double> step,
                        double* determinant) = 0;
-    /// True when `chord` is available: F can be evaluated without derivatives. True when this is so much cheaper that
-    /// the derivatives of the last point should be tried first.
+    /// True when `chord` is available: F can be evaluated without derivatives.
     virtual bool has_chords() const { return false; }
+    /// True when derivatives cost so much more than F that those of the last point should be tried first.
     virtual bool derivatives_are_expensive() const { return false; }
     /// Solves derivatives * step = -F(u) together with row . step = 0, with the derivatives of the last `evaluate`,
     /// which are kept. @return false where F is not defined or the matrix is singular
@@ -73,7 +73,7 @@ struct ContinuationPoint {
 struct ContinuationOptions {
     double first_step = 0.01;    ///< length of the first step, in scaled unknowns
     double smallest_step = 1e-8; ///< the continuation ends when the step falls below this
-    double largest_step = 0.05;  ///< make it smaller where special points are missed
+    double largest_step = 0.05;  ///< upper limit of the step; make it smaller where special points are missed
     double accuracy = 1e-10; ///< Newton's method stops when its last correction, scaled, is below this; 1e-15 .. 1e-2
     double largest_angle = 0.35; ///< largest angle between tangents of successive points, in radians, below 1.5
     std::size_t iterations = 7;  ///< largest number of Newton iterations per point; beyond it the step is halved

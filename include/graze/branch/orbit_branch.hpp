@@ -20,6 +20,7 @@ struct FreeBounds {
     std::optional<double> least, greatest;
 };
 
+/// What a branch follows, and where it ends.
 struct BranchSettings {
     ParameterId parameter;    ///< the parameter that varies along the branch
     int direction = 1;        ///< initial direction of the parameter: up (1) or down (-1)
@@ -28,9 +29,9 @@ struct BranchSettings {
     /// Raise it for orbits of very long period.
     std::size_t work = 1'000'000;
     std::optional<double> least, greatest; ///< bounds of the parameter, at which the branch ends; empty: none
-    ContinuationOptions continuation;
-    OrbitOptions orbit;
-    std::vector<Monitor> monitors;
+    ContinuationOptions continuation;      ///< step lengths and accuracy
+    OrbitOptions orbit;                    ///< tolerance of the integration
+    std::vector<Monitor> monitors;         ///< quantities that are recorded, held or bounded
     /// A special point whose condition is held, so that the branch is the curve of such points (folds, flips, grazings)
     /// with one more free parameter. PointKind::may_be_kept says which types allow it.
     std::optional<SpecialPoint> kept;
@@ -52,16 +53,18 @@ struct BranchSettings {
     void validate_orbit(const Model& model) const;
 };
 
+/// A computed point of a branch.
 struct BranchPoint {
     OrbitSolution solution;
     double parameter = 0, arclength = 0;
-    bool stable = false; ///< all multipliers within the unit circle
-    std::size_t step = 0;
-    std::size_t iterations = 0;
-    OrbitDirection tangent;       ///< of the branch
+    bool stable = false;          ///< all multipliers within the unit circle
+    std::size_t step = 0;         ///< number of the step
+    std::size_t iterations = 0;   ///< iterations of Newton's method
+    OrbitDirection tangent;       ///< tangent of the branch
     std::vector<double> monitors; ///< values of the monitors
 };
 
+/// Why a branch has ended.
 enum class BranchOutcome {
     steps,          ///< the largest number of steps has been made
     bound,          ///< a bound of a parameter or monitor has been reached

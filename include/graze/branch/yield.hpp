@@ -20,8 +20,8 @@ enum class Spread {
 struct Tolerance {
     ParameterId parameter;
     Spread spread = Spread::normal;
-    double size =
-        0; ///< standard deviation of a normal, half width of a uniform distribution; in the unit of the parameter
+    /// Standard deviation of a normal, half width of a uniform distribution; in the unit of the parameter.
+    double size = 0;
 
     double deviation() const; ///< standard deviation
 };
@@ -36,8 +36,8 @@ struct YieldSettings {
     int jobs = 1; ///< number of threads; results do not depend on it
     LocatedValueOptions solver;
     std::function<bool()> interrupted; ///< called from any thread; returns true to stop
-    std::function<void(std::size_t devices)>
-        progress; ///< called with the number of finished devices, from the calling thread
+    /// Called with the number of finished devices, from the calling thread.
+    std::function<void(std::size_t devices)> progress;
     /// Called with the solution of each device that was found, from any thread.
     std::function<void(std::size_t device, const LocatedSolution& solution)> solved;
     /// @throws InputError naming the setting that is out of range
@@ -58,8 +58,8 @@ struct QuantileEstimate {
 /// Linear contribution of one parameter to the scatter of the value.
 struct Contribution {
     ParameterId parameter;
-    double deviation =
-        0;            ///< standard deviation of the value due to this parameter alone, with the sign of the derivative
+    /// Standard deviation of the value due to this parameter alone, with the sign of the derivative.
+    double deviation = 0;
     double share = 0; ///< share of the variance; 0 if the variance is zero
 };
 
@@ -80,8 +80,8 @@ struct Yield {
     double nominal = 0;
     std::vector<Device> devices; ///< in order of their numbers
     std::size_t made = 0, found = 0, inadmissible = 0, failed = 0;
-    std::vector<std::pair<std::string, std::size_t>>
-        problems; ///< reasons why devices were not found, with their counts
+    /// Reasons why devices were not found, with their counts.
+    std::vector<std::pair<std::string, std::size_t>> problems;
     bool interrupted = false;
 
     std::optional<ConfidenceInterval> mean, deviation; ///< over the devices found; empty for fewer than two
@@ -109,8 +109,8 @@ Yield yield_of(const System& system, const SpecialPoint& point, ParameterId cont
 /// Given devices, whose parameters may be correlated, as those made by one process.
 struct MadeDevices {
     std::vector<ParameterId> parameters;
-    std::vector<std::vector<double>>
-        values; ///< for each device one value per parameter; empty: the device cannot be made
+    /// For each device one value per parameter; empty: the device cannot be made.
+    std::vector<std::vector<double>> values;
 };
 
 /// The same for given devices: without contributions, and with the linear deviation computed from these devices.

@@ -66,8 +66,8 @@ struct CycleMap {
     std::vector<std::complex<double>> multipliers;
     /// Derivatives with respect to the parameter, if one was given and no multiplier is 1.
     std::optional<double> clearance_rate; ///< derivative of C
-    std::vector<double>
-        steady; ///< derivative of the state at which the event function of the orbit without contact is least
+    /// Derivative of the state at which the event function of the orbit without contact is least.
+    std::vector<double> steady;
 
     bool exists() const { return reason.empty() && contact.exists(); }
     /// Returns g P^k B for k = 1, 2, ..., count: the change of the clearance k cycles after a contact, per unit of its

@@ -48,8 +48,8 @@ struct DiscontinuityMap {
     bool ends = false;  ///< the map does not exist because the first contact ends the motion
     TouchState touch;
     double acceleration = 0; ///< second time derivative of the event function at the touch: positive
-    double restitution =
-        0; ///< ratio of the rates of the event function after and before the first jump, with opposite sign
+    /// Ratio of the rates of the event function after and before the first jump, with opposite sign.
+    double restitution = 0;
     std::vector<double> gradient;      ///< gradient of the event function with respect to the states
     std::vector<double> rate_gradient; ///< gradient of the rate of the event function
     std::vector<double> field;         ///< vector field at the touch

@@ -17,8 +17,8 @@ struct MapMotionOptions {
 /// The long-term motion of the map of a cycle when the orbit without contact has a negative clearance.
 struct MapMotion {
     std::size_t period = 0; ///< period in cycles; 0 where the motion does not repeat
-    std::size_t contacts =
-        0;               ///< number of contacts in one period, or in all examined cycles if the motion does not repeat
+    /// Number of contacts in one period, or in all examined cycles if the motion does not repeat.
+    std::size_t contacts = 0;
     double largest = 0;  ///< largest approach speed of these contacts; for three_halves, largest depth
     bool bounded = true; ///< false: the motion diverged
 };

@@ -64,8 +64,8 @@ struct Verdict {
 
     // For a rigid contact:
     std::size_t next_contact = 0; ///< cycles until the next contact, where the attractor is lost; 0 otherwise
-    std::optional<double>
-        growth; ///< growth of approach speeds from contact to contact: next speed = growth speed^(1/2)
+    /// Growth of approach speeds from contact to contact: next speed = growth speed^(1/2).
+    std::optional<double> growth;
     std::optional<double> jump_growth;  ///< the same for the jumps of the rate, (1 + e) speed
     std::optional<double> reach;        ///< speed at which the growth would end; the map must be valid up to it
     std::optional<double> speed_factor; ///< first contact: speed = speed_factor |parameter - touch|^(1/2)
@@ -83,8 +83,8 @@ struct Verdict {
     std::optional<double> fold_depth;     ///< depth at the fold
     std::optional<double> fold_clearance; ///< clearance at the fold
     std::optional<double> fold_distance;  ///< signed distance of the fold from the touch in the parameter
-    std::optional<double>
-        unstable_depth; ///< depth at which a multiplier leaves the unit circle, if that happens before the fold
+    /// Depth at which a multiplier leaves the unit circle, if that happens before the fold.
+    std::optional<double> unstable_depth;
 };
 
 /// @param shown number of projections that are listed

@@ -14,19 +14,22 @@
 
 namespace graze {
 
+/// Settings of the solution of orbits.
 struct OrbitOptions {
-    double tolerance =
-        1e-13; ///< relative tolerance of the integration, 1e-16 .. 1e-2; raise it only where integration is too slow
-    double accuracy = 1e-10; ///< Newton's method stops when its last correction, relative to the scale of each unknown,
-                             ///< is below this; 1e-15 .. 1e-2. Raise it for models that are known only to a few digits
-    std::size_t iterations = 25;
-    bool error_estimate = true; ///< estimate the error by one more Newton step at a hundredth of the tolerance
+    /// Relative tolerance of the integration, 1e-16 .. 1e-2; raise it only where integration is too slow.
+    double tolerance = 1e-13;
+    /// Newton's method stops when its last correction, relative to the scale of each unknown, is below this;
+    /// 1e-15 .. 1e-2. Raise it for models that are known only to a few digits.
+    double accuracy = 1e-10;
+    std::size_t iterations = 25; ///< largest number of Newton iterations
+    bool error_estimate = true;  ///< estimate the error by one more Newton step at a hundredth of the tolerance
     /// @throws InputError naming the option that is out of range
     void validate() const;
 };
 
+/// How the solution of an orbit ended.
 enum class OrbitOutcome {
-    converged,
+    converged,     ///< an orbit was found
     not_converged, ///< Newton's method did not find an orbit within the iterations
     singular,      ///< the equations do not determine an orbit here, as at a fold
     undefined,     ///< a segment leaves the domain of the model, or its solution becomes singular
@@ -74,12 +77,13 @@ std::optional<OrbitSolution> find_orbit(const System& system, const AttractorOpt
                                         const OrbitOptions& options, const SimulationOptions& simulation,
                                         const std::function<bool()>& interrupted);
 
+/// Limits of the search for an orbit with a given signature.
 struct SignatureSearchOptions {
-    std::size_t steps = 1'000'000; ///< integration steps for which the motion is followed at most
-    std::size_t segments = 2000;   ///< segments of the motion that are examined at most
-    std::size_t trials = 20;       ///< matching pieces of the motion that are tried as first guesses at most
-    bool unphysical = false;       ///< accept an orbit that is not admissible
-    std::function<bool()> interrupted;
+    std::size_t steps = 1'000'000;     ///< integration steps for which the motion is followed at most
+    std::size_t segments = 2000;       ///< segments of the motion that are examined at most
+    std::size_t trials = 20;           ///< matching pieces of the motion that are tried as first guesses at most
+    bool unphysical = false;           ///< accept an orbit that is not admissible
+    std::function<bool()> interrupted; ///< called now and then; returns true to stop
 };
 
 /// Finds an orbit with a given signature. The motion from the model's initial state is followed, and each piece of it

@@ -23,8 +23,8 @@ struct NoiseSettings {
     int jobs = 1;                      ///< number of threads; results do not depend on it
     double tolerance = 1e-12;          ///< relative tolerance of the integration
     std::function<bool()> interrupted; ///< called from any thread; returns true to stop
-    std::function<void(std::size_t motions)>
-        progress; ///< called with the number of finished motions, from the calling thread
+    /// Called with the number of finished motions, from the calling thread.
+    std::function<void(std::size_t motions)> progress;
     /// @throws InputError naming the setting that is out of range
     void validate() const;
 };

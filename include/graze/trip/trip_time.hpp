@@ -12,8 +12,8 @@ namespace graze {
 struct TripTime {
     bool ended = false; ///< the requested end was reached, or the motion ended itself
     std::string ending; ///< "speed", "level", or as trajectories end: "singular", "terminal", ...
-    double cycles =
-        0; ///< cycles until the end: passes of the touch for the map, time divided by that of a cycle for simulations
+    /// Cycles until the end: passes of the touch for the map, time divided by that of a cycle for simulations.
+    double cycles = 0;
     double time = 0;
     std::size_t contacts = 0; ///< contacts with the touched surface, including one at the end
     double speed = 0;         ///< approach speed of the last contact
@@ -23,8 +23,8 @@ struct TripTime {
 /// The requested end of a simulation; a singular end or a terminal transition ends it too.
 struct TripEnd {
     double speed = 0; ///< approach speed at the touched surface that ends the trip; 0: unused
-    std::optional<Expression>
-        quantity; ///< quantity whose level, crossed in either direction, ends the trip; empty: unused
+    /// Quantity whose level, crossed in either direction, ends the trip; empty: unused.
+    std::optional<Expression> quantity;
     double level = 0;
 };
 
