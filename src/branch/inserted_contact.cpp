@@ -85,7 +85,7 @@ std::optional<Orbit> with_contact_inserted(const Simulation& simulation, const S
     return joined(grazing, entries);
 }
 
-Orbit begun_after_first_contact(const System& system, const Orbit& like, const FollowedMotion& motion, double round) {
+Orbit begun_after_first_contact(const System& system, const Orbit& like, const FollowedMotion& motion, double period) {
     Orbit orbit;
     orbit.parameters = like.parameters;
     orbit.symmetry = like.symmetry;
@@ -100,7 +100,7 @@ Orbit begun_after_first_contact(const System& system, const Orbit& like, const F
     orbit.signature.push_back(like.symmetry ? image_of(system, *like.symmetry, motion.segments[0], like)
                                             : motion.segments[0]);
     orbit.starts.push_back(motion.starts[count]);
-    orbit.durations.push_back(round - known);
+    orbit.durations.push_back(period - known);
     return orbit;
 }
 

@@ -9,7 +9,7 @@
 namespace graze {
 
 SensitivityCondition::SensitivityCondition(const OrbitEquations& equations, const SpecialPoint& touch)
-    : beside_(equations.simulation(), touch.solution.orbit, equations.free()), tried_(beside_.evaluation()),
+    : displaced_(equations.simulation(), touch.solution.orbit, equations.free()), tried_(displaced_.evaluation()),
       segment_(touch.segment), event_(touch.event), share_(touch.time / touch.solution.orbit.durations[touch.segment]),
       functions_(equations.system(), equations.signature()[touch.segment].mode, touch.event) {}
 
@@ -19,7 +19,7 @@ std::unique_ptr<OrbitCondition> SensitivityCondition::of_touch(const OrbitEquati
         return nullptr;
     std::unique_ptr<SensitivityCondition> condition(new SensitivityCondition(equations, touch));
     // False: the equations have another layout.
-    const bool alike = condition->beside_.unknowns() == equations.unknowns();
+    const bool alike = condition->displaced_.unknowns() == equations.unknowns();
     return alike && condition->projection(equations, at) ? std::move(condition) : nullptr;
 }
 
@@ -48,9 +48,9 @@ bool SensitivityCondition::evaluate(const OrbitEquations& equations, const Orbit
         for (const int side : {0, 1}) {
             Eigen::VectorXd unknowns = at.unknowns;
             unknowns[i] += (side == 0 ? -step : step) * at.scales[i];
-            if (!beside_.evaluate(unknowns, tried_))
+            if (!displaced_.evaluate(unknowns, tried_))
                 return false;
-            const auto there = projection(beside_, tried_);
+            const auto there = projection(displaced_, tried_);
             if (!there)
                 return false;
             values[side] = *there;
@@ -63,10 +63,10 @@ bool SensitivityCondition::evaluate(const OrbitEquations& equations, const Orbit
 
 /// Updates the time of the touch.
 void SensitivityCondition::renew(const OrbitEquations& equations, const OrbitEvaluation& at) {
-    if (!beside_.evaluate(at.unknowns, tried_))
+    if (!displaced_.evaluate(at.unknowns, tried_))
         return;
     std::optional<OrbitMinimum> nearest;
-    for (const OrbitMinimum& minimum : certify(beside_, tried_).minima)
+    for (const OrbitMinimum& minimum : certify(displaced_, tried_).minima)
         if (minimum.segment == segment_ && minimum.event == event_ &&
             (!nearest || std::abs(minimum.value) < std::abs(nearest->value)))
             nearest = minimum;
