@@ -69,7 +69,7 @@ energy = { value = "v^2/2 + g*x", unit = "m^2/s^2" }
         point.solution.residual = 1e-14;
         point.solution.multipliers = {{stable ? 0.5 : -1.5, 0}, {0.25, 0.125}, {0.25, -0.125}};
         point.solution.certificate.admissible = admissible;
-        point.solution.certificate.reason = admissible ? "" : "event 'floor' comes within segment 1";
+        point.solution.certificate.reason = admissible ? "" : "event 'floor' happens within segment 1";
         Orbit& orbit = point.solution.orbit;
         orbit.signature = parse_signature(model, "bounce");
         orbit.parameters = {1, g};

@@ -157,7 +157,7 @@ TEST_F(OrbitCommand, FindsPointsByLabelAndNumber) {
 
 TEST_F(OrbitCommand, WarnsOfWhatTheModelWouldNotDo) {
     write_branches();
-    EXPECT_THAT(run_graze({"orbit", path, "first:EP2"}).err, HasSubstr("event 'floor' comes within segment 1"));
+    EXPECT_THAT(run_graze({"orbit", path, "first:EP2"}).err, HasSubstr("event 'floor' happens within segment 1"));
     EXPECT_EQ(run_graze({"orbit", path, "first:EP1"}).err, "");
 }
 

@@ -41,7 +41,7 @@ TEST_F(Points, ListsWhatHappensAlongABranch) {
     EXPECT_EQ(csv.number(0, "stable"), 1);
     EXPECT_EQ(csv.number(2, "multiplier"), 1.5);
     EXPECT_EQ(csv.number(3, "admissible"), 0);
-    EXPECT_EQ(csv.text(3, "reason"), "event 'floor' comes within segment 1");
+    EXPECT_EQ(csv.text(3, "reason"), "event 'floor' happens within segment 1");
     EXPECT_EQ(csv.number(1, "low"), 1.9);
     EXPECT_EQ(csv.number(1, "residual"), 1e-14);
     EXPECT_EQ(csv.text(4, "label"), "EP3");
@@ -68,7 +68,7 @@ TEST_F(Points, ShowsMonitorsAndOnlyWhatFits) {
     EXPECT_THAT(run_graze({"points", path, "--run", "first", "--digits", "17"}).out, HasSubstr("1.4285714285714286"));
     EXPECT_THAT(people.out, HasSubstr("event 'floor' come ..."));
     const std::string all = run_graze({"points", path, "--run", "first", "--all"}).out;
-    EXPECT_THAT(all, HasSubstr("event 'floor' comes within segment 1"));
+    EXPECT_THAT(all, HasSubstr("event 'floor' happens within segment 1"));
     EXPECT_THAT(header(all), StartsWith("run "));
 }
 
