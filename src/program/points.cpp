@@ -46,7 +46,7 @@ int points_command(const PointsArguments& arguments, const Console& console) {
                                                 .place = {"--run", 0, 0}});
     JsonObject heading;
     heading.add("file", file.path());
-    // Of a curve both parameters tell where it is: where there is no room they stay rather than what is said twice.
+    // If the table is too wide, these columns stay. A curve has two parameters, both of which are needed.
     std::vector<std::string> kept{"label", list.followed, "period", "signature", "stable", "multiplier", "physical"};
     kept.insert(kept.end(), list.others.begin(),
                 list.others.begin() + std::min<std::ptrdiff_t>(2, std::ssize(list.others)));
