@@ -207,10 +207,9 @@ void declare_tolerance(CLI::App& app, ToleranceArguments& arguments) {
     const char* group = "What to find";
     declare_option(command, group, "--parameter", arguments.parameter, "NAME",
                    "Parameter whose value at the point is a function of the others (the parameter of its run)");
-    declare_option(
-        command, group, "--vary", arguments.vary, "NAME=SIZE",
-        "Parameters that differ from device to device, with their standard deviation: a number, or a percentage of the "
-        "value; SIZE:uniform is the half width of a uniform distribution");
+    declare_option(command, group, "--vary", arguments.vary, "NAME=SIZE",
+                   "Standard deviations of parameters: numbers, or percentages of the value; SIZE:uniform: half width "
+                   "of a uniform distribution");
     declare_option(command, group, "--within", arguments.within, "LOW:HIGH",
                    "Acceptable values, of which the yield is computed; one side may be left out");
     declare_option(command, group, "--devices", arguments.devices, "N",

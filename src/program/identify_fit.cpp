@@ -139,7 +139,7 @@ Figure fit_figure(const FitOfRecords& found, const Channel& time) {
         panel.series = {std::move(read), std::move(fitted)};
         residuals.series = {std::move(left)};
         figure.panels.push_back(std::move(panel));
-        figure.panels.push_back(std::move(rest));
+        figure.panels.push_back(std::move(residuals));
     }
     return figure;
 }

@@ -36,9 +36,9 @@ void declare_layout_command(CLI::App& app, Arguments& arguments) {
         ->group("What is drawn");
     declare_option(command, "What is drawn", "--mask", layout.mask, "N", "Draw only mask 1 (mirrored) or 2 (both)")
         ->check(whole_number(1, 2));
-    declare_option(command, "What is drawn", "--from-design", layout.from_design, "FOUND",
-                   "Draw the device of 'graze design DESIGN --output FOUND': solves for the lengths and the pressure "
-                   "that give it after the etch, and computes where the drawn device trips");
+    declare_option(
+        command, "What is drawn", "--from-design", layout.from_design, "FOUND",
+        "Draw the device found by 'graze design DESIGN --output FOUND', corrected for the etch; print its trip value");
     declare_option(command, "Where results go", "--output", layout.file, "FILE",
                    "Write the drawing as GDSII (.gds), or a picture as --picture does");
     declare_option(command, "Where results go", "--picture", layout.picture, "FILE",
