@@ -234,7 +234,7 @@ int grazing_command(const GrazingArguments& arguments, const Console& console) {
     found.verdict = verdict_of(found.map);
     if (arguments.verify) {
         if (!found.parameter)
-            throw InputError("nothing is said to move the orbit from its touch",
+            throw InputError("no parameter is given that moves the orbit from its touch",
                              "name a parameter by --parameter NAME");
         found.trial = try_verdict(system, found.map, found.verdict, *found.parameter);
     }

@@ -8,7 +8,7 @@ namespace graze {
 
 namespace {
 
-/// What runs of a kind have as points.
+/// What the points of a run are.
 enum class Points { motions, one_orbit, orbits, measured };
 
 struct KindOfRun {

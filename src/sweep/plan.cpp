@@ -152,7 +152,7 @@ private:
     std::string start_note_; ///< note on a point that does not start where it should
 };
 
-void work(Execution& execution, InstructionSet set, std::size_t slots) {
+void work_through(Execution& execution, InstructionSet set, std::size_t slots) {
     Ensemble ensemble(execution.searches.simulation(), set);
     ensemble.stop_when([&] { return execution.must_stop(); });
     std::vector<std::unique_ptr<Worker>> workers;
@@ -188,7 +188,7 @@ bool execute(const Plan& plan, const SearchFactory& searches, std::span<const Ch
     const auto lanes = static_cast<std::size_t>(lanes_of(LaneKind::ensemble, options.instruction_set));
     // Two trajectories per lane keep lanes busy while modes differ; few chains are better distributed over threads.
     const std::size_t slots = std::clamp<std::size_t>((chains + jobs - 1) / jobs, 1, 2 * lanes);
-    execution.team.run(jobs, [&](bool) { work(execution, options.instruction_set, slots); });
+    execution.team.run(jobs, [&](bool) { work_through(execution, options.instruction_set, slots); });
     return !execution.team.is_stopped();
 }
 

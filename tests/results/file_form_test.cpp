@@ -113,7 +113,7 @@ protected:
     PointRecord point;
 };
 
-TEST_F(FileForm, columns_and_tables_that_are_not_known_are_passed_over) {
+TEST_F(FileForm, IgnoresUnknownColumnsAndTables) {
     change("ALTER TABLE branch_b ADD COLUMN strange REAL DEFAULT 1; ALTER TABLE points_s ADD COLUMN strange TEXT; "
            "ALTER TABLE samples_s ADD COLUMN strange; ALTER TABLE multipliers ADD COLUMN strange; "
            "ALTER TABLE runs ADD COLUMN strange TEXT DEFAULT 'x'; CREATE TABLE strange(run TEXT)");
@@ -129,7 +129,7 @@ TEST_F(FileForm, columns_and_tables_that_are_not_known_are_passed_over) {
     EXPECT_EQ(file.orbit("b", std::size_t{1})->touch, orbit.touch);
 }
 
-TEST_F(FileForm, a_newer_file_that_has_only_added_something_is_read) {
+TEST_F(FileForm, ReadsNewerFilesThatHaveOnlyAddedSomething) {
     // A column was added that is called like a value, which is called otherwise then.
     change(std::string(without_views) +
            "ALTER TABLE branch_b RENAME COLUMN added_later TO added_later_2; "
@@ -147,7 +147,7 @@ TEST_F(FileForm, a_newer_file_that_has_only_added_something_is_read) {
                 HasSubstr("has format 8, which this version of graze reads, but does not write"));
 }
 
-TEST_F(FileForm, a_newer_file_that_has_changed_something_is_refused) {
+TEST_F(FileForm, RefusesNewerFilesThatHaveChangedSomething) {
     for (const char* reader :
          {"UPDATE meta SET value = '8' WHERE key = 'oldest reader'",
           "UPDATE meta SET value = 'x' WHERE key = 'oldest reader'", "DELETE FROM meta WHERE key = 'oldest reader'"}) {
@@ -160,7 +160,7 @@ TEST_F(FileForm, a_newer_file_that_has_changed_something_is_refused) {
     }
 }
 
-TEST_F(FileForm, what_an_older_file_lacks_is_absent_and_told) {
+TEST_F(FileForm, ReadsWhatAnOlderFileLacksAsAbsent) {
     change(std::string(without_views) +
            "ALTER TABLE branch_b DROP COLUMN touch_growth; ALTER TABLE points_s DROP COLUMN lyapunov; "
            "ALTER TABLE branch_b RENAME COLUMN touch_speed_factor TO touch_first_speed; "
@@ -197,7 +197,7 @@ TEST_F(FileForm, what_an_older_file_lacks_is_absent_and_told) {
     EXPECT_EQ(file.orbit("b", std::size_t{1})->touch->growth, 8.25);
 }
 
-TEST_F(FileForm, what_no_file_may_lack_is_a_contradiction) {
+TEST_F(FileForm, RefusesFilesThatLackRequiredColumns) {
     change(std::string(without_views) + "ALTER TABLE branch_b DROP COLUMN residual; PRAGMA user_version = 6");
     const ResultFile file(path, ResultFile::Access::read);
     EXPECT_THAT(refusal([&] { file.orbit("b", std::size_t{0}); }), HasSubstr("residual"));
