@@ -73,7 +73,9 @@ struct ResultFile::State {
                 throw InputError(fmt::format("there is no run '{}'", name), "begin it first");
             const RunTables tables(*run);
             const auto insert = [&](const DetailTable& table) {
-                return database.prepare(insert_into(table.name, 3 + table.columns.size()));
+                return database.prepare(
+                    insert_into(fmt::format("{}(run, point, position, {})", table.name, listed(table.columns)),
+                                3 + table.columns.size()));
             };
             const std::vector<DetailTable>& details = detail_tables();
             found = writers
