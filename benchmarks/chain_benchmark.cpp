@@ -167,7 +167,7 @@ Orbit settled_orbit(const Model& model) {
     AttractorOptions settle;
     settle.section = "phase0";
     settle.cycles = 4000;
-    return find_orbit(model, settle).orbit;
+    return find_orbit(System(model), settle).orbit;
 }
 
 BranchSettings in_force(std::size_t steps) {

@@ -26,7 +26,7 @@ Branch branch_without_impact(const Model& model) {
     settings.parameter = model.independent_parameter("V");
     settings.least = 0;
     settings.greatest = 3;
-    return follow_branch(model, find_orbit(System(model), settle).orbit, settings);
+    return follow_branch(System(model), find_orbit(System(model), settle).orbit, settings);
 }
 
 SpecialPoint first_of(const Branch& branch, PointType type) {

@@ -44,7 +44,7 @@ StudyRun chains_run(std::size_t chains) {
 }
 
 std::unique_ptr<SearchFactory> searches_of(const StudyRun& run) {
-    return attractor_searches(run.model, run.attractor, run.samplings, run.values, run.simulation);
+    return attractor_searches(System(run.model), run.attractor, run.samplings, run.values, run.simulation);
 }
 
 struct Totals {

@@ -24,7 +24,7 @@ std::vector<SpecialPoint> climbed(const Model& model, const BranchSettings& sett
 
 ChatterLimit limit_of_oscillator(const Model& model, double length, std::size_t rungs) {
     const BranchSettings settings = of_oscillator(model, length);
-    return chatter_limit(model, climbed(model, settings, rungs), settings.parameter);
+    return chatter_limit(System(model), climbed(model, settings, rungs), settings.parameter);
 }
 
 /// The same by the closed form of the flights in extended precision, over some contacts from rest at the stop, where

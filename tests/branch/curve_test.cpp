@@ -24,7 +24,7 @@ Branch curve_of(const Model& model, const SpecialPoint& point, BranchSettings se
     settings.kept = point;
     settings.free = {model.independent_parameter(further)};
     settings.direction = direction;
-    return follow_branch(model, point.solution.orbit, settings);
+    return follow_branch(System(model), point.solution.orbit, settings);
 }
 
 double parameter_of(const Model& model, const OrbitSolution& solution, const std::string& parameter) {
@@ -260,7 +260,7 @@ Branch over_frequency(double force) {
     settings.parameter = model.independent_parameter("w");
     settings.least = 0.5;
     settings.greatest = 3;
-    return follow_branch(model, settled(model, "phase").orbit, settings);
+    return follow_branch(System(model), settled(model, "phase").orbit, settings);
 }
 
 TEST(Curves, FoldsOfDuffingsOscillatorPassTheCusp) {

@@ -149,7 +149,8 @@ inline void expect_rates(const Model& model, const CycleMap& map, double share) 
 inline CycleMap map_at(const Model& model, const SpecialPoint& point) {
     CycleMapOptions options;
     options.next_order = true;
-    return cycle_map(model, point.solution.orbit, {point.segment, point.event, point.time, point.at_end}, options);
+    return cycle_map(System(model), point.solution.orbit, {point.segment, point.event, point.time, point.at_end},
+                     options);
 }
 
 } // namespace graze::testing

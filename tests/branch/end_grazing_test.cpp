@@ -30,7 +30,7 @@ struct Microactuator {
         const Branch branch = follow(model, branches_at(System(model), touch, settings).at(0), settings);
         if (!back || branch.special.empty())
             return branch;
-        return follow_branch(model, branch.special.back().solution.orbit, settings);
+        return follow_branch(System(model), branch.special.back().solution.orbit, settings);
     }
 
     /// Returns the curve of a grazing over the frequency.
@@ -40,7 +40,7 @@ struct Microactuator {
         along.free = {settings.parameter};
         along.greatest = 3;
         along.kept = grazing;
-        return follow_branch(model, grazing.solution.orbit, along);
+        return follow_branch(System(model), grazing.solution.orbit, along);
     }
 };
 

@@ -129,7 +129,7 @@ TEST(HeldMonitors, FixedMonitorsDoNotSlowABranchDown) {
     const auto follow_down = [&](const BranchSettings& given) {
         BranchSettings own = given;
         own.direction = -1;
-        return follow_branch(model, orbit, own);
+        return follow_branch(System(model), orbit, own);
     };
     const Branch free = follow_down(settings);
     ASSERT_EQ(free.outcome, BranchOutcome::bound) << free.detail;

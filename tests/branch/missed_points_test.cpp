@@ -16,7 +16,7 @@ using namespace graze::testing;
 
 Branch of_map(const std::string& parameters, const std::vector<std::string>& images, double least, double greatest) {
     const Model model = map_model(parameters, images);
-    return follow_branch(model, fixed_point(model, std::vector<double>(images.size(), 0.0)),
+    return follow_branch(System(model), fixed_point(model, std::vector<double>(images.size(), 0.0)),
                          in_parameter(model, "p", least, greatest));
 }
 
@@ -128,7 +128,7 @@ next = "rest"
 )toml");
     BranchSettings settings = in_parameter(model, "p", -0.1, 0.7);
     settings.stop_when_unphysical = stop;
-    return follow_branch(model, fixed_point(model, {1}), settings);
+    return follow_branch(System(model), fixed_point(model, {1}), settings);
 }
 
 TEST(MissedPoints, FirstOfTwoTouchesWithinOneStepEndsTheBranch) {
@@ -147,7 +147,7 @@ Branch of_map_from(const std::string& image, double p, double x, double least) {
     const Model model = map_model(fmt::format("p = {}", p), {image});
     BranchSettings settings = in_parameter(model, "p", least, p + 0.1);
     settings.direction = -1;
-    return follow_branch(model, fixed_point(model, {x}), settings);
+    return follow_branch(System(model), fixed_point(model, {x}), settings);
 }
 
 TEST(MissedPoints, ContinuationDoesNotJumpToANearbyBranch) {

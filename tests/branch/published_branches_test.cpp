@@ -28,7 +28,9 @@ struct Microactuator {
         settings.greatest = 3;
         settings.steps = 1000;
     }
-    Branch without_contact() const { return follow_branch(model, settled(model, "longest", 4000).orbit, settings); }
+    Branch without_contact() const {
+        return follow_branch(System(model), settled(model, "longest", 4000).orbit, settings);
+    }
 };
 
 TEST(PublishedBranches, MicroactuatorHasItsPublishedPointsUpToTheFirstContact) {

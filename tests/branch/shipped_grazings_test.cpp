@@ -124,7 +124,7 @@ void expect_projections(const Model& model, const CycleMap& map, std::size_t cyc
 Branch mems_branch(Model& model, const BranchSettings& settings) {
     model.set_parameter("V", 0.15);
     model.set_initial("q", 0);
-    return follow_branch(model, settled(model, "phase0").orbit, settings);
+    return follow_branch(System(model), settled(model, "phase0").orbit, settings);
 }
 
 TEST(ShippedGrazings, MemsSwitchTrips) {

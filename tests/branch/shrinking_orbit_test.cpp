@@ -50,7 +50,7 @@ Branch down_from(const Model& model, const Orbit& orbit, const std::string& para
     BranchSettings settings = in_parameter(model, parameter, least, greatest);
     settings.direction = -1;
     settings.continuation.largest_step = largest_step;
-    return follow_branch(model, orbit, settings);
+    return follow_branch(System(model), orbit, settings);
 }
 
 void expect_hopf(const Branch& branch, const Model& model, double parameter, double period) {

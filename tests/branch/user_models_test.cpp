@@ -42,7 +42,7 @@ Orbit sliding_orbit(const Sliding& known, const Model& model) {
                 {{x, 0, phase}, {-x, 0, phase + pi}},
                 {pi / known.omega, pi / known.omega},
                 {}};
-    return half_orbit(model, orbit).value();
+    return half_orbit(System(model), orbit).value();
 }
 
 TEST(UserModels, DryFrictionSticksWhereDenHartogPredicts) {

@@ -28,7 +28,7 @@ struct YieldExample {
     void add(const char* name, double size, Spread spread = Spread::normal) {
         settings.tolerances.push_back({model.independent_parameter(name), spread, size});
     }
-    Yield yield() const { return yield_of(model, point, force, settings); }
+    Yield yield() const { return yield_of(System(model), point, force, settings); }
 };
 
 TEST(Yield, ValueOfEachDeviceHasItsClosedForm) {

@@ -21,7 +21,7 @@ Sampling at_phase() {
 }
 std::unique_ptr<SearchFactory> searches(const AttractorOptions& options = by_phase()) {
     const Model model = oscillator();
-    return attractor_searches(model, options, {at_phase()}, {model.symbol("v")}, {});
+    return attractor_searches(System(model), options, {at_phase()}, {model.symbol("v")}, {});
 }
 
 void attractor_options(WrongUses& wrong) {

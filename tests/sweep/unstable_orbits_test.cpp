@@ -16,7 +16,7 @@ namespace {
 struct Logistic {
     explicit Logistic(double r)
         : model(iterated(fmt::format("{}*z*(1 - z)", r), 0.3)), fixed(1 - 1 / r),
-          setting(model, {.section = "half"}, {}, {}, {}), maps(setting.variational),
+          setting(System(model), {.section = "half"}, {}, {}, {}), maps(setting.variational),
           derivatives(setting.variational, maps),
           finder(setting.map, setting.field, setting.layout, setting.image, setting.image_modes, &derivatives),
           motion(setting.map, 50, {}), jets(setting.simulation, LaneKind::single) {}

@@ -274,10 +274,9 @@ TEST(Ensemble, LeavesMotionsUnfinishedOnRequest) {
 }
 
 TEST(Ensemble, RefusesTrajectoriesOfOtherSimulations) {
-    const Simulation one{System(load_model("bouncing-ball"))}, other(load_model("mems-switch"));
-    Observer observer;
+    const Simulation one{System(load_model("bouncing-ball"))}, other{System(load_model("mems-switch"))};
     std::vector<Trajectory> trajectories;
-    trajectories.emplace_back(other, other.model().parameter_values(), observer);
+    trajectories.emplace_back(other, other.model().parameter_values());
     EXPECT_THROW(Ensemble(one).run(trajectories), InputError);
     JetSet jets(one, LaneKind::single), lanes(other, LaneKind::ensemble);
     EXPECT_THROW(run(trajectories.front(), jets), InputError);
