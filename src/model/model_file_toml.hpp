@@ -43,6 +43,7 @@ public:
     /// @param path of the table that it is in @throws InputError for a key that may not occur there
     void require_known(const TomlEntry& entry, const std::string& path,
                        std::initializer_list<std::string_view> allowed) const;
+    void require_one_of(const std::vector<std::string>& names, const TomlEntry& entry, const std::string& path) const;
 
     const toml::table& table(const TomlEntry& entry) const;
     /// Elements, with paths such as "modes.flight.watch.1".

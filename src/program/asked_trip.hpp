@@ -11,18 +11,11 @@
 
 namespace graze {
 
-/// What ends a trip, for people too.
-struct AskedEnd {
-    TripEnd end;
-    std::string words;
-    bool given = false; ///< rather than what is usual at such a point
-};
-
 /// The point of a file of which trips are asked about.
 struct AskedTrip {
     StoredOrbit stored;
     LossPoint point;
-    AskedEnd end;
+    NamedEnd end;
 };
 /// @param option where the point was asked for, for messages
 /// @throws InputError as loss_point does, and for what names no level

@@ -5,7 +5,7 @@
 #include "graze/model/catalogue.hpp"
 #include "graze/model/named_value.hpp"
 #include "program/identify_request.hpp"
-#include "program/record_stages.hpp"
+#include "program/record_request.hpp"
 #include "program/values.hpp"
 
 #include <fmt/format.h>
@@ -106,7 +106,7 @@ private:
     using Reading = IdentifyRequest::Reading;
 
     const Model& model() const { return request_.run.model; }
-    IdentifyRequest& asked() { return request_.run.identify; }
+    IdentifyRequest& asked() { return request_.run.identify(); }
 
     /// Says which states there are.
     void require_state(const std::string& name, const char* option) const {
@@ -160,8 +160,8 @@ private:
     }
 
     void read_record(const std::string& file) {
-        RecordStages stages(file, arguments_->reading, *console_);
-        const RecordHeader header = stages.header();
+        ProcessedRecord record(file, record_processing(arguments_->reading, *console_));
+        const RecordHeader header = record.header();
         for (const auto& [name, text] : meanings_)
             header.channel(name, "--reading");
         std::vector<std::size_t> columns;
@@ -172,7 +172,7 @@ private:
             throw InputError(
                 fmt::format("no channel has the name of a state or quantity of '{}'", model().name),
                 fmt::format("say what is measured by --reading {}=EXPRESSION", header.channels.front().name));
-        Samples samples = read_all(stages.source(), most_samples);
+        Samples samples = read_all(record.source(), most_samples);
         KeptRecord& kept = request_.records.emplace_back();
         kept.name = file;
         kept.header.time = header.time;

@@ -1,6 +1,7 @@
 #include "program/identify_arguments.hpp"
 
 #include "graze/identify/fit.hpp"
+#include "program/commands.hpp"
 #include "program/declared_option.hpp"
 #include "program/record_arguments.hpp"
 
@@ -45,13 +46,13 @@ void declare_known(CLI::App& command, IdentifyArguments& arguments) {
     const char* group = "Of each kind";
     declare_option(command, group, "--peaks", arguments.peaks, "N", "Decrement: the first peaks of each release (10)")
         ->check(whole_number(2, 100'000));
-    declare_option(command, group, "--window", arguments.window, "N",
+    declare_option(command, group, "--window", arguments.impacts.window, "N",
                    "Restitution: samples on each side of an impact that tell velocities (12)")
-        ->check(whole_number(5, 100'000));
-    declare_option(command, group, "--transition", arguments.transition, "N",
+        ->check(whole_number(ImpactWindow::least_window, ImpactWindow::most_window));
+    declare_option(command, group, "--transition", arguments.impacts.transition, "N",
                    "Restitution: samples on each side that the impact itself disturbs (0)")
-        ->check(whole_number(0, 100'000));
-    declare_option(command, group, "--least-jump", arguments.least_jump, "VALUE",
+        ->check(whole_number(0, ImpactWindow::most_window));
+    declare_option(command, group, "--least-jump", arguments.impacts.least_jump, "VALUE",
                    "Restitution: smaller jumps are no impacts (0)")
         ->check(non_negative_number());
     declare_option(command, group, "--gap", arguments.gap, "D", "Coupling, impedance: gap at rest")
@@ -126,6 +127,7 @@ void declare_identify_command(CLI::App& app, Arguments& all) {
     IdentifyArguments& arguments = all.identify;
     CLI::App& command = *app.add_subcommand("identify", identify_text);
     command.footer(identify_examples);
+    all.add_command("identify", identify_command, all.identify);
     command.add_option("WHAT", arguments.what, "decrement, restitution, coupling, impedance, fit; or a study, alone")
         ->type_name("")
         ->required();

@@ -21,9 +21,6 @@ double value_of(const Model& model, std::string_view text, const std::string& op
 /// The same, and positive. @throws InputError
 double positive_value_of(const Model& model, std::string_view text, const std::string& option);
 
-/// The independent parameter that `--parameter NAME` asks for. @throws InputError for another name
-ParameterId asked_parameter(const Model& model, const std::string& name);
-
 /// Carries out `--set NAME=EXPRESSION ...`, one after the other; `@FILE` stands for all that a file of parameters
 /// sets, of which what comes later takes the place. @throws InputError, also for a file of another model
 void set_parameters(Model& model, const std::vector<std::string>& assignments);

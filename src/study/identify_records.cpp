@@ -1,6 +1,7 @@
 #include "graze/study/identify_records.hpp"
 
 #include "graze/model/named_value.hpp"
+#include "study/estimate_kind.hpp"
 #include "study/identify_units.hpp"
 
 #include <algorithm>
@@ -63,7 +64,7 @@ private:
 };
 
 IdentificationSettings settings_of(const StudyRun& run, const std::vector<EstimateRecords>& found, std::size_t count) {
-    const IdentifyRequest& request = run.identify;
+    const IdentifyRequest& request = run.identify();
     KnownNumbers known(run, found);
     IdentificationSettings settings;
     settings.channel = request.channel;
@@ -71,9 +72,7 @@ IdentificationSettings settings_of(const StudyRun& run, const std::vector<Estima
     settings.voltage = request.voltage;
     settings.current = request.current;
     settings.peaks = request.peaks;
-    settings.window = request.window;
-    settings.transition = request.transition;
-    settings.least_jump = request.least_jump;
+    settings.impacts = request.impacts;
     settings.displacement_noise = request.displacement_noise;
     settings.current_noise = request.current_noise;
     settings.one_load_a_record = count > 1 && !request.each_row;
@@ -110,20 +109,10 @@ Identification identify_records(const StudyRun& run, const EachRecord& records, 
             work(name, record);
         });
     };
-    const IdentificationSettings settings = settings_of(run, found, count);
-    switch (run.identify.what) {
-    case IdentifyRequest::What::decrement:
-        return identify_decrement(checked, settings);
-    case IdentifyRequest::What::restitution:
-        return identify_restitution(checked, settings);
-    case IdentifyRequest::What::coupling:
-        return identify_coupling(checked, settings);
-    case IdentifyRequest::What::impedance:
-        return identify_impedance(checked, settings);
-    case IdentifyRequest::What::fit:
-        break;
-    }
-    throw InputError(run.place, "a fit needs all records at once", "call fit_records");
+    const auto identify = estimate_kind(run.identify().what).identify;
+    if (!identify)
+        throw InputError(run.place, "a fit needs all records at once", "call fit_records");
+    return identify(checked, settings_of(run, found, count));
 }
 
 } // namespace graze

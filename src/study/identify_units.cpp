@@ -1,6 +1,7 @@
 #include "study/identify_units.hpp"
 
 #include "graze/base/physical_unit.hpp"
+#include "study/estimate_kind.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -77,7 +78,7 @@ void check_known(const StudyRun& run, const char* key, const std::string& text, 
 
 /// @param length unit of displacements
 void check_known_numbers(const StudyRun& run, const std::string& length) {
-    const IdentifyRequest& request = run.identify;
+    const IdentifyRequest& request = run.identify();
     check_known(run, "gap", request.gap, length);
     check_known(run, "clamped", request.clamped, length);
     check_known(run, "beta2", request.beta2, length);
@@ -88,9 +89,12 @@ void check_known_numbers(const StudyRun& run, const std::string& length) {
     }
 }
 
-/// Whether what is found under a name has no unit by its nature.
+/// Whether a number has no unit by its nature. Names of several records begin with that of one record.
 bool is_ratio(const std::string& name) {
-    return name.starts_with("damping_ratio") || name.starts_with("restitution") || name == "correlation";
+    return std::any_of(estimate_kinds().begin(), estimate_kinds().end(), [&](const EstimateKind& kind) {
+        return std::any_of(kind.ratios.begin(), kind.ratios.end(),
+                           [&](const std::string& ratio) { return name.starts_with(ratio); });
+    });
 }
 
 /// By what a number is multiplied to be in another unit. Where cycles and radians are told apart, they are here, too.
@@ -108,8 +112,8 @@ std::string scale_remedy(const StudyRun& run, const Channel& channel, const std:
     const auto from = told_unit(channel.unit), to = told_unit(unit);
     const std::string factor =
         from && to && from->dimension == to->dimension ? fmt::format("{:g}", converted(1, *from, *to)) : "FACTOR";
-    if (!run.identify.asked_as.empty())
-        return fmt::format("convert it by {}scale {}={}:{}", run.identify.asked_as, channel.name, factor, unit);
+    if (!run.identify().asked_as.empty())
+        return fmt::format("convert it by {}scale {}={}:{}", run.identify().asked_as, channel.name, factor, unit);
     return fmt::format("convert it in the run that has the record: scale = {{ {} = {{ factor = {}, unit = \"{}\" }} }}",
                        channel.name, factor, unit);
 }
@@ -128,7 +132,7 @@ void check_record_time(const StudyRun& run, const RecordHeader& header) {
 }
 
 void check_record_units(const StudyRun& run, const RecordHeader& header) {
-    const IdentifyRequest& request = run.identify;
+    const IdentifyRequest& request = run.identify();
     const auto channel = [&](const std::string& name, const char* key) -> const Channel& {
         return header.channels[header.channel(name, request.asked_as + key)];
     };
@@ -156,7 +160,7 @@ void convert_to_model(EstimateRecords& estimates, const StudyRun& run) {
         if (!parameter)
             continue;
         const std::string& unit = run.model.parameters[*run.model.find_parameter(number.name)].unit;
-        const auto& gives = run.identify.gives;
+        const auto& gives = run.identify().gives;
         const bool ratio = std::any_of(gives.begin(), gives.end(), [&](const auto& one) {
             return one.second == number.name && is_ratio(one.first);
         });

@@ -24,11 +24,12 @@ namespace graze {
 namespace {
 
 std::unique_ptr<SearchFactory> searches_of(const StudyRun& run, const System& system) {
-    AttractorOptions attractor = run.attractor;
-    attractor.stay_in_transients = run.kind == RunKind::sweep && run.carry;
+    const MotionRequest& motion = run.motion();
+    AttractorOptions attractor = motion.attractor;
+    attractor.stay_in_transients = run.kind == RunKind::sweep && motion.carry;
     return run.kind == RunKind::simulate
-               ? transient_searches(system, run.transient, run.samplings, run.values, run.simulation)
-               : attractor_searches(system, attractor, run.samplings, run.values, run.simulation);
+               ? transient_searches(system, motion.transient, motion.samplings, run.values, motion.simulation)
+               : attractor_searches(system, attractor, motion.samplings, run.values, motion.simulation);
 }
 
 /// What the file has of each chain.
@@ -141,7 +142,9 @@ private:
     };
 
     static std::size_t planned_points(const StudyRun& run) {
-        return run.is_branch() ? 1 : run.kind == RunKind::record ? run.record.records() : points_of(run);
+        if (run.kind == RunKind::record)
+            return run.record().records();
+        return run.is_branch() || run.kind == RunKind::identify ? 1 : points_of(run);
     }
 
     void do_one(std::size_t index, int threads) {

@@ -42,7 +42,7 @@ const StudyRun& run_named(const Study& study, const std::string& name) {
 
 std::vector<double> with_own_parameters(const StudyRun& run, std::vector<double> parameters) {
     const std::vector<double> values = run.model.parameter_values();
-    for (const ParameterId parameter : run.branch.set)
+    for (const ParameterId parameter : run.set)
         parameters[parameter.place()] = values[parameter.place()];
     return parameters;
 }

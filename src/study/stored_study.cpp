@@ -128,7 +128,7 @@ PlannedRun planned(const StudyRun& run) {
                       run.point_names};
     if (run.is_branch()) {
         result.asked.units.clear();
-        for (const Monitor& monitor : run.branch.settings.monitors)
+        for (const Monitor& monitor : run.branch().settings.monitors)
             result.asked.units.push_back(monitor.unit);
     }
     return result;

@@ -18,6 +18,33 @@ const StudyRun* Study::find_run(const std::string& run) const {
     return found == runs.end() ? nullptr : &*found;
 }
 
+void StudyRun::set_kind(RunKind of_kind) {
+    kind = of_kind;
+    const auto set = [this](auto wanted) {
+        if (!std::holds_alternative<decltype(wanted)>(request))
+            request = std::move(wanted);
+    };
+    if (is_branch())
+        set(BranchRequest());
+    else if (kind == RunKind::record)
+        set(RecordRequest());
+    else if (kind == RunKind::identify)
+        set(IdentifyRequest());
+    else
+        set(MotionRequest());
+}
+
+void StudyRun::refuse_request() const {
+    throw InputError(place, fmt::format("run '{}' of kind \"{}\" has no request of another kind", name, name_of(kind)),
+                     "set the kind of a run by set_kind, and ask for what runs of this kind have");
+}
+
+bool StudyRun::varies(const std::string& parameter_or_state) const {
+    const auto* motion = std::get_if<MotionRequest>(&request);
+    return motion && std::any_of(motion->axes.begin(), motion->axes.end(),
+                                 [&](const Variation& axis) { return axis.name == parameter_or_state; });
+}
+
 bool BranchRequest::keeps_point() const {
     return kept_conditions() > 0;
 }
@@ -67,10 +94,8 @@ void check_given(const Study& study) {
             is_state = is_state || run.model.find_state(name);
             const bool is_known = run.model.find_independent_parameter(name).has_value();
             follows = follows || (!is_known && run.model.find_parameter(name));
-            const bool varies =
-                std::any_of(run.axes.begin(), run.axes.end(), [&](const Variation& axis) { return axis.name == name; });
-            varied = varied || (is_known && varies);
-            used = used || (is_known && !varies);
+            varied = varied || (is_known && run.varies(name));
+            used = used || (is_known && !run.varies(name));
         }
         if (used)
             continue;
@@ -189,8 +214,9 @@ private:
         std::optional<StudyRun> run = read_run(reader_, entry, defaults_, keys_[entry.name]);
         if (!run)
             return;
-        for (const Variation& axis : run->axes)
-            values_ += axis.values.size();
+        if (run->has_motions())
+            for (const Variation& axis : run->motion().axes)
+                values_ += axis.values.size();
         constexpr std::size_t most = 20'000'000; // of all runs, which are in memory at once
         if (values_ > most) {
             mistakes_.attempt([&] {
@@ -267,11 +293,13 @@ bool is_study_text(std::string_view text, const std::string& file) {
 std::vector<std::string> input_files(const Study& study) {
     std::vector<std::string> files{study.file};
     for (const StudyRun& run : study.runs) {
-        for (const std::string& file : {run.model_path, run.branch.table})
-            if (!file.empty())
-                files.push_back(file);
-        for (const RecordInput& input : run.record.inputs)
-            files.push_back(input.path);
+        if (!run.model_path.empty())
+            files.push_back(run.model_path);
+        if (run.is_branch() && !run.branch().table.empty())
+            files.push_back(run.branch().table);
+        if (run.kind == RunKind::record)
+            for (const RecordInput& input : run.record().inputs)
+                files.push_back(input.path);
     }
     return files;
 }

@@ -1,5 +1,10 @@
 #include "graze/trip/overshoot_trip.hpp"
 
+#include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,6 +16,19 @@ const TripTime* OvershootTrip::best() const {
     if (continued && continued->ended)
         return &*continued;
     return nullptr;
+}
+
+NamedEnd usual_end(const LossPoint& point) {
+    if (point.fold)
+        return {{}, "the fold is passed", false};
+    return {{point.level, {}, 0}, fmt::format("speed {:.4g}", point.level), false};
+}
+
+NamedEnd end_at_speed(const LossPoint& point, double speed, const std::string& asked_as) {
+    if (point.fold)
+        throw InputError(Place{asked_as + "greatest-speed", 0, 0}, "a fold has no contact of its own",
+                         fmt::format("name a level, {0}until EXPR=LEVEL, or {0}until end", asked_as));
+    return {{speed, {}, 0}, fmt::format("speed {:.4g}", speed), true};
 }
 
 double level_until(const LossPoint& point, const TripEnd& end) {
@@ -38,6 +56,37 @@ FoldTrip trip_of_fold(const System& system, const FoldPassage& fold, double over
     if (trip.cycles < options.cycles && std::abs(overshoot) >= least_overshoot(fold))
         trip.passage = simulated_passage(system, fold, overshoot, end, until_passed, options);
     return trip;
+}
+
+const TripTime* OvershootTrips::unfinished(std::size_t index) const {
+    require_index(index, size(), "trip");
+    if (!point.fold) {
+        const TripTime& trip = *of_touch[index].continued;
+        return trip.ended ? nullptr : &trip;
+    }
+    const std::optional<SimulatedPassage>& passage = of_fold[index].passage;
+    return !passage || (end.given ? passage->trip.ended : passage->passed) ? nullptr : &passage->trip;
+}
+
+OvershootTrips overshoot_trips(const LossPoint& point, const NamedEnd& end, const std::vector<double>& overshoots,
+                               const TripOptions& options, const std::string& asked_as) {
+    if (point.fold && !options.disturbance.empty())
+        throw InputError(Place{asked_as + "disturbance", 0, 0}, "a passage through a fold begins before it",
+                         "leave it out, or choose a touch (GR)");
+    OvershootTrips trips{point, end};
+    for (const double overshoot : overshoots) {
+        if (point.fold)
+            trips.of_fold.push_back(trip_of_fold(point.system, *point.fold, overshoot, end.end, !end.given, options));
+        else
+            trips.of_touch.push_back(trip_of_touch(point.system, point.map, point.verdict, point.parameter, overshoot,
+                                                   level_until(point, end.end), end.end, options));
+        trips.interrupted = options.interrupted && options.interrupted();
+        if (!trips.interrupted)
+            continue;
+        point.fold ? trips.of_fold.pop_back() : trips.of_touch.pop_back();
+        break;
+    }
+    return trips;
 }
 
 } // namespace graze

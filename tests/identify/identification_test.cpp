@@ -113,7 +113,7 @@ TEST(Identification, DecrementsHaveUnitsAndCurves) {
 
 TEST(Identification, RestitutionsOfSeveralRecordsAreCombined) {
     IdentificationSettings settings;
-    settings.least_jump = 1;
+    settings.impacts.least_jump = 1;
     const Identification one = identify_restitution(each({drops("a", 0.8)}), settings);
     // Between two samples an impact may be half a millisecond from where it is looked for: 9.81 m/s^2 make 0.005 m/s of
     // that before it and as much behind, of 1.8 m/s and more.
@@ -137,7 +137,7 @@ TEST(Identification, RestitutionsOfSeveralRecordsAreCombined) {
 /// line is what it makes itself.
 TEST(Identification, OffsetsOfVelocitiesAreTold) {
     IdentificationSettings settings;
-    settings.least_jump = 1;
+    settings.impacts.least_jump = 1;
     NamedRecord ball = drops("a", 0.85);
     Noise noise(3);
     for (double& v : ball.samples.values[0])
@@ -153,7 +153,7 @@ TEST(Identification, OffsetsOfVelocitiesAreTold) {
 /// reaches below one, by the velocities' own errors it does not. One that loses nothing may be above one by its errors.
 TEST(Identification, RestitutionsAboveOneAreTold) {
     IdentificationSettings settings;
-    settings.least_jump = 1;
+    settings.impacts.least_jump = 1;
     for (const double offset : {0.0, 0.1}) {
         std::size_t told = 0;
         for (int seed = 1; seed <= 20; ++seed) {

@@ -195,7 +195,7 @@ void stages(WrongUses& wrong) {
             on_record("impacts_significance_" + name,
                       [value = value](SampleSource& s) { ImpactFinder(s, {.significance = value}); });
         }
-    on_record("impacts_window", [](SampleSource& s) { ImpactFinder(s, {.window = 4}); });
+    on_record("impacts_window", [](SampleSource& s) { ImpactFinder(s, {{.window = 4}}); });
     on_record("derivative_width", [](SampleSource& s) { WithDerivative(s, {.half_width = 3, .name = {}}); });
     on_record("derivative_width_huge", [](SampleSource& s) {
         WithDerivative with(s, {.half_width = huge, .name = {}});

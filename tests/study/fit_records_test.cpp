@@ -14,22 +14,20 @@ using ::testing::HasSubstr;
 
 /// x'' = -k x from x(0) = 1 at rest, with k = 4.
 StudyRun swing() {
-    StudyRun run;
+    StudyRun run(RunKind::identify);
     run.model = parse_model("name = \"swing\"\ntime_unit = \"s\"\n[parameters]\nk = 3.9\n"
                             "[states]\nx = { initial = 1, unit = \"m\" }\nv = 0\n"
                             "[modes.swing]\nrates = { x = \"v\", v = \"-k*x\" }\n",
                             "swing");
-    run.kind = RunKind::identify;
-    run.simulation = FitSettings().simulation;
     run.place = {"s.toml", 7, 1};
-    run.identify.what = IdentifyRequest::What::fit;
-    run.identify.unknowns = {{"k", "", "", "", {}}};
+    run.identify().what = IdentifyRequest::What::fit;
+    run.identify().unknowns = {{"k", "", "", "", {}}};
     for (const char* name : {"x", "v"}) {
-        IdentifyRequest::Reading& reading = run.identify.readings.emplace_back();
+        IdentifyRequest::Reading& reading = run.identify().readings.emplace_back();
         reading.channel = reading.value = name;
         reading.may_lack = true;
     }
-    run.identify.all_known = true;
+    run.identify().all_known = true;
     return run;
 }
 
@@ -61,14 +59,14 @@ TEST(FitRecords, records_need_not_have_the_same_channels) {
     EXPECT_EQ(found.channels[1].unit, "m/s");
     EXPECT_EQ(found.task.records[1].readings.front().output, 1U);
     StudyRun strict = swing();
-    strict.identify.readings.back().may_lack = false;
+    strict.identify().readings.back().may_lack = false;
     EXPECT_THAT(refusal(strict, {record("x", "m")}), HasSubstr("the record has no channel 'v'"));
 }
 
 TEST(FitRecords, motions_are_integrated_with_the_tolerance_of_the_run) {
     const auto k_at = [](double tolerance) {
         StudyRun run = swing();
-        run.simulation.tolerance = tolerance;
+        run.identify().simulation.tolerance = tolerance;
         return fit_records(run, {record("x", "m")}).fit.numbers[0].estimate.value;
     };
     const double fine = std::abs(k_at(1e-13) - 4), coarse = std::abs(k_at(1e-4) - 4);
@@ -84,11 +82,11 @@ TEST(FitRecords, units_that_do_not_agree_are_refused_in_the_words_of_who_asks) {
               "s.toml:7:1: x.csv: channel 'x' is in mm, and what it measures in m; convert it in the run that has the "
               "record: scale = { x = { factor = 0.001, unit = \"m\" } }");
     run.place = {};
-    run.identify.asked_as = "--";
+    run.identify().asked_as = "--";
     EXPECT_EQ(refusal(run, millimetres),
               "x.csv: channel 'x' is in mm, and what it measures in m; convert it by --scale x=0.001:m");
     EXPECT_THAT(refusal(run, {record("x", "m"), millimetres.front()}), HasSubstr("that of another record in m"));
-    run.identify.readings.front().gain_unknown = true; // which converts
+    run.identify().readings.front().gain_unknown = true; // which converts
     EXPECT_EQ(refusal(run, millimetres), "");
     KeptRecord ticks = record("x", "m");
     ticks.header.time.unit = "ticks";

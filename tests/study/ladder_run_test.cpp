@@ -1,6 +1,7 @@
 #include "graze/base/input_error.hpp"
 #include "graze/branch/ladder.hpp"
 #include "graze/study/runner.hpp"
+#include "graze/study/stored_ladder.hpp"
 
 #include "refusal.hpp"
 
@@ -87,6 +88,37 @@ TEST_F(LadderRun, keeps_all_grazings_and_where_they_lead) {
     EXPECT_THAT(limit->point.detail, HasSubstr("e = 0.5"));
     EXPECT_LT(limit->point.solution.residual, 1e-8);
     EXPECT_NEAR(limit->point.solution.orbit.period(), 2 * std::numbers::pi / 0.3, 1e-9);
+}
+
+// The settings of the run of the first grazing and those of the ladder's run are the same here.
+TEST_F(LadderRun, ALadderFromAStoredPointIsTheSameToTheBit) {
+    run(free_text + ladder_text);
+    const ResultFile file(path_, ResultFile::Access::read);
+    LadderRequest request;
+    request.point = "free:GR1";
+    request.grazings = 6;
+    std::vector<std::size_t> told;
+    request.progress = [&](std::size_t grazing) { told.push_back(grazing); };
+    const StoredLadder found = stored_ladder(file, request);
+    EXPECT_EQ(told, (std::vector<std::size_t>{2, 3, 4, 5, 6}));
+    ASSERT_EQ(found.ladder.grazings().size(), 6U);
+    for (std::size_t k = 0; k < 6; ++k) {
+        const SpecialPoint& here = found.ladder.grazings()[k];
+        const auto there = file.orbit("ladder", "GR" + std::to_string(k + 1));
+        ASSERT_TRUE(there);
+        EXPECT_EQ(here.parameter, there->point.parameter) << k;
+        EXPECT_EQ(here.solution.orbit.starts, there->point.solution.orbit.starts) << k;
+    }
+    const auto limit = file.orbit("ladder", std::string("CH1"));
+    ASSERT_TRUE(limit && found.limit.direct);
+    EXPECT_EQ(found.limit.direct->first, limit->point.parameter);
+    request.parameter = "none";
+    EXPECT_THROW(stored_ladder(file, request), InputError);
+    request.parameter.clear();
+    request.interrupted = [] { return true; };
+    const StoredLadder stopped = stored_ladder(file, request);
+    EXPECT_TRUE(stopped.interrupted);
+    EXPECT_EQ(stopped.ladder.grazings().size(), 1U);
 }
 
 TEST_F(LadderRun, its_limit_is_followed_in_two_parameters) {

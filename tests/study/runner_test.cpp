@@ -88,11 +88,11 @@ TEST_F(RunnerTest, only_what_changed_is_done_again) {
     Study study = parse_study(text, "s.toml");
     ResultFile file(path_, ResultFile::Access::write);
     run_study(study, file, {});
-    study.runs[1].attractor.cycles = 61;
+    study.runs[1].attractor().cycles = 61;
     auto reports = run_study(study, file, {});
     EXPECT_EQ(reports[0].computed, 0u);
     EXPECT_EQ(reports[1].computed, 9u);
-    study.runs[0].simulation.tolerance = 1e-11; // the basin starts from the sweep
+    study.runs[0].motion().simulation.tolerance = 1e-11; // the basin starts from the sweep
     reports = run_study(study, file, {});
     EXPECT_EQ(reports[0].computed, 22u);
     EXPECT_EQ(reports[1].computed, 9u);

@@ -75,7 +75,7 @@ private:
     void expect_end(const std::string& name) const {
         const auto run =
             std::find_if(study.runs.begin(), study.runs.end(), [&](const StudyRun& one) { return one.name == name; });
-        if (run == study.runs.end() || !run->is_branch() || run->branch.settings.steps != BranchSettings().steps)
+        if (run == study.runs.end() || !run->is_branch() || run->branch().settings.steps != BranchSettings().steps)
             return;
         for (const OrbitRecord& record : file_->orbits(name, true))
             EXPECT_NE(record.point.detail, name_of(BranchOutcome::steps)) << name;

@@ -149,8 +149,8 @@ TEST_F(StoredStudyTest, a_branch_is_continued_from_its_last_point) {
     longer.name = "longer";
     longer.start->run = "chain";
     longer.start->point = std::to_string(before.back().number);
-    longer.branch.settings.greatest = 3.0;
-    longer.branch.settings.least = 2.6;
+    longer.branch().settings.greatest = 3.0;
+    longer.branch().settings.least = 2.6;
     study.runs.push_back(longer);
     const auto reports = run_study(study, file, {});
     EXPECT_TRUE(reports.back().complete()) << reports.back().problem;

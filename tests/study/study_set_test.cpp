@@ -44,10 +44,10 @@ TEST(StudySet, what_the_study_computes_from_a_parameter_follows) {
     for (const StudyRun& run : set.runs)
         EXPECT_EQ(value(run, "omega"), 3) << run.name; // also where the run itself sets it
     EXPECT_EQ(value(set.runs[2], "amplitude"), 1);
-    EXPECT_EQ(set.runs[0].axes[0].values.front(), 0.3);
-    EXPECT_EQ(set.runs[0].axes[0].values.back(), 3);
+    EXPECT_EQ(set.runs[0].motion().axes[0].values.front(), 0.3);
+    EXPECT_EQ(set.runs[0].motion().axes[0].values.back(), 3);
     EXPECT_EQ(value(set.runs[1], "sigma"), 6);
-    EXPECT_DOUBLE_EQ(set.runs[1].transient.time, 2 * 3.14159265358979323846 / 3);
+    EXPECT_DOUBLE_EQ(set.runs[1].motion().transient.time, 2 * 3.14159265358979323846 / 3);
 }
 
 TEST(StudySet, gives_what_a_study_with_that_value_gives) {

@@ -34,9 +34,9 @@ StudyRun only_run(const std::string& text) {
 TEST(Study, steps_are_the_decimals_that_one_means) {
     const StudyRun run =
         only_run("[runs.a]\nkind = \"sweep\"\nvary = { omega = { from = 4.5, to = 5.5, step = 0.001 } }");
-    ASSERT_EQ(run.axes.at(0).values.size(), 1001u);
-    EXPECT_EQ(run.axes[0].values[333], 4.833);
-    EXPECT_EQ(run.axes[0].values[1000], 5.5);
+    ASSERT_EQ(run.motion().axes.at(0).values.size(), 1001u);
+    EXPECT_EQ(run.motion().axes[0].values[333], 4.833);
+    EXPECT_EQ(run.motion().axes[0].values[1000], 5.5);
 }
 
 TEST(Study, varies_by_lists_points_logarithms_and_draws) {
@@ -46,11 +46,11 @@ draws = 3
 seed = 7
 vary = { omega = [3, 2.5], x = { from = 0, to = 1, points = 5 }, e = { from = 0.01, to = 1, points = 3, scale = "log" }, v = { random = [2, 3] } }
 )");
-    ASSERT_EQ(run.axes.size(), 4u);
-    EXPECT_THAT(run.axes[0].values, ElementsAre(2.5, 3));
-    EXPECT_THAT(run.axes[1].values, ElementsAre(0, 0.25, 0.5, 0.75, 1));
-    EXPECT_TRUE(run.axes[1].state);
-    EXPECT_NEAR(run.axes[2].values[1], 0.1, 1e-16);
+    ASSERT_EQ(run.motion().axes.size(), 4u);
+    EXPECT_THAT(run.motion().axes[0].values, ElementsAre(2.5, 3));
+    EXPECT_THAT(run.motion().axes[1].values, ElementsAre(0, 0.25, 0.5, 0.75, 1));
+    EXPECT_TRUE(run.motion().axes[1].state);
+    EXPECT_NEAR(run.motion().axes[2].values[1], 0.1, 1e-16);
     const Plan plan = plan_of(run, System(run.model), nullptr);
     EXPECT_EQ(plan.points(), 2u * 5 * 3 * 3);
     for (std::size_t point = 0; point < plan.points(); ++point) {
@@ -58,8 +58,8 @@ vary = { omega = [3, 2.5], x = { from = 0, to = 1, points = 5 }, e = { from = 0.
         EXPECT_GE(at[3], 2);
         EXPECT_LT(at[3], 3);
         const PointStart start = plan.start(point);
-        EXPECT_EQ(start.state[*run.axes[1].state], at[1]);
-        EXPECT_EQ(start.parameters[run.axes[0].parameter.place()], at[0]);
+        EXPECT_EQ(start.state[*run.motion().axes[1].state], at[1]);
+        EXPECT_EQ(start.parameters[run.motion().axes[0].parameter.place()], at[0]);
         EXPECT_EQ(coordinates_of(run, point), at);
     }
     EXPECT_NE(coordinates_of(run, 0)[3], coordinates_of(run, 1)[3]);
@@ -79,18 +79,47 @@ TEST(Study, sweeps_go_up_down_or_both_ways) {
     EXPECT_THAT(values("both"), ElementsAre(1, 2, 3, 3, 2, 1));
 }
 
+TEST(StudyRun, HasTheRequestOfItsKindAlone) {
+    for (std::size_t kind = 0; kind < kinds_of_runs().size(); ++kind) {
+        StudyRun run(static_cast<RunKind>(kind));
+        run.name = "a";
+        const auto refused = [&run](auto ask) {
+            try {
+                ask(run);
+                return 0;
+            } catch (const InputError& error) {
+                EXPECT_THAT(error.problem(), HasSubstr(fmt::format("run 'a' of kind \"{}\"", name_of(run.kind))));
+                return 1;
+            }
+        };
+        EXPECT_EQ(refused([](StudyRun& one) { one.motion(); }) + refused([](StudyRun& one) { one.branch(); }) +
+                      refused([](StudyRun& one) { one.record(); }) + refused([](StudyRun& one) { one.identify(); }),
+                  3);
+    }
+}
+
+TEST(StudyRun, KeepsItsRequestWhereAnotherKindHasTheSame) {
+    StudyRun run(RunKind::follow);
+    run.branch().rungs = 3;
+    run.set_kind(RunKind::ladder);
+    EXPECT_EQ(run.branch().rungs, 3U);
+    run.set_kind(RunKind::record);
+    EXPECT_THROW(run.branch(), InputError);
+    EXPECT_EQ(run.record().records(), 0U);
+}
+
 TEST(Study, branches_and_curves_go_both_ways_unless_told) {
     const std::string branch = "[runs.a]\nkind = \"continue\"\nalong = { omega = [4, 5] }\n";
-    EXPECT_EQ(only_run(branch).direction, SweepDirection::both);
-    EXPECT_EQ(only_run(branch + "direction = \"down\"\n").direction, SweepDirection::down);
+    EXPECT_EQ(only_run(branch).branch().direction, SweepDirection::both);
+    EXPECT_EQ(only_run(branch + "direction = \"down\"\n").branch().direction, SweepDirection::down);
     const std::string curve = "[runs.b]\nkind = \"curve\"\nstart = { run = \"a\", point = \"GR1\" }\n"
                               "along = { omega = [4, 5], zeta = [0.1, 0.2] }\n";
     const Study study =
         parse_study(head + branch + curve + "[runs.c]" + curve.substr(8) + "direction = \"up\"\n", "s.toml");
-    EXPECT_EQ(study.runs.at(1).direction, SweepDirection::both);
-    EXPECT_EQ(study.runs.at(2).direction, SweepDirection::up);
+    EXPECT_EQ(study.runs.at(1).branch().direction, SweepDirection::both);
+    EXPECT_EQ(study.runs.at(2).branch().direction, SweepDirection::up);
     // A motion goes one way.
-    EXPECT_EQ(only_run("[runs.a]\nkind = \"sweep\"\nvary = { omega = [4, 5] }").direction, SweepDirection::up);
+    EXPECT_EQ(only_run("[runs.a]\nkind = \"sweep\"\nvary = { omega = [4, 5] }").motion().direction, SweepDirection::up);
 }
 
 TEST(Study, runs_come_after_those_they_start_from) {
@@ -105,7 +134,7 @@ time = "2*pi"
 )",
                                     "s.toml");
     EXPECT_EQ(study.runs[0].name, "first");
-    EXPECT_NEAR(study.runs[0].transient.time, 6.283185307179586, 1e-15);
+    EXPECT_NEAR(study.runs[0].motion().transient.time, 6.283185307179586, 1e-15);
     EXPECT_EQ(study.runs[1].name, "second");
 }
 
@@ -170,7 +199,7 @@ TEST(Study, no_key_is_accepted_and_ignored) {
         for (const double value : run.model.initial_state())
             numbers += std::to_string(value) + ' ';
         return settings_of(run) + numbers + run.model.name + run.model.modes[run.model.initial_mode].name +
-               run.branch.table;
+               run.branch().table;
     };
     std::size_t used = 0, refused = 0;
     for (const Kind& kind : kinds)
@@ -216,22 +245,22 @@ TEST(Study, pictures_have_no_keys_that_are_ignored) {
 
 TEST(Study, accuracy_reaches_the_continuation) {
     const StudyRun run = only_run("[runs.a]\nkind = \"continue\"\nalong = \"omega\"\naccuracy = 1e-7");
-    EXPECT_EQ(run.branch.settings.orbit.accuracy, 1e-7);
-    EXPECT_EQ(run.branch.settings.continuation.accuracy, 1e-7);
+    EXPECT_EQ(run.branch().settings.orbit.accuracy, 1e-7);
+    EXPECT_EQ(run.branch().settings.continuation.accuracy, 1e-7);
 }
 
 TEST(Study, what_a_branch_frees_may_have_bounds) {
     const std::string follow = "[runs.a]\nkind = \"continue\"\nalong = { omega = [1, 2] }\n"
                                "monitors = { reach = { maximum = \"x\", fixed = true } }\n";
     const StudyRun run = only_run(follow + "free = { amplitude = [0.1, \"10*e\"] }");
-    ASSERT_EQ(run.branch.settings.free.size(), 1u);
-    ASSERT_EQ(run.branch.settings.free_bounds.size(), 1u);
-    EXPECT_EQ(run.branch.settings.free[0], run.model.independent_parameter("amplitude"));
-    const FreeBounds& bounds = run.branch.settings.free_bounds[0];
-    EXPECT_EQ(bounds.parameter, run.branch.settings.free[0]);
+    ASSERT_EQ(run.branch().settings.free.size(), 1u);
+    ASSERT_EQ(run.branch().settings.free_bounds.size(), 1u);
+    EXPECT_EQ(run.branch().settings.free[0], run.model.independent_parameter("amplitude"));
+    const FreeBounds& bounds = run.branch().settings.free_bounds[0];
+    EXPECT_EQ(bounds.parameter, run.branch().settings.free[0]);
     EXPECT_EQ(bounds.least, 0.1);
     EXPECT_EQ(bounds.greatest, 10 * run.model.parameter_values()[run.model.independent_parameter("e").place()]);
-    EXPECT_TRUE(only_run(follow + "free = [\"amplitude\"]").branch.settings.free_bounds.empty());
+    EXPECT_TRUE(only_run(follow + "free = [\"amplitude\"]").branch().settings.free_bounds.empty());
     // As a result file keeps them.
     RunRecord record;
     record.name = "a";
@@ -243,8 +272,8 @@ TEST(Study, what_a_branch_frees_may_have_bounds) {
     for (const Mode& mode : run.model.modes)
         record.modes.push_back(mode.name);
     const StudyRun again = stored_run(record);
-    EXPECT_EQ(again.branch.settings.free_bounds.at(0).parameter, bounds.parameter);
-    EXPECT_EQ(again.branch.settings.free_bounds.at(0).greatest, bounds.greatest);
+    EXPECT_EQ(again.branch().settings.free_bounds.at(0).parameter, bounds.parameter);
+    EXPECT_EQ(again.branch().settings.free_bounds.at(0).greatest, bounds.greatest);
     EXPECT_THAT(refusal(head + follow + "free = { amplitude = [2, 1] }"), HasSubstr("give the smaller number first"));
     EXPECT_THAT(refusal(head + follow + "free = { amplitude = 1 }"), HasSubstr("runs.a.free.amplitude"));
     EXPECT_THAT(refusal(head + follow + "free = { ampltude = [1, 2] }"), HasSubstr("did you mean 'amplitude'?"));
@@ -337,7 +366,7 @@ TEST(StudyTest, initial_states_may_follow_from_what_varies) {
                               "vary = { x = [-1, -0.5], omega = [2, 3] }\n";
     const Study study = parse_study(begin + "from = { v = \"0.5*x + omega\", theta = \"pi\" }\n", "s.toml");
     const StudyRun& run = study.runs[0];
-    ASSERT_EQ(run.following.size(), 1U);
+    ASSERT_EQ(run.motion().following.size(), 1U);
     const Plan plan = plan_of(run, System(run.model), nullptr);
     const std::size_t x = *run.model.find_state("x"), v = *run.model.find_state("v");
     for (std::size_t point = 0; point < 4; ++point) {

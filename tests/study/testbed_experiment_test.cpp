@@ -18,7 +18,7 @@ namespace {
 /// Of the benches of the study: each run of kind record has those that matter to it.
 std::map<std::string, double> hidden_of(const Study& study) {
     std::map<std::string, double> hidden;
-    const Model& bench = study.find_run("sweep")->record.bench->model;
+    const Model& bench = study.find_run("sweep")->record().bench->model;
     for (const char* name : {"w0", "zeta", "e", "beta1", "beta2", "R", "Ll"})
         hidden[name] = bench.parameter_values()[bench.independent_parameter(name).place()];
     return hidden;
@@ -85,8 +85,8 @@ TEST(TestbedExperimentSlow, intervals_hold_what_is_hidden_whatever_the_noise) {
     constexpr int trials = 20;
     for (std::uint64_t trial = 0; trial < trials; ++trial) {
         for (StudyRun& run : study.runs)
-            if (run.record.bench)
-                run.record.bench->seed += 1000;
+            if (run.kind == RunKind::record && run.record().bench)
+                run.record().bench->seed += 1000;
         ResultFile file(folder / "r" + std::to_string(trial), ResultFile::Access::write);
         run_study(study, file, with_two_threads({"decay", "impacts", "coupling", "coil"}));
         for (const auto& [name, estimate] : found_in(file, hidden)) {

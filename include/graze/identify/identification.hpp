@@ -1,7 +1,7 @@
 #pragma once
 
 #include "graze/identify/estimate.hpp"
-#include "graze/record/samples.hpp"
+#include "graze/record/impacts.hpp"
 
 #include <cstddef>
 #include <functional>
@@ -18,8 +18,7 @@ struct IdentificationSettings {
     std::string displacement = "";                    ///< of couplings (q if it is empty); of restitutions: for times
     std::string voltage = "V", current = "I";         ///< of impedances; of couplings the current
     std::size_t peaks = 10;                           ///< of each release
-    std::size_t window = 12, transition = 0;          ///< of impacts
-    double least_jump = 0;                            ///< of impacts
+    ImpactWindow impacts{};                           ///< of restitutions
     std::optional<double> gap{}, stiffness{};         ///< of couplings; the gap also of leakage inductances
     double gap_error = 0, stiffness_error = 0;        ///< standard errors
     double displacement_noise = 0, current_noise = 0; ///< of couplings, see CouplingSettings

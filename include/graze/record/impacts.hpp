@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace graze {
@@ -17,14 +18,25 @@ struct RecordedImpact {
     double covariance = 0;               ///< of both velocities: an error of the time moves both
 };
 
-struct ImpactSettings {
+/// Which samples beside an impact tell the velocities before and after it.
+struct ImpactWindow {
+    std::size_t window = 12;    ///< samples on each side that parabolas are fitted to: least_window ... most_window
+    std::size_t transition = 0; ///< samples on each side that the impact itself disturbs, and that are left out
+    double least_jump = 0;      ///< changes of the velocity below this are no impacts; 0: only noise is excluded
+
+    static constexpr std::size_t least_window = 5, most_window = 100'000;
+};
+
+struct ImpactSettings : ImpactWindow {
     std::size_t velocity = 0;                  ///< channel
-    std::optional<std::size_t> displacement{}; ///< channel, if there is one: where it has a corner, the impact is
-    std::size_t window = 12;                   ///< samples before and after that tell the velocities, 5 or more
-    std::size_t transition = 0;                ///< samples before and after that are disturbed by the impact itself
-    double least_jump = 0;                     ///< smaller ones are none
+    std::optional<std::size_t> displacement{}; ///< channel whose corners tell the times of impacts; none: see below
     double significance = 6;                   ///< how many standard errors of its noise a jump exceeds
 };
+/// The settings for a record's channels of these names. @param displacement its name; empty: there is none
+/// @param asked_as what stands before names of settings in messages, such as "--"
+/// @throws InputError when the record has no channel of that name
+ImpactSettings impact_settings(const RecordHeader& header, const std::string& velocity, const std::string& displacement,
+                               const ImpactWindow& window, const std::string& asked_as = "");
 
 /// Finds jumps of a noisy velocity. To the samples on both sides of each place parabolas are fitted by least squares; a
 /// jump is where their values differ by more than noise and their own misfit explain, and more than beside it. The

@@ -28,6 +28,8 @@ struct RecordProcessing {
     std::string derivative{};   ///< channel; empty: none is added
     std::size_t half_width = 0; ///< of the derivative
     std::string asked_as{};     ///< what stands before `scale` and `derivative` in messages, such as "--"
+
+    static constexpr std::size_t most_every = 1'000'000, least_half_width = 4, most_half_width = 100'000;
 };
 
 /// A source with all that is done to it. Reading it to its end is refused where it has given no rows.
@@ -35,6 +37,9 @@ class ProcessedRecord {
 public:
     /// @throws InputError for channels that are not there, and settings without meaning
     ProcessedRecord(std::unique_ptr<SampleSource> source, const RecordProcessing& processing);
+    /// The record of a file. @throws InputError also when it cannot be read
+    ProcessedRecord(const std::string& path, const RecordProcessing& processing)
+        : ProcessedRecord(open_record(path, processing.layout), processing) {}
     SampleSource& source() { return *stages_.back(); }
     const RecordHeader& header() const { return stages_.back()->header(); }
 

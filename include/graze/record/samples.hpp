@@ -20,6 +20,8 @@ struct RecordHeader {
     /// Index of a channel. @param asked who asks, as in "--reference"
     /// @throws InputError when there is none of that name, with the nearest
     std::size_t channel(std::string_view name, std::string_view asked) const;
+    /// Indices of the channels of these names; of all channels where there are no names. @throws InputError likewise
+    std::vector<std::size_t> chosen_channels(const std::vector<std::string>& names, std::string_view asked) const;
 };
 
 /// Rows of a record, column by column: a part of it or all.

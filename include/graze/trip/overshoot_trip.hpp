@@ -3,7 +3,10 @@
 #include "graze/trip/loss_point.hpp"
 #include "graze/trip/simulated_trip.hpp"
 
+#include <cstddef>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace graze {
 
@@ -18,6 +21,19 @@ struct OvershootTrip {
     /// The best that is known: until the end that was asked for, if it has come.
     const TripTime* best() const;
 };
+
+/// What ends the trips from a point, with how people call it.
+struct NamedEnd {
+    TripEnd end;
+    std::string words;
+    bool given = false; ///< somebody has chosen it; otherwise it is the usual one of the point
+};
+/// The usual end: of a touch the approach speed up to which the map tells of contacts, of a fold its passage.
+NamedEnd usual_end(const LossPoint& point);
+/// An approach speed at the touched surface.
+/// @param asked_as here and below what stands before names of settings in messages, such as "--"
+/// @throws InputError for a fold, which has no contact of its own
+NamedEnd end_at_speed(const LossPoint& point, double speed, const std::string& asked_as = "");
 
 /// Approach speed until which the map is asked of a trip: that of its end, as far as the map tells of contacts.
 double level_until(const LossPoint& point, const TripEnd& end);
@@ -38,5 +54,21 @@ struct FoldTrip {
 /// @throws InputError as cycles_of_passage and simulated_passage do
 FoldTrip trip_of_fold(const System& system, const FoldPassage& fold, double overshoot, const TripEnd& end,
                       bool until_passed, const TripOptions& options = {});
+
+/// Trips from one point at several overshoots.
+struct OvershootTrips {
+    LossPoint point;
+    NamedEnd end;
+    std::vector<OvershootTrip> of_touch{}; ///< where the point is a touch,
+    std::vector<FoldTrip> of_fold{};       ///< and where it is a fold
+    bool interrupted = false;              ///< further overshoots have no trips
+
+    std::size_t size() const { return of_touch.size() + of_fold.size(); }
+    /// The simulation of a trip that has not come to its end; null when it has. @throws InputError for another index
+    const TripTime* unfinished(std::size_t index) const;
+};
+/// @throws InputError as trip_of_touch and trip_of_fold do, and for a disturbance of a fold
+OvershootTrips overshoot_trips(const LossPoint& point, const NamedEnd& end, const std::vector<double>& overshoots,
+                               const TripOptions& options = {}, const std::string& asked_as = "");
 
 } // namespace graze
