@@ -212,7 +212,7 @@ void describe_transient(Fields& fields, Transient& transient) {
 
 template <class Fields, class Attractor>
 void describe_attractor(Fields& fields, Attractor& attractor, RunKind kind) {
-    const bool labels = kind == RunKind::sweep || kind == RunKind::basin;
+    const bool labels = seeks_attractors(kind);
     const bool settles = labels || kind == RunKind::orbit || kind == RunKind::follow;
     fields.form({"section",
                  "whose passages are returns and periods (the first section of a phase, or the first of all)", settles},
@@ -328,7 +328,7 @@ void describe_simulated(Fields& fields, Run& run, Motion& motion, Request& reque
     describe_axes(fields, run, motion, request);
     if (run.is_branch())
         fields.object("branch", [&](auto& one) { describe_branch(one, run); });
-    const bool transient = run.kind == RunKind::simulate;
+    const bool transient = points && !seeks_attractors(run.kind);
     if (transient)
         describe_transient(fields, motion.transient);
     else

@@ -27,9 +27,9 @@ std::unique_ptr<SearchFactory> searches_of(const StudyRun& run, const System& sy
     const MotionRequest& motion = run.motion();
     AttractorOptions attractor = motion.attractor;
     attractor.stay_in_transients = run.kind == RunKind::sweep && motion.carry;
-    return run.kind == RunKind::simulate
-               ? transient_searches(system, motion.transient, motion.samplings, run.values, motion.simulation)
-               : attractor_searches(system, attractor, motion.samplings, run.values, motion.simulation);
+    return seeks_attractors(run.kind)
+               ? attractor_searches(system, attractor, motion.samplings, run.values, motion.simulation)
+               : transient_searches(system, motion.transient, motion.samplings, run.values, motion.simulation);
 }
 
 /// What the file has of each chain.

@@ -63,7 +63,7 @@ void complete(StudyRun& run, const SettingsReader& fields) {
     MotionRequest& motion = run.motion();
     for (Variation& axis : motion.axes)
         complete(axis, run.model, fields);
-    if (run.kind == RunKind::simulate)
+    if (!seeks_attractors(run.kind))
         motion.attractor.section = motion.transient.section, motion.attractor.bounds = motion.transient.bounds;
     else
         motion.transient.section = motion.attractor.section, motion.transient.bounds = motion.attractor.bounds;
@@ -143,7 +143,7 @@ void check(const StudyRun& run, const SettingsReader& fields) {
     }
     check_following_states(run, run.place);
     motion.simulation.validate();
-    if (run.kind == RunKind::simulate)
+    if (!seeks_attractors(run.kind))
         motion.transient.validate(run.model);
     else
         motion.attractor.validate(run.model);

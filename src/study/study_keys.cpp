@@ -69,7 +69,7 @@ void check_beginning(const StudyReader& reader, RunKind kind, const RunKeys& key
     refuse_two("start", "table");
     refuse_two("table", "from");
     refuse_two("table", "mode");
-    if (kind == RunKind::orbit || kind == RunKind::follow || kind == RunKind::curve || kind == RunKind::ladder)
+    if (is_branch(kind))
         mistakes.attempt([&] { check_unused(reader, kind, keys); });
     if (kind == RunKind::record && !keys.contains("bench"))
         mistakes.attempt(

@@ -7,6 +7,7 @@
 #include "study/study_sampling.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -89,7 +90,7 @@ void complete_motion(StudyRun& run) {
             if (run.model.events[i].kind == EventKind::barrier)
                 motion.transient.counted.push_back(i);
     motion.simulation.validate();
-    if (run.kind == RunKind::simulate)
+    if (!seeks_attractors(run.kind))
         motion.transient.validate(run.model);
     else
         motion.attractor.validate(run.model);
@@ -190,8 +191,9 @@ void read_keys(const StudyReader& reader, StudyRun& run, const TomlEntry& entry,
         });
         if (!keys.contains("kind"))
             throw InputError(entry.place, fmt::format("{} has no kind", entry.path),
-                             "give kind = \"simulate\", \"sweep\", \"basin\", \"orbit\", \"continue\", \"curve\", "
-                             "\"ladder\", \"record\" or \"identify\"");
+                             fmt::format("give kind = \"{}\" or \"{}\"",
+                                         fmt::join(kinds_of_runs().begin(), kinds_of_runs().end() - 1, "\", \""),
+                                         kinds_of_runs().back()));
     });
     with_key(mistakes, keys, "kind", [&](const TomlEntry& kind) {
         run.set_kind(static_cast<RunKind>(reader.choice(kind, kinds_of_runs())));

@@ -17,7 +17,7 @@ enum class RunKind {
     curve,    ///< special points in two parameters
     ladder,   ///< from one grazing to the next
     record,   ///< measured records
-    identify  ///< parameters from them
+    identify  ///< parameters from records
 };
 
 /// The names of all kinds, in the order of RunKind.
@@ -27,13 +27,15 @@ std::string_view name_of(RunKind kind);
 /// The kind of this name.
 std::optional<RunKind> run_kind(std::string_view name);
 
-/// Whether points of runs of a kind are motions: simulated from a state, alone or many of them.
+/// True when the points of runs of a kind are motions that are simulated from a state.
 bool has_motions(RunKind kind);
-/// Whether orbits are followed: along a branch, a curve or a ladder.
+/// True when each of these motions is followed until it has settled on an attractor, rather than for a given time.
+bool seeks_attractors(RunKind kind);
+/// True when orbits are followed along a branch, a curve or a ladder.
 bool is_followed(RunKind kind);
-/// Whether points are periodic orbits.
+/// True when the points are periodic orbits.
 bool is_branch(RunKind kind);
-/// Whether points are records, or what was found from them: such runs simulate nothing themselves.
+/// True when the points are records, or estimates from records: such runs simulate nothing themselves.
 bool is_measured(RunKind kind);
 
 } // namespace graze
