@@ -1,25 +1,25 @@
 #!/usr/bin/env python3
-"""Which sources can be compiled or looked at as one, since their own names do not collide.
+"""Groups sources into batches that can be compiled, or checked, as one source, because their private names do not collide.
 
 usage: batches.py MOST SOURCE...
 
-Prints one line a source, `BATCH;SOURCE`, with at most MOST in a batch.
+Prints one line for each source, `BATCH;SOURCE`, with at most MOST sources in a batch.
 """
 import pathlib
 import re
 import sys
 
-# What begins in the first column and declares something: a function, a constant, a type or another name for one.
+# A line that declares a name in the first column: a function, a constant, a type or an alias.
 DECLARED = re.compile(r"^(?:\[\[\w+\]\] )?(?:(?:struct|class|enum class) (\w+)|using (\w+) =|(?!using |namespace )[A-Za-z][^=;(){]*?\b(\w+)(?=[({=;]| =|\[))")
 
 
 class Names:
-    """Names of one source, or of several that go together."""
+    """The names of one source, or of several in one batch."""
 
     def __init__(self, source):
         text = pathlib.Path(source).read_text(encoding="utf-8")
-        self.own = set()  # of its unnamed namespaces
-        self.constants = set()  # among them
+        self.own = set()  # declared in unnamed namespaces
+        self.constants = set()  # those of them that are constants
         inside = False
         for line in text.splitlines():
             if line == "namespace {":
@@ -32,12 +32,12 @@ class Names:
                     self.constants.update([found[3], *re.findall(r", (\w+) = ", line)])
         self.own |= self.constants
         text = re.sub(r'"(?:\\.|[^"\\])*"', '""', re.sub(r"//.*", "", text))
-        # What is called or taken for a type, and all that may be a constant, wherever these are declared.
+        # Names that are used as a function or type, and all names that may be constants, wherever they are declared.
         self.called = set(re.findall(r"(?<![\w.:>])(\w+)(?=[(<{]|::)", text))
         self.mentioned = set(re.findall(r"(?<![\w.:>])(\w+)", text))
 
     def hide(self, other):
-        """Whether a name of the one would stand in the way of the other."""
+        """True if a private name of one source would hide a name that the other declares or uses."""
         return any(
             (one.own & (two.own | two.called)) or (one.constants & two.mentioned)
             for one, two in ((self, other), (other, self))
@@ -49,8 +49,8 @@ class Names:
 
 
 def batches_of(sources, most):
-    """The sources, each in the first batch that has room and in which no name hides another. Folders stay together as
-    far as that goes: they include the same."""
+    """Puts each source into the first batch that is not full and in which no name hides another. Sources of a folder
+    mostly stay together, which is good because they include the same headers."""
     batches = []
     for source in sources:
         names = Names(source)

@@ -1,4 +1,4 @@
-# The shipped models become part of the library, for the program to have them wherever it is installed.
+# Embeds the shipped models, studies and designs into the library, so that the program has them wherever it is installed.
 # Included from CMakeLists.txt this file adds the step to the build; as a script it is that step:
 #   cmake -DOUTPUT=catalogue_data.cpp -DFUNCTION=embedded_models "-DMODELS=a.toml;b.toml" -P catalogue.cmake
 if(CMAKE_SCRIPT_MODE_FILE)
@@ -9,7 +9,7 @@ if(CMAKE_SCRIPT_MODE_FILE)
         get_filename_component(name "${model}" NAME_WLE)
         file(READ "${model}" bytes HEX)
         string(REGEX REPLACE "(..)" "'\\\\x\\1'," bytes "${bytes}")
-        string(REPLACE "'\\x0a'," "'\\n',\n" bytes "${bytes}") # a line for each line of the file
+        string(REPLACE "'\\x0a'," "'\\n',\n" bytes "${bytes}") # one source line for each line of the file
         string(APPEND definitions "const char text_${index}[] = {${bytes}'\\0'};\n")
         string(APPEND entries "    {\"${name}\", {text_${index}, sizeof(text_${index}) - 1}},\n")
         math(EXPR index "${index} + 1")
@@ -36,10 +36,10 @@ std::span<const EmbeddedModel> ${FUNCTION}() { return models; }
     return()
 endif()
 
-# Embeds the files of FOLDER into the objects of TARGET, which get them from FUNCTION.
+# Embeds the files of FOLDER into TARGET; FUNCTION returns them.
 function(graze_embed target folder function)
     file(GLOB files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.toml)
-    # By name alone: with its ending, "a-b.toml" would come before "a.toml".
+    # Sort by name without the extension: with it, "a-b.toml" would come before "a.toml".
     list(TRANSFORM files REPLACE "\\.toml$" "")
     list(SORT files)
     list(TRANSFORM files APPEND ".toml")

@@ -1,6 +1,6 @@
-# HDF5 as a static library where there is one with what it needs: the shared one of Debian loads some thirty others, of
-# the network, each time the program starts. What the archive has of the network is not linked, since nothing here asks
-# for it. A shared libgraze cannot take it in, for archives are not compiled for that.
+# Links HDF5 as a static library where it and its dependencies are installed: Debian's shared library loads some thirty
+# others, for network access, each time the program starts. The archive's network code is not linked, since nothing uses
+# it. A shared libgraze cannot contain the archive, which is not compiled as position-independent code.
 find_package(HDF5 REQUIRED COMPONENTS C)
 add_library(graze_hdf5 INTERFACE)
 target_include_directories(graze_hdf5 SYSTEM INTERFACE $<TARGET_PROPERTY:hdf5::hdf5,INTERFACE_INCLUDE_DIRECTORIES>)

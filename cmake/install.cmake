@@ -25,6 +25,7 @@ if(TARGET graze_executable)
     )
 endif()
 install(DIRECTORY models studies designs DESTINATION ${CMAKE_INSTALL_DATADIR}/graze FILES_MATCHING PATTERN "*.toml")
-# Pages lie to one another as they do here, so that links between them hold; and what they link to comes along.
+# Pages are installed with the tree of the repository, so that links between them hold, together with the files to which
+# they link.
 install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md TYPE DOC)
 install(DIRECTORY docs examples TYPE DOC)

@@ -1,5 +1,5 @@
-# What pretends to be an instrument and talks over lines: for `graze bench` and for tests. It stands beside the library,
-# which does not need it, and is not installed. It is not linked with the library here: tests are linked with parts of it.
+# Simulated instruments, for `graze bench` and for tests: a library of its own, which the main library does not need and
+# which is not installed. It is not linked with the main library here, because tests are linked with parts of that.
 file(GLOB instrument_sources CONFIGURE_DEPENDS src/instrument/*.cpp)
 add_library(graze_instrument STATIC ${instrument_sources})
 set_target_properties(graze_instrument PROPERTIES POSITION_INDEPENDENT_CODE ON)

@@ -1,10 +1,10 @@
-# The Taylor kernels are compiled once for each instruction set; the program picks one at run time. What is switched
-# on here is what `is_supported` in src/tape/jet.cpp asks for.
+# The Taylor kernels are compiled once for each instruction set; the program picks one at run time. The instruction sets
+# enabled here are those that `is_supported` in src/tape/jet.cpp checks.
 #
 # Kernels are some thousand functions without loops. They are optimised in every kind of build, and compiled without
 # sanitizers and debug information, with which compilers need minutes and gigabytes for them.
-# What is run in a step of a small model about fills the processor's cache of instructions, of which each begins lines of
-# its own.
+# The code of one step of a small model about fills the processor's instruction cache; functions are therefore aligned to
+# cache lines.
 set(kernel_flags_baseline -O3 -g0 -fno-sanitize=all -falign-functions=64)
 set(kernel_sets baseline)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
@@ -14,7 +14,7 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     list(APPEND kernel_sets avx2 avx512)
 endif()
 foreach(kernel_set IN LISTS kernel_sets)
-    # A header that was compiled for other instructions is of no use to them.
+    # A precompiled header for other instruction sets cannot be used for them.
     set_source_files_properties(src/tape/jet_${kernel_set}.cpp PROPERTIES
                                 COMPILE_OPTIONS "${kernel_flags_${kernel_set}}" SKIP_PRECOMPILE_HEADERS ON)
 endforeach()

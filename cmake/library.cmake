@@ -1,8 +1,8 @@
-# One folder per word of the architecture; each may use only those before it. Each is compiled once, as objects of which
-# the library consists and on which its tests are linked together with the folders before it.
+# The folders of the library, in the order of the architecture; each may use only those before it. Each is compiled once,
+# as an object library. The library consists of all of them; the tests of a folder are linked with it and those before it.
 set(GRAZE_FOLDERS base symbolic model tape flow trajectory record bench acquire identify sweep orbit grazing branch trip results study design layout picture)
 
-# What a folder needs besides.
+# Other libraries that a folder needs.
 set(GRAZE_NEEDS_sweep Threads::Threads)
 set(GRAZE_NEEDS_record graze_hdf5)
 set(GRAZE_NEEDS_acquire Boost::headers Threads::Threads)
@@ -10,15 +10,15 @@ set(GRAZE_NEEDS_results SQLite::SQLite3 graze_hdf5)
 set(GRAZE_NEEDS_identify Ceres::ceres)
 set(GRAZE_NEEDS_design NLopt::nlopt)
 
-# What computes long enough for its time to compile to be worth it. What runs in several threads is tried with few and
-# short tests.
+# Folders that compute for long enough to be worth optimising; the others are compiled fast. Under the thread sanitizer
+# tests are few and short, and fewer folders are optimised.
 set(computing base tape flow trajectory sweep)
 if(NOT GRAZE_SANITIZERS STREQUAL "thread")
     list(APPEND computing symbolic identify orbit branch trip)
 endif()
 if(NOT GRAZE_SANITIZERS)
     list(APPEND computing record)
-elseif(NOT GRAZE_SANITIZERS STREQUAL "thread") # in which what is compiled fast is not optimised at all
+elseif(NOT GRAZE_SANITIZERS STREQUAL "thread") # fast-compiled folders are then not optimised at all
     list(APPEND computing grazing design)
 endif()
 
@@ -37,7 +37,7 @@ foreach(folder IN LISTS GRAZE_FOLDERS)
         if(folder IN_LIST computing)
             use_prefix(graze_${folder} graze_prefix_computing)
             if(folder STREQUAL base)
-                set(most 4) # what it makes of Eigen's decompositions is long enough in two parts
+                set(most 4) # its instances of Eigen's decompositions compile for long enough in two parts
             endif()
         else()
             target_compile_options(graze_${folder} PRIVATE ${GRAZE_COMPILED_FAST})

@@ -1,4 +1,4 @@
-# How everything here is compiled. Consumers of the library inherit nothing of it.
+# Compiler options and dependencies of everything here. Consumers of the library inherit none of them.
 include(GNUInstallDirs)
 
 set(CMAKE_CXX_STANDARD 20)
@@ -12,7 +12,7 @@ if(PROJECT_IS_TOP_LEVEL)
     endif()
     find_program(CCACHE ccache)
     if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-        # Paths in this repository are hashed relative to it, so that a clone in another folder finds what one has compiled.
+        # Paths in this repository are hashed relative to it, so that clones in other folders share the compiler cache.
         set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1
                                         CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
                                         ${CCACHE}
@@ -26,7 +26,7 @@ find_package(tomlplusplus REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(SQLite3 REQUIRED)
 find_package(NLopt REQUIRED)
-# Asio, of which headers alone are used.
+# Only the headers of Asio are used.
 find_package(Boost 1.74 REQUIRED)
 find_package(Ceres REQUIRED)
 find_package(Threads REQUIRED)
@@ -37,7 +37,7 @@ add_library(graze_options INTERFACE)
 target_compile_options(graze_options INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wno-psabi)
 # g++ 12 sees an overlapping copy in every `"text" + string` (its bug 105651).
 target_compile_options(graze_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
-# g++ collects garbage less often: a tenth less time for a fifth more memory, 1.5 GB in the largest file.
+# g++ frees memory less often, which saves a tenth of the time for a fifth more memory, 1.5 GB in the largest file.
 option(GRAZE_MEMORY_FOR_TIME "Let g++ take more memory and less time" ON)
 if(GRAZE_MEMORY_FOR_TIME)
     target_compile_options(
@@ -53,7 +53,7 @@ if(GRAZE_SANITIZERS)
     set(sanitize -fsanitize=${GRAZE_SANITIZERS} -fno-sanitize-recover=all -fno-omit-frame-pointer)
     if(CMAKE_CXX_COMPILER_ID MATCHES Clang)
         list(APPEND sanitize -fsanitize-ignorelist=${PROJECT_SOURCE_DIR}/cmake/sanitizers.ignore)
-        # What the address sanitizer finds as well. Checks of every access double the time to compile.
+        # The address sanitizer finds these mistakes as well, and checks of every access double the time to compile.
         if("undefined" IN_LIST sanitizers)
             list(APPEND sanitize -fno-sanitize=null,alignment,object-size,vptr)
         endif()
@@ -62,7 +62,7 @@ if(GRAZE_SANITIZERS)
     target_link_options(graze_options INTERFACE ${sanitize})
 endif()
 
-# Eigen and toml++ by their headers alone, so that a static libgraze.a asks its consumers to link nothing but fmt.
+# Only the headers of Eigen and toml++ are used, so that consumers of a static libgraze.a need not link them.
 add_library(graze_headers INTERFACE)
 target_include_directories(
     graze_headers SYSTEM INTERFACE
@@ -70,7 +70,7 @@ target_include_directories(
     $<TARGET_PROPERTY:tomlplusplus::tomlplusplus,INTERFACE_INCLUDE_DIRECTORIES>
 )
 
-# Tests, and what does not compute long: compiled more often than it is run.
+# Options of tests, and of folders that do not compute for long: they are compiled more often than they are run.
 set(GRAZE_COMPILED_FAST $<$<CONFIG:Release>:-O1>)
 if(GRAZE_SANITIZERS)
     set(GRAZE_COMPILED_FAST -O0)

@@ -1,15 +1,15 @@
-# The Debian package: `cpack` in the build folder makes it of what is installed.
+# The Debian package: `cpack` in the build folder makes it from the installed files.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME graze)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
-# As dpkg has them, whatever the umask of who makes it.
+# The permissions that dpkg expects, whatever the umask of the user who makes the package.
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ
                                                 WORLD_EXECUTE
 )
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
-# A package must name somebody; who hands it on says who, by `cpack -D CPACK_DEBIAN_PACKAGE_MAINTAINER="A <a@b.c>"`.
+# A package must name a maintainer; a distributor sets it with `cpack -D CPACK_DEBIAN_PACKAGE_MAINTAINER="A <a@b.c>"`.
 set(CPACK_DEBIAN_PACKAGE_MAINTAINER "the graze authors <graze@localhost>")
 string(
     CONCAT
@@ -19,7 +19,8 @@ string(
         "through their bifurcations and grazings. The program graze, a C++ library, models and studies\n"
         "of the literature."
 )
-# Libraries are found by what the program is linked to. What draws and what those need who link the library is not.
+# Dependencies on libraries are found from those to which the program is linked. The programs that draw, and the packages for
+# linking with the library, must be listed.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot, graphviz")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "g++, cmake, libfmt-dev, libsqlite3-dev, libnlopt-dev, libceres-dev")

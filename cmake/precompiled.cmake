@@ -1,5 +1,5 @@
-# What most sources include is parsed once for those that compute and once for those that are compiled fast, which
-# compilers do not let share it. Sources still include what they use: none of this is needed to compile them.
+# Headers that most sources include are precompiled twice: for sources that are optimised and for those that are compiled
+# fast, since compilers do not let different options share them. Sources still include every header that they use.
 function(add_prefix name) # NAME HEADER...
     if(GRAZE_PRECOMPILED_HEADERS)
         file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/generated/${name}.cpp CONTENT "// Carries a precompiled header.\n")

@@ -1,4 +1,4 @@
-# The program stands on the library's public interface; all of it but `main` is a library of its own, for its tests.
+# The program uses only the library's public interface; all of it but `main` is a library, so that tests can link it.
 file(GLOB program_sources CONFIGURE_DEPENDS src/program/*.cpp)
 list(FILTER program_sources EXCLUDE REGEX "/main\\.cpp$")
 if(program_sources)
@@ -15,12 +15,12 @@ if(TARGET graze_program AND EXISTS ${PROJECT_SOURCE_DIR}/src/program/main.cpp)
     add_executable(graze_executable src/program/main.cpp)
     target_include_directories(graze_executable PRIVATE src)
     target_link_libraries(graze_executable PRIVATE graze_program graze_options)
-    # In a folder of its own, which can be put on the PATH without anything else.
+    # The program gets a folder of its own, which can be put on the PATH.
     set_target_properties(
         graze_executable PROPERTIES OUTPUT_NAME graze RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin
     )
-    # A shared library lies beside that folder as it does where it is installed. The path to it must not change then:
-    # CMake would make room for the longer of two by empty ones, which mean whatever folder one is in.
+    # A shared library has the same place relative to that folder as after installation, so that the path to it does not
+    # change then: CMake would pad the shorter of two paths with empty ones, which mean the current folder.
     if(BUILD_SHARED_LIBS)
         set_target_properties(graze PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR})
         set_target_properties(
@@ -29,7 +29,7 @@ if(TARGET graze_program AND EXISTS ${PROJECT_SOURCE_DIR}/src/program/main.cpp)
     endif()
 endif()
 
-# Pages for man and completion for shells are what the program itself says of its options.
+# The program itself writes its manual pages and shell completions.
 if(TARGET graze_executable AND GRAZE_INSTALL)
     set(pages ${PROJECT_BINARY_DIR}/manual)
     add_custom_command(

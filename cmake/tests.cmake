@@ -3,7 +3,7 @@
 find_package(GTest REQUIRED)
 include(GoogleTest)
 
-# Where things are is compiled in one small source alone, so that a compiler cache serves clones in other folders.
+# Only one small source contains absolute paths, so that a compiler cache serves clones in other folders.
 file(WRITE ${PROJECT_BINARY_DIR}/generated/places.cpp.in
      "#include \"places.hpp\"\n\nnamespace graze::testing {\n\n\
 const char* const source_folder = \"@PROJECT_SOURCE_DIR@\";\n\
@@ -13,7 +13,7 @@ configure_file(${PROJECT_BINARY_DIR}/generated/places.cpp.in ${PROJECT_BINARY_DI
 add_library(graze_places OBJECT ${PROJECT_BINARY_DIR}/generated/places.cpp)
 target_include_directories(graze_places PUBLIC tests)
 
-# What all tests include is compiled once, with what the libraries of any folder define.
+# The headers that all tests include are precompiled once, with the definitions of the libraries of all folders.
 if(GRAZE_PRECOMPILED_HEADERS)
     file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/generated/test_prefix.cpp CONTENT "// Carries a precompiled header.\n")
     add_library(graze_test_prefix OBJECT ${PROJECT_BINARY_DIR}/generated/test_prefix.cpp)
@@ -27,13 +27,13 @@ if(GRAZE_PRECOMPILED_HEADERS)
     )
 endif()
 
-# Wrong uses of the library are tried on all of it.
+# Tests of wrong uses are linked with the whole library.
 set(before_misuse ${GRAZE_FOLDERS})
 
-# Instruments that are not there are tried with the clients of those that are.
+# Simulated instruments are tested with the clients of real ones.
 set(before_instrument ${before_acquire})
 
-# What runs in several threads is tried under the thread sanitizer, and nothing else: it would tell nothing of the rest.
+# Under the thread sanitizer only tests of code that runs in several threads are built.
 set(test_folders ${GRAZE_FOLDERS} instrument program misuse)
 if(GRAZE_SANITIZERS STREQUAL "thread")
     set(test_folders threads)
@@ -68,7 +68,7 @@ foreach(folder IN LISTS test_folders)
         target_compile_definitions(test_${folder} PRIVATE $<TARGET_PROPERTY:graze_test_prefix,COMPILE_DEFINITIONS>)
     endif()
     target_link_libraries(test_${folder} PRIVATE graze_places)
-    # Few at once: a test is changed, compiled and run again more often than anything else.
+    # Small batches: a test is changed, compiled and run again more often than other sources.
     compile_together(test_${folder} 5 ${sources})
     target_compile_options(test_${folder} PRIVATE ${GRAZE_COMPILED_FAST})
     gtest_discover_tests(
@@ -81,7 +81,7 @@ foreach(folder IN LISTS test_folders)
     )
 endforeach()
 
-# Examples are programs of a user: they see the library as an installed one is seen.
+# Examples are compiled as a user's programs are: with the public interface only.
 file(GLOB examples CONFIGURE_DEPENDS examples/*.cpp)
 foreach(source IN LISTS examples)
     cmake_path(GET source STEM name)
@@ -129,7 +129,7 @@ if(TARGET graze_executable)
                                                $<TARGET_FILE:graze_executable> ${PROJECT_BINARY_DIR}/drawings
     )
     set_tests_properties(layout.other_readers PROPERTIES SKIP_RETURN_CODE 77 LABELS slow TIMEOUT 600)
-    # The longest of all begins first.
+    # The cost makes ctest start the longest test first.
     add_test(NAME demo COMMAND bash ${PROJECT_SOURCE_DIR}/examples/demo.sh ${PROJECT_BINARY_DIR}/demo)
     set_tests_properties(
         demo PROPERTIES ENVIRONMENT "GRAZE=$<TARGET_FILE:graze_executable>" LABELS slow TIMEOUT 1200 COST 1000

@@ -1,11 +1,11 @@
-# Sources of a folder are compiled several at once: parsing what they include, and what they make of templates, is most
-# of the work. Those whose own names collide stay apart.
+# Compiles several sources of a folder at once (unity builds), since most of the work is parsing headers and instantiating
+# templates. Sources whose private names collide stay apart.
 option(GRAZE_TOGETHER "Compile several sources at once; needs Python" OFF)
 if(GRAZE_TOGETHER)
     find_package(Python3 COMPONENTS Interpreter)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/batches.py)
-    # A name of one source may well be a local one of the next; and g++ takes unnamed namespaces of what it compiles
-    # together for those of a header.
+    # A name of one source may be a local name of the next; and in a unity build g++ takes unnamed namespaces for those of a
+    # header.
     target_compile_options(graze_options INTERFACE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endif()
 

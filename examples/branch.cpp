@@ -24,7 +24,7 @@ int main() {
     const SpecialPoint& grazing = free.special.back();
     std::printf("%s at amplitude %.12f\n", name_of(grazing.type).data(), grazing.parameter);
 
-    // An iterator, which one can stop and look at after every step.
+    // OrbitBranch is an iterator: it can be stopped and examined after every step.
     const BranchStart start = branches_at(model, grazing, settings).front();
     OrbitBranch branch(model, start.orbit, settings);
     for (bool going = branch.start_along(start.direction, start.distance); going; going = branch.step())

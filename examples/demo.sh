@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What an electromagnetic testbed does as its voltage is swept up and down at two frequencies: bifurcation diagrams,
-# phase portraits and spectra; then the branches of orbits that bound what was found. Run again, it only does what is missing.
+# Bifurcation diagrams, phase portraits and spectra of an electromagnetic testbed whose voltage is swept up and down at two
+# frequencies; then the branches of orbits that bound these motions. When run again, it does only what is missing.
 # usage: [GRAZE=program] demo.sh [FOLDER]
 set -euo pipefail
 graze=${GRAZE:-graze}

@@ -1,4 +1,4 @@
-// A study is run into a result file, and everything is read back from that file alone.
+// Runs a study into a result file, and reads everything back from that file alone.
 
 #include <graze/picture/result_picture.hpp>
 #include <graze/results/stored_run.hpp>

@@ -1,4 +1,4 @@
-// A project of one's own: counts the impacts of a shipped model.
+// A project that uses an installed graze: counts the impacts of a shipped model.
 
 #include <graze/model/catalogue.hpp>
 #include <graze/trajectory/trajectory.hpp>

@@ -13,7 +13,7 @@ namespace graze {
 
 namespace {
 
-/// One run of an experiment.
+/// One execution of an experiment.
 class ExperimentRun {
 public:
     ExperimentRun(const Experiment& experiment, InstrumentLine& line, SampleDevice& device, RecordFolder& folder,
@@ -29,7 +29,7 @@ public:
         } catch (const InstrumentError& error) {
             report_.ending = error.ending();
             report_.detail = error.what();
-        } catch (...) { // told of when the output is safe
+        } catch (...) { // rethrown when the output is safe
             failure = std::current_exception();
         }
         if (begun_)
@@ -49,7 +49,7 @@ private:
         return result;
     }
 
-    /// An output that is not safe is worse than what has led to it, and both are to be told.
+    /// Puts the failure into the report: an unsafe output is worse than its cause, and both must be reported.
     void tell_failure(const std::exception_ptr& failure) {
         try {
             std::rethrow_exception(failure);
@@ -78,7 +78,7 @@ private:
         if (!back)
             device_.mark(mark_of(missing->number));
         for (std::size_t i = first; i < experiment_.levels.size(); ++i) {
-            // A record that was lost in the middle is made again on the way.
+            // A missing record between existing ones is recorded again on the way.
             if (!folder_.has(experiment_.levels[i]))
                 record(experiment_.levels[i]);
             else
@@ -86,7 +86,7 @@ private:
         }
     }
 
-    /// Of this experiment in this folder alone: a device may have served others.
+    /// Number of a mark, distinct for this experiment and folder, since the device may have served others.
     std::uint64_t mark_of(std::size_t number) const { return folder_.identity() + number; }
 
     void choose_channels() {
@@ -135,7 +135,7 @@ private:
         }
     }
 
-    /// As if it were recorded, without a record.
+    /// Passes through a level as if it were recorded.
     void pass(const Level& level) {
         set(level);
         if (experiment_.walk) {
@@ -147,7 +147,7 @@ private:
         device_.mark(mark_of(level.number + 1));
     }
 
-    /// From the beginning, where all is made again; otherwise from that of the leg.
+    /// Repeats all earlier levels; with a walking time, only those of the present leg.
     void walk_to(std::size_t level) {
         for (std::size_t i = 0; i < level; ++i)
             if (!experiment_.walk ||
@@ -176,7 +176,7 @@ private:
         }
         writer->close();
         require_unchanged(level);
-        device_.mark(mark_of(level.number + 1)); // before the record counts: whoever goes on behind it finds the mark
+        device_.mark(mark_of(level.number + 1)); // before the commit: whoever resumes after it finds the mark
         folder_.commit(entry);
         ++report_.recorded;
         report_.unsettled += entry.settled ? 0 : 1;
@@ -184,7 +184,7 @@ private:
             options_.recorded(folder_.entries().at(level.number));
     }
 
-    /// Nobody has turned a knob while it was recorded.
+    /// Checks that the amplitude was not changed during the record.
     void require_unchanged(const Level& level) {
         double told = 0;
         const auto is_same = [&] {
@@ -192,7 +192,7 @@ private:
             return std::abs(told - level.amplitude) <= experiment_.generator.tolerance * level.amplitude;
         };
         bool same = is_same();
-        for (int again = 1; !same && again < experiment_.generator.attempts; ++again) // a letter may have been lost
+        for (int again = 1; !same && again < experiment_.generator.attempts; ++again) // a character may have been lost
             same = is_same();
         if (!same)
             throw InstrumentError(

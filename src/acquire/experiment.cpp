@@ -26,7 +26,7 @@ std::string Experiment::settings() const {
                                     offset, rate, samples, hdf5 ? "h5" : "csv", fmt::join(channels, ","));
     lines += fmt::format("settle {} {} {} {} {} {}\n", settling.time, settling.most, settling.reference, settling.phase,
                          settling.repeats, settling.period);
-    if (generator.load != GeneratorOptions().load) // folders of old have no such line
+    if (generator.load != GeneratorOptions().load) // older folders have no such line
         lines += fmt::format("load {}\n", generator.load);
     for (const SettlingOptions::Tolerance& tolerance : settling.tolerances)
         lines += fmt::format("tolerance {} {}\n", tolerance.channel, tolerance.size);

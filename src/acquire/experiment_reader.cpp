@@ -17,12 +17,12 @@ namespace {
 
 constexpr std::size_t most_levels = 10'000;
 constexpr double longest = 1e6;     // s
-constexpr double most_volts = 1000; // V; what a generator has is for `limits` to say
+constexpr double most_volts = 1000; // V; the generator's own range is given by `limits`
 constexpr double most_hertz = 1e9;
 constexpr double most_rate = 1e7;
 constexpr double most_rows = 1e9;
 
-/// As people write it: sums of steps are a few last bits away from it.
+/// Rounds to 12 digits: sums of steps differ from the intended value in the last bits.
 double tidy(double value) {
     const std::string text = fmt::format("{:.12g}", value);
     double result = 0;
@@ -84,10 +84,10 @@ std::vector<std::string> ExperimentReader::names(const TomlEntry& entry) const {
     for (const TomlEntry& one : toml_.elements(entry)) {
         result.push_back(toml_.line(one));
         if (result.back().find_first_of(",;\t") != std::string::npos || trimmed(result.back()).empty())
-            fail(one, fmt::format("'{}' is no name of a channel", result.back()),
+            fail(one, fmt::format("'{}' is not a name of a channel", result.back()),
                  "give names one by one, as [\"V\", \"I\"]");
         if (std::count(result.begin(), result.end(), result.back()) > 1)
-            fail(one, fmt::format("'{}' is there twice", result.back()), "name it once");
+            fail(one, fmt::format("'{}' occurs twice", result.back()), "name it once");
     }
     return result;
 }
@@ -122,8 +122,8 @@ std::vector<ExperimentReader::Stepped> ExperimentReader::values(const TomlEntry&
              fmt::format("give one that makes from 1 to {}", most_levels - 1));
     constexpr double close = 1e-6; // of a step
     if (std::abs(std::abs(to - from) - steps * step) > close * step)
-        fail(keys.at("step"), fmt::format("from {} one does not come to {} by steps of {}", from, to, step),
-             "give a step that goes into the range a whole number of times");
+        fail(keys.at("step"), fmt::format("steps from {} do not reach {} with a step of {}", from, to, step),
+             "give a step that divides the range");
     const int direction = to > from ? 1 : -1;
     const auto last = static_cast<std::size_t>(steps);
     for (std::size_t i = 0; i <= last; ++i)
@@ -212,7 +212,7 @@ void ExperimentReader::read_generator(const TomlEntry& entry) {
         generator.identity = toml_.line(e);
         if (trimmed(generator.identity).empty())
             fail(e, fmt::format("{} is empty", e.path),
-                 "give some text that its answer to *IDN? has in it, or leave the key out");
+                 "give a text that its answer to *IDN? contains, or leave the key out");
     });
 }
 
@@ -286,7 +286,7 @@ void ExperimentReader::read_sweep(const TomlEntry& entry) {
         for (const Stepped& amplitude : amplitudes)
             experiment_.levels.push_back({experiment_.levels.size() + 1, frequency.value, amplitude.value,
                                           amplitudes.size() > 1 ? amplitude.direction : frequency.direction, leg});
-        leg += amplitudes.size() > 1 ? 1 : 0; // frequencies alone are one sweep
+        leg += amplitudes.size() > 1 ? 1 : 0; // a sweep of frequencies alone is one leg
     }
 }
 
@@ -298,7 +298,7 @@ void ExperimentReader::read_settle(const TomlEntry& entry) {
     with(keys, "reference", [&](const TomlEntry& e) { settling.reference = toml_.line(e); });
     for (const char* name : {"most", "phase", "tolerance", "repeats", "period"})
         if (settling.reference.empty() && keys.contains(name))
-            fail(keys.at(name), fmt::format("{} says something about sections, which nobody asks for", name),
+            fail(keys.at(name), fmt::format("{} applies to sections, which need a reference channel", name),
                  "add reference = \"CHANNEL\", or leave it out");
     with(keys, "phase", [&](const TomlEntry& e) { settling.phase = number(e, 0, 1); });
     with(keys, "repeats", [&](const TomlEntry& e) { settling.repeats = count(e, 1, 1000); });
@@ -342,7 +342,7 @@ void ExperimentReader::read_resume(const TomlEntry& entry) {
     });
 }
 
-/// What several tables say together.
+/// Checks conditions that involve several tables.
 void ExperimentReader::check() const {
     const auto kept = [&](const std::string& name) {
         return experiment_.channels.empty() ||

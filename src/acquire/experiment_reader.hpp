@@ -11,7 +11,7 @@
 
 namespace graze {
 
-/// Reads what an experiment is made of; a mistake in one of its tables leaves the others to be read.
+/// Reads an experiment from TOML; after an error in one table the others are still read.
 class ExperimentReader {
 public:
     explicit ExperimentReader(const std::string& file) : toml_(file) { experiment_.file = file; }
@@ -33,7 +33,7 @@ private:
     std::size_t count(const TomlEntry& entry, std::size_t least, std::size_t most) const;
     std::size_t choice(const TomlEntry& entry, std::initializer_list<std::string_view> words) const;
     std::vector<std::string> names(const TomlEntry& entry) const;
-    /// Values one after the other with the direction in which each was come to.
+    /// A value of a sweep, with the direction from which it is reached.
     struct Stepped {
         double value = 0;
         int direction = 0;
@@ -45,7 +45,7 @@ private:
     Experiment experiment_;
     Mistakes mistakes_;
     Keys tables_;
-    bool has_limits_ = false; ///< and could read them
+    bool has_limits_ = false; ///< and they could be read
 };
 
 } // namespace graze

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double source_ohms = 50, high_impedance = 1e9;
 
-/// Behind a plus, which std::from_chars does not take.
+/// Start of the number after a plus sign, which std::from_chars does not accept.
 const char* behind_plus(std::string_view answer) {
     return answer.data() + (answer.starts_with('+') ? 1 : 0);
 }
@@ -42,7 +42,7 @@ double inner_by_shown(double load) {
 
 bool tells_load(const std::string& answer, double load) {
     const std::optional<double> told = answered_number(answer);
-    if (load > high_impedance) // most tell 9.9E+37
+    if (load > high_impedance) // most report 9.9E+37
         return answer == "INF" || answer == "INFINITY" || (told && *told > high_impedance);
     constexpr double close = 1e-3;
     return told && std::abs(*told - load) <= close * load;

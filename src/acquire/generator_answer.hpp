@@ -6,24 +6,25 @@
 
 namespace graze {
 
-/// Errors of a line that has not come as it was sent, which may come better the next time.
+/// Whether an error may come from a garbled line, so that another attempt may succeed.
 bool is_of_transmission(int error);
 
-/// A whole answer that is a number. @return none for another one
+/// Parses an answer that is a number. @return nothing for any other answer
 std::optional<double> answered_number(std::string_view answer);
 
-/// The number that an answer to SYST:ERR? begins with, as in -113,"Undefined header"; 0 for no error.
-/// @return none for another answer
+/// Parses the number at the beginning of an answer to SYST:ERR?, such as -113,"Undefined header"; 0 for no error.
+/// @return nothing for any other answer
 std::optional<int> answered_error(std::string_view answer);
 
-/// Without what surrounds it, and in capitals, as answers are compared.
+/// Returns an answer trimmed and in capitals, for comparisons.
 std::string compared(std::string_view answer);
 
-/// By which a generator's inner voltage is larger than what it shows, when it was told of a load.
+/// Ratio of a generator's open-circuit voltage to the one it displays for a given load.
 double inner_by_shown(double load);
 
-/// Whether an answer, in capitals, says that it was told of this load.
+/// Whether an answer, in capitals, reports this load.
 bool tells_load(const std::string& answer, double load);
+/// Whether an answer, in capitals, reports a switch that is off, or on.
 bool tells_off(const std::string& answer);
 bool tells_on(const std::string& answer);
 

@@ -18,9 +18,9 @@ namespace graze {
 namespace {
 
 constexpr const char* who = "the generator";
-constexpr int patient = 2; ///< times as many attempts where to ask or to say it once more does no harm
+constexpr int patient = 2; ///< factor for the attempts of questions and commands that are safe to repeat
 
-/// What may come better the next time.
+/// Whether another attempt may succeed.
 bool is_worth_another(AcquisitionEnding ending) {
     return ending == AcquisitionEnding::garbled || ending == AcquisitionEnding::no_answer ||
            ending == AcquisitionEnding::clipped;
@@ -40,7 +40,7 @@ struct GeneratorClient::Setting {
 };
 
 std::string GeneratorClient::asked(std::string_view question) {
-    line_->discard(); // late answers to earlier questions
+    line_->discard(); // discard late answers to earlier questions
     line_->send(question);
     const auto nobody = std::function<bool()>();
     return awaited_line(*line_, options_.timeout, making_safe_ ? nobody : options_.interrupted, who, question);
@@ -56,7 +56,7 @@ double GeneratorClient::asked_number(std::string_view question) {
     return *value;
 }
 
-/// Its oldest error, as in -113,"Undefined header". @return 0 for none
+/// Reads its oldest error, such as -113,"Undefined header". @return 0 for none
 int GeneratorClient::asked_error(std::string& text) {
     text = printable_line(shortened(asked("SYST:ERR?"), 200));
     const std::optional<int> number = answered_error(text);
@@ -70,8 +70,8 @@ void GeneratorClient::take_control() {
     line_->send("*CLS");
 }
 
-/// Whether it answers what it is asked. An answer that came too late is taken for that to the next question, and all
-/// behind it likewise: then what comes is thrown away until nothing comes any more.
+/// Whether answers belong to their questions. A late answer would be taken for that to the next question, and so on:
+/// then all input is discarded until the line is silent.
 bool GeneratorClient::is_in_step() {
     if (!identified_ || asked("*IDN?") == identity_)
         return true;
@@ -81,7 +81,7 @@ bool GeneratorClient::is_in_step() {
     return false;
 }
 
-/// Again where lines are lost or garbled, but not when the output had to be silenced.
+/// Repeats work while lines are lost or garbled, unless the output had to be silenced.
 template <class Work>
 void GeneratorClient::attempt(const Work& work, int factor) {
     for (int attempt = 1;; ++attempt) {
@@ -98,17 +98,17 @@ void GeneratorClient::attempt(const Work& work, int factor) {
             } else if (last) {
                 throw;
             }
-            take_control(); // which may have been lost, too
+            take_control(); // this may have been lost, too
         }
     }
 }
 
-/// @param at_once done when the value was sent, before anything else is asked
+/// Sets a number and reads it back. @param at_once called directly after the value was sent
 double GeneratorClient::set(const Setting& setting, double value, const std::function<void()>& at_once) {
     double told = 0;
     bool again = false;
     attempt([&] {
-        if (again && plain_) // it may have been switched off and on, and stand otherwise since
+        if (again && plain_) // it may have been switched off and on, which resets its settings
             for (const Choice& choice : chosen_)
                 require(choice);
         again = true;
@@ -135,12 +135,12 @@ void GeneratorClient::require(const Choice& choice) {
     const std::string answer = asked(choice.command + "?");
     if (!choice.is_right(compared(answer)))
         throw InstrumentError(AcquisitionEnding::clipped,
-                              fmt::format("{} stands at {} {} instead of {}: no level is sent", who, choice.command,
+                              fmt::format("{} has {} {} instead of {}: no level is sent", who, choice.command,
                                           shortened(printable_line(answer), 60), choice.value));
 }
 
-/// @param needed or the generator may not know of it
-/// @return whether it knows of it, and stands so
+/// Chooses a setting and reads it back. @param needed false: the generator may lack it
+/// @return whether it has the setting, and it is right
 bool GeneratorClient::choose(const Choice& choice, bool needed) {
     bool known = true;
     int attempts = 0;
@@ -156,7 +156,7 @@ bool GeneratorClient::choose(const Choice& choice, bool needed) {
             if (!known)
                 throw InstrumentError(AcquisitionEnding::garbled, fmt::format("{} does not understand {} {}: {}", who,
                                                                               choice.command, choice.value, text));
-            require(choice); // whatever it has said, as long as it stands so
+            require(choice); // whatever error it reported, if the setting is right
         },
         patient);
     return known;
@@ -166,15 +166,15 @@ void GeneratorClient::switch_off() {
     has_switch_ = choose({"OUTP", "OFF", tells_off}, false);
 }
 
-/// Without a switch, before anything is changed: in any unit its least amplitude is the least that it can give. One
-/// that does not know the word gets a number that is small in the unit in which it stands, and would be small as volts
-/// from peak to peak, too, if it keeps its number when the unit changes.
+/// Lowers the amplitude of a generator without a switch before anything else is changed: VOLT MIN is its least
+/// amplitude in any unit. A generator without that command gets a number that is small in its present unit, and as
+/// volts peak to peak, in case it keeps the number when the unit changes.
 void GeneratorClient::quieten(double safe) {
     if (is_understood("VOLT MIN"))
         return;
     std::string unit;
     attempt([&] { unit = compared(asked("VOLT:UNIT?")); }, patient);
-    constexpr double greatest_crest = 10; // from peak to peak over root mean square; of noise 6 to 8
+    constexpr double greatest_crest = 10; // peak-to-peak over root mean square; noise has 6 to 8
     if (unit == "DBM")
         line_->send("VOLT -30");
     else
@@ -182,7 +182,7 @@ void GeneratorClient::quieten(double safe) {
     take_control();
 }
 
-/// Whether it has no error after a command, which is tried again where the line may have garbled it.
+/// Whether it accepts a command, which is repeated if the line may have garbled it.
 bool GeneratorClient::is_understood(std::string_view command) {
     bool understood = false;
     int attempts = 0;
@@ -196,7 +196,7 @@ bool GeneratorClient::is_understood(std::string_view command) {
     return understood;
 }
 
-/// To what is no more than a safe amplitude, whatever load the generator was told of; its unit is known.
+/// Lowers the amplitude to a safe one, whatever load the generator assumes; its unit is known.
 void GeneratorClient::lower(double safe) {
     double load = 0;
     attempt(
@@ -210,7 +210,7 @@ void GeneratorClient::lower(double safe) {
         },
         patient);
     const double shown = safe * std::min(1.0, inner_by_shown(options_.load) / inner_by_shown(load));
-    line_->send(fmt::format("VOLT {}", shown)); // out of its range, the least one stays
+    line_->send(fmt::format("VOLT {}", shown)); // below its range, the least amplitude stays
     take_control();
 }
 
@@ -222,13 +222,13 @@ void GeneratorClient::prepare(double safe) {
     switch_off();
     if (!has_switch_)
         quieten(safe);
-    line_->send("VOLT:OFFS 0"); // in volts whatever the unit; asked for when the shape is known
+    line_->send("VOLT:OFFS 0"); // an offset is in volts in any unit; read back when the shape is known
     const auto add = [&](const Choice& choice) {
         choose(choice, true);
         chosen_.push_back(choice);
     };
     add({"VOLT:UNIT", "VPP", [](const std::string& told) { return told == "VPP"; }});
-    lower(safe); // before what may let more out: dc has no amplitude, and a burst may wait for its trigger
+    lower(safe); // before settings that may raise the output: dc has no amplitude, and a burst may wait for its trigger
     double number = 0;
     attempt([&] { number = asked_number("VOLT?"); }, patient);
     for (const char* name : {"AM", "FM", "PM", "FSK", "BPSK", "PWM", "BM", "SUM", "HARM", "BURS", "SWE"})
@@ -245,19 +245,20 @@ void GeneratorClient::prepare(double safe) {
     else
         add({"FUNC", "SIN", is_sine});
     const double load = options_.load;
-    set({"an offset", "VOLT:OFFS", "V"}, 0); // told before its volts may become others
+    set({"an offset", "VOLT:OFFS", "V"}, 0); // set before a change of load rescales it
     require_quiet(number);
     const bool is_infinite = inner_by_shown(load) == 1;
     add({"OUTP:LOAD", is_infinite ? "INF" : fmt::format("{}", load),
          [load](const std::string& told) { return tells_load(told, load); }});
-    set({"an offset", "VOLT:OFFS", "V"}, 0); // of one that has kept its volts instead
+    set({"an offset", "VOLT:OFFS", "V"}, 0); // again, as some generators keep the number instead
     offset_ = 0;
     require_plain();
     plain_ = true;
 }
 
-/// Before shape and load may let out more: it may have been switched off and on, and stand otherwise since.
-/// @param number of its amplitude, as it was lowered
+/// Checks the lowered amplitude before shape and load may raise the output: the generator may have been switched off
+/// and on, which resets its settings.
+/// @param number amplitude to which it was lowered
 void GeneratorClient::require_quiet(double number) {
     require_plain();
     attempt(
@@ -274,13 +275,13 @@ void GeneratorClient::require_quiet(double number) {
         patient);
 }
 
-/// Before a number of volts is sent, and before one counts.
+/// Checks unit, shape, load and modulations, before a level is sent and before one is accepted.
 void GeneratorClient::require_plain() {
     for (const Choice& choice : chosen_)
         attempt([&] { require(choice); }, patient);
 }
 
-/// Asks once for a number that was set before.
+/// Reads back a number that was set, once.
 void GeneratorClient::check(const Setting& setting, double value) {
     if (const double told = asked_number(std::string(setting.command) + "?");
         !(std::abs(told - value) <= options_.tolerance * std::abs(value)))
@@ -289,28 +290,28 @@ void GeneratorClient::check(const Setting& setting, double value) {
                                           setting.unit, value, setting.unit));
 }
 
-/// All that makes up what stands at the output, but for the amplitude: before a level and after it. The offset comes
-/// first: a level may have changed it, and it adds to the voltages.
+/// Checks all settings of the output but the amplitude, before a level and after it. The offset comes first: setting a
+/// level may have changed it, and it adds to the voltage.
 void GeneratorClient::require_beside_amplitude() {
     attempt([&] { check({"an offset", "VOLT:OFFS", "V"}, offset_); }, patient);
     require_plain();
     attempt([&] { check({"a frequency", "FREQ", "Hz"}, frequency_); }, patient);
 }
 
-/// Nothing comes out of it from now on, or as little as before the first level. It is asked for by `make_safe`.
+/// Switches the output off, or lowers it to the amplitude before the first level. `make_safe` reads it back.
 void GeneratorClient::silence() {
     silenced_ = true;
     line_->send(has_switch_ ? std::string("OUTP OFF") : fmt::format("VOLT {}", least_));
     if (!has_switch_)
         line_->send("VOLT:OFFS 0");
-    plain_ = false; // so that all of it is chosen anew before anything else is sent
+    plain_ = false; // so that all settings are made again before anything else is sent
 }
 
-/// A frequency that was set may have changed the amplitude: too large a one is not asked for twice.
+/// Setting a frequency may have changed the amplitude: too large a one is not read twice.
 void GeneratorClient::check_no_more() {
     const double told = asked_number("VOLT?");
     if ((has_switch_ && !is_on_) ||
-        told <= amplitude_ * (1 + options_.tolerance)) // without an output there is no hurry
+        told <= amplitude_ * (1 + options_.tolerance)) // with its output off there is no danger
         return;
     silence();
     throw InstrumentError(AcquisitionEnding::clipped,
@@ -319,7 +320,7 @@ void GeneratorClient::check_no_more() {
                                       who, told, amplitude_));
 }
 
-/// All that makes up what stands at the output, once each.
+/// Reads back all settings of the output, once each.
 void GeneratorClient::check_level() {
     check({"an amplitude", "VOLT", "V"}, amplitude_);
     for (const Choice& choice : chosen_)
@@ -328,10 +329,10 @@ void GeneratorClient::check_level() {
     check({"a frequency", "FREQ", "Hz"}, frequency_);
 }
 
-/// The switch may let out another level than was told before. Therefore all that makes up the level is asked for
-/// directly before and directly after, and at the first answer that is not as it should be it is switched off again.
+/// Switches the output on. The switch itself may change the level (recall another one), so all settings are read back
+/// immediately before and after, and the first wrong answer switches the output off again.
 void GeneratorClient::switch_on() {
-    std::string changed; // what it has told when it was on
+    std::string changed; // what it reported while it was on
     for (int times = 1;; ++times) {
         try {
             attempt([&] { check_level(); }, patient);
@@ -344,7 +345,7 @@ void GeneratorClient::switch_on() {
         if (!has_switch_)
             return;
         line_->send("OUTP ON");
-        bool is_level = true; // in question, and not only the switch
+        bool is_level = true; // the level failed, not only the switch
         try {
             check_level();
             is_level = false;
@@ -362,7 +363,7 @@ void GeneratorClient::switch_on() {
             if (second || times >= patient * options_.attempts || !is_worth_another(error.ending()))
                 throw InstrumentError(error.ending(), changed.empty() ? error.what() : changed);
         }
-        // A letter of the answer may have been lost: with its output off it tells the same if not.
+        // A character of the answer may have been lost: with the output off the same question will tell.
         silenced_ = false;
         plain_ = true;
         take_control();
@@ -377,14 +378,14 @@ void GeneratorClient::identify() {
             if (trimmed(identity_).empty() || !is_plain_line(identity_) ||
                 identity_.find(options_.identity) == std::string::npos)
                 throw InstrumentError(AcquisitionEnding::foreign,
-                                      fmt::format("at the end of the line there is '{}', not '{}'",
+                                      fmt::format("the instrument on the line is '{}', not '{}'",
                                                   shortened(printable_line(identity_), 100), options_.identity));
             identified_ = true;
         } catch (const InstrumentError& error) {
             if (attempt >= options_.attempts || error.ending() == AcquisitionEnding::interrupted ||
                 error.ending() == AcquisitionEnding::line_lost)
                 throw;
-            line_->send("SYST:REM"); // without which some do not answer; it sets nothing
+            line_->send("SYST:REM"); // some do not answer without it; it changes no setting
         }
     }
 }
@@ -396,7 +397,7 @@ void GeneratorClient::begin(double frequency, double amplitude, double offset) {
     require_within(offset, -limits.offset, limits.offset, "an offset");
     least_ = amplitude_ = amplitude;
     prepare(amplitude);
-    // The amplitude comes first: with the offset it may not go beyond what the generator has.
+    // The amplitude comes first: with the offset it might exceed the generator's range.
     set({"an amplitude", "VOLT", "V"}, amplitude);
     set_frequency(frequency);
     set({"an offset", "VOLT:OFFS", "V"}, offset);
@@ -443,7 +444,7 @@ void GeneratorClient::try_safe(double amplitude) {
         stands = false;
     }
     if (!stands)
-        prepare(amplitude); // its output stays off, where that can be
+        prepare(amplitude); // its output stays off, if it has a switch
     amplitude_ = amplitude;
     set({"an amplitude", "VOLT", "V"}, amplitude);
     set({"an offset", "VOLT:OFFS", "V"}, 0);
@@ -460,7 +461,7 @@ bool GeneratorClient::make_safe(double amplitude, std::string& problem) noexcept
     do {
         try {
             if (lost) {
-                identified_ = plain_ = false; // something else may be plugged in by now
+                identified_ = plain_ = false; // another instrument may be connected by now
                 line_->reopen();
             }
             try_safe(amplitude);
@@ -486,9 +487,9 @@ bool GeneratorClient::is_switched_off() noexcept {
             if (!has_switch_ || !identified_)
                 break;
             line_->send("OUTP OFF");
-            // Between two answers that are those to their questions so is the one that counts.
+            // The answer counts if questions before and after it are answered correctly.
             off = is_in_step() && tells_off(compared(asked("OUTP?"))) && is_in_step();
-        } catch (const std::exception&) { // then it has not told so
+        } catch (const std::exception&) { // not confirmed
             continue;
         }
     }

@@ -31,7 +31,7 @@ bool read_port(std::string_view text, unsigned short& port) {
     return error == std::errc() && next == text.data() + text.size() && port > 0;
 }
 
-/// Between double colons; an address in brackets may have some in it.
+/// Splits a name at double colons, except within brackets, which hold an IPv6 address.
 std::vector<std::string_view> visa_parts(std::string_view text) {
     std::vector<std::string_view> parts;
     std::size_t begin = 0;
@@ -59,14 +59,14 @@ std::string_view without_brackets(std::string_view host) {
 InstrumentAddress visa_address(const std::string& text, const Place& place) {
     const std::vector<std::string_view> parts = visa_parts(text);
     InstrumentAddress address;
-    constexpr std::size_t kind_of_serial = 4, kind_of_tcp = 5; // letters of ASRL and TCPIP
+    constexpr std::size_t kind_of_serial = 4, kind_of_tcp = 5; // lengths of ASRL and TCPIP
     if (starts_with_word(text, "ASRL")) {
         const std::string_view path = parts[0].substr(kind_of_serial);
         if (are_digits(path))
-            refuse(text, place, "numbers a serial line, which has no number here",
+            refuse(text, place, "names a serial line by a number, which is not supported",
                    "give its path, as ASRL/dev/ttyUSB0::INSTR");
         if (parts.size() > 2 || (parts.size() == 2 && !is_word(parts[1], "INSTR")))
-            refuse(text, place, "is no name of a serial line", "write it as ASRL/dev/ttyUSB0::INSTR");
+            refuse(text, place, "is not a VISA name of a serial line", "write it as ASRL/dev/ttyUSB0::INSTR");
         address.name = path;
         return address;
     }
@@ -74,9 +74,9 @@ InstrumentAddress visa_address(const std::string& text, const Place& place) {
     constexpr std::size_t of_socket = 4;
     if (parts.size() != of_socket || !is_word(parts[3], "SOCKET") || !are_digits(parts[0].substr(kind_of_tcp)) ||
         without_brackets(parts[1]).empty() || !read_port(parts[2], address.port))
-        refuse(text, place, "is no name of a TCP socket",
+        refuse(text, place, "is not a VISA name of a TCP socket",
                "give the port at which it takes SCPI, as TCPIP0::192.168.1.5::5025::SOCKET; VXI-11 and HiSLIP "
-               "(TCPIP0::HOST::INSTR) are not spoken");
+               "(TCPIP0::HOST::INSTR) are not supported");
     address.name = without_brackets(parts[1]);
     return address;
 }
@@ -105,8 +105,8 @@ InstrumentAddress device_address(const std::string& text, const Place& place) {
         if (read_port(std::string_view(text).substr(last + 1), address.port))
             return address;
     }
-    throw InputError(place, fmt::format("'{}' is no device of samples", text),
-                     "give \"tcp:HOST:PORT\", \"serial:PATH\", or a name of VISA as TCPIP0::HOST::PORT::SOCKET");
+    throw InputError(place, fmt::format("'{}' is not an address of a device that takes samples", text),
+                     "give \"tcp:HOST:PORT\", \"serial:PATH\", or a VISA name such as TCPIP0::HOST::PORT::SOCKET");
 }
 
 InstrumentAddress generator_address(const std::string& text, const Place& place) {

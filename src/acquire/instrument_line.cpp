@@ -35,11 +35,11 @@ std::string_view name_of(AcquisitionEnding ending) {
 
 std::string awaited_line(InstrumentLine& line, double timeout, const std::function<bool()>& interrupted,
                          std::string_view who, std::string_view question) {
-    constexpr double longest = 1e6; // s: more does not fit into the clock everywhere
+    constexpr double longest = 1e6; // s: longer times overflow some clocks
     require_finite(timeout, "time to wait for an instrument");
     timeout = std::clamp(timeout, 0.0, longest);
     using Clock = std::chrono::steady_clock;
-    constexpr double slice = 0.05; // s, between looks at whether somebody interrupts
+    constexpr double slice = 0.05; // s, between calls of `interrupted`
     const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout));
     for (;;) {
         if (interrupted && interrupted())

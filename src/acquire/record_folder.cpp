@@ -33,19 +33,18 @@ constexpr std::string_view heading =
     "number,file,frequency [Hz],amplitude [V],direction,told [V],settled,settling [s],samples,bytes\n";
 
 [[noreturn]] void fail(const std::string& path, const char* what, int reason) {
-    throw InputError(
-        Place{path, 0, 0}, fmt::format("it cannot be {} ({})", what, std::strerror(reason)),
-        "look at the permissions of the folder and the room on the disk; records that are there are whole");
+    throw InputError(Place{path, 0, 0}, fmt::format("it cannot be {} ({})", what, std::strerror(reason)),
+                     "look at the permissions of the folder and the space on the disk; existing records are complete");
 }
 
-/// To the disk, not only to the system.
+/// Flushes a file to the disk, not only to the system.
 void flush_file(const std::string& path) {
     const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
     if (file < 0)
         fail(path, "opened", errno);
     const int result = fsync(file), reason = errno;
     close(file);
-    if (result != 0 && reason != EINVAL) // some folders of networks do not know it
+    if (result != 0 && reason != EINVAL) // some network file systems do not support it
         fail(path, "written", reason);
 }
 
@@ -72,7 +71,7 @@ bool parsed(std::string_view cell, Number& value) {
     return error == std::errc() && next == cell.data() + cell.size();
 }
 
-/// The first line in which two texts differ.
+/// Describes the first line in which two texts differ.
 std::string difference(std::string_view one, std::string_view other) {
     const auto line_at = [](std::string_view text, std::size_t at) {
         const std::size_t end = std::min(text.find('\n', at), text.size());
@@ -138,7 +137,7 @@ std::string RecordFolder::path_of(const Level& level) const {
     return path_ + "/" + experiment_->record_name(level);
 }
 
-/// FNV-1a, of which the last bits stay free to count records (G. Fowler, L. C. Noll and K.-P. Vo).
+/// FNV-1a; the last bits stay 0 so that record numbers can be added (G. Fowler, L. C. Noll and K.-P. Vo).
 std::uint64_t RecordFolder::identity() const {
     std::error_code error;
     std::uint64_t hash = 0xcbf29ce484222325ULL;
@@ -182,7 +181,7 @@ void RecordFolder::move_into_place(const std::string& name) const {
     const std::string target = path_ + "/" + name;
     if (std::rename(part_of(name).c_str(), target.c_str()) != 0)
         fail(target, "written", errno);
-    fsync(lock_); // the folder
+    fsync(lock_); // flush the folder itself
 }
 
 std::string RecordFolder::manifest() const {
@@ -215,7 +214,7 @@ void RecordFolder::read_manifest() {
                           parsed(cells[6], settled) && parsed(cells[7], entry.settling) &&
                           parsed(cells[8], entry.samples) && parsed(cells[9], entry.bytes);
         if (!good || cells[1] != experiment_->record_name(experiment_->levels[level - 1]))
-            throw InputError(Place{path, number, 1}, "this is no line of a list of this experiment's records",
+            throw InputError(Place{path, number, 1}, "this is not a line of a list of this experiment's records",
                              "restore the list, or choose another folder");
         entry.level = experiment_->levels[level - 1];
         entry.settled = settled != 0;
@@ -223,7 +222,7 @@ void RecordFolder::read_manifest() {
     }
 }
 
-/// Records that are whole get their names; those of which nothing usable is there are to be made again.
+/// Renames complete records, and drops list entries of records that are not usable.
 void RecordFolder::finish_records() {
     const std::size_t listed = entries_.size();
     for (auto it = entries_.begin(); it != entries_.end();) {
@@ -249,8 +248,9 @@ std::unique_ptr<RecordWriter> RecordFolder::begin(const Level& level, const Reco
     const std::string name = experiment_->record_name(level), path = path_ + "/" + name;
     struct stat status {};
     if (!has(level) && lstat(path.c_str(), &status) == 0)
-        throw InputError(Place{path, 0, 0}, "it is there already, and not in the list of records", "move it elsewhere");
-    unlink(part_of(name).c_str()); // and nothing is written through a link
+        throw InputError(Place{path, 0, 0}, "it exists already, and is not in the list of records",
+                         "move it elsewhere");
+    unlink(part_of(name).c_str()); // also if it is a link
     begun_ = name;
     return std::make_unique<RecordWriter>(part_of(name), header);
 }

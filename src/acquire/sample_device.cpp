@@ -15,9 +15,9 @@ namespace graze {
 
 namespace {
 
-constexpr const char* who = "the device of samples";
+constexpr const char* who = "the sample device";
 constexpr std::size_t rows_at_once = 1024;
-constexpr double part_of_timeout = 0.25; ///< for what is passed over
+constexpr double part_of_timeout = 0.25; ///< for lines that are discarded
 
 [[noreturn]] void fail(const std::string& what) {
     throw InstrumentError(AcquisitionEnding::samples, fmt::format("{} {}", who, what));
@@ -38,7 +38,7 @@ TextSampleDevice::TextSampleDevice(InstrumentLine& line, double timeout, std::fu
     } catch (const InputError&) {
         refuse(channels, "the names of its channels");
     }
-    for (const Channel& channel : header_.channels) // of a line with other separators
+    for (const Channel& channel : header_.channels) // a line with other separators
         if (channel.name.find_first_of(",;") != std::string::npos)
             refuse(channels, "the names of its channels, separated by commas,");
 }
@@ -48,7 +48,7 @@ void TextSampleDevice::refuse(const std::string& line, const char* wanted) const
     if (reason.starts_with("ERROR"))
         fail(fmt::format("says: {}",
                          shortened(printable_line(reason.substr(std::min<std::size_t>(6, reason.size()))), 200)));
-    fail(fmt::format("says '{}' in the place of {}", shortened(printable_line(line), 200), wanted));
+    fail(fmt::format("says '{}' instead of {}", shortened(printable_line(line), 200), wanted));
 }
 
 std::string TextSampleDevice::asked(std::string_view question) {
@@ -69,7 +69,7 @@ void TextSampleDevice::set_rate(double rate) {
 }
 
 void TextSampleDevice::begin(std::size_t count, std::size_t block) {
-    constexpr double longest = 1e9; // s, as without a rate
+    constexpr double longest = 1e9; // s, also without a rate
     const double allowed = rate_ > 0 ? timeout_ + patience_ * static_cast<double>(count) / rate_ : longest;
     latest_ = std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
                                                      std::chrono::duration<double>(std::min(allowed, longest)));
@@ -81,10 +81,10 @@ void TextSampleDevice::begin(std::size_t count, std::size_t block) {
     running_ = true;
 }
 
-/// Each row may come in time, and all of them take for ever.
+/// Enforces the deadline for all samples: each row may arrive in time, and yet they never end.
 void TextSampleDevice::require_time() const {
     if (std::chrono::steady_clock::now() > latest_)
-        fail(fmt::format("has given {} of {} samples, which last {:.6g} s, in {} times that time", given_, wanted_,
+        fail(fmt::format("has sent only {} of {} samples, which last {:.6g} s, in {} times that time", given_, wanted_,
                          static_cast<double>(wanted_) / rate_, patience_));
 }
 
@@ -142,7 +142,7 @@ bool TextSampleDevice::read(Samples& samples) {
     return samples.rows() > 0;
 }
 
-/// Whatever it still has to say, until it says that it has ended, or nothing for a while.
+/// Discards lines until the device reports the end, or is silent for a while.
 void TextSampleDevice::drain() {
     using Clock = std::chrono::steady_clock;
     const auto most =

@@ -2,7 +2,7 @@
 
 #include "graze/acquire/instrument_address.hpp"
 
-// Of Asio headers alone: nothing is linked.
+// Asio is used header-only: nothing is linked.
 #define BOOST_ERROR_CODE_HEADER_ONLY 1
 #include <boost/asio/connect.hpp>
 #include <boost/asio/io_context.hpp>
@@ -23,14 +23,14 @@ namespace {
 namespace asio = boost::asio;
 using Error = boost::system::error_code;
 
-constexpr double send_timeout = 5; // s; a line of a hundred letters takes a tenth of a second at 9600 baud
+constexpr double send_timeout = 5; // s; a line of a hundred characters takes a tenth of a second at 9600 baud
 
 std::chrono::steady_clock::duration duration_of(double seconds) {
     return std::chrono::duration_cast<std::chrono::steady_clock::duration>(
         std::chrono::duration<double>(seconds > 0 ? seconds : 0));
 }
 
-/// Lines over a stream of Asio's, which is read in the background while anything is waited for.
+/// Lines over an Asio stream, which is read in the background during any wait.
 template <class Stream>
 class StreamLine : public InstrumentLine {
 public:
@@ -53,12 +53,12 @@ public:
         const auto end = std::chrono::steady_clock::now() + duration_of(send_timeout);
         while (!sent && std::chrono::steady_clock::now() < end)
             step(end);
-        if (!sent) { // and what it refers to goes away
+        if (!sent) { // the handler refers to local variables: cancel it and wait for it
             Error ignored;
             stream_.cancel(ignored);
             while (!sent && run_one())
                 continue;
-            throw InstrumentError(AcquisitionEnding::no_answer, fmt::format("{} takes nothing that is sent", name_));
+            throw InstrumentError(AcquisitionEnding::no_answer, fmt::format("{} accepts no data", name_));
         }
         if (error)
             lose(error);
@@ -78,7 +78,7 @@ public:
     }
     void discard() override {
         require_open();
-        for (int turn = 0; turn < 1000; ++turn) { // of one that never ends no more than that is passed over
+        for (int turn = 0; turn < 1000; ++turn) { // limits the work for a line that never ends
             received_.clear();
             scanned_ = 0;
             read_on();
@@ -132,7 +132,7 @@ private:
         context_.restart();
         context_.run_one_until(end);
     }
-    /// Terminators of nothing are passed over.
+    /// Extracts the next line; empty lines are skipped.
     std::optional<std::string> next_line() {
         while (!received_.empty() && (received_.front() == '\n' || received_.front() == '\r'))
             received_.erase(0, 1), scanned_ = 0;
@@ -169,7 +169,7 @@ private:
     Stream stream_;
     std::array<char, 16384> buffer_{};
     std::string received_, failure_;
-    std::size_t scanned_ = 0; ///< of what was received, without a terminator
+    std::size_t scanned_ = 0; ///< part of received_ known to have no terminator
     bool reading_ = false;
 };
 

@@ -13,7 +13,7 @@ namespace graze {
 
 namespace {
 
-/// Samples of a device, for as long as they are wanted.
+/// A device's samples as a source; counts them and reports progress.
 class DeviceSource : public SampleSource {
 public:
     DeviceSource(SampleDevice& device, double rate, const std::function<void(double)>& progress)
@@ -44,7 +44,7 @@ std::size_t rows_of(double time, double rate) {
 
 RepeatWatch::RepeatWatch(std::vector<double> tolerances, std::size_t repeats, std::size_t period)
     : tolerances_(std::move(tolerances)), repeats_(repeats), longest_(period) {
-    constexpr std::size_t most = 100'000; // sections that are kept
+    constexpr std::size_t most = 100'000; // sections that are stored
     require_finite(tolerances_, "the tolerance of a section");
     if (std::any_of(tolerances_.begin(), tolerances_.end(), [](double one) { return one < 0; }))
         throw InputError("the tolerance of a section is negative", "give a positive one, or 0");
@@ -102,7 +102,7 @@ Settled settle(SampleDevice& device, const SettlingOptions& options, double rate
     RepeatWatch watch(tolerances, options.repeats, options.period);
     if (most == 0)
         return {false, 0};
-    // No more than is looked at: a simulated experiment then is the same each time.
+    // Read in small blocks, so that no unused samples are taken: a simulated experiment is then reproducible.
     constexpr double part_of_second = 0.125;
     device.begin(most, static_cast<std::size_t>(std::clamp(part_of_second * rate, 16.0, 1024.0)));
     PeriodSettings periods;

@@ -5,14 +5,14 @@
 
 namespace graze {
 
-/// A character of a text in UTF-8.
+/// A character of a UTF-8 text.
 struct Character {
     char32_t code = 0;
     std::size_t bytes = 1;
     bool valid = false;
 };
 
-/// 0: no character begins so.
+/// Returns the length of the character that starts with this byte; 0 if none does.
 inline std::size_t bytes_announced(unsigned char first) {
     return first < 0x80                    ? 1
            : first >= 0xc2 && first < 0xe0 ? 2
@@ -21,7 +21,7 @@ inline std::size_t bytes_announced(unsigned char first) {
                                            : 0;
 }
 
-/// The character that begins at `at`; of bytes that are none, the first one.
+/// Returns the character at `at`; if the bytes are not valid UTF-8, the first byte marked as invalid.
 inline Character character_at(std::string_view text, std::size_t at) {
     const auto first = static_cast<unsigned char>(text[at]);
     const std::size_t bytes = bytes_announced(first);

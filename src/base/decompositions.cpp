@@ -5,6 +5,7 @@
 #include <Eigen/SVD>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -21,7 +22,7 @@ Eigen::Index SingularValues::rank(double threshold) const {
 }
 
 SingularValues singular_values(const Eigen::MatrixXd& matrix, SingularVectors vectors) {
-    if (matrix.size() == 0) // which Eigen cannot take
+    if (matrix.size() == 0) // Eigen cannot decompose an empty matrix
         return {{},
                 Eigen::MatrixXd::Identity(matrix.rows(), matrix.rows()),
                 Eigen::MatrixXd::Identity(matrix.cols(), matrix.cols())};
@@ -43,7 +44,7 @@ SingularValues singular_values(const Eigen::MatrixXd& matrix, SingularVectors ve
 
 namespace {
 
-/// What a complex matrix does, to real and imaginary parts one below the other.
+/// Returns the real matrix that acts on stacked real and imaginary parts as the complex matrix does.
 Eigen::MatrixXd real_form(const Eigen::MatrixXcd& matrix) {
     Eigen::MatrixXd result(2 * matrix.rows(), 2 * matrix.cols());
     result << matrix.real(), -matrix.imag(), matrix.imag(), matrix.real();
@@ -52,14 +53,14 @@ Eigen::MatrixXd real_form(const Eigen::MatrixXcd& matrix) {
 
 } // namespace
 
-// Of the real form each singular value is there twice.
+// The real form has each singular value of the complex matrix twice.
 Eigen::VectorXd singular_values(const Eigen::MatrixXcd& matrix) {
     const Eigen::VectorXd twice = singular_values(real_form(matrix), SingularVectors::none).values;
     return Eigen::VectorXd::NullaryExpr(twice.size() / 2, [&](Eigen::Index i) { return twice[2 * i]; });
 }
 
 Eigen::VectorXcd null_vector(const Eigen::MatrixXcd& matrix) {
-    if (matrix.imag().isZero(0)) // then it is real as well
+    if (matrix.imag().isZero(0)) // then the null vector is real as well
         return singular_values(matrix.real(), SingularVectors::right).right.rightCols<1>().cast<std::complex<double>>();
     const Eigen::MatrixXd right = singular_values(real_form(matrix), SingularVectors::right).right;
     Eigen::VectorXcd result(matrix.cols());
@@ -99,11 +100,31 @@ std::optional<Eigen::VectorXd> symmetric_eigenvalues(const Eigen::MatrixXd& matr
     return solver.eigenvalues();
 }
 
+// Eigen::GeneralizedEigenSolver does the same and takes longer to compile than all else here: its eigenvectors are
+// compiled too.
 std::optional<GeneralizedEigenvalues> generalized_eigenvalues(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-    const Eigen::GeneralizedEigenSolver<Eigen::MatrixXd> solver(a, b, false);
-    if (solver.info() != Eigen::Success)
+    Eigen::RealQZ<Eigen::MatrixXd> factors(a.rows());
+    factors.compute(a, b, false);
+    if (factors.info() != Eigen::Success)
         return std::nullopt;
-    return GeneralizedEigenvalues{solver.alphas(), solver.betas()};
+    const Eigen::MatrixXd &s = factors.matrixS(), &t = factors.matrixT();
+    GeneralizedEigenvalues result{Eigen::VectorXcd(a.rows()), Eigen::VectorXd(a.rows())};
+    for (Eigen::Index i = 0; i < a.rows(); ++i) {
+        if (i + 1 == a.rows() || s(i + 1, i) == 0) {
+            result.numerators[i] = s(i, i);
+            result.denominators[i] = t(i, i);
+            continue;
+        }
+        // A complex pair: a full block of two rows of s over a diagonal one of t.
+        const double first = s(i, i) * t(i + 1, i + 1), second = s(i + 1, i + 1) * t(i, i);
+        const double denominator = t(i, i) * t(i + 1, i + 1), half = 0.5 * (first - second);
+        const double imaginary = std::sqrt(std::abs(half * half + s(i + 1, i) * s(i, i + 1) * denominator));
+        result.numerators[i] = {second + half, imaginary};
+        result.numerators[i + 1] = {second + half, -imaginary};
+        result.denominators[i] = result.denominators[i + 1] = denominator;
+        ++i;
+    }
+    return result;
 }
 
 std::optional<SchurForm> schur_form(const Eigen::MatrixXd& matrix) {
@@ -134,7 +155,7 @@ NearlyNull nearly_null(const Eigen::MatrixXd& matrix) {
     const Eigen::MatrixXd all = factors.householderQ() * Eigen::MatrixXd::Identity(rows + 1, rows + 1);
     NearlyNull result;
     result.right = all.rightCols(2);
-    // The combination of rows of which the last pivot alone is left.
+    // The left null vector is the combination of rows in which only the last pivot is left.
     Eigen::VectorXd weights(rows);
     weights[rows - 1] = 1;
     weights.head(rows - 1) = -factors.matrixQR().col(rows - 1).head(rows - 1);

@@ -7,41 +7,42 @@
 
 namespace graze {
 
-// Decompositions of dense matrices, compiled in one place: what Eigen makes of its templates in each source that uses
-// them takes longer to compile than all else in it. Sizes are those of Eigen's classes of the same names, which
-// do the work. Where a matrix of real numbers is empty, its singular values and its eigenvalues are none.
+// Decompositions of dense matrices, wrapped so that Eigen's templates are compiled once: each source that instantiates
+// them would spend most of its compile time there. Eigen's classes of the same names do the work; the shapes are
+// theirs. An empty real matrix has no singular values and no eigenvalues.
 
-/// matrix = left * diagonal(values) * right.transpose(), by Jacobi's method; values fall.
+/// matrix = left * diagonal(values) * right.transpose(), by Jacobi's method; values in falling order.
 struct SingularValues {
     Eigen::VectorXd values;
-    Eigen::MatrixXd left, right; ///< as asked for
+    Eigen::MatrixXd left, right; ///< filled as requested by SingularVectors
 
-    /// How many values are at least `threshold` times the largest.
+    /// Returns the number of values that are at least `threshold` times the largest one.
     Eigen::Index rank(double threshold) const;
 };
 enum class SingularVectors {
     none,
-    right, ///< all right ones: with them those that the matrix takes to zero
-    full,  ///< all of both sides
-    thin   ///< as many of both sides as the shorter side of the matrix is long
+    right, ///< all right vectors, including those of the null space
+    full,  ///< all left and right vectors
+    thin   ///< min(rows, columns) vectors of either side
 };
 SingularValues singular_values(const Eigen::MatrixXd& matrix, SingularVectors vectors);
-/// The same values of a complex matrix.
+/// Returns the singular values of a complex matrix, in falling order.
 Eigen::VectorXd singular_values(const Eigen::MatrixXcd& matrix);
-/// The right singular vector of the least singular value of a complex matrix.
+/// Returns the right singular vector of the smallest singular value of a complex matrix.
 Eigen::VectorXcd null_vector(const Eigen::MatrixXcd& matrix);
 
 /// matrix * vectors = vectors * diagonal(values), in the order in which the method finds them.
 struct Eigensystem {
     Eigen::VectorXcd values;
-    Eigen::MatrixXcd vectors; ///< columns of length 1
+    Eigen::MatrixXcd vectors; ///< columns of norm 1
 };
-/// Both throw nothing. @return none where the method does not converge
+/// Both throw nothing. @return none when the iteration does not converge
 std::optional<Eigensystem> eigensystem(const Eigen::MatrixXd& matrix);
 std::optional<Eigen::VectorXcd> eigenvalues(const Eigen::MatrixXd& matrix);
-/// Of a symmetric matrix, in rising order.
+/// Returns the eigenvalues of a symmetric matrix, in rising order.
 std::optional<Eigen::VectorXd> symmetric_eigenvalues(const Eigen::MatrixXd& matrix);
-/// Numbers mu with det(a - mu b) = 0, as numerators and denominators: mu is infinite where the latter is zero.
+/// The generalized eigenvalues mu, det(a - mu b) = 0, as numerators / denominators; mu is infinite where the
+/// denominator is zero.
 struct GeneralizedEigenvalues {
     Eigen::VectorXcd numerators;
     Eigen::VectorXd denominators;
@@ -54,23 +55,23 @@ struct SchurForm {
 };
 std::optional<SchurForm> schur_form(const Eigen::MatrixXd& matrix);
 
-/// The same; where the method does not converge, numbers that are not any.
+/// Returns the eigenvalues, or NaNs when the iteration does not converge.
 Eigen::VectorXcd eigenvalues_or_nan(const Eigen::MatrixXd& matrix);
 
-/// matrix = orthogonal * triangle, by Householder's reflections.
+/// matrix = orthogonal * triangle, by Householder reflections.
 struct OrthogonalFactors {
-    Eigen::MatrixXd orthogonal; ///< with as many columns as the matrix
+    Eigen::MatrixXd orthogonal; ///< rows x columns of the matrix
     Eigen::MatrixXd triangle;
 };
 OrthogonalFactors orthogonal_factors(const Eigen::MatrixXd& matrix);
-/// Orthonormal basis of what is orthogonal to a vector that is not zero, in columns.
+/// Returns an orthonormal basis, in columns, of the orthogonal complement of a nonzero vector.
 Eigen::MatrixXd orthogonal_complement(const Eigen::VectorXd& vector);
 
-/// What a matrix with one column more than it has rows, and nearly a rank less than it has rows, takes to nearly
-/// nothing from either side, by pivoted reflections.
+/// Approximate null vectors of a nearly rank-deficient matrix with one column more than rows, by QR with column
+/// pivoting: matrix * right and left.transpose() * matrix are nearly zero.
 struct NearlyNull {
     Eigen::MatrixXd right; ///< two orthonormal columns
-    Eigen::VectorXd left;  ///< of length 1
+    Eigen::VectorXd left;  ///< of norm 1
 };
 NearlyNull nearly_null(const Eigen::MatrixXd& matrix);
 

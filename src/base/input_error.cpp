@@ -6,10 +6,10 @@ namespace graze {
 
 namespace {
 
-// What is quoted may be as long as a file: a message is to be read.
+// Quoted text may be as long as a file; a message has to stay readable.
 constexpr std::size_t longest_part = 1000;
 
-/// Names and texts that a message quotes come from anywhere: it stays one line that does nothing to a terminal.
+/// Quoted names and texts come from anywhere: the message stays one line without control characters.
 std::string message(const Place& place, const std::string& problem, const std::string& remedy) {
     std::string text = shortened(place.text(), longest_part);
     if (!text.empty())

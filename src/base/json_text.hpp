@@ -5,7 +5,7 @@
 
 namespace graze {
 
-/// A text between JSON's quotes.
+/// Returns the text as a JSON string, with quotes and escapes.
 std::string json_text(std::string_view text);
 
 } // namespace graze

@@ -5,7 +5,7 @@
 
 namespace graze {
 
-/// A text with the letters of ASCII made small, or capital; all else stays.
+/// Return the text with its ASCII letters in lower or upper case; other characters are unchanged.
 std::string in_small_letters(std::string_view text);
 std::string in_capitals(std::string_view text);
 

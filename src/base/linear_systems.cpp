@@ -62,7 +62,9 @@ double FullLU<Scalar>::reciprocal_condition() const {
 }
 
 template class FullLU<double>;
-template class FullLU<std::complex<double>>;
+// All that is asked of complex ones.
+template FullLU<std::complex<double>>::FullLU(const Matrix&);
+template auto FullLU<std::complex<double>>::solve(const Vector&) const -> Vector;
 
 PivotedQR::PivotedQR(const Eigen::MatrixXd& matrix, std::optional<double> threshold)
     : factors_(matrix.rows(), matrix.cols()) {

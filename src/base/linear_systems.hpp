@@ -9,10 +9,10 @@
 
 namespace graze {
 
-// Linear equations with dense matrices, compiled in one place for the same reason as decompositions are. Eigen's
-// classes of similar names do the work.
+// Linear systems with dense matrices, compiled once for the same reason as decompositions. Eigen's classes of similar
+// names do the work.
 
-/// Factors of a square matrix that is known to be regular: rows are interchanged.
+/// LU factors, with row pivoting, of a square matrix that is known to be regular.
 template <class Scalar>
 class PartialLU {
 public:
@@ -31,7 +31,7 @@ private:
 extern template class PartialLU<double>;
 extern template class PartialLU<std::complex<double>>;
 
-/// Factors of a square matrix that may be singular: rows and columns are interchanged.
+/// LU factors, with full pivoting, of a square matrix that may be singular.
 template <class Scalar>
 class FullLU {
 public:
@@ -42,11 +42,11 @@ public:
     explicit FullLU(const Matrix& matrix);
     void compute(const Matrix& matrix);
     Vector solve(const Vector& right) const;
-    /// To working precision.
+    /// True when the matrix is regular to working precision.
     bool is_invertible() const;
     Eigen::Index rank() const;
     Scalar determinant() const;
-    /// About the reciprocal of the condition number.
+    /// Returns an estimate of the reciprocal of the condition number.
     double reciprocal_condition() const;
 
 private:
@@ -55,32 +55,32 @@ private:
 extern template class FullLU<double>;
 extern template class FullLU<std::complex<double>>;
 
-/// Factors of a matrix of any shape by reflections, columns with most left first: for solutions by least squares.
+/// QR factors, with column pivoting, of a matrix of any shape: for least squares.
 class PivotedQR {
 public:
-    /// @param threshold of pivots that count, of the largest; none: by round-off
+    /// @param threshold relative size of a pivot that counts for the rank; none: Eigen's default, by round-off
     explicit PivotedQR(const Eigen::MatrixXd& matrix, std::optional<double> threshold = {});
     Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
     Eigen::MatrixXd solve_columns(const Eigen::MatrixXd& right) const;
     Eigen::Index rank() const;
-    /// Entry of the triangle's diagonal.
+    /// Returns the k-th diagonal entry of the triangular factor.
     double pivot(Eigen::Index k) const;
 
 private:
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors_;
 };
 
-/// Solution by least squares with a matrix that has at least as many rows as columns, and the triangle that it is
-/// solved with, whose sums of squares are those of the matrix.
+/// The least-squares solution with a matrix that has at least as many rows as columns, and the upper triangular factor
+/// R of the matrix A, for which R^T R = A^T A.
 struct LeastSquares {
     Eigen::VectorXd solution;
     Eigen::MatrixXd triangle;
 };
 LeastSquares least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
-/// The shortest of all solutions by least squares. @param threshold as for PivotedQR
+/// Returns the least-squares solution of least norm. @param threshold as for PivotedQR
 Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right,
                                   std::optional<double> threshold = {});
-/// Puts such a triangle into the upper triangle of the matrix; what is below it means nothing then.
+/// Replaces the upper triangle of the matrix by its factor R; the entries below are then meaningless.
 void make_triangular(Eigen::Ref<Eigen::MatrixXd> matrix);
 
 double determinant(const Eigen::MatrixXd& matrix);

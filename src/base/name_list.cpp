@@ -13,9 +13,9 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t longest_compared = 64; ///< letters of names
+constexpr std::size_t longest_compared = 64; ///< in characters
 
-/// Least number of letters to insert, remove, replace or exchange with a neighbour.
+/// Returns the least number of edits: insertions, deletions, replacements, exchanges of adjacent characters.
 std::size_t edit_distance(std::string_view one, std::string_view other) {
     std::vector<std::size_t> before_last(other.size() + 1), last(other.size() + 1), current(other.size() + 1);
     std::iota(current.begin(), current.end(), std::size_t{0});
@@ -33,7 +33,7 @@ std::size_t edit_distance(std::string_view one, std::string_view other) {
     return current.back();
 }
 
-/// How far a name is from another: below all others those that it is a part of.
+/// Returns the distance of a candidate; candidates that contain the name rank before all others.
 std::size_t distance_between(const std::string& wanted, const std::string& candidate) {
     const std::string other = in_small_letters(std::string_view(candidate).substr(0, longest_compared));
     const std::size_t distance = edit_distance(wanted, other);
@@ -46,7 +46,7 @@ std::size_t distance_between(const std::string& wanted, const std::string& candi
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
     const std::string wanted = in_small_letters(name.substr(0, longest_compared + 1));
     std::string nearest;
-    std::size_t least = 4; // more edits than this are no misspelling
+    std::size_t least = 4; // a name with more edits is not a misspelling
     for (const std::string& candidate : candidates) {
         const std::size_t longer = std::max(name.size(), candidate.size());
         if (longer > longest_compared)
@@ -69,7 +69,7 @@ std::string name_list(const std::vector<std::string>& names, std::string_view wa
         shown.assign(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(most));
     } else {
         const std::string lower = in_small_letters(wanted.substr(0, longest_compared));
-        std::vector<std::pair<std::size_t, std::size_t>> order; // distance, place
+        std::vector<std::pair<std::size_t, std::size_t>> order; // distance, index in names
         for (std::size_t i = 0; i < names.size(); ++i)
             order.emplace_back(distance_between(lower, names[i]), i);
         std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(most), order.end());

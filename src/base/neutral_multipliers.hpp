@@ -7,8 +7,9 @@
 
 namespace graze {
 
-/// Adds the multipliers of so many states that an orbit brings back to whatever they were: 1 each.
-/// @param multipliers largest first, as they remain
+/// Inserts `count` multipliers equal to 1, one for each neutral state: a state that returns to any value it starts
+/// from.
+/// @param multipliers sorted by falling magnitude, and kept so
 inline void add_neutral_multipliers(std::vector<std::complex<double>>& multipliers, std::size_t count) {
     const auto smaller =
         std::find_if(multipliers.begin(), multipliers.end(), [](auto one) { return std::abs(one) < 1; });

@@ -32,7 +32,7 @@ constexpr std::array units{
     NamedUnit{"H", {0, {2, 1, -2, -2, 0}}},  NamedUnit{"Wb", {0, {2, 1, -2, -1, 0}}},
     NamedUnit{"T", {0, {0, 1, -2, -1, 0}}},  NamedUnit{"S", {0, {-2, -1, 3, 2, 0}}},
 };
-/// Which take no prefixes.
+/// Units that take no prefixes.
 constexpr std::array whole_units{
     NamedUnit{"min", {0, {0, 0, 1, 0, 0}, 60}},
     NamedUnit{"h", {0, {0, 0, 1, 0, 0}, 3600}},
@@ -46,7 +46,7 @@ constexpr std::array prefixes{Prefix{"f", -15}, Prefix{"p", -12}, Prefix{"n", -9
                               Prefix{"µ", -6},  Prefix{"μ", -6},  Prefix{"m", -3}, Prefix{"c", -2},
                               Prefix{"k", 3},   Prefix{"M", 6},   Prefix{"G", 9}};
 
-/// As instruments and people write them, in small letters, and the symbol.
+/// Words for units in lower case, as instruments and people write them, and their symbols.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 31> spelt_units{{
     {"second", "s"},
     {"seconds", "s"},
@@ -83,7 +83,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 31> spelt_un
 constexpr std::array<std::pair<std::string_view, std::string_view>, 6> spelt_prefixes{
     {{"pico", "p"}, {"nano", "n"}, {"micro", "u"}, {"milli", "m"}, {"kilo", "k"}, {"mega", "M"}}};
 
-/// @return nothing for what is no such word
+/// Returns the symbol of a unit's word, or "" if the word is not known.
 std::string_view symbol_of_word(std::string_view word) {
     const std::string small = in_small_letters(word);
     const auto* const found =
@@ -102,7 +102,7 @@ std::optional<PhysicalUnit> named(std::string_view name) {
     return std::nullopt;
 }
 
-/// One factor without its power.
+/// Parses one factor without its power.
 std::optional<PhysicalUnit> with_prefix(std::string_view text) {
     const std::string symbol = unit_symbol(text);
     const std::string_view name = symbol;
@@ -138,7 +138,7 @@ std::string unit_symbol(std::string_view text) {
         if (small.starts_with(word))
             if (std::string symbol = behind(word, prefix); !symbol.empty())
                 return symbol;
-    // Of "MSec" nobody knows whether it means ms: a time has no large prefix.
+    // "MSec" is ambiguous (it may mean ms), so times take no large prefix.
     for (const Prefix& prefix : prefixes)
         if (text.starts_with(prefix.name))
             if (std::string symbol = behind(prefix.name, prefix.name);
@@ -148,7 +148,7 @@ std::string unit_symbol(std::string_view text) {
 }
 
 PhysicalUnit physical_unit(std::string_view text) {
-    constexpr int most = 12; // of a power: further exponents stay small
+    constexpr int most = 12; // largest power of a factor: keeps the sums of exponents small
     PhysicalUnit result;
     int sign = 1;
     for (std::size_t at = 0; at < text.size();) {
@@ -196,7 +196,7 @@ double converted(double value, const PhysicalUnit& from, const PhysicalUnit& to)
     if (from.factor != to.factor)
         value *= from.factor / to.factor;
     const int power = from.exponent - to.exponent;
-    // Powers of ten are exact up to 22: a division by one of them is rounded once, a product by its inverse twice.
+    // Powers of ten are exact up to 10^22: dividing by one rounds once, multiplying by its inverse rounds twice.
     return power < 0 ? value / std::pow(10.0, -power) : value * std::pow(10.0, power);
 }
 

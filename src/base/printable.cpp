@@ -11,14 +11,14 @@ namespace graze {
 
 namespace {
 
-constexpr std::string_view unknown = "\xef\xbf\xbd"; // U+FFFD, the sign for what cannot be shown
+constexpr std::string_view replacement = "\xef\xbf\xbd"; // U+FFFD, the replacement character
 
 bool is_layout(char32_t code) {
     return code == '\n' || code == '\t' || code == '\r';
 }
 
-/// Acts on a terminal, or on how its neighbours are read, instead of being seen.
-bool acts(char32_t code) {
+/// True for characters that control a terminal or change how adjacent characters are shown.
+bool is_active(char32_t code) {
     return code < 0x20 || (code >= 0x7f && code < 0xa0) || code == 0xad || code == 0x61c || code == 0x180e ||
            (code >= 0x200b && code <= 0x200f) || (code >= 0x2028 && code <= 0x202e) ||
            (code >= 0x2060 && code <= 0x206f) || code == 0xfeff || (code >= 0xfff9 && code <= 0xfffb) ||
@@ -28,7 +28,7 @@ bool acts(char32_t code) {
 bool is_plain(std::string_view text, bool with_layout) {
     for (std::size_t at = 0; at < text.size();) {
         const Character character = character_at(text, at);
-        if (!character.valid || (acts(character.code) && !(with_layout && is_layout(character.code))))
+        if (!character.valid || (is_active(character.code) && !(with_layout && is_layout(character.code))))
             return false;
         at += character.bytes;
     }
@@ -40,9 +40,9 @@ std::string shown(std::string_view text, std::string_view kept) {
     result.reserve(text.size());
     for (std::size_t at = 0; at < text.size();) {
         const Character character = character_at(text, at);
-        if (!character.valid || (acts(character.code) && character.code > 0xffff))
-            result += unknown;
-        else if (acts(character.code) && kept.find(text[at]) == std::string_view::npos)
+        if (!character.valid || (is_active(character.code) && character.code > 0xffff))
+            result += replacement;
+        else if (is_active(character.code) && kept.find(text[at]) == std::string_view::npos)
             result += fmt::format("\\u{:04x}", static_cast<std::uint32_t>(character.code));
         else
             result += text.substr(at, character.bytes);

@@ -15,7 +15,8 @@ double rounded(double value, int digits) {
     const std::string text = fmt::format("{:.{}g}", value, digits);
     double result = value;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), result);
-    return error == std::errc() ? result : value; // such as the largest number, whose decimal may be beyond it
+    return error == std::errc() ? result
+                                : value; // out of range: the decimal nearest to the largest double may exceed it
 }
 
 } // namespace graze

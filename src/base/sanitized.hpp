@@ -2,9 +2,9 @@
 
 namespace graze {
 
-/// Whether a sanitizer watches this code. Sanitizers reserve the whole address space, so that no limit can be set to
-/// it, and their allocators keep locks of other threads in a process that is forked. (clang 14 has a question for that,
-/// g++ 12 has macros.)
+/// True when the code is built with a sanitizer. Sanitizers reserve the whole address space, so that it cannot be
+/// limited, and their allocators may hold locks of other threads after a fork. (clang 14 offers __has_feature, g++ 12
+/// macros.)
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool sanitized = true;
 #elif defined(__has_feature)

@@ -16,7 +16,7 @@ namespace graze {
 PlainFile::PlainFile(const std::string& path, std::string_view what) : path_(path), what_(what) {
     if (path.find('\0') != std::string::npos)
         fail(EINVAL);
-    // Without waiting: opening a pipe otherwise lasts until somebody writes to it.
+    // O_NONBLOCK: opening a pipe would otherwise wait until another process writes to it.
     file_ = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
     struct stat status {};
     if (file_ < 0)
@@ -34,7 +34,7 @@ PlainFile::PlainFile(const std::string& path, std::string_view what) : path_(pat
                                      : S_ISFIFO(status.st_mode) ? "pipe"
                                                                 : "device",
                                      what),
-                         "give the name of a file, into which what comes from elsewhere can be copied");
+                         "give the name of a regular file; copy other sources into one first");
     }
 }
 
@@ -61,7 +61,7 @@ std::string read_text_file(const std::string& path, std::string_view what, std::
     PlainFile file(path, what);
     std::string text;
     constexpr std::size_t block = 1 << 16;
-    for (;;) { // what the system says of the size is not always true
+    for (;;) { // until the end: the size that the system reports is not always true
         const std::size_t size = text.size();
         text.resize(size + block);
         const std::size_t count = file.read(&text[size], block);

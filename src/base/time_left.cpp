@@ -6,10 +6,10 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t few_points = 10;  ///< tell nothing
-constexpr double of_late = 1.0 / 3;     ///< of the time so far
-constexpr double between_moments = 0.2; ///< seconds
-constexpr double more = 1.2;            ///< an estimate that has grown by this much is no chance
+constexpr std::size_t few_points = 10;  ///< too few for an estimate
+constexpr double of_late = 1.0 / 3;     ///< "recent" is this fraction of the elapsed time
+constexpr double between_moments = 0.2; ///< seconds between stored moments
+constexpr double more = 1.2;            ///< an estimate that has grown by this factor has not done so by chance
 
 } // namespace
 

@@ -6,21 +6,21 @@ namespace graze {
 
 namespace {
 
-/// XML 1.0, section 2.2.
-bool has_a_place(const Character& character) {
+/// True for characters that XML allows (XML 1.0, section 2.2).
+bool is_xml_character(const Character& character) {
     const char32_t code = character.code;
     return character.valid && (code >= 0x20 || code == '\t' || code == '\n' || code == '\r') && code != 0xfffe &&
            code != 0xffff;
 }
 
-/// @param written what becomes of a character that XML has a place for
+/// @param written returns the replacement of an allowed character
 template <class Written>
 std::string rewritten(std::string_view text, Written written) {
     std::string result;
     result.reserve(text.size());
     for (std::size_t at = 0; at < text.size();) {
         const Character character = character_at(text, at);
-        if (has_a_place(character))
+        if (is_xml_character(character))
             result += written(at, text.substr(at, character.bytes));
         else
             result += "\xef\xbf\xbd";

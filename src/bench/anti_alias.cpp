@@ -8,7 +8,7 @@ namespace graze {
 AntiAlias::AntiAlias(double corner) {
     const double k = std::tan(std::numbers::pi * corner);
     for (std::size_t i = 0; i < sections; ++i) {
-        // Poles of order four lie at odd multiples of a sixteenth of a turn.
+        // The poles of a fourth-order filter lie at odd multiples of a sixteenth of a turn.
         const double damping =
             2 * std::cos(std::numbers::pi * (2 * static_cast<double>(i) + 1) / (4.0 * static_cast<double>(sections)));
         const double norm = 1 + damping * k + k * k;
@@ -29,7 +29,7 @@ double AntiAlias::filtered(double sample) {
 }
 
 void AntiAlias::settle(double value) {
-    for (Section& section : sections_) { // each gives what it gets
+    for (Section& section : sections_) { // each section has unit gain at zero frequency
         section.second = (section.b - section.a2) * value;
         section.first = (2 * section.b - section.a1) * value + section.second;
     }

@@ -5,23 +5,23 @@
 
 namespace graze {
 
-/// A low-pass filter of Butterworth's of fourth order as samples pass through it, by the bilinear transform with its
-/// corner where it is asked for (A. V. Oppenheim and R. W. Schafer, "Discrete-Time Signal Processing", chapter 7).
+/// A fourth-order Butterworth low pass, applied sample by sample; designed by the bilinear transform with its corner
+/// prewarped (A. V. Oppenheim and R. W. Schafer, "Discrete-Time Signal Processing", chapter 7).
 class AntiAlias {
 public:
     AntiAlias() = default;
-    /// @param corner where 3 dB are lost, as a part of the frequency at which samples come; below 1/2
+    /// @param corner frequency of 3 dB attenuation, relative to the sampling frequency; below 1/2
     explicit AntiAlias(double corner);
-    /// What comes out when one more sample has gone in.
+    /// Returns the output for the next input sample.
     double filtered(double sample);
-    /// As after a long time of this value.
+    /// Sets the filter to its steady state for a constant input.
     void settle(double value);
 
 private:
     static constexpr std::size_t sections = 2;
     struct Section {
         double b = 0, a1 = 0, a2 = 0; ///< numerator b (1 + 2/z + 1/z^2)
-        double first = 0, second = 0; ///< what is kept of earlier samples
+        double first = 0, second = 0; ///< state from earlier samples
     };
     std::array<Section, sections> sections_;
 };

@@ -51,7 +51,8 @@ void BenchMotion::drive(const GeneratorOutput& output) {
     parameters_ = std::move(parameters);
 }
 
-/// As it is now, and anew from here: what follows then depends on it alone, and not on the steps that led to it.
+/// Returns the present state, and restarts the trajectory from it: later values then depend on that state alone, not on
+/// the steps that led to it.
 BenchMotion::Moment BenchMotion::moment() {
     trajectory_.reset();
     return now_;
@@ -82,7 +83,7 @@ void BenchMotion::note_end() {
 }
 
 void BenchMotion::advance(double spacing, std::size_t count, const Receiver& receiver) {
-    // Bounds what is computed before anybody is asked whether to go on.
+    // Limits the work between two calls of the receiver.
     constexpr std::size_t part = 1024;
     while (count > 0 && now_.ended.empty()) {
         const std::size_t now = std::min(count, part);

@@ -15,11 +15,12 @@
 
 namespace graze {
 
-/// A model's motion under a generator.
+/// The motion of a model that is driven by a generator.
 class BenchMotion {
 public:
+    /// State of the motion at a time.
     struct Moment {
-        double time = 0; ///< in seconds
+        double time = 0; ///< seconds
         std::size_t mode = 0;
         std::vector<double> state{};
         std::string ended{};
@@ -27,20 +28,20 @@ public:
 
     explicit BenchMotion(const BenchSettings& settings);
 
-    /// From now on.
+    /// Sets the generator from now on.
     void drive(const GeneratorOutput& output);
     double time() const { return now_.time; }
     const std::string& ended() const { return now_.ended; }
     Moment moment();
     void go_back(const Moment& moment);
 
-    /// @param values of the channels, valid during the call
+    /// Receives the values of the channels. @param values valid during the call
     using Receiver = std::function<void(std::span<const double> values)>;
-    /// Values now, `spacing` seconds later, and so on; then it is count spacings later.
+    /// Passes on values now, `spacing` seconds later, and so on, and advances time by count spacings.
     void advance(double spacing, std::size_t count, const Receiver& receiver);
 
 private:
-    /// Hands on to whoever listens at the time.
+    /// Forwards steps to the current observer.
     class Listener : public Observer {
     public:
         Observer* to = nullptr;
@@ -62,8 +63,8 @@ private:
     std::vector<double> parameters_, periods_, inputs_, values_, work_;
     Listener listener_;
     Moment now_;
-    std::optional<Trajectory> trajectory_; ///< none: it begins anew from now
-    double began_ = 0;                     ///< the trajectory counts its time from here
+    std::optional<Trajectory> trajectory_; ///< empty: a new one starts from now_
+    double began_ = 0;                     ///< start of the trajectory's time
 };
 
 } // namespace graze

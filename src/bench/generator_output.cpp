@@ -22,7 +22,7 @@ double GeneratorOutput::fundamental() const {
 }
 
 bool GeneratorOutput::reaches(double amplitude) {
-    // What the conversion of a unit loses must not put a limit out of reach.
+    // Round-off in the conversion of a unit must not exclude a limit.
     constexpr double roundoff = 1e-12;
     return amplitude >= least_amplitude * (1 - roundoff) && amplitude <= most_amplitude * (1 + roundoff);
 }

@@ -17,9 +17,9 @@ namespace {
 constexpr double usual_rate = 1000, least_rate = 1e-3, most_rate = 1e7;
 constexpr std::size_t kept_marks = 4;
 constexpr std::size_t least_oversampling = 8;
-constexpr double samples_of_corner = 16; ///< so that the filter sees all that it has to take away
+constexpr double samples_of_corner = 16; ///< the filter needs samples of all frequencies that it must remove
 
-/// What a converter makes of a value.
+/// The reading of a converter for a value.
 double converted(double value, double range, int bits) {
     if (range == 0)
         return value;
@@ -30,13 +30,13 @@ double converted(double value, double range, int bits) {
 } // namespace
 
 struct VirtualBench::State {
-    /// All that changes by itself.
+    /// State that changes with time.
     struct Moment {
         std::uint64_t number = 0;
         BenchMotion::Moment motion{};
         std::vector<AntiAlias> filters{};
-        std::size_t taken = 0; ///< samples
-        bool settled = false;  ///< whether the filters know what was before
+        std::size_t taken = 0; ///< number of samples taken
+        bool settled = false;  ///< whether the filters have been initialised
     };
 
     BenchSettings settings;
@@ -95,10 +95,10 @@ double VirtualBench::rate() const {
 void VirtualBench::set_rate(double rate) {
     if (!(rate >= least_rate && rate <= most_rate) || !(rate > 2 * state_->settings.anti_alias))
         throw InputError(
-            fmt::format("{} samples in a second cannot be taken", rate),
+            fmt::format("{} samples per second are not possible", rate),
             fmt::format("give from {} to {}, and more than twice the corner of the filter", least_rate, most_rate));
     if (rate == state_->rate && state_->now.taken > 0)
-        return; // filters go on
+        return; // filters keep their state
     state_->rate = rate;
     state_->renew_filters();
 }

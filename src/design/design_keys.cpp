@@ -17,7 +17,7 @@ void require_design_key(const TomlReader& reader, const TomlEntry& entry) {
 
 namespace {
 
-/// All that a node says, in one form: keys in their order, numbers with all digits.
+/// Serialises a node in a canonical form: sorted keys, numbers with all digits.
 std::string text_of_node(const toml::node& node) {
     std::string text;
     if (const auto* table = node.as_table()) {
@@ -38,7 +38,7 @@ std::string text_of_node(const toml::node& node) {
         return fmt::format("{}f", one->get());
     if (const auto* one = node.as_boolean())
         return one->get() ? "true" : "false";
-    return "time"; // which no design has
+    return "time"; // a date or time, which designs do not use
 }
 
 } // namespace

@@ -6,15 +6,15 @@
 
 namespace graze {
 
-/// Keys of a design file, whoever reads them: the designer what says how the device trips, the layout what is drawn.
-/// @throws InputError for any other
+/// Checks that a key is one of a design file (of the design or of its layout).
+/// @throws InputError for any other key
 void require_design_key(const TomlReader& reader, const TomlEntry& entry);
 
-/// The same for design files that lead to the same device, and different for others: of all but words, what is drawn of
-/// the device, and how closely curves are.
+/// Returns a hash that is equal for design files that lead to the same device, and differs for others: texts, layout
+/// and resolution of curves do not enter.
 std::string design_fingerprint(const toml::table& root);
 
-/// A path relative to the folder of the file that names it.
+/// Resolves a path relative to the folder of the file that names it.
 std::string beside(const std::string& file, const std::string& path);
 
 } // namespace graze

@@ -44,7 +44,7 @@ Design DesignReader::read(const toml::table& root) {
     with("text", [&](const TomlEntry& e) { design_.text = reader_.toml().string(e); });
     with("source", [&](const TomlEntry& e) { design_.source = reader_.toml().string(e); });
     with("approach", [&](const TomlEntry& e) { read_approach(e); });
-    // Whatever names parameters needs the model.
+    // Parts that name parameters need the model.
     if (mistakes_.attempt([&] { read_model(); })) {
         with("set", [&](const TomlEntry& e) { read_set(e); });
         mistakes_.attempt([&] { read_control(); });
@@ -71,7 +71,7 @@ const TomlEntry* DesignReader::key(const std::string& name) const {
     return found == keys_.end() ? nullptr : &found->second;
 }
 
-/// What needs no model.
+/// Reads the parts of the approach that do not need the model.
 void DesignReader::read_approach(const TomlEntry& entry) {
     Approach& approach = design_.approach;
     approach.place = entry.place;
@@ -92,14 +92,15 @@ void DesignReader::read_approach(const TomlEntry& entry) {
     for (const char* name : {"run", "point"})
         if (of_study != approach_.contains(name))
             throw InputError(entry.place,
-                             of_study ? fmt::format("{} does not say which {} of the study", entry.path, name)
-                                      : fmt::format("{} names a {} of no study", entry.path, name),
+                             of_study ? fmt::format("{} names no {} of the study", entry.path, name)
+                                      : fmt::format("{} names a {} without a study", entry.path, name),
                              of_study ? "give run = \"NAME\" and point = \"GR1\""
                                       : "give study = \"NAME\", or leave it out and give range = [A, B]");
     for (const char* name : {"from", "range", "cycles"})
         if (of_study && approach_.contains(name))
             throw InputError(approach_.at(name).place,
-                             fmt::format("the study says already how its runs go: '{}'", name), "leave it out");
+                             fmt::format("the study defines its runs itself, so '{}' cannot be given", name),
+                             "leave it out");
     if (!of_study && !approach_.contains("range"))
         throw InputError(entry.place, fmt::format("{} has no range", entry.path),
                          "give range = [A, B]: where the control parameter begins, and how far it goes");
@@ -151,13 +152,13 @@ ParameterId DesignReader::parameter_of(const TomlEntry& entry, const std::string
 void DesignReader::read_control() {
     const TomlEntry* entry = key("control");
     if (!entry)
-        throw InputError(Place{design_.file, 1, 1}, "the design does not say by what the device is driven",
+        throw InputError(Place{design_.file, 1, 1}, "the design has no control parameter",
                          "give control = \"NAME\", such as the voltage's");
     design_.control = reader_.toml().line(*entry);
     design_.control_parameter = parameter_of(*entry, design_.control);
 }
 
-/// What of the approach needs the model.
+/// Reads the parts of the approach that need the model.
 void DesignReader::read_branch() {
     Approach& approach = design_.approach;
     Mistakes mistakes;
@@ -216,7 +217,7 @@ void DesignReader::read_trip(const TomlEntry& entry) {
     });
 }
 
-/// A number in the parameter's unit, "2%", or either with " uniform" or " normal" behind it.
+/// Parses a tolerance: a number in the parameter's unit or "2%", optionally followed by " uniform" or " normal".
 DesignTolerance DesignReader::tolerance_of(const TomlEntry& entry) const {
     DesignTolerance result;
     if (!entry.node->is_string()) {
@@ -275,7 +276,7 @@ void DesignReader::read_dimension(const TomlEntry& entry) {
     if (!ranged)
         throw InputError(entry.place, fmt::format("{} has no range", entry.path),
                          "give range = [A, B], within which it may be chosen");
-    if (design_.approach.study.empty()) // whose runs may have other values
+    if (design_.approach.study.empty()) // a study's runs may have other values
         dimension.require_first(design_.model.parameter_values()[dimension.parameter.place()]);
     design_.dimensions.push_back(std::move(dimension));
 }
@@ -293,7 +294,7 @@ void DesignReader::read_dimensions() {
     StudyReader::each(entries, [&](const TomlEntry& one) { read_dimension(one); });
 }
 
-/// @return none of one that could not be read, which has been told
+/// Finds a dimension by name. @return nothing for one that was invalid, which has been reported
 std::optional<std::size_t> DesignReader::dimension_named(const TomlEntry& entry) const {
     const std::string name = reader_.toml().line(entry);
     if (const auto place = design_.find_dimension(name))
@@ -304,7 +305,7 @@ std::optional<std::size_t> DesignReader::dimension_named(const TomlEntry& entry)
                  study_name_remedy(name, {dimension_names_.begin(), dimension_names_.end()}));
 }
 
-/// What is chosen among the dimensions.
+/// Reads choices among the dimensions: the adjustable one, planes, and numbers of points.
 void DesignReader::read_choices() {
     if (const TomlEntry* entry = key("adjustable"))
         design_.adjustable = dimension_named(*entry);

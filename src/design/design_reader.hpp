@@ -10,7 +10,7 @@
 
 namespace graze {
 
-/// Reads what a design is made of; a mistake in one of its parts leaves the others to be read.
+/// Reads a design from TOML; after an error in one part the others are still read.
 class DesignReader {
 public:
     explicit DesignReader(const std::string& file) : reader_(file) { design_.file = file; }
@@ -41,8 +41,8 @@ private:
     Mistakes mistakes_;
     std::map<std::string, TomlEntry> keys_;
     std::map<std::string, TomlEntry> approach_;
-    std::set<std::string> dimension_names_; ///< also of those that could not be read
-    bool whole_ = true;                     ///< whether all that it begins with could be read
+    std::set<std::string> dimension_names_; ///< also of invalid ones
+    bool whole_ = true;                     ///< whether all top-level keys could be read
 };
 
 } // namespace graze

@@ -13,7 +13,7 @@ namespace graze {
 
 namespace {
 
-/// Does one part after the other, and tells which.
+/// Computes the parts of the report in turn, and reports progress.
 class Reporter {
 public:
     Reporter(const Design& design, const TripPoint& trip, const DesignReportOptions& options)
@@ -93,7 +93,7 @@ private:
         }
     }
 
-    /// From where the device has surely tripped, back to where its approach began.
+    /// From an overshoot at which the device has surely tripped, back to the beginning of the approach.
     void add_reset() {
         if (report_.found.outcome == GrazingOutcome::persists) {
             report_.reset.reason = "the device does not trip: contacts cease where they have begun";
@@ -107,7 +107,7 @@ private:
         ResetOptions options;
         options.overshoot = *std::max_element(overshoots.begin(), overshoots.end(),
                                               [](double a, double b) { return std::abs(a) < std::abs(b); });
-        // Down to nothing, as far as the design says how far that is.
+        // Down to the start of the approach, or to 0 if that is above the trip value.
         options.least = design_.approach.least < report_.value ? design_.approach.least : 0;
         options.interrupted = options_.interrupted;
         report_.reset = reset_of(trip_, orbit_, options);

@@ -5,8 +5,8 @@
 
 namespace graze {
 
-/// How the devices of a design differ from one with this orbit, and which of them will do: what is wanted of them, or
-/// of the trip value. Without tolerances none differ.
+/// Returns the tolerances of a design for a device with this orbit, and the limits of usable trip values. Without
+/// tolerances all devices are equal.
 YieldSettings yield_settings_of(const Design& design, const Orbit& orbit);
 
 } // namespace graze

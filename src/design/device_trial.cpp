@@ -13,7 +13,7 @@ namespace graze {
 
 namespace {
 
-/// Counts contacts with the touched surface, beyond those that the orbit itself makes.
+/// Counts contacts with the touched surface.
 class ContactCount : public Observer {
 public:
     ContactCount(std::size_t event, const std::function<bool()>& interrupted)
@@ -30,7 +30,7 @@ private:
     std::size_t contacts_ = 0;
 };
 
-/// Contacts of one period of an orbit with an event.
+/// Number of contacts of an orbit with an event in one period.
 std::size_t own_contacts(const Model& model, const Orbit& whole, std::size_t event) {
     return static_cast<std::size_t>(
         std::count_if(whole.signature.begin(), whole.signature.end(), [&](const Segment& s) {
@@ -38,9 +38,10 @@ std::size_t own_contacts(const Model& model, const Orbit& whole, std::size_t eve
         }));
 }
 
-/// A fold is left along its branch, to the side whose orbits are stable. @return the fold itself if neither is
+/// Continues the branch of a fold to the side of stable orbits, until the control parameter has a value. @return the
+/// fold itself if neither side is stable
 Orbit before_fold(const TripPoint& trip, const Orbit& orbit, double value) {
-    constexpr double first = 1e-3; // of the unknowns' sizes
+    constexpr double first = 1e-3; // relative to the sizes of the unknowns
     constexpr std::size_t most = 100;
     for (const int way : {1, -1}) {
         OrbitDirection along = trip.point.tangent;
@@ -69,13 +70,13 @@ Orbit before_fold(const TripPoint& trip, const Orbit& orbit, double value) {
     return orbit;
 }
 
-/// Whether the orbit that was there before the trip point is, and the motion remains on it.
+/// Checks that the orbit below the trip point exists, and that the motion remains on it.
 void try_below(DeviceTrial& trial, const TripPoint& trip, const Orbit& orbit, const DeviceTrialOptions& options) {
     OrbitOptions numbers;
     numbers.error_estimate = false;
     const bool fold = trip.point.type == PointType::fold;
     Orbit candidate = fold ? before_fold(trip, orbit, trial.below) : orbit;
-    // Beside a fold are two orbits: the stable one is tried where it was met.
+    // Near a fold there are two orbits: use the stable one at the value where it was found.
     if (fold)
         trial.below = candidate.parameters[trip.control.place()];
     candidate.parameters[trip.control.place()] = trial.below;
@@ -87,7 +88,7 @@ void try_below(DeviceTrial& trial, const TripPoint& trip, const Orbit& orbit, co
     if (!solution.certificate.admissible || !is_stable(solution)) {
         trial.seen_below = solution.certificate.admissible
                                ? "the orbit is not stable"
-                               : "the orbit is none of the model's: " + solution.certificate.reason;
+                               : "the orbit is not admissible: " + solution.certificate.reason;
         return;
     }
     const Orbit whole = whole_orbit(trip.system, solution.orbit);
@@ -107,7 +108,7 @@ void try_below(DeviceTrial& trial, const TripPoint& trip, const Orbit& orbit, co
     const std::size_t own = trip.is_touch()
                                 ? options.cycles * own_contacts(trip.system.model(), whole, trip.point.event)
                                 : count.contacts();
-    // A contact that begins or ends the simulated time may be counted or not.
+    // A contact at either end of the simulated time may or may not be counted.
     const bool as_many =
         count.contacts() <= own + 1 && count.contacts() + 1 >= own && (own > 0 || count.contacts() == 0);
     trial.rests_below = as_many;
@@ -116,7 +117,7 @@ void try_below(DeviceTrial& trial, const TripPoint& trip, const Orbit& orbit, co
                 : fmt::format("{} contacts in {} periods", count.contacts(), options.cycles);
 }
 
-/// The motion that begins on the orbit of the trip point, above it, until an end.
+/// Simulates the motion from the orbit at the trip point, above the trip value, until an end.
 TripTime tripping(const DeviceTrial& trial, const TripPoint& trip, const Orbit& orbit, const TripEnd& end,
                   double cycles, const DeviceTrialOptions& options) {
     TripOptions numbers;
@@ -137,8 +138,8 @@ void try_above(DeviceTrial& trial, const TripPoint& trip, const Orbit& orbit, co
                            : fmt::format("no trip within {:.6g} periods ({})", trial.trip.cycles, trial.trip.ending);
 }
 
-/// Whether a motion that has not come to the end that counts as tripped tells nothing of the class.
-/// @return why, and what to do; empty where it does tell
+/// Whether a motion that has not reached the end that counts as tripped leaves the class undecided.
+/// @return why, and what to do; empty if it decides the class
 std::string undecided_above(const DeviceTrial& trial, const TripPoint& trip, const Orbit& orbit, const TripClass& found,
                             const TripRequest& request, const DeviceTrialOptions& options) {
     if (trial.trip.ending != name_of(Ending::end_time))
@@ -152,14 +153,14 @@ std::string undecided_above(const DeviceTrial& trial, const TripPoint& trip, con
     PredictionOptions prediction;
     prediction.level = level_of_map(*found.map, found.verdict);
     const PredictedTrip predicted = predicted_trip(*found.map, found.verdict, trial.above - trip.value(), prediction);
-    constexpr double enough = 2; // times what the map predicts
+    constexpr double enough = 2; // times the prediction of the map
     const double wait = enough * predicted.cycles + 1;
     if (predicted.ended && wait > request.cycles)
         return fmt::format("by the map contacts become hard after {:.6g} cycles only; {}", predicted.cycles, longer);
     const TripTime grown =
         tripping(trial, trip, orbit, {.speed = prediction.level, .quantity = {}, .level = 0}, request.cycles, options);
     if (grown.ended)
-        return fmt::format("contacts have become harder than the map can tell of, {:.6g}, after {:.6g} cycles, but the "
+        return fmt::format("contacts have become harder than the map describes, {:.6g}, after {:.6g} cycles, but the "
                            "end that counts as tripped has not come in time; {}",
                            prediction.level, grown.cycles, longer);
     return "";

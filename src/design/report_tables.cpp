@@ -10,9 +10,9 @@ namespace graze {
 
 namespace {
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); // an empty cell
+constexpr double empty_cell = std::numeric_limits<double>::quiet_NaN(); // an empty cell
 
-/// Rows of facts.
+/// The table of facts.
 class FactRows {
 public:
     FactRows() : table_({{"quantity", ""}, {"value", ""}, {"unit", ""}, {"meaning", ""}}) {}
@@ -44,14 +44,14 @@ std::string unit_of(const Model& model, const std::string& parameter) {
 }
 
 double if_ended(const std::optional<TripTime>& trip, double TripTime::*number) {
-    return trip && trip->ended ? (*trip).*number : nothing;
+    return trip && trip->ended ? (*trip).*number : empty_cell;
 }
 
 std::string_view name_of_class(const MappedValue& one) {
     return !one.found ? "not found" : !one.admissible ? "inadmissible" : class_name(one.outcome);
 }
 
-/// What comes before the trip point on its way, if it changes the motion, and the nearest.
+/// Adds the first and the nearest earlier point that changes the motion.
 void add_earlier(FactRows& facts, const TripPoint& trip, const DesignReport& report, const std::string& unit) {
     const EarlierPoint *first = nullptr, *nearest = nullptr;
     for (const EarlierPoint& one : trip.earlier) {
@@ -110,7 +110,7 @@ void add_yield(FactRows& facts, const DesignReport& report, const Design& design
     }
 }
 
-/// Whether all that was wanted has been found, and what is in the way.
+/// Adds whether the requirements are met, and which are not.
 void add_wishes(FactRows& facts, const MetWishes& wishes) {
     facts.add("wishes", name_of(wishes.found.outcome),
               wishes.found.reason.empty() ? "the device has all that is wanted" : wishes.found.reason);
@@ -124,9 +124,9 @@ void add_wishes(FactRows& facts, const MetWishes& wishes) {
     }
 }
 
-/// Without a bound the cell is empty.
+/// A cell for a bound; empty if it is infinite.
 double bound_of(double value) {
-    return std::isfinite(value) ? value : nothing;
+    return std::isfinite(value) ? value : empty_cell;
 }
 
 Table wishes_table(const MetWishes& wishes) {
@@ -137,7 +137,7 @@ Table wishes_table(const MetWishes& wishes) {
         table.add(wishes.list.wants[i].name);
         table.add(bound_of(wishes.list.wants[i].least));
         table.add(bound_of(wishes.list.wants[i].most));
-        table.add(one.value.value_or(nothing));
+        table.add(one.value.value_or(empty_cell));
         table.add(one.met ? "yes" : "no");
         table.add(one.binds ? "yes" : "no");
         table.add(one.weight);
@@ -182,8 +182,8 @@ Table sensitivity_table(const Design& design, const DesignReport& report, const 
         table.add(one.value);
         table.add(one.unit);
         table.add(one.derivative);
-        table.add(one.relative.value_or(nothing));
-        double deviation = nothing, effect = nothing, share = nothing;
+        table.add(one.relative.value_or(empty_cell));
+        double deviation = empty_cell, effect = empty_cell, share = empty_cell;
         if (report.yield) {
             for (const Tolerance& tolerance : report.yield_settings.tolerances)
                 if (tolerance.parameter == one.parameter)
@@ -210,10 +210,10 @@ Table times_table(const DesignReport& report, const std::string& unit, const std
                  {"simulated_time", time_unit}});
     for (const OvershootTrip& row : report.times.rows) {
         table.add(row.overshoot);
-        table.add(row.continued ? row.predicted->first_speed : nothing);
+        table.add(row.continued ? row.predicted->first_speed : empty_cell);
         const bool ended = row.predicted && row.predicted->ended;
-        table.add(ended ? row.predicted->cycles : nothing);
-        table.add(ended ? row.predicted->time : nothing);
+        table.add(ended ? row.predicted->cycles : empty_cell);
+        table.add(ended ? row.predicted->time : empty_cell);
         table.add(if_ended(row.continued, &TripTime::cycles));
         table.add(if_ended(row.continued, &TripTime::time));
         table.add(row.continued ? row.continued->ending : row.simulated ? row.simulated->ending : "");
@@ -223,7 +223,7 @@ Table times_table(const DesignReport& report, const std::string& unit, const std
 }
 
 void add_mapped(Table& table, const MappedValue& one) {
-    table.add(one.found ? one.value : nothing);
+    table.add(one.found ? one.value : empty_cell);
     table.add(name_of_class(one));
     table.add(one.problem);
 }
@@ -232,7 +232,7 @@ Table tuning_table(const Tuning& tuning, const Design& design, const DesignDimen
     Table table({{design.control, unit}, {stop.name, stop.unit}, {"usable", ""}, {"problem", ""}});
     for (const TuningPoint& one : tuning.points) {
         table.add(one.value);
-        table.add(one.found ? one.position : nothing);
+        table.add(one.found ? one.position : empty_cell);
         const bool usable = one.value >= tuning.least && one.value <= tuning.greatest;
         table.add(usable ? "yes" : "no");
         table.add(one.problem);
@@ -259,7 +259,7 @@ Table device_table(const Yield& yield, const std::string& control, const std::st
     for (std::size_t i = 0; i < yield.devices.size(); ++i) {
         const Device& device = yield.devices[i];
         table.add(static_cast<double>(i + 1));
-        table.add(device.outcome == DeviceOutcome::found ? device.value : nothing);
+        table.add(device.outcome == DeviceOutcome::found ? device.value : empty_cell);
         table.add(device.linear);
         table.add(outcome_name(device.outcome));
     }

@@ -14,14 +14,14 @@ namespace graze {
 
 namespace {
 
-/// The section of a clock, if there is one.
+/// Returns the section of a cyclic state if the model has one; otherwise its first section.
 std::string section_of(const Model& model) {
     const auto phase = std::find_if(model.sections.begin(), model.sections.end(),
                                     [](const Section& section) { return section.state.has_value(); });
     return phase != model.sections.end() ? phase->name : model.sections.empty() ? "" : model.sections.front().name;
 }
 
-/// The model where it has tripped, beginning on the orbit that is no longer there.
+/// Returns the model beyond the trip value, with the orbit that no longer exists as initial state.
 Model beyond(const TripPoint& trip, const Orbit& orbit, double overshoot) {
     Orbit moved = orbit;
     moved.parameters[trip.control.place()] += overshoot;
@@ -32,8 +32,8 @@ Model beyond(const TripPoint& trip, const Orbit& orbit, double overshoot) {
     return model;
 }
 
-/// Where a motion that is followed back is lost, or becomes another one. Elsewhere orbits of the same kind go on, as
-/// where events change their order.
+/// Whether the motion is lost or changes at a point. At other types, such as events that change their order, orbits of
+/// the same kind continue.
 bool ends_motion(PointType type) {
     switch (type) {
     case PointType::fold:
@@ -48,8 +48,8 @@ bool ends_motion(PointType type) {
     }
 }
 
-/// Follows the tripped orbit back until it is no longer stable, or no longer an orbit of the model.
-/// @return false where it could not be followed so far that this is known
+/// Continues the tripped orbit back until it is no longer stable or admissible.
+/// @return false if the branch ended before that
 bool follow_back(Reset& reset, const TripPoint& trip, const System& system, const Orbit& orbit,
                  const ResetOptions& options) {
     BranchSettings settings;
@@ -57,7 +57,7 @@ bool follow_back(Reset& reset, const TripPoint& trip, const System& system, cons
     settings.direction = options.overshoot < 0 ? 1 : -1;
     const double start = orbit.parameters[trip.control.place()];
     (settings.direction < 0 ? settings.least : settings.greatest) = options.least;
-    // Not beyond where it began, so that a branch that comes round again has an end.
+    // Bound it at its start, too, so that a branch that turns round ends.
     const double room = std::abs(start - options.least);
     (settings.direction < 0 ? settings.greatest : settings.least) = start - settings.direction * room;
     settings.orbit.error_estimate = false;
@@ -92,7 +92,8 @@ bool follow_back(Reset& reset, const TripPoint& trip, const System& system, cons
     return branch.outcome() == BranchOutcome::bound;
 }
 
-/// By the orbit on which the tripped motion settles. @return false where it has none that can be followed
+/// Finds the reset value by the orbit on which the tripped motion settles. @return false if there is no orbit that can
+/// be continued
 bool reset_by_orbit(Reset& reset, const TripPoint& trip, const System& system, const AttractorOptions& settle,
                     const ResetOptions& options) {
     std::optional<OrbitSolution> tripped;
@@ -109,7 +110,7 @@ bool reset_by_orbit(Reset& reset, const TripPoint& trip, const System& system, c
         return true;
     }
     if (tripped->outcome != OrbitOutcome::converged) {
-        reset.reason = "the tripped motion is no orbit that was found: " + tripped->detail;
+        reset.reason = "no orbit of the tripped motion was found: " + tripped->detail;
         return false;
     }
     reset.motion = to_string(system.model(), tripped->orbit.signature);
@@ -128,12 +129,12 @@ Reset reset_of(const TripPoint& trip, const Orbit& orbit, const ResetOptions& op
     AttractorOptions settle;
     settle.section = section_of(model);
     settle.cycles = options.cycles;
-    settle.chaos_cycles = 0; // what is taken for chaotic here only tells where to go on
+    settle.chaos_cycles = 0; // a label `chaotic` here only gives a start for further steps
     constexpr std::size_t returns = 24;
     settle.largest_period = returns;
     const System system(model);
     const bool known = reset_by_orbit(reset, trip, system, settle, options);
-    // Beyond the trip value there is nothing to come back to: one tripped motion becomes another one.
+    // A point beyond the trip value is not a reset: one tripped motion becomes another one.
     const bool too_soon = reset.value && *reset.hysteresis(trip.value()) * options.overshoot < 0;
     if (known && !too_soon)
         return reset;
@@ -146,7 +147,7 @@ Reset reset_of(const TripPoint& trip, const Orbit& orbit, const ResetOptions& op
                  .lost_at = {},
                  .point = {}};
     Reset simulated = reset_by_steps(trip, orbit, system, settle, options);
-    // A motion that ends has been told of already.
+    // If the motion ended, the first reason stands.
     return simulated.motion.empty() ? reset : simulated;
 }
 

@@ -18,10 +18,10 @@ namespace graze {
 namespace {
 
 constexpr std::size_t fewest_steps = 24, further_steps = 7;
-/// Where a motion does not rest, it may be lost sooner or later, as its steps happen to be.
+/// For a motion that is not at rest the loss depends on the sequence of steps: number of sequences tried.
 constexpr std::size_t most_ways = 5;
-constexpr double narrow = 1e-6; ///< the last step, of the whole way
-constexpr double alike = 1e-6; ///< states of one motion, of the sizes that they have; Newton's method closes far better
+constexpr double narrow = 1e-6; ///< size of the last step, relative to the whole way
+constexpr double alike = 1e-6;  ///< relative difference of states of the same motion; Newton's method closes far better
 
 bool is_settled(const PointResult& motion) {
     return motion.label == Label::periodic || motion.label == Label::equilibrium;
@@ -37,11 +37,11 @@ std::string ending(const PointResult& motion) {
                        motion.outcome.detail);
 }
 
-/// Both motions at values of the control parameter: the one that has tripped, and the one that has not.
-class StepsBack {
+/// Tracks two motions over values of the control parameter: the one that has tripped, and the one that has not.
+class SteppedReset {
 public:
-    StepsBack(const TripPoint& trip, const Orbit& orbit, const System& system, const AttractorOptions& settle,
-              const ResetOptions& options)
+    SteppedReset(const TripPoint& trip, const Orbit& orbit, const System& system, const AttractorOptions& settle,
+                 const ResetOptions& options)
         : trip_(trip), orbit_(orbit), system_(system), model_(system.model()), options_(options),
           factory_(attractor_searches(system, settle, {at_section(settle.section)}, states_of(model_), {})),
           search_(factory_->make()), jets_(factory_->simulation(), LaneKind::single) {}
@@ -63,8 +63,8 @@ public:
             if (!go_back(start, fewest_steps + way * further_steps))
                 return reset_;
         }
-        reset_.value = there_;
-        reset_.lost_at = lost_;
+        reset_.value = remains_at_;
+        reset_.lost_at = lost_at_;
         reset_.how =
             found_.label == Label::equilibrium ? "return to rest" : "return to the motion that had not tripped";
         return reset_;
@@ -91,8 +91,8 @@ private:
         return reset_;
     }
 
-    /// In so many steps, which are small at first: there the motion that has not tripped is next to the orbit that is
-    /// known. @return false when it is not known where the tripped motion is lost
+    /// Goes back in a number of steps that are small at first, where the untripped motion is near the known orbit.
+    /// @return false if the loss could not be found
     bool go_back(double start, std::size_t steps) {
         const double from = trip_.value(), way = options_.least - from;
         double there = start;
@@ -123,24 +123,24 @@ private:
             }
             (step == Step::lost ? lost : there) = middle;
         }
-        // The widest of all ways: the nearest value at which it was there, the farthest at which it was lost.
+        // Combine all sequences: the nearest value at which the motion remained, the farthest at which it was lost.
         const double down = options_.least < trip_.value() ? 1 : -1;
-        there_ = there_ ? down * std::max(down * *there_, down * there) : there;
-        lost_ = lost_ ? down * std::min(down * *lost_, down * lost) : lost;
+        remains_at_ = remains_at_ ? down * std::max(down * *remains_at_, down * there) : there;
+        lost_at_ = lost_at_ ? down * std::min(down * *lost_at_, down * lost) : lost;
         return true;
     }
 
     bool fail(const std::string& reason) {
         unknown(reason);
-        if (there_ && !interrupted_)
+        if (remains_at_ && !interrupted_)
             reset_.reason +=
-                fmt::format("; on another way down it was lost between {:.9g} and {:.9g}", *lost_, *there_);
+                fmt::format("; on another way down it was lost between {:.9g} and {:.9g}", *lost_at_, *remains_at_);
         return false;
     }
 
-    /// What a motion becomes that goes on at another value from where it was.
+    /// Settles a motion at another value of the control parameter, from its present state.
     PointResult settle(double value, PointResult motion) {
-        constexpr std::size_t most = 4; // barriers, one after the other
+        constexpr std::size_t most = 4; // barriers passed in succession
         std::vector<double> parameters = orbit_.parameters;
         parameters[trip_.control.place()] = value;
         for (std::size_t met = 0;; ++met) {
@@ -165,8 +165,8 @@ private:
         return result;
     }
 
-    /// A motion at rest comes to a barrier by the change of the control parameter alone, such as that of the force by
-    /// which a stop holds it: its transition happens before anything moves. @return false if no motion follows
+    /// A change of the control parameter alone may bring a motion at rest to a barrier, such as that of the force with
+    /// which a stop holds it: then its transition is taken before anything moves. @return false if no motion follows
     bool meet_passed_barrier(PointResult& motion, const std::vector<double>& parameters) const {
         std::vector<double> work(system_.workspace()), conditions, inputs = motion.state;
         inputs.insert(inputs.end(), parameters.begin(), parameters.end());
@@ -209,7 +209,7 @@ private:
         return Step::remains;
     }
 
-    /// Whether two motions are one; of orbits that return several times, whichever return comes first.
+    /// Whether two motions are equal; orbits with several returns may be at any of them.
     bool are_same(const PointResult& a, const PointResult& b) const {
         if (!is_settled(a) || !is_settled(b) || a.mode != b.mode || a.period != b.period)
             return false;
@@ -221,7 +221,7 @@ private:
                 return true;
         return false;
     }
-    /// But for clocks, which are the same at a section, and states that drift, which are the same nowhere.
+    /// Compares states except cyclic ones, which are equal at a section, and drifting ones, which never are.
     bool is_same_state(std::span<const double> a, std::span<const double> b) const {
         for (std::size_t i = 0; i < a.size(); ++i)
             if (!model_.states[i].period && !model_.states[i].drifting && !(std::abs(a[i] - b[i]) <= alike * sizes_[i]))
@@ -239,11 +239,11 @@ private:
     JetSet jets_;
     PointResult tripped_, resting_, found_;
     std::vector<double> sizes_ = sizes_of_orbit();
-    std::optional<double> there_, lost_;
+    std::optional<double> remains_at_, lost_at_;
     bool interrupted_ = false;
     Reset reset_;
 
-    /// Of its states along the orbit that does not trip: at a section each may be zero.
+    /// Magnitudes of the states along the untripped orbit: at a section a state may be zero.
     std::vector<double> sizes_of_orbit() const {
         constexpr std::size_t parts = 16;
         const Simulation simulation(trip_.system, {}, {}, {});
@@ -272,8 +272,8 @@ private:
 Reset reset_by_steps(const TripPoint& trip, const Orbit& orbit, const System& system, const AttractorOptions& settle,
                      const ResetOptions& options) {
     try {
-        return StepsBack(trip, orbit, system, settle, options).find();
-    } catch (const InputError& error) { // a state that the model does not admit at another value
+        return SteppedReset(trip, orbit, system, settle, options).find();
+    } catch (const InputError& error) { // a state that is inadmissible at another value
         Reset reset;
         reset.reason = error.problem();
         return reset;

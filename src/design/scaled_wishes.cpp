@@ -12,7 +12,7 @@ namespace graze {
 
 namespace {
 
-constexpr double round_off = 1e-13; ///< in scales: so near an end of a range is meant
+constexpr double round_off = 1e-13; ///< in scales: closer to an end of a range, the end itself is meant
 
 double width_of(const Dimension& one) {
     const double width = one.highest - one.lowest;
@@ -63,11 +63,11 @@ std::vector<double> ScaledWishes::design(const Eigen::VectorXd& z) const {
     return result;
 }
 
-double ScaledWishes::violation(const LimitRow& row, const Asked& at) const {
+double ScaledWishes::violation(const LimitRow& row, const Evaluation& at) const {
     return row.sign * (at.values[index(row.want)] - row.limit) / scale_of(row.want);
 }
 
-double ScaledWishes::largest(const Asked& at) const {
+double ScaledWishes::largest(const Evaluation& at) const {
     double result = 0;
     for (const LimitRow& row : rows_)
         if (!row.cap)
@@ -75,35 +75,35 @@ double ScaledWishes::largest(const Asked& at) const {
     return result;
 }
 
-bool ScaledWishes::keeps_caps(const Asked& at) const {
+bool ScaledWishes::keeps_caps(const Evaluation& at) const {
     return std::all_of(rows_.begin(), rows_.end(),
                        [&](const LimitRow& row) { return !row.cap || violation(row, at) <= *row.cap; });
 }
 
 bool ScaledWishes::may_go_on() {
-    if (left != Left::not_at_all)
+    if (stop_reason != StopReason::none)
         return false;
     if (options_.interrupted && options_.interrupted())
-        left = Left::interrupted;
+        stop_reason = StopReason::interrupted;
     else if (evaluations >= options_.evaluations)
-        left = Left::spent;
-    return left == Left::not_at_all;
+        stop_reason = StopReason::exhausted;
+    return stop_reason == StopReason::none;
 }
 
-const Asked& ScaledWishes::ask(const Eigen::VectorXd& z) {
-    if (asked_ && last_ == z)
-        return *asked_;
+const Evaluation& ScaledWishes::evaluate(const Eigen::VectorXd& z) {
+    if (evaluation_ && last_ == z)
+        return *evaluation_;
     std::vector<bool> unknown;
-    asked_ = values(z, unknown);
-    if (asked_->exists)
-        complete(z, *asked_, unknown);
+    evaluation_ = values(z, unknown);
+    if (evaluation_->exists)
+        complete(z, *evaluation_, unknown);
     last_ = z;
-    return *asked_;
+    return *evaluation_;
 }
 
-/// @param unknown which wants give no gradient
-Asked ScaledWishes::values(const Eigen::VectorXd& z, std::vector<bool>& unknown) {
-    Asked result;
+/// @param unknown set for requirements without a gradient
+Evaluation ScaledWishes::values(const Eigen::VectorXd& z, std::vector<bool>& unknown) {
+    Evaluation result;
     if (!may_go_on())
         return result;
     ++evaluations;
@@ -133,8 +133,8 @@ Asked ScaledWishes::values(const Eigen::VectorXd& z, std::vector<bool>& unknown)
     return result;
 }
 
-/// Gradients that are not given, by differences that stay within the ranges and among designs that have the values.
-void ScaledWishes::complete(const Eigen::VectorXd& z, Asked& result, const std::vector<bool>& unknown) {
+/// Computes missing gradients by differences that stay within the ranges and among designs that have all values.
+void ScaledWishes::complete(const Eigen::VectorXd& z, Evaluation& result, const std::vector<bool>& unknown) {
     if (std::find(unknown.begin(), unknown.end(), true) == unknown.end())
         return;
     std::vector<bool> there;
@@ -142,9 +142,9 @@ void ScaledWishes::complete(const Eigen::VectorXd& z, Asked& result, const std::
         Eigen::VectorXd above = z, below = z;
         above[i] = std::min(z[i] + options_.difference, highest_[i]);
         below[i] = std::max(z[i] - options_.difference, lowest_[i]);
-        const Asked high = above[i] > z[i] ? values(above, there) : result,
-                    low = below[i] < z[i] ? values(below, there) : result;
-        if (left != Left::not_at_all) {
+        const Evaluation high = above[i] > z[i] ? values(above, there) : result,
+                         low = below[i] < z[i] ? values(below, there) : result;
+        if (stop_reason != StopReason::none) {
             result.exists = false;
             return;
         }

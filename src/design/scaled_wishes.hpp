@@ -12,27 +12,27 @@
 
 namespace graze {
 
-/// What a design has of all wants.
-struct Asked {
+/// Values and gradients of all requirements at a design.
+struct Evaluation {
     bool exists = false;
     Eigen::VectorXd values;   ///< in their units
-    Eigen::MatrixXd gradient; ///< wants x dimensions, in scales of the want per scale of the dimension
+    Eigen::MatrixXd gradient; ///< requirements x dimensions, in scales of the requirement per scale of the dimension
 };
 
-/// A limit of a want.
+/// One limit of a requirement.
 struct LimitRow {
     std::size_t want = 0;
-    double limit = 0, sign = 1; ///< sign -1: it is the lower one
-    std::optional<double> cap;  ///< it may not be violated more; none: by as much as the elastic variable
+    double limit = 0, sign = 1; ///< sign -1: a lower limit
+    std::optional<double> cap;  ///< largest allowed violation; empty: relaxed by the elastic variable
 };
 
-/// The departure that counts as one.
+/// Unit of violations of a requirement.
 double scale_of(const Want& want);
 
-/// Why no more designs are asked for.
-enum class Left { not_at_all, interrupted, spent, thrown };
+/// Why no more designs are evaluated.
+enum class StopReason { none, interrupted, exhausted, exception };
 
-/// The wishes in scales: a design is given by its departures from the start. Counts what is asked for.
+/// The scaled problem: a design is given by its departures from the start, in scales. Counts evaluations.
 class ScaledWishes {
 public:
     ScaledWishes(const WishList& wishes, const WishOptions& options);
@@ -45,28 +45,28 @@ public:
     std::vector<LimitRow>& rows() { return rows_; }
     const std::vector<LimitRow>& rows() const { return rows_; }
 
-    /// Within the ranges to the last bit, which scales would lose.
+    /// Converts to unscaled values, clamped to the ranges exactly.
     std::vector<double> design(const Eigen::VectorXd& z) const;
-    /// In scales; positive where the limit is violated.
-    double violation(const LimitRow& row, const Asked& at) const;
-    /// The largest violation of the rows that may give way; 0 where none is violated.
-    double largest(const Asked& at) const;
-    /// Whether no capped row is violated more than it may be.
-    bool keeps_caps(const Asked& at) const;
+    /// Violation of a limit in scales; negative if it is not violated.
+    double violation(const LimitRow& row, const Evaluation& at) const;
+    /// The largest violation of limits without a cap; 0 if none is violated.
+    double largest(const Evaluation& at) const;
+    /// Whether all limits with a cap respect it.
+    bool keeps_caps(const Evaluation& at) const;
 
-    /// Values and gradients. @return what does not exist also where no more may be asked for
-    const Asked& ask(const Eigen::VectorXd& z);
+    /// Evaluates values and gradients at a design. @return `exists` false also if evaluation has been stopped
+    const Evaluation& evaluate(const Eigen::VectorXd& z);
     bool may_go_on();
 
-    Left left = Left::not_at_all;
+    StopReason stop_reason = StopReason::none;
     std::exception_ptr thrown;
     std::size_t evaluations = 0, missing = 0;
-    std::string problem; ///< of the last design without all values
+    std::string problem; ///< reason of the last design without all values
 
 private:
     double scale_of(std::size_t want) const { return want_scale_[want]; }
-    Asked values(const Eigen::VectorXd& z, std::vector<bool>& unknown);
-    void complete(const Eigen::VectorXd& z, Asked& result, const std::vector<bool>& unknown);
+    Evaluation values(const Eigen::VectorXd& z, std::vector<bool>& unknown);
+    void complete(const Eigen::VectorXd& z, Evaluation& result, const std::vector<bool>& unknown);
 
     const WishList& wishes_;
     const WishOptions& options_;
@@ -74,7 +74,7 @@ private:
     std::vector<double> want_scale_;
     std::vector<LimitRow> rows_;
     Eigen::VectorXd last_;
-    std::optional<Asked> asked_; ///< there
+    std::optional<Evaluation> evaluation_; ///< evaluation at `last_`
 };
 
 } // namespace graze

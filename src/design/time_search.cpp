@@ -11,7 +11,7 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t most_of_one = 200; ///< evaluations of one anchor
+constexpr std::size_t most_of_one = 200; ///< evaluations for one anchor
 
 } // namespace
 
@@ -56,7 +56,7 @@ bool TimeSearch::is_met(const FoundDesign& one) const {
     return one.wants.size() > others_.wants.size() && one.wants.back().met;
 }
 
-/// Evenly within the ranges, the same each time (J. H. Halton, Numer. Math. 2, 1960).
+/// Returns point `number` of the Halton sequence within the ranges (J. H. Halton, Numer. Math. 2, 1960).
 std::vector<double> TimeSearch::scattered(std::size_t number) const {
     constexpr std::size_t primes[] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37};
     std::vector<double> result;
@@ -73,7 +73,7 @@ std::vector<double> TimeSearch::scattered(std::size_t number) const {
     return result;
 }
 
-/// The device nearest to an anchor that has the other wishes, with its time.
+/// Finds the device nearest to an anchor that meets the other requirements, with its trip time.
 FoundDesign TimeSearch::anchored(const std::vector<double>& anchor) {
     WishList list = others_;
     for (std::size_t d = 0; d < anchor.size(); ++d)
@@ -101,7 +101,7 @@ FoundDesign TimeSearch::timed(FoundDesign found) {
     return found;
 }
 
-/// One that has all is better than one that has not; then the nearer, or the faster.
+/// A device that meets all is better than one that does not; then the nearer, or the faster.
 void TimeSearch::consider(FoundDesign& best, const FoundDesign& one) const {
     if (one.outcome != WishOutcome::met)
         return;

@@ -7,18 +7,18 @@
 
 namespace graze {
 
-/// The dimensions of a design that was found.
+/// Returns the dimensions of a result.
 std::vector<double> values_of(const FoundDesign& found);
 
-/// Looks for a device with a trip time, which jumps from cycle to cycle: no gradient leads there. All over the ranges
-/// the nearest devices that have the other wishes are found and timed; then the way from the first device to the best
-/// of those is halved.
+/// Searches for a device with a trip time, which is discontinuous (it jumps from cycle to cycle), so gradients do not
+/// help. From anchors all over the ranges it finds the nearest devices that meet the other requirements, and computes
+/// their trip times; then it bisects between the first device and the best of these.
 class TimeSearch {
 public:
-    /// @param list the wishes with the time, which is the last; their dimensions start at the first device
+    /// @param list requirements, of which the trip time is the last; the dimensions start at the first device
     TimeSearch(const WishList& list, const WishOptions& options);
 
-    /// @param nearest the device nearest to the first that has the other wishes
+    /// @param nearest the device nearest to the first that meets the other requirements
     FoundDesign run(const FoundDesign& nearest);
 
 private:

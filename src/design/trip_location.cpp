@@ -12,7 +12,7 @@ namespace graze {
 
 namespace {
 
-/// Follows the way to the trip point, or finds it in the file. @return whether it is whole
+/// Computes the runs that lead to the trip point, or reuses those in the file. @return whether they are complete
 bool follow(const Study& study, ResultFile& file, const DesignReportOptions& options) {
     RunnerOptions running;
     running.jobs = options.jobs;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char *settled_run = "settled", *approach_run = "approach";
 
-/// A study of two runs: what a motion settles on, and its branch.
+/// Generates a study of two runs: the orbit on which a motion settles, and its branch.
 std::string own_study_text(const Design& design) {
     const Approach& approach = design.approach;
     const auto list = [](const ParameterValues& values) {
@@ -27,7 +27,7 @@ std::string own_study_text(const Design& design) {
             text += fmt::format("{}{} = {:.17g}", text.empty() ? "" : ", ", name, value);
         return "{ " + text + " }";
     };
-    std::error_code error; // where there is no current folder any more the path stays as it is
+    std::error_code error; // without a current folder the path stays relative
     const std::filesystem::path absolute = std::filesystem::absolute(design.model_path, error);
     const std::string path = design.model_path.ends_with(".toml") && !error ? absolute.string() : design.model_path;
     std::string text =
@@ -44,7 +44,7 @@ std::string own_study_text(const Design& design) {
     return text;
 }
 
-/// A run of a study, with those from which it starts.
+/// Names of a run and of those from which it starts, in order.
 std::vector<std::string> way_to(const Study& study, const std::string& name) {
     std::vector<std::string> way;
     for (const StudyRun* run = study.find_run(name); run; run = run->start ? study.find_run(run->start->run) : nullptr)
@@ -52,12 +52,12 @@ std::vector<std::string> way_to(const Study& study, const std::string& name) {
     return way;
 }
 
-/// Parameters that the design sets hold for all runs.
+/// Loads the study of the approach, with the parameters that the design sets.
 Study named_study(const Design& design) {
     return with_place(design.approach.place, [&] { return load_study(design.approach.study, design.set); });
 }
 
-/// The first touch of the event that is asked for, or of any.
+/// Whether a point is the trip point: the named one, or the first touch of the event (or of any).
 bool is_wanted(const Design& design, const Model& model, const SpecialPoint& point, const std::string& label) {
     const Approach& approach = design.approach;
     if (!approach.point.empty())
@@ -86,7 +86,7 @@ const SpecialPoint& with_condition(const SpecialPoint& point, const Place& place
     return point;
 }
 
-/// All that is wrong with the first device.
+/// Checks the first device against all dimensions.
 void require_first(const Design& design, const Orbit& orbit) {
     Mistakes mistakes;
     for (const DesignDimension& one : design.dimensions)
@@ -94,13 +94,13 @@ void require_first(const Design& design, const Orbit& orbit) {
     mistakes.throw_noted();
 }
 
-/// Neighbours on a branch that turns lie on the side where there are orbits.
+/// Side of a fold without orbits; its bracket lies on the other side.
 int fold_side(const SpecialPoint& point) {
     const double middle = 0.5 * (point.bracket.first + point.bracket.second);
     return middle > point.parameter ? -1 : 1;
 }
 
-/// Of the design's own runs the text is no file that a user could look into.
+/// Reports a failed run. The text of a generated study is not a file, so its places are removed.
 [[noreturn]] void refuse_run(const Design& design, const std::string& name, std::string failure) {
     const Approach& approach = design.approach;
     if (!approach.study.empty())
@@ -115,7 +115,8 @@ int fold_side(const SpecialPoint& point) {
                      "begin elsewhere, by `range` or `from`");
 }
 
-/// On the way up contacts must begin at a touch: those of a motion that comes from beyond another one end there.
+/// Contacts must begin at the touch as the control parameter rises; a motion that comes from beyond another touch may
+/// have contacts that end there.
 void require_onset(const Design& design, const TripPoint& trip) {
     if (!trip.is_touch() || class_at(trip).verdict.side >= 0)
         return;
@@ -151,7 +152,7 @@ TripPoint find_trip_point(const Design& design, const Study& study, const Result
             refuse_run(design, name, run.record.failure);
         if (planned.kind != RunKind::follow && name != last)
             continue;
-        // Of a run from which another one starts, what comes before that.
+        // In a run from which the next one starts, only points before that start are passed.
         const auto next = std::find_if(study.runs.begin(), study.runs.end(),
                                        [&](const StudyRun& one) { return one.start && one.start->run == name; });
         const std::string leaves = name != last && next != study.runs.end() ? next->start->point : "";
@@ -180,7 +181,7 @@ TripPoint find_trip_point(const Design& design, const Study& study, const Result
     for (const EarlierPoint& one : earlier)
         passed += fmt::format("{}{} at {:.6g}", passed.empty() ? "" : ", ", one.label, one.value);
     throw InputError(approach.place,
-                     fmt::format("the branch has come to its end without {}; on its way: {}",
+                     fmt::format("the branch ended without {}; points before: {}",
                                  !approach.point.empty()  ? approach.point
                                  : approach.event.empty() ? "a touch"
                                                           : fmt::format("a touch of '{}'", approach.event),
@@ -199,7 +200,7 @@ TripPoint moved_to(const TripPoint& trip, const Orbit& orbit) {
     moved.point.parameter = orbit.parameters[trip.control.place()];
     if (!trip.is_touch() || trip.point.at_end)
         return moved;
-    // Where it was, unless it has gone to another segment.
+    // In the same segment, unless it has moved to another one.
     std::optional<OrbitTouch> touch;
     for (const OrbitTouch& one : touches_of(trip.system, orbit))
         if (one.event == trip.point.event && (!touch || one.segment == trip.point.segment))
@@ -220,7 +221,7 @@ TripClass class_at(const TripPoint& trip) {
         result.verdict.side = trip.fold_side;
         result.outcome = fold ? GrazingOutcome::folds : GrazingOutcome::undecided;
         result.reason = fold ? "the branch of orbits turns: nothing remains beyond"
-                             : fmt::format("what remains beyond a {} is not said", name_of(point.type));
+                             : fmt::format("the motion beyond a {} is not determined", name_of(point.type));
         return result;
     }
     CycleMapOptions options;

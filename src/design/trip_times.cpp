@@ -11,7 +11,7 @@ namespace graze {
 
 namespace {
 
-/// The motion that begins on the orbit as it was at the trip point.
+/// Simulates the motion from the orbit at the trip point.
 TripTime simulated_from_orbit(const TripPoint& trip, const Orbit& orbit, double overshoot, const TripEnd& end,
                               const TripOptions& options) {
     std::vector<double> parameters = orbit.parameters;
@@ -25,7 +25,7 @@ TripTime simulated_from_orbit(const TripPoint& trip, const Orbit& orbit, double 
 std::vector<double> overshoots_of(const TripRequest& request, double value, int side) {
     const double sign = side < 0 ? -1 : 1;
     std::vector<double> result;
-    constexpr double most = 1e3; // of the trip value: beyond, it is a slip of the pen
+    constexpr double most = 1e3; // relative to the trip value; a larger one is taken for a typing error
     for (const double one : request.overshoots) {
         if (value != 0 && !(one <= most * std::abs(value)))
             throw InputError(request.place,
@@ -39,7 +39,7 @@ std::vector<double> overshoots_of(const TripRequest& request, double value, int 
 
 namespace {
 
-/// Of a fold: the passage from its orbit on by the normal form, until it is far; and by simulation.
+/// Adds the trip times of a fold: the passage by the normal form, and by simulation.
 void add_fold_rows(TripTimes& times, const TripPoint& trip, const Orbit& orbit, const TripRequest& request, int side,
                    const TripOptions& options) {
     SpecialPoint point = trip.point;
@@ -47,10 +47,10 @@ void add_fold_rows(TripTimes& times, const TripPoint& trip, const Orbit& orbit, 
     std::optional<FoldPassage> fold;
     try {
         fold = fold_passage(trip.system, point, trip.control);
-    } catch (const InputError&) { // it has no normal form that could be computed: simulation remains
+    } catch (const InputError&) { // no normal form could be computed: only simulation remains
     }
     const double value = orbit.parameters[trip.control.place()];
-    constexpr double digits = 1e-12; // of the parameter, to which a fold is known
+    constexpr double digits = 1e-12; // relative accuracy of the parameter at a fold
     for (const double overshoot : overshoots_of(request, value, side)) {
         if (options.interrupted && options.interrupted())
             return;

@@ -45,11 +45,11 @@ MappedValue mapped(const TripPoint& trip, LocatedValue& located, std::span<const
     return result;
 }
 
-/// Points of a plane on a side of what is solved for from one device in its middle: the way from the trip point is then
-/// gone once for all of them.
+/// Side of a tile, in points: the points of a tile are solved for from the device in its middle, so that the path from
+/// the trip point to it is computed only once.
 constexpr std::size_t tile = 8;
 
-/// The device in the middle of a tile, if there is one, and the solver that begins there.
+/// Finds the device in the middle of a tile, and a solver that starts there.
 void begin_tile(const TripPoint& trip, LocatedValue& located, std::span<const double> values,
                 const MapSettings& settings, std::optional<TripPoint>& middle, std::optional<LocatedValue>& near) {
     const LocatedSolution solution = located(values);
@@ -58,12 +58,12 @@ void begin_tile(const TripPoint& trip, LocatedValue& located, std::span<const do
     middle = moved_to(trip, solution.orbit);
     try {
         near.emplace(middle->system, middle->point, middle->control, located.others(), with_map(settings.solver));
-    } catch (const InputError&) { // nothing follows from others there
+    } catch (const InputError&) { // the trip value is not determined there
         middle.reset();
     }
 }
 
-/// Does numbered pieces of work on threads, each with a solver of its own.
+/// Runs numbered pieces of work on threads, each with a solver of its own.
 class MapWork {
 public:
     MapWork(const TripPoint& trip, std::vector<ParameterId> others, const MapSettings& settings)
@@ -93,7 +93,7 @@ public:
         };
         {
             std::vector<std::jthread> threads;
-            constexpr std::size_t enough = 8; // pieces for which a thread is worth its start
+            constexpr std::size_t enough = 8; // pieces that justify starting a thread
             const std::size_t jobs =
                 std::clamp<std::size_t>(count / enough, 1, static_cast<std::size_t>(settings_->jobs));
             for (std::size_t i = 1; i < jobs; ++i)
@@ -111,16 +111,16 @@ private:
     const MapSettings* settings_;
     std::atomic<std::size_t> next_{0}, done_{0};
     std::atomic<bool> stopped_{false};
-    std::mutex mutex_; ///< of the error
+    std::mutex mutex_; ///< protects error_
     std::exception_ptr error_;
 };
 
-/// Ends of what can be tuned, from the nominal position outwards: where a solution is missing, or beyond the range.
+/// Finds the limits of tuning from the nominal position outwards: a missing solution, or the end of the range.
 void set_limits(Tuning& tuning, const DesignDimension& stop, std::size_t nominal) {
     const auto problem_at = [&](const TuningPoint& point) -> std::string {
         if (!point.found || !point.admissible)
             return point.problem.empty() ? "the model would not come there" : point.problem;
-        // The ends themselves are found again but for round-off.
+        // The ends themselves are found again up to round-off.
         const double rounding = 1e-9 * (stop.greatest - stop.least);
         const bool beyond = point.position < stop.least - rounding || point.position > stop.greatest + rounding;
         return beyond ? "the stop's range ends" : "";
@@ -148,7 +148,7 @@ void MapSettings::validate() const {
     if (points < 2 || points > most)
         throw InputError(fmt::format("{} points are out of range", points), fmt::format("choose from 2 to {}", most));
     if (jobs < 1)
-        throw InputError(fmt::format("{} jobs cannot do anything", jobs), "give at least one");
+        throw InputError(fmt::format("{} jobs are out of range", jobs), "give at least one");
     solver.validate();
 }
 
@@ -190,7 +190,7 @@ std::vector<MappedValue> value_plane(const TripPoint& trip, const DesignDimensio
                 const auto values = values_at(i, j);
                 if (near)
                     one = mapped(*middle, *near, values);
-                if (!one.found) // what is far from the trip point says more of why not
+                if (!one.found) // from the trip point the reason of a failure is more specific
                     one = mapped(trip, located, values);
             }
     });
@@ -202,7 +202,7 @@ std::vector<MappedValue> value_plane(const TripPoint& trip, const DesignDimensio
 Tuning tuning_curve(const TripPoint& trip, const DesignDimension& stop, const MapSettings& settings) {
     settings.validate();
     Tuning tuning;
-    // Values between those that the ends of the stop's range have, or the last devices before them.
+    // Trip values between those at the ends of the stop's range, or at the last admissible devices.
     double least = trip.value(), greatest = trip.value();
     for (const MappedValue& one : value_curve(trip, stop, settings))
         if (one.found && one.admissible) {

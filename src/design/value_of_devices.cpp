@@ -21,7 +21,7 @@ const TripPoint* ValueOfDevices::at(std::span<const double> values) {
     problem_ = solution.problem;
     if (!solution.found || !solution.admissible)
         return nullptr;
-    // The finished device has to come from rest to its trip point within the approach's range.
+    // The finished device must reach its trip point within the approach's range.
     const double value = solution.orbit.parameters[trip_.control.place()];
     if (least_ < greatest_ && !(value >= least_ && value <= greatest_)) {
         problem_ = fmt::format("it trips at {:.6g}, outside of approach.range, {:.6g} to {:.6g}: widen it", value,

@@ -11,23 +11,23 @@
 
 namespace graze {
 
-/// A point's value of the control parameter as a function of the dimensions, with exact gradients: the last device that
-/// was asked for is remembered, since several wants ask for the same.
+/// Value of the control parameter at a point, as a function of the dimensions, with exact gradients. The last device is
+/// cached, since several requirements use it.
 class ValueOfDevices {
 public:
-    /// @param approach beyond whose range no device is looked for
+    /// @param approach its range limits the devices
     ValueOfDevices(const TripPoint& trip, std::vector<ParameterId> dimensions, const Approach& approach = {});
 
-    /// @return none where there is no such device; `problem` says why
+    /// @return null if there is no such device; `problem` says why
     const TripPoint* at(std::span<const double> values);
     const std::string& problem() const { return problem_; }
-    /// Of the device asked for last.
+    /// Gradient at the last device.
     const std::vector<double>& gradient();
     WantedValue value_at(std::span<const double> values);
 
 private:
     TripPoint trip_;
-    double least_, greatest_; ///< alike: anywhere
+    double least_, greatest_; ///< equal: no limits
     std::vector<ParameterId> dimensions_;
     LocatedValue located_;
     std::vector<double> last_, gradient_;

@@ -16,8 +16,8 @@ void WantedReader::read_value(const TomlEntry& item) {
         std::tie(wanted_.least, wanted_.greatest) = reader_.range(design_.model, item);
     else
         wanted_.value = number(item);
-    // The finished device goes the same way as the first one, and would begin beyond its touch. What lies beyond the
-    // other end it may come near to, which is told of the device that does.
+    // The finished device is approached as the first one, and must not start beyond its touch. A trip value beyond the
+    // other end is reported when a device reaches it.
     const Approach& approach = design_.approach;
     const std::optional<double> greatest = wanted_.value ? wanted_.value : wanted_.greatest;
     if (approach.study.empty() && approach.least < approach.greatest && greatest && *greatest < approach.least)
@@ -63,9 +63,9 @@ void WantedReader::read_yield(const TomlEntry& item) {
     wanted_.yield_place = reader_.toml().place(*item.node);
     const double share = number(item);
     if (!(share > 0 && share <= 1))
-        reader_.fail(item, fmt::format("the yield {:.6g} is no share of devices above 0", share),
+        reader_.fail(item, fmt::format("the yield {:.6g} is not a share of devices above 0", share),
                      "give the least share of devices that will do, up to 1, as 0.95 for 95 percent");
-    if (!design_.dimensions.empty() && // which else could not be read, and that is told
+    if (!design_.dimensions.empty() && // otherwise they were invalid, which has been reported
         std::none_of(design_.dimensions.begin(), design_.dimensions.end(),
                      [](const DesignDimension& one) { return one.tolerance && one.tolerance->size > 0; }))
         reader_.fail(item, "a yield is wanted, and no dimension has a tolerance",
@@ -76,7 +76,7 @@ void WantedReader::read_yield(const TomlEntry& item) {
 void WantedReader::read_importance(const TomlEntry& item) {
     reader_.each_of(
         item, {"value", "class", "trip_time", "reset", "clear", "sensitivity", "yield"}, [&](const TomlEntry& one) {
-            constexpr double most = 100; // of misses down to 1e-9, which are none
+            constexpr double most = 100; // larger weights would conflict with the tolerance of 1e-9
             const double times = reader_.positive(design_.model, one);
             if (!(times >= 1 / most && times <= most))
                 reader_.fail(one, fmt::format("{} is {:.6g}", one.path, times),

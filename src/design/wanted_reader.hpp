@@ -7,7 +7,7 @@
 
 namespace graze {
 
-/// Reads what is wanted of a design, whose model, dimensions and yield are known.
+/// Reads the requirements of a design, whose model, dimensions and yield are known.
 class WantedReader {
 public:
     WantedReader(const StudyReader& reader, Design& design)

@@ -1,6 +1,6 @@
 #include "graze/design/wish_list.hpp"
 
-#include "design/balance.hpp"
+#include "design/multipliers.hpp"
 #include "graze/base/input_error.hpp"
 #include "orbit/eigen_index.hpp"
 
@@ -14,13 +14,13 @@ namespace graze {
 
 namespace {
 
-constexpr double open_range = 10;     ///< scales within which starts lie where a range is infinite
-constexpr double least_weight = 1e-6; ///< of the largest: it binds
-constexpr double imbalance = 1e-4;    ///< of gradients, in which multipliers show that a design is stationary
-constexpr double given_way = 1e-10;   ///< by limits that may not give way further, for round-off
+constexpr double open_range = 10;     ///< in scales: starting points in an infinite range
+constexpr double least_weight = 1e-6; ///< relative to the largest weight: above it a limit is active
+constexpr double imbalance = 1e-4;    ///< residual of gradients below which a design counts as stationary
+constexpr double cap_slack = 1e-10;   ///< round-off added to caps
 
-/// Points that fill the ranges evenly, up to a distance of each dimension, the same each time (J. H. Halton, Numer.
-/// Math. 2, 1960).
+/// Returns point `number` of the Halton sequence within the ranges, at most `farthest` from the start in each dimension
+/// (J. H. Halton, Numer. Math. 2, 1960).
 Eigen::VectorXd scattered(const ScaledWishes& wishes, std::size_t number, double farthest) {
     Eigen::VectorXd result(wishes.size());
     std::size_t base = 1;
@@ -51,34 +51,34 @@ public:
     Search(const WishList& list, const WishOptions& options) : wishes_(list, options), options_(options) {}
 
     FoundDesign run() {
-        look_around();
+        search_from_starts();
         if (best_)
-            let_others_be_met();
+            reduce_other_violations();
         return report();
     }
 
 private:
-    static constexpr std::size_t first_looks = 64; ///< at designs, until one has all values
+    static constexpr std::size_t first_looks = 64; ///< designs tried until one has all values
 
     bool met() const { return best_ && best_->violation <= options_.tolerance; }
 
-    void look_around() {
+    void search_from_starts() {
         begin_at(Eigen::VectorXd::Zero(wishes_.size()));
         if (wishes_.size() == 0)
             return;
         std::size_t number = 1;
         for (std::size_t start = 1; start < options_.starts || (!best_ && number < first_looks); ++start) {
-            if (!wishes_.may_go_on() || (met() && best_->z.norm() <= beside_limit))
+            if (!wishes_.may_go_on() || (met() && best_->z.norm() <= limit_distance))
                 return;
             begin_at(scattered(wishes_, number++, met() ? best_->z.norm() : std::numeric_limits<double>::infinity()));
         }
     }
 
     void begin_at(const Eigen::VectorXd& z) {
-        const Asked at = wishes_.ask(z);
+        const Evaluation at = wishes_.evaluate(z);
         if (!at.exists)
             return;
-        Candidate here = penalised(wishes_, {z, at, wishes_.largest(at)});
+        Candidate here = minimise_penalty(wishes_, {z, at, wishes_.largest(at)});
         const auto order = [&](const Candidate& one) {
             return one.violation <= options_.tolerance ? std::pair(0.0, one.z.norm())
                                                        : std::pair(one.violation, one.z.norm());
@@ -87,60 +87,60 @@ private:
             best_ = std::move(here);
     }
 
-    /// What holds the largest violation is kept there, and the rest made as small as it can be.
-    void let_others_be_met() {
+    /// Caps the limits that determine the largest violation, and minimises the rest, repeatedly.
+    void reduce_other_violations() {
         const std::size_t rounds = wishes_.rows().size();
         violation_ = best_->violation;
-        for (std::size_t round = 0; round < rounds && !met() && wishes_.left == Left::not_at_all; ++round) {
-            const Balance balance = balance_of_violation(wishes_, *best_);
-            note(balance, round == 0);
+        for (std::size_t round = 0; round < rounds && !met() && wishes_.stop_reason == StopReason::none; ++round) {
+            const Multipliers multipliers = multipliers_of_violation(wishes_, *best_);
+            note(multipliers, round == 0);
             bool any = false;
             for (std::size_t k = 0; k < rounds; ++k) {
                 LimitRow& row = wishes_.rows()[k];
-                if (row.cap || !(balance.rows[index(k)] > least_weight * balance.rows.maxCoeff()))
+                if (row.cap || !(multipliers.rows[index(k)] > least_weight * multipliers.rows.maxCoeff()))
                     continue;
-                row.cap = wishes_.violation(row, best_->at) + given_way;
+                row.cap = wishes_.violation(row, best_->at) + cap_slack;
                 any = true;
             }
             best_->violation = wishes_.largest(best_->at);
-            if (!any || balance.residual > imbalance)
+            if (!any || multipliers.residual > imbalance)
                 return;
-            best_ = penalised(wishes_, std::move(*best_));
+            best_ = minimise_penalty(wishes_, std::move(*best_));
         }
         if (violation_ <= options_.tolerance)
-            note(balance_of_distance(wishes_, *best_), true);
-        if (balance_.rows.size() > 0)
+            note(multipliers_of_distance(wishes_, *best_), true);
+        if (multipliers_.rows.size() > 0)
             snap();
     }
 
-    /// Onto the ends of ranges that hold it, at which it lies to within round-off.
+    /// Moves the design exactly onto active ends of ranges, where it lies to within round-off.
     void snap() {
         Candidate at = *best_;
         for (Eigen::Index i = 0; i < at.z.size(); ++i) {
-            if (balance_.lowest[i] > 0)
+            if (multipliers_.lowest[i] > 0)
                 at.z[i] = wishes_.lowest()[i];
-            if (balance_.highest[i] > 0)
+            if (multipliers_.highest[i] > 0)
                 at.z[i] = wishes_.highest()[i];
         }
         if (at.z == best_->z)
             return;
-        at.at = wishes_.ask(at.z);
+        at.at = wishes_.evaluate(at.z);
         if (!at.at.exists)
             return;
         at.violation = wishes_.largest(at.at);
-        const bool good = at.violation <= std::max(options_.tolerance, best_->violation + given_way);
+        const bool good = at.violation <= std::max(options_.tolerance, best_->violation + cap_slack);
         if (good && wishes_.keeps_caps(at.at))
             best_ = std::move(at);
     }
 
-    void note(const Balance& balance, bool first) {
+    void note(const Multipliers& multipliers, bool first) {
         if (first) {
-            balance_ = balance;
+            multipliers_ = multipliers;
             return;
         }
-        balance_.rows = balance_.rows.cwiseMax(balance.rows);
-        balance_.lowest = balance_.lowest.cwiseMax(balance.lowest);
-        balance_.highest = balance_.highest.cwiseMax(balance.highest);
+        multipliers_.rows = multipliers_.rows.cwiseMax(multipliers.rows);
+        multipliers_.lowest = multipliers_.lowest.cwiseMax(multipliers.lowest);
+        multipliers_.highest = multipliers_.highest.cwiseMax(multipliers.highest);
     }
 
     FoundDesign report() const {
@@ -159,17 +159,18 @@ private:
     }
 
     void fill(FoundDesign& result) const {
-        const bool known = balance_.rows.size() > 0 || wishes_.rows().empty();
+        const bool known = multipliers_.rows.size() > 0 || wishes_.rows().empty();
         double most = 0;
-        if (known && balance_.rows.size() > 0)
-            most = std::max({balance_.rows.maxCoeff(), balance_.lowest.size() ? balance_.lowest.maxCoeff() : 0.0,
-                             balance_.highest.size() ? balance_.highest.maxCoeff() : 0.0});
+        if (known && multipliers_.rows.size() > 0)
+            most = std::max({multipliers_.rows.maxCoeff(),
+                             multipliers_.lowest.size() ? multipliers_.lowest.maxCoeff() : 0.0,
+                             multipliers_.highest.size() ? multipliers_.highest.maxCoeff() : 0.0});
         for (std::size_t i = 0; i < result.dimensions.size(); ++i) {
             FoundDimension& one = result.dimensions[i];
             one.at_lowest = one.value <= wishes_.list().dimensions[i].lowest;
             one.at_highest = one.value >= wishes_.list().dimensions[i].highest;
-            if (balance_.rows.size() > 0)
-                one.weight = balance_.lowest[index(i)] + balance_.highest[index(i)];
+            if (multipliers_.rows.size() > 0)
+                one.weight = multipliers_.lowest[index(i)] + multipliers_.highest[index(i)];
             one.binds = one.weight > least_weight * most;
         }
         for (std::size_t j = 0; j < result.wants.size(); ++j)
@@ -177,8 +178,8 @@ private:
         for (std::size_t k = 0; k < wishes_.rows().size(); ++k) {
             FoundWant& want = result.wants[wishes_.rows()[k].want];
             want.violation = std::max(want.violation, wishes_.violation(wishes_.rows()[k], best_->at));
-            if (balance_.rows.size() > 0)
-                want.weight += balance_.rows[index(k)];
+            if (multipliers_.rows.size() > 0)
+                want.weight += multipliers_.rows[index(k)];
             want.binds = want.weight > least_weight * most;
         }
         for (FoundWant& want : result.wants) {
@@ -186,23 +187,23 @@ private:
             result.violation = std::max(result.violation, want.violation);
         }
         result.distance = best_->z.norm();
-        result.stationary = known && balance_.residual <= imbalance;
+        result.stationary = known && multipliers_.residual <= imbalance;
     }
 
     void tell(FoundDesign& result) const {
         if (best_ && result.violation <= options_.tolerance) {
             result.outcome = WishOutcome::met;
-        } else if (wishes_.left == Left::interrupted) {
+        } else if (wishes_.stop_reason == StopReason::interrupted) {
             result.outcome = WishOutcome::interrupted;
             result.reason = "the search was interrupted";
-        } else if (wishes_.left == Left::spent) {
+        } else if (wishes_.stop_reason == StopReason::exhausted) {
             result.outcome = WishOutcome::unfinished;
             result.reason = fmt::format("{} devices were tried, as many as are allowed; {}", wishes_.evaluations,
                                         best_ ? "the best of them misses " + missed(result)
-                                              : "none of them has all that is asked for: " + wishes_.problem);
+                                              : "none of them has all required values: " + wishes_.problem);
         } else if (!best_) {
             result.outcome = WishOutcome::nowhere;
-            result.reason = fmt::format("none of the {} devices that were tried has all that is asked for: {}",
+            result.reason = fmt::format("none of the {} devices that were tried has all required values: {}",
                                         wishes_.evaluations, wishes_.problem);
         } else {
             result.outcome = WishOutcome::unmet;
@@ -230,9 +231,8 @@ private:
                                      one.lowest, one.highest);
             }
         if (!result.stationary && wishes_.missing > 0)
-            return fmt::format(
-                "missed: {}; the closest device lies beside others that have not all that is asked for: {}",
-                missed(result), wishes_.problem);
+            return fmt::format("missed: {}; the closest device is next to others without all required values: {}",
+                               missed(result), wishes_.problem);
         return result.stationary ? "no device near this one comes closer; in the way: " + names
                                  : "missed: " + missed(result) + "; no closer device was found";
     }
@@ -240,8 +240,8 @@ private:
     ScaledWishes wishes_;
     const WishOptions& options_;
     std::optional<Candidate> best_;
-    double violation_ = 0; ///< the largest one
-    Balance balance_;
+    double violation_ = 0; ///< largest violation
+    Multipliers multipliers_;
 };
 
 [[noreturn]] void refuse(const std::string& problem, const std::string& remedy) {

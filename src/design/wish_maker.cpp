@@ -26,11 +26,11 @@ std::vector<ParameterId> parameters_of(const Design& design) {
     return result;
 }
 
-/// The least projection of a contact on what comes after it, in units of the largest one. Each is measured by what the
-/// leading multiplier leaves of an effect until then: else all late ones would be small, whatever the class.
+/// Least projection of a contact on later ones, relative to the largest one. Each is normalised by the decay of the
+/// leading multiplier until then: otherwise all late ones would be small for any class.
 std::optional<double> least_projection(const CycleMap& map, const Verdict& verdict) {
     constexpr std::size_t looked_at = 100;
-    constexpr double faintest = 1e-200; // below which numbers lose their digits
+    constexpr double faintest = 1e-200; // below this, numbers lose their digits
     const double leading = map.multipliers.empty() ? 1 : std::abs(map.multipliers.front());
     double least = infinite, largest = 0, left = 1;
     for (const double one : map.projections(looked_at)) {
@@ -42,7 +42,7 @@ std::optional<double> least_projection(const CycleMap& map, const Verdict& verdi
     }
     if (!(largest > 0) || !std::isfinite(least / largest))
         return std::nullopt;
-    // A contact that comes later still is no want that is met.
+    // A contact beyond the examined cycles must not count as meeting the requirement.
     return verdict.outcome == GrazingOutcome::persists ? least / largest : std::min(least / largest, 0.0);
 }
 
@@ -68,7 +68,7 @@ WishList WishMaker::make(bool hasty, double score) {
     return std::move(list_);
 }
 
-/// Of a wish, or of one of several with the same key.
+/// Weight of a requirement, or of one of several with the same key.
 double WishMaker::importance_of(const std::string& name) const {
     for (const auto& [key, times] : wanted().importance)
         if (name == key || name.starts_with(key + "_"))
@@ -83,21 +83,21 @@ void WishMaker::add(const std::string& name, const std::string& text, double lea
               most,
               scale,
               [this, first = list_.wants.empty(), value = std::move(value)](std::span<const double> values) {
-                  if (first && options_.progress) // each device is asked for all of them
+                  if (first && options_.progress) // counted once for each device
                       options_.progress(++tried_);
                   return value(values);
               },
               importance_of(name),
               text,
               ""};
-    // Of a limit that is zero there are no percents.
+    // A limit of zero gives no scale: use the trip value's.
     if (scale == 0 &&
         std::max(std::isfinite(least) ? std::abs(least) : 0, std::isfinite(most) ? std::abs(most) : 0) == 0)
         want.scale = trip_.value() != 0 ? std::abs(trip_.value()) : 1;
     list_.wants.push_back(std::move(want));
 }
 
-/// A value of a device that has one, without a gradient.
+/// Adds a requirement on a value without a gradient.
 void WishMaker::add_of_device(const std::string& name, const std::string& text, double least, double most, double scale,
                               std::function<std::optional<double>(const TripPoint&)> value) {
     add(
@@ -123,7 +123,7 @@ void WishMaker::add_value() {
         [devices = devices_](std::span<const double> values) { return devices->value_at(values); });
 }
 
-/// Which contacts lead to others: the least projection decides.
+/// Adds the class: whether contacts lead to others, by the least projection.
 void WishMaker::add_class() {
     if (!wanted().outcome)
         return;
@@ -136,7 +136,7 @@ void WishMaker::add_class() {
                              "want another class, or another trip point");
         return;
     }
-    constexpr double margin = 1e-3; // of the largest projection, so that the boundary itself is not met
+    constexpr double margin = 1e-3; // relative to the largest projection: keeps off the boundary itself
     const bool trips = outcome == GrazingOutcome::lost;
     add_of_device("class", "the class", trips ? -infinite : margin, trips ? -margin : infinite, 1,
                   [](const TripPoint& device) -> std::optional<double> {
@@ -186,7 +186,7 @@ void WishMaker::add_reset() {
         [resets](std::span<const double> values) { return resets->value_at(values); });
 }
 
-/// The distance from each earlier point that changes the motion and whose value can be followed.
+/// Adds the distance from each earlier point that changes the motion and can be continued.
 void WishMaker::add_clear() {
     if (!wanted().clear)
         return;
@@ -227,7 +227,7 @@ void WishMaker::add_sensitivities() {
     }
 }
 
-/// By derivatives: how surely the trip value is within what will do, of devices made with the tolerances.
+/// Adds the yield by derivatives: a score of the trip value within its limits, for devices made with the tolerances.
 void WishMaker::add_yield(double score) {
     if (!wanted().least_yield)
         return;
@@ -238,7 +238,7 @@ void WishMaker::add_yield(double score) {
             result.problem = devices_->problem();
             return result;
         }
-        constexpr double faintest = 1e-12; // of the trip value: no tolerance is tighter
+        constexpr double faintest = 1e-12; // relative to the trip value: smallest deviation
         double deviation = faintest * std::abs(device->value());
         for (std::size_t i = 0; i < design_.dimensions.size(); ++i)
             if (const DesignDimension& one = design_.dimensions[i]; one.tolerance)

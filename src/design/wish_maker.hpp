@@ -11,18 +11,18 @@
 
 namespace graze {
 
-/// Makes the list of what a design wants, whose functions it must outlive.
+/// Makes the list of requirements of a design. It must outlive the list's functions.
 class WishMaker {
 public:
     WishMaker(const Design& design, const TripPoint& trip, const WishesOptions& options);
 
-    /// A device, if there is such a one; until another is asked for.
+    /// Returns a device, or null; valid until the next one is requested.
     const TripPoint* device_of(const std::vector<double>& values) { return devices_->at(values); }
-    /// The trip value of a device, if it has one.
+    /// Returns the trip value of a device, if it has one.
     std::optional<double> value_of(const std::vector<double>& values) { return devices_->value_at(values).value; }
 
-    /// @param hasty with the trip time, which jumps from cycle to cycle: nothing that a solver likes
-    /// @param score of the yield by derivatives that is asked for
+    /// @param hasty whether to include the trip time, which is discontinuous and unsuitable for the solver
+    /// @param score required score of the yield by derivatives
     WishList make(bool hasty, double score);
 
 private:

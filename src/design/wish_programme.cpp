@@ -1,6 +1,6 @@
 #include "design/wish_programme.hpp"
 
-#include "design/balance.hpp"
+#include "design/multipliers.hpp"
 #include "orbit/eigen_index.hpp"
 
 #include <nlopt.h>
@@ -19,20 +19,20 @@ namespace graze {
 
 namespace {
 
-constexpr double balanced = 1e-7; ///< what may be left of gradients
-/// By how much a scale of distance counts less than one of violation: tried in turn until all wants are met.
+constexpr double balanced = 1e-7; ///< residual of gradients at a stationary point
+/// Weights of the distance relative to violations, tried in turn until all requirements are met.
 constexpr std::array<double, 5> distance_shares{1, 1e-2, 1e-4, 1e-6, 1e-8};
-constexpr double least_region = 1e-10; ///< beside designs without values, in scales
-constexpr double no_gain = 1e-12;      ///< of what is minimised: such gains are none
-constexpr double beside_face = 1e-7;   ///< of a region, as a share of its size: it is reached
+constexpr double least_region = 1e-10; ///< smallest region next to designs without values, in scales
+constexpr double no_gain = 1e-12;      ///< smaller relative gains of the objective are ignored
+constexpr double beside_face = 1e-7;   ///< relative to a region's size: its face counts as reached
 
-/// One sequential quadratic programme: the design and the elastic variable, which is the last of the unknowns. That one
-/// is measured in violations over the share of distances, so that second derivatives of the distance are 1.
+/// One run of sequential quadratic programming on the design and the elastic variable, which is the last unknown,
+/// scaled by 1/share so that second derivatives of the objective are 1.
 class Programme {
 public:
     Programme(ScaledWishes& wishes, double share) : wishes_(wishes), share_(share) {}
 
-    /// The best of what is seen counts, whatever the method says of its end.
+    /// Returns the best design that was evaluated, whatever the method's own result.
     Candidate run(const Candidate& from, const Eigen::VectorXd& lowest, const Eigen::VectorXd& highest) {
         const Eigen::Index n = wishes_.size();
         best_ = from;
@@ -61,7 +61,7 @@ public:
             std::rethrow_exception(wishes_.thrown);
         return best_;
     }
-    /// The design without values at which it has been left, if that was why.
+    /// The design without values that stopped it, if one did.
     const std::optional<Eigen::VectorXd>& missing() const { return seen_missing_; }
     bool is_best() const { return is_best_; }
 
@@ -82,11 +82,11 @@ private:
     static void limits(unsigned count, double* result, unsigned unknown_count, const double* unknowns, double* gradient,
                        void* self) {
         auto& programme = *static_cast<Programme*>(self);
-        try { // exceptions would not pass through the library
+        try { // exceptions must not pass through the C library
             programme.set_limits(index(count), result, static_cast<Eigen::Index>(unknown_count), unknowns, gradient);
         } catch (...) {
             programme.wishes_.thrown = std::current_exception();
-            programme.wishes_.left = Left::thrown;
+            programme.wishes_.stop_reason = StopReason::exception;
             programme.stop(index(count), result, gradient, static_cast<Eigen::Index>(unknown_count));
         }
     }
@@ -95,9 +95,9 @@ private:
                     double* gradient) {
         const Eigen::Index n = unknown_count - 1;
         const Eigen::VectorXd z = Eigen::Map<const Eigen::VectorXd>(unknowns, n);
-        const Asked& at = wishes_.ask(z);
+        const Evaluation& at = wishes_.evaluate(z);
         if (!at.exists) {
-            if (wishes_.left == Left::not_at_all)
+            if (wishes_.stop_reason == StopReason::none)
                 seen_missing_ = z;
             return stop(count, result, gradient, unknown_count);
         }
@@ -118,7 +118,7 @@ private:
             best_ = std::move(here);
             is_best_ = graze::is_best(wishes_, best_, share_);
         }
-        if (is_best_ || idle_ > most_idle + 2 * n) // round-off and noise would lead it about
+        if (is_best_ || idle_ > most_idle + 2 * n) // otherwise round-off and noise would keep it moving
             nlopt_force_stop(optimiser_.get());
     }
 
@@ -137,16 +137,17 @@ private:
     Candidate best_;
     std::optional<Eigen::VectorXd> seen_missing_;
     bool is_best_ = false;
-    Eigen::Index idle_ = 0; ///< evaluations without gain
+    Eigen::Index idle_ = 0; ///< evaluations without a gain
     std::unique_ptr<nlopt_opt_s, Destroy> optimiser_;
 };
 
-/// The best design near one. Where a design without values is met, it goes on in regions that shrink before it.
+/// Finds the local minimum near a design. If it meets a design without values, it continues in regions that shrink
+/// towards it.
 Candidate settle(ScaledWishes& wishes, Candidate best, double share) {
     constexpr int most_regions = 200, most_repetitions = 3;
     double radius = std::numeric_limits<double>::infinity();
     int repetitions = 0;
-    for (int k = 0; k < most_regions && wishes.left == Left::not_at_all; ++k) {
+    for (int k = 0; k < most_regions && wishes.stop_reason == StopReason::none; ++k) {
         const Eigen::VectorXd low = wishes.lowest().cwiseMax((best.z.array() - radius).matrix()),
                               high = wishes.highest().cwiseMin((best.z.array() + radius).matrix());
         Programme programme(wishes, share);
@@ -163,7 +164,7 @@ Candidate settle(ScaledWishes& wishes, Candidate best, double share) {
         } else if (moved >= radius * (1 - beside_face)) {
             radius *= 2;
         } else if (!gains || ++repetitions > most_repetitions) {
-            break; // another run with fresh second derivatives has brought nothing
+            break; // another run with fresh second derivatives gave no gain
         }
     }
     return best;
@@ -171,15 +172,16 @@ Candidate settle(ScaledWishes& wishes, Candidate best, double share) {
 
 } // namespace
 
-Candidate penalised(ScaledWishes& wishes, Candidate best) {
+Candidate minimise_penalty(ScaledWishes& wishes, Candidate best) {
     for (const double share : distance_shares) {
         if (wishes.size() == 0 || wishes.rows().empty())
             break;
         best = settle(wishes, std::move(best), share);
-        if (wishes.left != Left::not_at_all || best.violation <= wishes.options().tolerance)
+        if (wishes.stop_reason != StopReason::none || best.violation <= wishes.options().tolerance)
             break;
-        // Where limits alone hold the least violation, the distance makes no difference.
-        if (const Balance held = balance_of_violation(wishes, best); held.residual < balanced && held.gap < balanced)
+        // If limits alone determine the least violation, the distance has no influence.
+        if (const Multipliers held = multipliers_of_violation(wishes, best);
+            held.residual < balanced && held.gap < balanced)
             break;
     }
     return best;

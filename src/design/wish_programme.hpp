@@ -6,17 +6,18 @@
 
 namespace graze {
 
+/// A design with its evaluation.
 struct Candidate {
     Eigen::VectorXd z;
-    Asked at;
-    double violation = 0; ///< of the rows that may give way
+    Evaluation at;
+    double violation = 0; ///< largest violation of limits without a cap
 
-    /// What is minimised.
+    /// Objective: violation plus `share` times half the squared distance.
     double merit(double share) const { return violation + share * z.squaredNorm() / 2; }
 };
 
-/// The exact penalty: from one design to the best near it, with the distance counting less and less until all that can
-/// be met is. Limits with a cap keep it.
-Candidate penalised(ScaledWishes& wishes, Candidate best);
+/// Minimises the exact penalty from a design, with a decreasing weight of the distance until all requirements that can
+/// be met are met. Limits with a cap respect it.
+Candidate minimise_penalty(ScaledWishes& wishes, Candidate best);
 
 } // namespace graze

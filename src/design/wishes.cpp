@@ -31,7 +31,7 @@ MetWishes met_with(WishMaker& maker, const Design& design, const WishesOptions& 
         result.found.outcome != WishOutcome::nowhere) {
         WishList whole = maker.make(true, score);
         const FoundWant time = found_want(whole.wants.back(), whole.wants.back().value(result.values()).value);
-        // The time is looked for only where it is what is missing.
+        // The time is searched for only if it is all that is missing.
         if (!time.met && result.found.outcome == WishOutcome::met)
             result.found = TimeSearch(whole, solver).run(result.found);
         else
@@ -41,14 +41,14 @@ MetWishes met_with(WishMaker& maker, const Design& design, const WishesOptions& 
     return result;
 }
 
-/// Shares of so many devices that are neither none nor all.
+/// Clamps a share so that it is neither none nor all of the devices.
 double countable(double share, std::size_t devices) {
     const double least = 0.5 / static_cast<double>(devices);
     return std::clamp(share, least, 1 - least);
 }
 
-/// Makes the devices of what was found, and says how many will do in the place of what derivatives say.
-/// @return the share; none: not made, since nothing was found or the work was interrupted
+/// Draws devices with the tolerances, and replaces the yield by derivatives by the counted one.
+/// @return the share; nothing if no design was found or the work was interrupted
 std::optional<double> make_devices(MetWishes& result, WishMaker& maker, const Design& design,
                                    const WishesOptions& options) {
     const auto want = std::find_if(result.list.wants.begin(), result.list.wants.end(),
@@ -75,7 +75,7 @@ std::optional<double> make_devices(MetWishes& result, WishMaker& maker, const De
     return yield.within->value;
 }
 
-/// A search by derivatives that missed the yield alone has not missed it where the devices that are made have it.
+/// Sets the outcome to met if only the yield by derivatives was missed, and the counted one is sufficient.
 void tell_met(MetWishes& result) {
     const std::vector<FoundWant>& wants = result.found.wants;
     if (!std::all_of(wants.begin(), wants.end(), [](const FoundWant& one) { return one.met; }))
@@ -87,8 +87,8 @@ void tell_met(MetWishes& result) {
         result.found.violation = std::max(result.found.violation, one.violation);
 }
 
-/// Derivatives say of what is not linear, and not normal, only about how many devices will do: the score that they are
-/// asked for is raised by what is missing of those that are made.
+/// Meets requirements with a yield. The yield by derivatives is only approximate, as trip values are neither linear nor
+/// normal: the required score is raised by what the counted devices lack, and the search repeated.
 MetWishes met_with_yield(WishMaker& maker, const Design& design, const WishesOptions& options) {
     constexpr int most_rounds = 5;
     const double wanted = *design.wanted.least_yield;
@@ -104,19 +104,19 @@ MetWishes met_with_yield(WishMaker& maker, const Design& design, const WishesOpt
             return result;
         if (round == most_rounds) {
             result.found.outcome = WishOutcome::unmet;
-            result.found.reason =
-                fmt::format("of {} devices made with the tolerances {:.6g} will do, and at least {:.6g} is wanted",
-                            devices, *made, wanted);
+            result.found.reason = fmt::format(
+                "of {} devices made with the tolerances a share of {:.6g} is usable, and at least {:.6g} is wanted",
+                devices, *made, wanted);
             return result;
         }
-        constexpr double beyond = 0.02; // standard deviations: shares are counted
+        constexpr double beyond = 0.02; // standard deviations: margin for the statistical error of the counted share
         score += score_of_share(countable(wanted, devices)) - score_of_share(countable(*made, devices)) + beyond;
     }
 }
 
-/// That the approach's range is in the way.
+/// Adds to the reason that the approach's range limits the result.
 void tell_range(MetWishes& result, const Approach& approach) {
-    constexpr double beside = 1e-3; // of the range: the search ends before designs that leave it
+    constexpr double beside = 1e-3; // relative to the range: the search stops before designs that leave it
     if (!result.trip_value || result.found.outcome == WishOutcome::met || !(approach.least < approach.greatest))
         return;
     const double value = *result.trip_value, near = beside * (approach.greatest - approach.least);
@@ -136,7 +136,7 @@ MetWishes meet_wishes(const Design& design, const TripPoint& trip, const WishesO
         result.trip_value = maker.value_of(result.values());
     tell_range(result, design.approach);
     for (Want& one : result.list.wants)
-        one.value = nullptr; // they refer to what ends here
+        one.value = nullptr; // they refer to local objects
     return result;
 }
 

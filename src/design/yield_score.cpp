@@ -7,7 +7,7 @@ namespace graze {
 
 namespace {
 
-/// Logarithm of the share of a normal distribution that lies above x.
+/// Logarithm of the upper tail of the normal distribution beyond x.
 double log_tail(double x) {
     constexpr double far = 25; // the next term of the asymptotic series is 15/x^6, below 1e-7 of a logarithm of -300
     if (x < far)
@@ -16,7 +16,7 @@ double log_tail(double x) {
     return -0.5 * square - std::log(x * std::sqrt(2 * std::numbers::pi)) + std::log1p((-1 + 3 / square) / square);
 }
 
-/// @param logarithm of a share of at most a half. @return above which that lies
+/// Inverts log_tail. @param logarithm of a share of at most a half. @return the x beyond which that share lies
 double tail_of(double logarithm) {
     double x = std::sqrt(std::fmax(0, -2 * logarithm)) / 2;
     constexpr int most = 60; // Newton's method on a concave function
@@ -37,7 +37,7 @@ double yield_score(double least, double greatest, double value, double deviation
     const double low = (least - value) / deviation, high = (greatest - value) / deviation;
     const double outside = std::exp(log_tail(-low)) + std::exp(log_tail(high));
     if (outside <= 0.5)
-        // The larger of both tails may be too small for a number.
+        // The larger tail may underflow.
         return outside > 1e-290 ? tail_of(std::log(outside)) : std::fmin(-low, high);
     if (low < 0 && high > 0)
         return -tail_of(std::log1p(-outside));

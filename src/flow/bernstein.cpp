@@ -11,7 +11,7 @@ namespace {
 /// Counts the most sign variations that a sequence with signs +1, -1 and 0 (unknown) may have, up to 2.
 class VariationCounter {
 public:
-    /// @return whether to go on
+    /// @return whether to continue
     bool add(int sign) {
         if (sign == 0) {
             ++unknown_;
@@ -47,7 +47,7 @@ struct DoubleDouble {
     double high, low;
 };
 
-/// a + x b
+/// Returns a + x b.
 DoubleDouble add_product(DoubleDouble a, double x, DoubleDouble b) {
     const double product = x * b.high;
     const double product_low = std::fma(x, b.high, -product) + x * b.low;
@@ -89,7 +89,7 @@ void halve(std::span<BernsteinCoefficient> b, std::span<BernsteinCoefficient> le
 void expand(std::span<const double> c, double left, double width, double error, std::span<const double> reciprocals,
             std::span<BernsteinCoefficient> b) {
     const std::size_t size = c.size();
-    for (std::size_t k = 0; k < size; ++k) // during the shift the two fields are a double-double number
+    for (std::size_t k = 0; k < size; ++k) // during the shift, value and bound hold a double-double number
         b[k] = {c[k], 0};
     for (std::size_t i = 0; i + 1 < size; ++i) {
         for (std::size_t j = size - 1; j-- > i;) {
@@ -103,8 +103,8 @@ void expand(std::span<const double> c, double left, double width, double error, 
         b[k].bound = std::abs(b[k].value);
         power *= width;
     }
-    // The shift leaves about n 2^-104 sum |c_k| s^k; error is at least 4 u times that sum, and bounds are multiplied
-    // by more than 8 u.
+    // The error of the shift is about n 2^-104 sum |c_k| s^k; error is at least 4 u times that sum, and bounds are
+    // multiplied by more than 8 u.
     b[0].bound += 64 * error;
     from_power(b, reciprocals);
 }

@@ -15,13 +15,13 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The states that each register's value depends on, sorted.
+/// Returns the states on which each register depends, sorted.
 std::vector<std::vector<std::size_t>> dependences_of(const Tape& tape) {
     std::vector<std::vector<std::size_t>> all(tape.registers);
     for (std::size_t i = 0; i < tape.states; ++i)
         all[i] = {i};
     std::vector<std::size_t> merged;
-    // Some registers are read before they are written to.
+    // Some registers are read by instructions that precede their own.
     for (bool grows = true; grows;) {
         grows = false;
         for (const Instruction& instruction : tape.code) {
@@ -40,7 +40,7 @@ std::vector<std::vector<std::size_t>> dependences_of(const Tape& tape) {
     return all;
 }
 
-/// Of each register as a polynomial in the states; infinite unless it is one.
+/// Returns the degree of each register as a polynomial in the states; infinite if it is not one.
 std::vector<double> degrees_in_states(const Tape& tape) {
     std::vector<double> degrees(tape.registers, infinity);
     std::fill_n(degrees.begin(), tape.states, 1.0);
@@ -60,7 +60,7 @@ std::vector<double> degrees_in_states(const Tape& tape) {
     return degrees;
 }
 
-/// Strongly connected components (Tarjan 1972), by a stack of its own: chains of states may be long.
+/// Strongly connected components (Tarjan 1972), with an explicit stack, since chains of states may be long.
 class Components {
 public:
     template <class Successors>
@@ -120,7 +120,7 @@ private:
     std::size_t seen_ = 0;
 };
 
-/// Raises the sizes of one state by those of another; whether any grew by much.
+/// Raises the sizes of one state according to another. @return whether any grew substantially
 template <std::size_t lanes>
 bool raise(double* to, const double* from, double gain) {
     constexpr double much = 1.5;
@@ -138,7 +138,7 @@ bool raise(double* to, const double* from, double gain) {
 Couplings::Couplings(const System& system, std::size_t mode)
     : states_(system.states()), system_(system), mode_(mode), units_(states_), row_(states_) {
     find_entries(system.mode(mode).tape);
-    find_ways();
+    order_sweeps();
 }
 
 Jet& Couplings::jet() {
@@ -168,7 +168,7 @@ void Couplings::find_entries(const Tape& tape) {
     find_constants(tape);
 }
 
-/// Entries that are the same everywhere: of states that a rate has as terms of its sum and nowhere else in it.
+/// Finds the entries that are constant in state space: of states that occur in a rate only as terms of its sum.
 void Couplings::find_constants(const Tape& tape) {
     constexpr double highest_degree = 4;
     const std::vector<std::vector<std::size_t>> dependences = dependences_of(tape);
@@ -212,10 +212,10 @@ void Couplings::set_parameters(std::span<const double> parameters) {
         jet_->set_parameters(parameters_);
 }
 
-/// Row by row, intermediate quantities first.
+/// Computes the entries row by row, intermediate quantities first.
 void Couplings::find_strengths() {
     const TangentEquations& equations = system_.linear(mode_).equations;
-    std::vector<std::size_t> columns; // in which there is something
+    std::vector<std::size_t> columns; // columns with nonzero entries
     auto entry = equations.entries.begin();
     const auto add = [&](std::size_t column, double value) {
         row_[column] += value;
@@ -223,7 +223,7 @@ void Couplings::find_strengths() {
     };
     for (std::size_t row = 0; row < intermediates_.size() + states_; ++row) {
         for (; entry != equations.entries.end() && entry->row == row; ++entry) {
-            const double value = *jet_->follower(entry->follower);
+            const double value = *jet_->deferred(entry->deferred);
             if (entry->source < states_)
                 add(entry->source, value);
             else if (entry->source >= states_ + equations.parameters)
@@ -250,7 +250,7 @@ void Couplings::measure(std::span<const double> states) {
     require_size(states.size(), states_, "states");
     constexpr std::uint32_t groups[] = {LinearMode::by_states};
     jet().begin(states);
-    jet().begin_followers(groups);
+    jet().begin_deferred(groups);
     find_strengths();
     const bool finite =
         std::all_of(entries_.begin(), entries_.end(), [](const Entry& e) { return std::isfinite(e.strength); });
@@ -263,7 +263,7 @@ void Couplings::measure(std::span<const double> states) {
     response_time_ = 1 / largest_row();
 }
 
-/// Which entries belong to cycles of states that act on each other: others than before only where some vanish.
+/// Finds the entries in cycles of states that act on each other; changes only where entries vanish or cease to vanish.
 void Couplings::find_cycles() {
     bool changed = std::exchange(fresh_, false);
     for (std::size_t e = 0; e < entries_.size(); ++e)
@@ -308,11 +308,11 @@ void Couplings::Sorted::note_strengths(const std::vector<Entry>& all) {
     std::ranges::transform(entries, strengths.begin(), [&](std::size_t e) { return all[e].strength; });
 }
 
-/// Gives each state a unit in which what acts on it, of those on which it acts again, is as large as what it does.
-/// They begin anew at each place: what has been measured elsewhere must not show in the result.
+/// Scales the states until, within each cycle, the row and column of each state are about equally large. It starts from
+/// unit scales at each point, so that the result does not depend on earlier measurements.
 void Couplings::balance() {
     constexpr int most_sweeps = 20;
-    constexpr double close = 1.5; // the bound is about as good then as it becomes
+    constexpr double close = 1.5; // closer balance hardly improves the bound
     std::fill(units_.begin(), units_.end(), 1.0);
     in_rows_.note_strengths(entries_);
     in_columns_.note_strengths(entries_);
@@ -334,7 +334,7 @@ void Couplings::balance() {
     }
 }
 
-/// Of the sums of the entries in a row, in these units.
+/// Returns the largest row sum in these units.
 double Couplings::largest_row() const {
     double most = 0;
     for (std::size_t i = 0; i < states_; ++i) {
@@ -348,37 +348,37 @@ double Couplings::largest_row() const {
     return most;
 }
 
-/// States are mostly counted along what they are the states of: in turn up and down. What has been passed is raised at
-/// once, so that a chain is gone along in one sweep, however position and speed take turns in it.
-void Couplings::find_ways() {
+/// States are usually numbered along the chain that they form, so sweeps alternate between rising and falling order.
+/// Raised sizes are used at once: one sweep traverses a chain, even with positions and speeds alternating.
+void Couplings::order_sweeps() {
     for (const bool up : {true, false}) {
-        std::vector<Pull>& way = ways_[up ? 0 : 1];
-        way.reserve(2 * entries_.size());
-        const auto pull = [&](std::size_t e) {
+        std::vector<Coupling>& order = sweeps_[up ? 0 : 1];
+        order.reserve(2 * entries_.size());
+        const auto add = [&](std::size_t e) {
             if (entries_[e].row != entries_[e].column)
-                way.push_back({entries_[e].row, entries_[e].column, e});
+                order.push_back({entries_[e].row, entries_[e].column, e});
         };
         for (std::size_t n = 0; n < states_; ++n) {
             const std::size_t i = up ? n : states_ - 1 - n;
             for (std::size_t e = row_starts_[i]; e < row_starts_[i + 1]; ++e)
-                pull(e);
+                add(e);
             for (const std::size_t e : columns_[i])
                 if (up ? entries_[e].row < i : entries_[e].row > i)
-                    pull(e);
+                    add(e);
         }
     }
 }
 
 void Couplings::spread(double time, std::span<double> sizes, std::size_t width, Through through) const {
     require_size(sizes.size(), states_ * width, "sizes of states");
-    const auto sweep = [&]<std::size_t lanes>(const std::vector<Pull>& way) {
+    const auto sweep = [&]<std::size_t lanes>(const std::vector<Coupling>& order) {
         bool grown = false;
-        for (const Pull& pull : way) {
-            const Entry& entry = entries_[pull.entry];
+        for (const Coupling& one : order) {
+            const Entry& entry = entries_[one.entry];
             if (through == Through::constant && !entry.constant)
                 continue;
-            double* const to = &sizes[pull.to * width];
-            const double* const from = &sizes[pull.from * width];
+            double* const to = &sizes[one.to * width];
+            const double* const from = &sizes[one.from * width];
             for (std::size_t l = 0; l < width; l += lanes)
                 grown = raise<lanes>(to + l, from + l, time * entry.strength) || grown;
         }
@@ -386,11 +386,11 @@ void Couplings::spread(double time, std::span<double> sizes, std::size_t width, 
     };
     bool grown = true;
     for (std::size_t count = 0; count <= states_ && grown; ++count) {
-        const std::vector<Pull>& way = ways_[count % 2];
-        grown = width % 8 == 0   ? sweep.operator()<8>(way)
-                : width % 4 == 0 ? sweep.operator()<4>(way)
-                : width % 2 == 0 ? sweep.operator()<2>(way)
-                                 : sweep.operator()<1>(way);
+        const std::vector<Coupling>& order = sweeps_[count % 2];
+        grown = width % 8 == 0   ? sweep.operator()<8>(order)
+                : width % 4 == 0 ? sweep.operator()<4>(order)
+                : width % 2 == 0 ? sweep.operator()<2>(order)
+                                 : sweep.operator()<1>(order);
     }
 }
 

@@ -11,53 +11,56 @@
 
 namespace graze {
 
-/// How strongly the rates of a mode's states depend on the states, somewhere: the sizes of the Jacobian's entries, and
-/// what follows from them whatever units states are counted in.
+/// The couplings between the states of a mode at one point of state space: the sizes of the Jacobian's entries, and
+/// quantities derived from them that do not depend on the units of the states.
 ///
-/// What one state's errors do to the others tells how accurate these need be. Within the response time no disturbance
-/// outgrows itself by way of others, so that the sizes to which a disturbance can bring all states are well defined.
+/// They determine how accurate a state must be, given the effect of its errors on other states. Within the response
+/// time no disturbance grows beyond itself through other states, so that the sizes to which a disturbance can bring all
+/// states are well defined.
 class Couplings {
 public:
-    /// Which couplings there are. @throws InputError, here and below, for a mode or numbers that do not fit the system
+    /// Finds which couplings exist. @throws InputError, here and below, for a mode or numbers that do not match the
+    /// system
     Couplings(const System& system, std::size_t mode);
-    /// @param parameters as many as the system has
+    /// @param parameters one for each parameter of the system
     void set_parameters(std::span<const double> parameters);
-    /// Finds the Jacobian at a place, from the coefficients of the first variational equations.
+    /// Computes the Jacobian at a point from the coefficients of the first variational equations.
     void measure(std::span<const double> states);
 
-    /// The reciprocal of a bound on the eigenvalues: of the largest sum of a row's entries among states that depend on
-    /// each other, in units in which rows and columns are about as large (Osborne 1960). Infinity where no state
-    /// depends on itself, 0 where the Jacobian is not finite.
+    /// Returns the reciprocal of a bound on the eigenvalues: the largest row sum over states that depend on each other,
+    /// in units in which rows and columns are about equally large (Osborne 1960). Infinity where no state depends on
+    /// itself, 0 where the Jacobian is not finite.
     double response_time() const { return response_time_; }
 
-    /// Units of the states in which rows and columns of the Jacobian are about as large.
+    /// Returns the units of the states in which rows and columns of the Jacobian are about equally large.
     std::span<const double> units() const { return units_; }
 
-    /// Raises sizes of states until no coupling, over a time, makes any larger: s_i >= time |J_ij| s_j for all i, j.
+    /// Raises sizes of states until they are consistent with the couplings over a time: s_i >= time |J_ij| s_j for all
+    /// i, j.
     /// @param time at most the response time
     /// @param sizes [state * width + lane]
-    /// @param through all couplings, or those alone that are the same at all places
+    /// @param through all couplings, or only those that are constant in state space
     enum class Through { all, constant };
     void spread(double time, std::span<double> sizes, std::size_t width, Through through = Through::all) const;
-    /// Whether something acts on a state through a coupling that is the same at all places, and its rate is a
-    /// polynomial of low degree in the states: nothing that is small may become large within a small part of a step.
-    bool is_pushed_steadily(std::size_t state) const { return steady_[state]; }
-    /// Whether that is so of any state.
-    bool push_steadily() const { return std::find(steady_.begin(), steady_.end(), true) != steady_.end(); }
+    /// True if another state acts on this one through a coupling that is constant in state space, and its rate is a
+    /// polynomial of low degree in the states: then no small term can become large within a small part of a step.
+    bool has_constant_drive(std::size_t state) const { return steady_[state]; }
+    /// True if any state has a constant drive.
+    bool any_constant_drive() const { return std::find(steady_.begin(), steady_.end(), true) != steady_.end(); }
 
 private:
     struct Entry {
         std::size_t row, column;
         double strength = 0;
-        bool returns = false;  ///< whether its row's state acts on its column's again
-        bool constant = false; ///< of a state whose rate is a polynomial of low degree
+        bool returns = false;  ///< the row's state acts on the column's state, directly or not (they form a cycle)
+        bool constant = false; ///< constant in state space, and the row's rate is a polynomial of low degree
     };
 
-    /// What one state does to another, by an entry.
-    struct Pull {
+    /// The effect of state `from` on state `to`.
+    struct Coupling {
         std::size_t to, from, entry;
     };
-    void find_ways();
+    void order_sweeps();
     void find_entries(const Tape& tape);
     void find_constants(const Tape& tape);
     void find_strengths();
@@ -71,23 +74,23 @@ private:
     System system_;
     std::size_t mode_;
     std::vector<double> parameters_;
-    std::unique_ptr<Jet> jet_;                      ///< of the first variational equations, once something is measured
-    std::vector<Entry> entries_;                    ///< row by row
-    std::vector<std::size_t> row_starts_;           ///< in `entries_`
-    std::vector<std::vector<std::size_t>> columns_; ///< entries of each
-    std::vector<Pull> ways_[2];                     ///< all pulls, in two sequences: up and down the states
-    /// Entries between states that act on each other, sorted by one of the two: `starts` has where those of each begin.
+    std::unique_ptr<Jet> jet_;            ///< jet of the first variational equations, made by the first `measure`
+    std::vector<Entry> entries_;          ///< row by row
+    std::vector<std::size_t> row_starts_; ///< in `entries_`
+    std::vector<std::vector<std::size_t>> columns_; ///< entries of each column
+    std::vector<Coupling> sweeps_[2];               ///< all couplings in two orders: by rising and by falling state
+    /// Entries between states that act on each other, sorted by row or by column: `starts` has the beginning of each.
     struct Sorted {
         std::vector<std::size_t> starts, entries, others;
         std::vector<double> strengths;
         void note_strengths(const std::vector<Entry>& all);
     };
     Sorted in_rows_, in_columns_;
-    std::vector<bool> steady_;    ///< states
+    std::vector<bool> steady_;    ///< has_constant_drive of each state
     std::vector<bool> vanishing_; ///< entries that were zero when cycles were found
-    std::vector<double> units_;   ///< in which rows and columns are about as large
-    std::vector<double> row_;     ///< of the Jacobian, one number for each state
-    /// Derivatives of intermediate quantities by states.
+    std::vector<double> units_;   ///< units in which rows and columns are about equally large
+    std::vector<double> row_;     ///< a row of the Jacobian
+    /// Derivatives of intermediate quantities with respect to states.
     struct Part {
         std::size_t column;
         double value;
@@ -102,9 +105,9 @@ class ModeCouplings {
 public:
     explicit ModeCouplings(const System& system) : system_(system), all_(system.model().modes.size()) {}
     void set_parameters(std::span<const double> parameters);
-    /// Those of a mode, measured or not.
+    /// Returns the couplings of a mode, measured or not.
     Couplings& of(std::size_t mode);
-    /// Those of a mode at a place.
+    /// Returns the couplings of a mode measured at a point.
     const Couplings& measured(std::size_t mode, std::span<const double> states);
 
 private:

@@ -7,9 +7,9 @@
 #include <vector>
 
 namespace graze {
-
-/// The way in which the guard of a transition lets the motion go on; null if none of its alternatives holds.
+/// Returns the first alternative of a transition whose conditions hold; null if there is none.
 /// @param inputs state after the jump, then parameters
+/// @param conditions workspace for values of conditions; @param work of the system's workspace size
 /// @param conditions room for values of conditions; @param work of the system's workspace
 inline const System::CompiledAlternative* chosen_alternative(const System& system, std::size_t transition,
                                                              std::span<const double> inputs,

@@ -11,13 +11,13 @@
 
 namespace graze::roots {
 
-/// What is known of a sum throughout an interval: its sign (0 where that is not certain), and its least size.
+/// The sign of a sum throughout an interval (0 if not certain), and the least size of the sum.
 struct Kept {
     int sign = 0;
     double least = 0;
 };
 
-/// Sum of factor(k) |c_k| s^(k - first), k >= first. Odd and even terms are summed side by side.
+/// Returns the sum of factor(k) |c_k| s^(k - first), k >= first. Odd and even terms are summed side by side.
 template <class Factor>
 double sum_of_sizes(std::span<const double> c, std::size_t first, double s, Factor factor) {
     const double square = s * s;
@@ -38,9 +38,10 @@ double sum_of_sizes(std::span<const double> c, std::size_t first, double s, Fact
     return sums[0] + sums[1] * s;
 }
 
-/// Whether the sum of the terms factor(k) c_k s^(k - first), k >= first, keeps its sign for 0 <= s <= length: it is
-/// between its partial sums at `length`, as in `enclosure`. Of the small terms behind the first ones only sizes count.
-/// @param factor exact
+/// Returns the sign of the sum of factor(k) c_k s^(k - first), k >= first, if it is constant for 0 <= s <= length: the
+/// sum is between its partial sums at `length`, as in `enclosure`. Only sizes are used of the small terms after the
+/// first ones.
+/// @param factor computed without rounding
 template <class Factor>
 Kept kept_sign(std::span<const double> c, std::size_t first, double length, Factor factor) {
     if (c.size() <= first || !(length > 0))
@@ -59,26 +60,26 @@ Kept kept_sign(std::span<const double> c, std::size_t first, double length, Fact
         order += 1;
     }
     const double rest = sum_of_sizes(c, behind, length, factor) * std::abs(power);
-    // The factor has a round-off of its own.
+    // The product with the factor is rounded too.
     const double share = bernstein::unit_roundoff * static_cast<double>(2 * c.size() + 9);
     least = std::min(least, sum - rest) - share * (size + rest);
     return least > 0 && least < infinity ? Kept{sign > 0 ? 1 : -1, least} : Kept{};
 }
 
-/// The same of the polynomial itself: 1 or -1 where it is so throughout, else 0.
+/// Returns 1 or -1 if the polynomial has that sign throughout, else 0.
 inline int kept_sign(std::span<const double> c, double length) {
     return kept_sign(c, 0, length, [](double) { return 1; }).sign;
 }
 
-/// The sign at a glance, and the sum of the sizes of all terms.
+/// A constant sign found by a cheap test, and the sum of the sizes of all terms.
 struct ClearSign {
-    int sign = 0; ///< 0 also where the sum comes within some hundred times its round-off of zero
+    int sign = 0; ///< 0 not certain, including sums within some hundred round-offs of zero
     double size = 0;
 };
 
-/// Of the polynomial, or of its derivative. Only the first terms, 3 to 6, count with their signs; of the others sizes
-/// are summed, four at a time. It is kept short: what is run in every step shares the processor's cache of instructions
-/// with the kernels, which about fill it.
+/// Tests the polynomial, or its derivative. Only the first 3 to 6 terms are summed with their signs; of the others
+/// sizes are summed, four at a time. The code is kept short, since it runs in every step and shares the instruction
+/// cache with the kernels, which nearly fill it.
 template <bool derivative>
 ClearSign clear_sign(std::span<const double> c, double length) {
     constexpr std::size_t block = 4, least_signed = 3, first = derivative ? 1 : 0;
@@ -117,7 +118,7 @@ ClearSign clear_sign(std::span<const double> c, double length) {
     const double rest = (both[0] + both[1] * length) * std::abs(power * length);
     size += rest;
     const double margin = bernstein::unit_roundoff * static_cast<double>(256 + 2 * static_cast<int>(c.size()));
-    // Compared so that what is no number is not clear.
+    // Written so that NaN gives no sign.
     if (!(least - rest > margin * size && size < std::numeric_limits<double>::infinity()))
         return {0, size};
     return {c[first] > 0 ? 1 : -1, size};

@@ -16,18 +16,18 @@ namespace graze {
 namespace {
 
 constexpr std::size_t most_steps = 2'000'000;
-/// Share of an arc below which a step means that the solution ceases to exist.
+/// A step shorter than this fraction of an arc means that the solution ceases to exist.
 constexpr double smallest_share = 1e-14;
-/// Share of an arc over which sizes are taken where the start alone does not show them.
+/// Fraction of an arc over which sizes are measured where the initial state does not show them.
 constexpr double first_share = 1e-10;
-/// A step longer than the last one by more than this is looked at within as well.
+/// A step longer than the last one by more than this factor is also checked at interior times.
 constexpr double longest_leap = 2;
 
 int order_of(double tolerance, int order) {
     return order != 0 ? order : order_for_tolerance(tolerance);
 }
 
-/// All states, unless some are chosen.
+/// Returns the chosen states, or all if none are chosen.
 std::vector<std::size_t> starts_of(const System& system, std::optional<std::vector<std::size_t>> chosen) {
     if (chosen)
         return std::move(*chosen);
@@ -42,7 +42,7 @@ ModeFlow::ModeFlow(const System& system, double tolerance, int order, std::vecto
                    std::optional<std::vector<std::size_t>> starts)
     : system_(system), free_(std::move(free)), starts_(starts_of(system, std::move(starts))), states_(system.states()),
       directions_(starts_.size() + free_.size()), step_size_(order_of(tolerance, order), tolerance),
-      step_check_(system, order_of(tolerance, order), tolerance), late_states_(system),
+      step_check_(system, order_of(tolerance, order), tolerance), dormant_states_(system),
       jets_(system, order_of(tolerance, order), LaneKind::single),
       tangents_(system, tolerance, directions_), allowance_{StepCheck::allowance * tolerance,
                                                             StepCheck::value_allowance * tolerance,
@@ -75,11 +75,11 @@ void ModeFlow::set_parameters(std::span<const double> parameters) {
     std::copy(parameters.begin(), parameters.end(), parameters_.begin());
     jets_.set_parameters(parameters_);
     step_check_.set_parameters(parameters_);
-    late_states_.set_parameters(parameters_);
+    dormant_states_.set_parameters(parameters_);
     tangents_.set_parameters(parameters_, parameter_seeds_);
 }
 
-/// Looks at all states and events at once; what is found there begins the next step.
+/// Compares all states and events with the model at once; the result also begins the next step.
 bool ModeFlow::agrees(std::size_t mode, double length) {
     if (!(length > 0))
         return false;
@@ -93,28 +93,28 @@ bool ModeFlow::agrees(std::size_t mode, double length) {
     return disagreement <= 0;
 }
 
-/// Length of the next step, with the sign of what remains: chosen from the series, and believed as far as the model
-/// agrees with them. @param watched events are looked at, whose functions must then be as accurate as the states
+/// Returns the length of the next step, with the sign of `remaining`: chosen from the series, then shortened to where
+/// they agree with the model. @param watched whether event functions are needed too, as accurate as the states
 double ModeFlow::step_of(std::size_t mode, const Jet& jet, double remaining, bool watched) {
     const std::span<const Series> all = jet.series(), series = watched ? all : all.first(states_);
     double step = step_size_(series, previous_);
-    // A state that starts at almost zero, such as a phase of 1e-18, is no measure of its own changes.
+    // The size of a state that starts almost at zero, such as a phase of 1e-18, says nothing about its changes.
     if (previous_ == 0 && step < smallest_share * std::abs(remaining))
         step = step_size_(series, first_share * std::abs(remaining));
     if (std::isnan(step))
         return step;
     if (!system_.mode(mode).has_roots)
-        step = late_states_.step(step_size_, mode, series, step, previous_);
+        step = dormant_states_.step(step_size_, mode, series, step, previous_);
     const bool leap = !(step <= longest_leap * previous_) && !system_.mode(mode).polynomial;
     const bool bounded = step < std::numeric_limits<double>::infinity();
     guarded_.assign(static_cast<std::size_t>(jet.width()), std::numeric_limits<double>::infinity());
     guarded_[0] = std::min(step, std::abs(remaining));
     jet.guard_steps(guarded_);
     const double wanted = std::copysign(guarded_[0], remaining);
-    // Of most steps that tells that they are right; more is allowed by StepCheck, which is asked about the others.
+    // This test accepts most steps; the others go to StepCheck, which allows more.
     const double longest = !leap && agrees(mode, wanted)
                                ? guarded_[0]
-                               : std::abs(step_check_.longest(mode, series, wanted, leap, late_states_.floors()));
+                               : std::abs(step_check_.longest(mode, series, wanted, leap, dormant_states_.floors()));
     if (longest < std::min(step, std::abs(remaining)))
         previous_ = longest;
     else if (bounded)
@@ -128,7 +128,7 @@ ModeFlow::Ending ModeFlow::run(std::size_t mode, std::span<double> state, double
         return Ending::undefined;
     double time = 0, remaining = duration;
     previous_ = 0;
-    late_states_.begin();
+    dormant_states_.begin();
     for (std::size_t count = 0; remaining != 0; ++count) {
         if (count >= most_steps)
             return Ending::too_long;
@@ -173,7 +173,7 @@ ModeFlow::Ending ModeFlow::run(std::size_t mode, std::span<double> state, double
     const std::size_t events = system_.mode(mode).watched.size();
     if (watched)
         watched->begin(events);
-    const bool looks = watched && events > 0;
+    const bool with_events = watched && events > 0;
     if (!std::isfinite(duration))
         return Ending::undefined;
     std::fill(matrix_.begin(), matrix_.end(), 0.0);
@@ -181,16 +181,16 @@ ModeFlow::Ending ModeFlow::run(std::size_t mode, std::span<double> state, double
         matrix_[starts_[d] * directions_ + d] = 1;
     double time = 0, remaining = duration;
     previous_ = 0;
-    late_states_.begin();
+    dormant_states_.begin();
     for (std::size_t count = 0; remaining != 0; ++count) {
         if (count >= most_steps)
             return Ending::too_long;
         Jet& jet = jets_.computed(mode, state);
         seen_ = 0;
-        const double wanted = step_of(mode, jet, remaining, looks);
+        const double wanted = step_of(mode, jet, remaining, with_events);
         if (std::isnan(wanted))
             return Ending::undefined;
-        if (looks)
+        if (with_events)
             watched->note(jet);
         tangents_.begin(jet, mode, state, matrix_);
         const std::span<const double> end =
@@ -201,7 +201,7 @@ ModeFlow::Ending ModeFlow::run(std::size_t mode, std::span<double> state, double
         if (std::abs(step) < std::abs(duration) * smallest_share && step != remaining)
             return Ending::singular;
         std::copy(tangents_.state().begin(), tangents_.state().end(), state.begin());
-        if (looks)
+        if (with_events)
             watched->end_step(time, step);
         matrix_.swap(next_);
         ++steps_;

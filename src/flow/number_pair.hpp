@@ -5,7 +5,7 @@
 
 namespace graze {
 
-/// Two numbers side by side, on which every processor works at once.
+/// Two numbers in a SIMD register that every processor has.
 typedef double NumberPair __attribute__((vector_size(16)));
 
 inline NumberPair load_pair(const double* from) {

@@ -18,9 +18,9 @@ using roots::Tracker;
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double least_leading_width = 0x1p-64; ///< of parts that begin at 0
+constexpr double least_leading_width = 0x1p-64; ///< for parts that begin at 0
 constexpr double least_relative_width = 4 * unit_roundoff;
-constexpr int parts_per_degree = 64; ///< bounds the work on polynomials that round-off makes unanswerable
+constexpr int parts_per_degree = 64; ///< bounds the work on polynomials that round-off makes undecidable
 
 } // namespace
 
@@ -60,7 +60,7 @@ void RootFinder::Isolation::load(std::size_t size) {
     finder_.find_reciprocals();
     reciprocals_ = {finder_.reciprocals_.data() + used * (used - 1) / 2, used};
     bernstein::from_power(row(0), reciprocals_);
-    // Powers k u, coefficients 4 u, conversion (n + 2) u: together no more than 2 n + 8.
+    // Uncertainties: powers k u, coefficients 4 u, conversion (n + 2) u; together at most 2 n + 8.
     first_scale_ = round_off(2) + 6 * unit_roundoff;
     finder_.stack_.clear();
     finder_.stack_.push_back({0, 1, first_scale_, 0});
@@ -78,7 +78,7 @@ void RootFinder::Isolation::prepare_slope() {
     slope_ = slope_.subspan(slope_zeros_);
 }
 
-/// @return whether the derivative (its roots at 0 divided out) changes sign between the ends
+/// @return whether the derivative (with its roots at 0 divided out) changes sign between the ends
 bool RootFinder::Isolation::locate_extremum(const Node& node, std::span<const BernsteinCoefficient> b, double& at,
                                             bool& is_minimum) {
     prepare_slope();
@@ -91,7 +91,7 @@ bool RootFinder::Isolation::locate_extremum(const Node& node, std::span<const Be
     return true;
 }
 
-/// Where the control polygon first changes sign: a guess for the root of a part that has one.
+/// Returns where the control polygon first changes sign: an estimate of the root of a part that has one.
 double RootFinder::Isolation::control_polygon_root(const Node& node, std::span<const BernsteinCoefficient> b) const {
     std::size_t i = zeros_ > 0 && node.left == 0 ? 1 : 0;
     while (i + 1 < b.size() && (b[i].value > 0) == (b[i + 1].value > 0))
@@ -116,11 +116,13 @@ double RootFinder::Isolation::slope_polygon_root(const Node& node, std::span<con
     return place(node.left + 0.5 * node.width);
 }
 
-/// A part with at most one root, or (if `extremum`) at most one extremum, or none that can be told from round-off.
+/// Samples a part with at most one root, or (if `extremum`) at most one extremum, or none distinguishable from
+/// round-off.
 bool RootFinder::Isolation::leaf(Tracker& tracker, const Node& node, std::span<const BernsteinCoefficient> b,
                                  bool extremum) {
     const double left = place(node.left), right = place(node.left + node.width);
-    // A coefficient at an end is the value there; where its sign is certain it must not be doubted again.
+    // A coefficient at an end is the value there; if its sign is certain, it must not be replaced by an uncertain
+    // sample.
     const auto sample_end = [&](double s, const BernsteinCoefficient& value, double guess) {
         const double uncertainty = node.scale * value.bound + node.floor;
         return std::abs(value.value) > uncertainty ? tracker.certain(s, value.value > 0 ? 1 : -1, guess)
@@ -132,7 +134,7 @@ bool RootFinder::Isolation::leaf(Tracker& tracker, const Node& node, std::span<c
     bool is_minimum = false;
     if (!extremum || !locate_extremum(node, b, at, is_minimum))
         return sample_end(right, b.back(), control_polygon_root(node, b));
-    // Close to a double root at `at` the parabola there knows where the roots are.
+    // Near a double root, the parabola at `at` gives estimates of both roots.
     const PointValue point = evaluate(power_, at);
     double curvature = evaluate_derivative(slope_, at);
     for (std::size_t k = 0; k < slope_zeros_; ++k)
@@ -147,7 +149,7 @@ bool RootFinder::Isolation::definite(Tracker& tracker, const Node& node, int sig
            tracker.certain(place(node.left + node.width), sign, left);
 }
 
-/// Computes the coefficients of a part afresh if that can sharpen them. @return whether it has
+/// Recomputes the coefficients of a part if that can sharpen them. @return whether it has
 bool RootFinder::Isolation::renew(Node& node, std::span<BernsteinCoefficient> b) {
     if (is_fresh(node))
         return false;
@@ -160,12 +162,13 @@ bool RootFinder::Isolation::renew(Node& node, std::span<BernsteinCoefficient> b)
 }
 
 /// Replaces the part on top of the stack by its halves, or by itself with sharper coefficients.
-/// @return false if it is too short or nothing more can be known about it
+/// @return false if it is too short or its coefficients cannot become sharper
 bool RootFinder::Isolation::split(const bernstein::Range& range) {
     const std::size_t top = finder_.stack_.size() - 1;
     Node& node = finder_.stack_.back();
-    const bool leading = node.left == 0 && zeros_ > 0; // bounds are relative there, nothing is sharper
-    // Values that differ by little more than their uncertainty are renewed; fresh ones that differ by less are left.
+    const bool leading = node.left == 0 && zeros_ > 0; // bounds are relative there and cannot be sharpened
+    // Values that differ by little more than their uncertainty are recomputed; recomputed ones need a smaller
+    // difference.
     const double flat = is_fresh(node) ? 3 : 16;
     if (range.high - range.low <= flat * range.uncertainty && !leading)
         return renew(node, row(top));
@@ -211,8 +214,8 @@ bool RootFinder::Isolation::scan(Tracker& tracker) {
     return tracker.finish(length_);
 }
 
-/// A lower bound around a place where a part with at most one extremum is sampled, valid as far as the derivative's
-/// sign is uncertain; beyond, the part is monotone towards its next sample.
+/// Returns a lower bound around a sample of a part with at most one extremum. It covers the range where the
+/// derivative's sign is uncertain; beyond it, the part is monotone up to its next sample.
 double RootFinder::Isolation::lower_bound_near(double at, const PointValue& point, double left, double right) {
     if (point.slope_sign() != 0)
         return point.value - point.value_error;
@@ -228,7 +231,7 @@ double RootFinder::Isolation::lower_bound_near(double at, const PointValue& poin
     const double from = reach(-1, left), to = reach(1, right);
     const double error = evaluate(power_, to).value_error;
     const std::span<BernsteinCoefficient> spare = row(stack_rows);
-    // The width is rounded up: the window may only grow.
+    // The width is rounded up: the window may grow but not shrink.
     bernstein::expand(power_, from, (to - from) * (1 + 4 * unit_roundoff), error, reciprocals_, spare);
     return std::min(point.value - point.value_error, bernstein::range(spare, first_scale_, error).low);
 }

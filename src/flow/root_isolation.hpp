@@ -10,25 +10,25 @@
 
 namespace graze {
 
-/// The work on one polynomial: its scaled Bernstein form, subdivided depth first, left part first.
+/// Isolation of the roots of one polynomial: its scaled Bernstein form, subdivided depth first, left part first.
 class RootFinder::Isolation {
 public:
-    /// Parts that begin at 0 are halved so often that roots as close to 0 as 2^-64 of the step can be told apart,
-    /// others until few numbers are left inside; together they never need more rows than this.
+    /// Parts that begin at 0 are halved until roots as close to 0 as 2^-64 of the step are separated, others until few
+    /// numbers are left inside; together they never need more rows than this.
     static constexpr std::size_t stack_rows = 120;
 
-    /// @param c coefficients of the polynomial; with `deflate` the first counts as 0
+    /// @param c coefficients of the polynomial; with `deflate` the first is taken as 0
     /// @throws InputError if the degree is higher than the finder's highest
     Isolation(RootFinder& finder, std::span<const double> c, double length, RootStart start);
 
-    /// Whether the polynomial is finite and not identically zero.
+    /// True when the polynomial is finite and not identically zero.
     bool usable() const { return usable_; }
     std::span<const double> power() const { return power_; }
     /// The polynomial with its roots at 0 divided out.
     std::span<const double> quotient() const { return power_.subspan(zeros_); }
     int sign_at_start() const { return quotient()[0] > 0 ? 1 : -1; }
 
-    /// Samples the polynomial from left to right, as densely as its roots and touches need.
+    /// Samples the polynomial from left to right, as densely as its roots and touches require.
     /// @return false if a falling root ended the search (see roots::Tracker)
     bool scan(roots::Tracker& tracker);
     Minimum minimum();
@@ -38,7 +38,7 @@ private:
     double length_;
     std::span<const double> power_, slope_, reciprocals_;
     std::size_t zeros_ = 0;       ///< leading zero coefficients of the polynomial
-    std::size_t slope_zeros_ = 0; ///< and of its derivative
+    std::size_t slope_zeros_ = 0; ///< leading zero coefficients of its derivative
     bool slope_ready_ = false, usable_ = false;
     double first_scale_ = 0;
 

@@ -17,8 +17,8 @@ constexpr int refinement_steps = 200;
 
 namespace {
 
-/// Even and odd terms side by side, by powers of the square: p(s) = e(s^2) + s o(s^2).
-/// @param with_errors whether bounds on errors are wanted, too: where it is left out they are 0
+/// Sums even and odd terms side by side, in powers of the square: p(s) = e(s^2) + s o(s^2).
+/// @param with_errors whether to compute error bounds; otherwise they are 0
 template <bool with_errors>
 PointValue evaluate_in_pairs(std::span<const double> c, double s) {
     const double square = s * s;
@@ -61,12 +61,12 @@ double refine(std::span<const double> c, double low, double high, int sign_low, 
         const PointValue point = evaluate_in_pairs<false>(c, s);
         const double newton = s - point.value / point.slope;
         const bool inside = newton > low && newton < high;
-        if (std::abs(point.value) <= unit_roundoff * point.size) // a longer step would be led by round-off
+        if (std::abs(point.value) <= unit_roundoff * point.size) // round-off would dominate a longer step
             return inside && std::abs(newton - s) <= 4 * unit_roundoff * s ? newton : s;
         ((point.value > 0) == (sign_low > 0) ? low : high) = s;
         double next = newton;
         if (!(next > low && next < high) || std::abs(next - s) > 0.5 * last_step) {
-            // Halve the exponent of a wide bracket rather than its length: a small root wants relative accuracy.
+            // In a wide bracket, halve the exponent rather than the length: a small root needs relative accuracy.
             next = high > 4 * low && low > 0 ? std::sqrt(low * high) : 0.5 * (low + high);
             if (!(next > low && next < high))
                 return s;
@@ -142,7 +142,7 @@ void Tracker::report_touch(const Root& root) {
     last_touch_ = root.at;
 }
 
-/// Whether a minimum that has not been reported lies at the end, where the slope is zero up to round-off.
+/// True when a minimum that has not been reported lies at the end, where the slope is zero up to round-off.
 bool Tracker::ends_in_minimum(double length) const {
     double curvature = 0;
     for (std::size_t k = power_.size(); k-- > 2;)

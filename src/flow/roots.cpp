@@ -1,8 +1,8 @@
 #include "graze/flow/roots.hpp"
 
 #include "flow/kept_sign.hpp"
-#include "flow/lone_crossing.hpp"
 #include "flow/number_pair.hpp"
+#include "flow/single_crossing.hpp"
 #include "graze/base/input_error.hpp"
 #include "root_isolation.hpp"
 
@@ -23,7 +23,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Moves a root of a polynomial whose c[0] was taken for 0 to where the true one puts it, if it is that well defined.
+/// Corrects a root found with c[0] = 0 for the true c[0], if that is well defined.
 void restore_start(std::span<const double> c, double length, Root& root) {
     const PointValue before = evaluate(c, root.at);
     const double step = before.value / before.slope;
@@ -35,19 +35,18 @@ void restore_start(std::span<const double> c, double length, Root& root) {
         root = {root.kind, at, value};
 }
 
-/// Of its second derivative.
+/// Returns the constant sign of the second derivative.
 roots::Kept kept_bend(std::span<const double> c, double length) {
     return roots::kept_sign(c, 2, length, [](double k) { return k * (k - 1); });
 }
 
-/// How far a polynomial may fall below its value at a place where its slope is some 0, over a distance in which its
-/// second derivative is at least `bend`.
+/// Bounds the decrease of a polynomial from a point with slope -`slope` over a distance in which its second derivative
+/// is at least `bend`.
 double fall_beyond(double slope, double bend, double distance) {
     return slope > 0 ? std::min(slope * distance, slope * slope / (2 * bend)) : 0;
 }
 
-/// Of a polynomial whose second derivative is at least `bend` > 0, what it does not fall below in [at - left, at +
-/// right].
+/// Returns a lower bound in [at - left, at + right] of a polynomial whose second derivative is at least `bend` > 0.
 double least_around(const PointValue& point, double bend, double left, double right) {
     const double fall = std::max(fall_beyond(point.slope_error + point.slope, bend, left),
                                  fall_beyond(point.slope_error - point.slope, bend, right));
@@ -69,7 +68,7 @@ RootFinder::RootFinder(int highest_degree) : highest_degree_(std::max(highest_de
     stack_.reserve(Isolation::stack_rows);
 }
 
-/// Most polynomials need none: a trajectory that is made anew for a few periods should not pay for them.
+/// Computed on demand: most polynomials do not need them, and a short trajectory should not pay for them.
 void RootFinder::find_reciprocals() {
     if (!reciprocals_.empty())
         return;
@@ -110,7 +109,7 @@ int RootFinder::trend(std::span<const double> c, double length) {
     return roots::kept_sign(c, 1, length, [](double k) { return k; }).sign;
 }
 
-/// Where a polynomial that bends upwards throughout is least. @param slope at the end
+/// Returns the minimum of a polynomial that is convex throughout. @param slope at the end
 double RootFinder::lowest_place(std::span<const double> c, double length, double slope) {
     if (c[1] >= 0 || slope <= 0)
         return c[1] >= 0 ? 0 : length;
@@ -119,9 +118,9 @@ double RootFinder::lowest_place(std::span<const double> c, double length, double
     return roots::refine(std::span(slope_).first(c.size() - 1), 0, length, -1, length * c[1] / (c[1] - slope));
 }
 
-/// The falling root of a polynomial that is positive at first and falls or bends upwards throughout.
-/// @param way its trend
-/// @return whether it has one; nothing where that is not so simple, or where there may be a touch
+/// Finds the falling root of a polynomial that is positive at first and decreasing or convex throughout.
+/// @param way its trend, as from `trend`
+/// @return whether there is one; nothing if the polynomial is not of this kind, or may have a touch
 std::optional<bool> RootFinder::falls_once_or_never(std::span<const double> c, double length, int way, double touch,
                                                     Root& root) {
     const roots::Kept bend = way == 0 ? kept_bend(c, length) : roots::Kept{};
@@ -184,17 +183,17 @@ void RootFinder::crossings(std::span<const double> c, double length, RootStart s
             restore_start(c, length, root);
 }
 
-/// @return whether it has no more than one crossing, as one pass shows, and `roots` has it
+/// @return true if one pass proves that there is at most one crossing; it is stored in `roots`
 bool RootFinder::crosses_once_or_never(std::span<const double> c, double length, std::vector<Root>& roots) {
-    const std::optional<roots::LoneCrossing> lone = roots::lone_crossing(c, length);
-    if (lone && lone->crosses) {
-        const double at = lone->place(c, length);
-        roots.push_back({lone->at_start > 0 ? RootKind::falling : RootKind::rising, at, evaluate_polynomial(c, at)});
+    const std::optional<roots::SingleCrossing> single = roots::single_crossing(c, length);
+    if (single && single->crosses) {
+        const double at = single->place(c, length);
+        roots.push_back({single->at_start > 0 ? RootKind::falling : RootKind::rising, at, evaluate_polynomial(c, at)});
     }
-    return lone.has_value();
+    return single.has_value();
 }
 
-/// The least value of polynomials that rise or fall throughout, or bend to one side. @return whether this one does
+/// Finds the minimum of a monotone, convex or concave polynomial. @return whether this polynomial is one
 bool RootFinder::simple_minimum(std::span<const double> c, double length, Minimum& minimum) {
     if (c.empty() || !std::isfinite(c[0]))
         return false;
@@ -209,7 +208,7 @@ bool RootFinder::simple_minimum(std::span<const double> c, double length, Minimu
     }
     const PointValue end = evaluate(c, length);
     const double bound_at_end = end.value - end.value_error;
-    if (bend.sign <= 0) { // it lies at an end
+    if (bend.sign <= 0) { // the minimum is at an end
         minimum =
             way == 0 && c[0] <= end.value ? Minimum{0, c[0], bound_at_start} : Minimum{length, end.value, bound_at_end};
         if (way == 0)
@@ -238,7 +237,7 @@ double RootFinder::resolution(std::span<const double> c, double length) {
 
 namespace {
 
-// In four parts, by powers of s^4, which processors work on side by side.
+// Sums in four parts, in powers of s^4, which processors evaluate side by side.
 template <class Coefficient>
 double sum_in_parts(std::size_t size, double s, Coefficient c) {
     const double square = s * s, step = square * square;
@@ -254,7 +253,7 @@ double sum_in_parts(std::size_t size, double s, Coefficient c) {
 
 } // namespace
 
-/// The same sums, of which two are made side by side.
+/// Evaluates the same sums, two side by side.
 double evaluate_polynomial(std::span<const double> c, double s) {
     const double square = s * s, step = square * square;
     const std::size_t rest = c.size() % 4;

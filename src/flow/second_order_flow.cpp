@@ -10,7 +10,7 @@ namespace graze {
 
 namespace {
 
-/// By the tangent at the start there need be no derivatives: they are those of the states over again.
+/// No derivatives with respect to the initial tangent are needed: they equal those with respect to the states.
 std::vector<std::size_t> states_of(const System& system) {
     std::vector<std::size_t> states(system.states());
     std::iota(states.begin(), states.end(), std::size_t{0});

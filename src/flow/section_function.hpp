@@ -9,8 +9,8 @@
 
 namespace graze {
 
-/// The function whose zero is a section, in states and independent parameters: for a phase section, the state less the
-/// value. Of the image of the state under a symmetry, if one is given. Appends to the model's graph.
+/// Returns the function whose zero is a section, in states and independent parameters; for a phase section, the state
+/// less its value. With a symmetry, the function of the image of the state. Appends to the model's graph.
 inline Expression section_function(Model& model, const Section& section, std::optional<std::size_t> symmetry) {
     const std::vector<Expression> states = model.state_symbols();
     const Expression function =

@@ -13,14 +13,14 @@ namespace graze {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity(), unit = 0x1p-53;
-/// Of the bounds on round-off, which are to first order and of one evaluation: coefficients have round-off of their
-/// own, which recurrences magnify.
+/// Factor of the bounds on round-off, which are first-order bounds for one evaluation: coefficients have round-off of
+/// their own, which the recurrences amplify.
 constexpr double roundoff_allowance = 16;
 constexpr int most_attempts = 200;
-/// Where a step is looked at inside: no simple fractions, so that nothing periodic hides there.
+/// Fractions of a step at which its interior is checked: not simple ones, so that nothing periodic can hide.
 constexpr double first_inside = 0.3819, second_inside = 0.7071;
 
-/// Sum of |c_k| |s|^k, and of k |c_k| |s|^k.
+/// The sums of |c_k| |s|^k and of k |c_k| |s|^k.
 struct Sizes {
     double value = 0, slope = 0;
 };
@@ -34,7 +34,7 @@ Sizes sizes_at(const Series& c, std::size_t order, double s) {
     return sizes;
 }
 
-/// The first of these.
+/// Returns the first of these sums.
 double size_at(const Series& c, std::size_t order, double s) {
     double size = 0;
     for (std::size_t k = order + 1; k-- > 0;)
@@ -42,7 +42,7 @@ double size_at(const Series& c, std::size_t order, double s) {
     return size;
 }
 
-/// Keeps the largest; what is no number is larger than any.
+/// Keeps the larger one; NaN counts as infinity.
 void keep_most(double& most, double ratio) {
     most = std::isnan(ratio) ? infinity : std::max(most, ratio);
 }
@@ -69,7 +69,7 @@ void StepCheck::set_parameters(std::span<const double> parameters) {
     std::copy(parameters.begin(), parameters.end(), inputs_.begin() + static_cast<std::ptrdiff_t>(states_));
 }
 
-/// The polynomials' states at s, and what the model makes of them.
+/// Evaluates the polynomials of the states at s, and the model there.
 void StepCheck::evaluate(std::size_t mode, double s) {
     for (std::size_t i = 0; i < states_; ++i) {
         double value = series_[i][order_], slope = value;
@@ -85,7 +85,7 @@ void StepCheck::evaluate(std::size_t mode, double s) {
     system_.mode(mode).evidence.evaluate(inputs_, truth_, work_);
 }
 
-/// What round-off may have done to what the model makes of them.
+/// Bounds the effect of round-off on the model's values.
 void StepCheck::find_errors(double s) {
     if (errors_known_)
         return;
@@ -95,8 +95,8 @@ void StepCheck::find_errors(double s) {
     system_.mode(mode_).evidence.error_bounds(inputs_, input_errors_, errors_, work_);
 }
 
-/// A state that starts without value, rate and acceleration has no size of its own yet. It is measured by that to which
-/// a longer step led: errors of its beginning are small beside what it grows to.
+/// Returns the size of a state. If value, rate and acceleration are zero at the start, it is the size reached in a
+/// longer step: initial errors are small compared to it.
 double StepCheck::size_of_state(std::size_t i, double s) const {
     const Series& c = series_[i];
     double size = size_over(c[0], c[1], inputs_[i], truth_[i], s);
@@ -143,7 +143,7 @@ double StepCheck::misfit_of_values(double s) {
     return most;
 }
 
-/// Terms that are far larger than their sum leave nothing but round-off of it.
+/// If terms are far larger than their sum, the sum consists of round-off.
 double StepCheck::misfit_of_sums(double s) {
     double most = 0;
     const double length = std::abs(s);
@@ -158,12 +158,12 @@ double StepCheck::misfit_of_sums(double s) {
 double StepCheck::longest(std::size_t mode, std::span<const Series> series, double length, bool inside,
                           std::span<const double> floors) {
     const std::size_t needed = system_.mode(mode).evidence.outputs();
-    // Fewer than all are those of the states.
+    // Without events only the series of states are given.
     if (series.size() != states_)
         require_room(series.size(), needed, "series");
     if (!floors.empty())
         require_room(floors.size(), series.size(), "floors of series");
-    series_ = series.first(std::min(series.size(), needed)); // of more there is nothing to compare with
+    series_ = series.first(std::min(series.size(), needed)); // the model has no values for further series
     floors_ = floors;
     std::fill(seen_.begin(), seen_.end(), 0.0);
     const double last_power = -1.0 / static_cast<double>(order_ + 1);

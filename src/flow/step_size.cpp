@@ -14,7 +14,7 @@ namespace graze {
 
 namespace {
 
-/// Above, coefficients close to a singularity would leave the range of doubles.
+/// With higher orders, coefficients near a singularity would leave the range of doubles.
 constexpr int highest_order_chosen = 20;
 
 } // namespace
@@ -44,17 +44,17 @@ StepSize::StepSize(int order, double tolerance)
     require_tolerance(tolerance);
 }
 
-/// Logarithm to base 2 of the least step over which a term of a series comes to one of the first terms before it, or
-/// `known`, if that is less: most terms show without logarithms that it is.
+/// Returns the logarithm to base 2 of the least step over which any term equals one of the first terms before it, or
+/// `known` if that is less; most terms are excluded without computing logarithms.
 double StepSize::logarithm_of_change(const Series& c, double known) const {
-    constexpr std::size_t terms = 3; // those by which sizes are measured
+    constexpr std::size_t terms = 3; // number of terms that measure the size
     constexpr double surely = 1 - 1e-9, tiny = 1e-290, huge = std::numeric_limits<double>::infinity();
     double least = known, ratio = std::exp2(-least);
     for (std::size_t j = 0; j < std::min(terms, order_); ++j) {
         const double first = std::abs(c[j]);
         if (!(first > 0 && first < huge))
             continue;
-        double reached = first; // what the term before comes to over the least step, as a coefficient of this order
+        double reached = first; // coefficient of this order with which a term equals the earlier one at the least step
         for (std::size_t k = j + 1; k <= order_; ++k) {
             const double size = std::abs(c[k]);
             reached *= ratio;
@@ -74,10 +74,10 @@ double StepSize::logarithm_of_change(const Series& c, double known) const {
 double StepSize::operator()(std::span<const Series> states, double previous) const {
     if (previous > 0)
         return step_for(states, previous);
-    // Without a previous step the sizes of states that start at zero are unknown: begin with a step over which
-    // the state changes by about its own size, and let it settle.
+    // Without a previous step the sizes of states that start at zero are unknown: begin with a step over which each
+    // state changes by about its own size.
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    double least = infinity; // logarithm to base 2 of that step
+    double least = infinity; // logarithm of that step to base 2
     for (const Series& c : states)
         least = std::min(least, logarithm_of_change(c, least));
     double reference = std::isfinite(least) ? std::exp2(least) : 1;

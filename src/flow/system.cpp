@@ -16,7 +16,7 @@
 
 namespace graze {
 
-/// Compiles in a copy of the model, whose graph may grow and is thrown away at the end.
+/// Compiles in a copy of the model, whose graph may grow and is discarded afterwards.
 class SystemCompiler {
 public:
     explicit SystemCompiler(const Model& model)
@@ -38,7 +38,7 @@ public:
         parts.initial = function_of_parameters(initial);
     }
     std::vector<System::CompiledMode> compile_modes();
-    /// The tapes of modes that are compiled already, anew for what is observed as well.
+    /// Recompiles the tapes of compiled modes with observed expressions.
     void observe(std::vector<System::CompiledMode>& modes, std::span<const Expression> observed);
     LinearMode linearise(const System& system, std::size_t mode, std::span<const Expression> observed);
     std::vector<Expression> expanded(std::span<const Expression> expressions) { return expander_.expand(expressions); }
@@ -54,9 +54,9 @@ public:
             outputs.push_back({1 + entry.column, std::move(entry.value)});
         return compile(inputs_, 1 + inputs_.size(), outputs, Function::Others::zero);
     }
-    /// Of all functions compiled.
+    /// Largest workspace of all functions compiled.
     std::size_t workspace() const { return workspace_; }
-    /// Of all functions and tapes compiled.
+    /// Operations of all functions and tapes compiled.
     std::size_t operations() const { return operations_; }
 
 private:
@@ -86,7 +86,7 @@ private:
     std::size_t workspace_ = 0, operations_ = 0;
 };
 
-/// What is compiled once it is needed.
+/// The variational equations of each mode, compiled when first needed.
 struct System::LinearModes {
     struct Item {
         std::once_flag compiled;
@@ -112,7 +112,7 @@ System::System(const Model& model) {
     parts_ = std::move(parts);
 }
 
-/// The same system with these modes, whose tapes are compiled anew.
+/// Returns the same system with these modes, whose tapes are recompiled.
 System System::with_tapes(std::vector<CompiledMode> modes, std::span<const Expression> observed) const {
     System result = *this;
     SystemCompiler compiler(model());
@@ -166,7 +166,7 @@ Function SystemCompiler::counted(Function function) {
     return function;
 }
 
-/// A function finds by itself what it does not know. Only then is it asked whose it is: most of them know everything.
+/// A function reports unknown symbols itself; only then are they searched for a message, since that takes time.
 template <class... Arguments>
 Function SystemCompiler::checked(const SymbolIndex& inputs, std::span<const Expression> values,
                                  Arguments&&... arguments) {
@@ -190,7 +190,7 @@ Function SystemCompiler::compile(const SymbolIndex& inputs, std::size_t outputs,
     return checked(inputs, values, outputs, given, others);
 }
 
-/// Derivatives row by row: functions x symbols.
+/// Compiles derivatives row by row: functions x symbols.
 Function SystemCompiler::compile_derivatives(const SymbolIndex& inputs, std::span<const Expression> functions,
                                              const SymbolIndex& symbols) {
     std::vector<Function::Output> outputs;
@@ -210,7 +210,7 @@ System::CompiledGradient SystemCompiler::gradient_of(const Expression& function)
     return gradient;
 }
 
-/// What stands under each root or power in some expressions, followed by the exponent.
+/// Returns the radicand or base of each root or power in some expressions, followed by its exponent.
 std::vector<Expression> SystemCompiler::roots_in(std::span<const Expression> expanded) {
     const Subgraph part = subgraph_of(expanded);
     std::vector<Expression> roots;
@@ -232,7 +232,7 @@ std::vector<Expression> SystemCompiler::watched_functions(const System::Compiled
     return expander_.expand(functions);
 }
 
-/// What a tape gives besides states, in its sequence.
+/// Returns the outputs of a tape in their order.
 std::vector<Expression> SystemCompiler::with_observed(std::vector<Expression> outputs,
                                                       std::span<const Expression> observed) {
     const std::vector<Expression> more = expander_.expand(observed);
@@ -251,7 +251,7 @@ std::vector<System::CompiledMode> SystemCompiler::compile_modes() {
         for (const std::size_t event : mode.watched) {
             const auto transition = transitions.find({m, event});
             if (transition == transitions.end())
-                continue; // a section that leads nowhere: the motion passes through
+                continue; // a section without a transition: the motion passes through
             compiled.watched.push_back(event);
             compiled.transitions.push_back(transition->second);
         }
@@ -280,12 +280,12 @@ LinearMode SystemCompiler::linearise(const System& system, std::size_t mode, std
                                   events = watched_functions(system.mode(mode));
     const std::size_t states = states_.size();
     LinearMode linear;
-    std::vector<TapeFollower> followers;
+    std::vector<DeferredExpression> deferred;
     const auto add = [&](std::vector<TangentEntry>& entries, std::size_t row, std::size_t source, Expression value,
                          std::uint32_t group) {
         const bool by_parameter = source >= states && source < inputs_.size();
-        entries.push_back({row, source, followers.size()});
-        followers.push_back({std::move(value), by_parameter ? LinearMode::by_parameter(source - states) : group});
+        entries.push_back({row, source, deferred.size()});
+        deferred.push_back({std::move(value), by_parameter ? LinearMode::by_parameter(source - states) : group});
     };
     Linearisation linearisation = graze::linearise(rates, inputs_, states);
     linear.equations = {states, parameters_.size(), linearisation.intermediates, {}};
@@ -293,8 +293,8 @@ LinearMode SystemCompiler::linearise(const System& system, std::size_t mode, std
         add(linear.equations.entries, entry.row, entry.source, std::move(entry.coefficient), LinearMode::by_states);
     for (JacobianEntry& entry : sparse_jacobian(events, inputs_))
         add(linear.events, entry.row, entry.column, std::move(entry.value), LinearMode::of_events);
-    linear.tape = graze::compile_tape(states_.symbols(), parameters_.symbols(), rates, with_observed(events, observed),
-                                      followers);
+    linear.tape =
+        graze::compile_tape(states_.symbols(), parameters_.symbols(), rates, with_observed(events, observed), deferred);
     return linear;
 }
 
@@ -302,7 +302,7 @@ void SystemCompiler::compile_tape(System::CompiledMode& compiled, const std::vec
                                   const std::vector<Expression>& outputs) {
     std::vector<Expression> all = rates;
     all.insert(all.end(), outputs.begin(), outputs.end());
-    compiled.evidence = compile(inputs_, all); // where unknown symbols are found
+    compiled.evidence = compile(inputs_, all); // reports unknown symbols
     compiled.tape = graze::compile_tape(states_.symbols(), parameters_.symbols(), rates, outputs);
     operations_ += compiled.tape.code.size();
     compiled.polynomial = std::all_of(compiled.tape.degrees.begin(), compiled.tape.degrees.end(),
@@ -316,7 +316,7 @@ System::CompiledJump SystemCompiler::map_of(const StateMap& map) {
     System::CompiledJump compiled;
     std::vector<Function::Output> images;
     std::vector<Expression> changed;
-    // What an expression stands for may still be the state itself.
+    // An expression may expand to the state itself.
     for (const StateMap::Change& change : changes_of(map, states_.symbols(), identity_))
         if (const Expression image = expander_.expand(change.image); !(image == states_.symbols()[change.state])) {
             compiled.changed.push_back(change.state);

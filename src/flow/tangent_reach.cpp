@@ -12,11 +12,11 @@ namespace graze {
 
 namespace {
 
-/// Share of a step that derivatives are content with before other sizes than their own are asked for.
+/// Derivatives may shorten a step to this fraction before other sizes than their own are used.
 constexpr double little_shorter = 0.8;
 
-/// Excess of rates over what is allowed from which on floors are worth asking for, for each order: so much is what a
-/// step of that share would take away.
+/// Excess of rates above which floors are worth computing, for each order: a step shortened to `little_shorter` removes
+/// as much.
 struct FloorsWorth {
     double of[highest_order + 1] = {1};
     constexpr FloorsWorth() {
@@ -26,7 +26,7 @@ struct FloorsWorth {
 };
 constexpr FloorsWorth floors_worth;
 
-/// Size of a series whose first three terms are zero.
+/// Returns the size of a series whose first three terms are zero.
 double size_of_all(const double* c, std::size_t width, std::size_t order, double step) {
     double sum = 0;
     for (std::size_t k = order + 1; k-- > 0;)
@@ -34,26 +34,26 @@ double size_of_all(const double* c, std::size_t width, std::size_t order, double
     return sum;
 }
 
-/// Differences between the slopes of derivatives' polynomials and what the variational equations say, after part of a
+/// Differences between the slopes of derivatives' polynomials and the variational equations at the end of a part of the
 /// step.
 class Misfit {
 public:
-    Misfit(const TangentPlaces& places, double tolerance)
+    Misfit(const TangentEndpoints& places, double tolerance)
         : places_(places), order_(static_cast<std::size_t>(places.here.order())), width_(places.here.width()),
           tolerance_(tolerance) {}
 
-    /// The largest, in units of what is allowed; or, where that is so much that it no longer matters by how much, any.
+    /// Returns the largest difference, in units of the allowance; stops early at any difference above `enough`.
     double after(double step, double enough = std::numeric_limits<double>::infinity()) {
-        places_.look(step);
+        places_.evaluate_at(step);
         return compare(step, enough);
     }
-    /// The same as before, where floors allow more.
+    /// The same at the current end, with floors.
     double above(std::span<const double> floors, double step) {
         floors_ = floors;
         return compare(step, std::numeric_limits<double>::infinity());
     }
-    /// From now on differences are allowed that there are for no other reason than round-off.
-    /// @param known what of it is known, or none
+    /// Allows from now on differences that are due to round-off.
+    /// @param known a bound of the round-off, or empty
     void measure_noise(double step, std::span<const double> known);
 
 private:
@@ -63,11 +63,11 @@ private:
         return std::abs(places_.slopes[i * width_ + l] - places_.there.state(i)[width_ + l]);
     }
 
-    const TangentPlaces& places_;
+    const TangentEndpoints& places_;
     std::size_t order_, width_;
     double tolerance_;
     std::span<const double> floors_;
-    std::vector<double> noise_; ///< of rates, states x count; none before it is measured
+    std::vector<double> noise_; ///< round-off of rates, states x count; empty before it is measured
 };
 
 double Misfit::compare(double step, double enough) const {
@@ -90,7 +90,7 @@ double Misfit::compare(double step, double enough) const {
     return most;
 }
 
-/// A difference in units of what is allowed, where it exceeds what the ends of the step allow.
+/// Returns a difference in units of the allowance, if it exceeds what the sizes at the ends allow.
 double Misfit::excess(std::size_t i, std::size_t lane, double apart, double size, double length) const {
     if (!floors_.empty()) {
         size = std::max(size, floors_[i * width_ + lane]);
@@ -103,16 +103,17 @@ double Misfit::excess(std::size_t i, std::size_t lane, double apart, double size
     return std::isnan(ratio) ? std::numeric_limits<double>::infinity() : ratio;
 }
 
-/// Next to the start polynomials are exact, so that what is between slopes and rates there is round-off: of terms that
-/// cancel, such as those of a coupling that a symmetry makes zero, beside which nothing shows how large they are.
+/// Close to the start the polynomials are exact, so differences between slopes and rates there are round-off of
+/// cancelling terms, such as those of a coupling that a symmetry makes zero; the results do not show the size of these
+/// terms.
 void Misfit::measure_noise(double step, std::span<const double> known) {
-    constexpr double near = 0x1p-24, spread = 100; // what is random is small now and then
+    constexpr double near = 0x1p-24, spread = 100; // a random sample may be small by chance
     const std::size_t count = places_.count;
     noise_.assign(places_.states * count, 0.0);
     for (std::size_t i = 0; i < places_.states && !known.empty(); ++i)
         std::copy_n(&known[i * width_], count, &noise_[i * count]);
     for (const double share : {near, 1.7 * near, 3.1 * near}) {
-        places_.look(share * step);
+        places_.evaluate_at(share * step);
         for (std::size_t i = 0; i < places_.states; ++i)
             for (std::size_t l = 0; l < count; ++l)
                 if (const double noise = spread * difference(i, l); std::isfinite(noise))
@@ -127,7 +128,7 @@ double tangent_reach(const TangentSeries& series, double tolerance, double step,
     if (!(worst > tolerance))
         return step;
     const double root = 1.0 / (series.order() - 1);
-    // Sizes shrink with the step: a few rounds, each of which aims at a little less than what is allowed.
+    // Sizes shrink with the step: iterate a few times, aiming slightly below the allowance.
     constexpr double aim = 0.98;
     const auto shorten = [&](std::span<const double> least, double shortest) {
         for (int round = 0; round < 6 && worst > tolerance; ++round) {
@@ -137,7 +138,7 @@ double tangent_reach(const TangentSeries& series, double tolerance, double step,
             worst = series.tails(reach, least);
         }
     };
-    shorten({}, little_shorter * step); // below, other sizes decide
+    shorten({}, little_shorter * step); // below this, other sizes are used
     if (!(reach >= little_shorter * step)) {
         const std::span<const double> least = floors();
         reach = step;
@@ -147,7 +148,7 @@ double tangent_reach(const TangentSeries& series, double tolerance, double step,
     return std::isfinite(reach) && reach > 0 ? reach : step;
 }
 
-double follow_tangents(const TangentPlaces& places, double tolerance, double step, const TangentFloors& floors,
+double follow_tangents(const TangentEndpoints& places, double tolerance, double step, const TangentFloors& floors,
                        const TangentFloors& noise) {
     constexpr int most_halvings = TangentCheck::most_halvings;
     Misfit misfit(places, tolerance);

@@ -65,17 +65,17 @@ void TangentSteps::begin(Jet& jet, std::size_t mode, std::span<const double> sta
     require_size(state.size(), states_, "states");
     require_size(matrix.size(), states_ * directions_, "derivatives");
     require_index(0, directions_, "direction");
-    require_size(jet.followers(), system_.linear(mode).tape.followers.size(), "followers of a jet");
+    require_size(jet.deferred_count(), system_.linear(mode).tape.deferred.size(), "deferred expressions of a jet");
     jet_ = &jet;
     mode_ = mode;
     place_ = state;
     matrix_ = matrix;
     measured_ = nullptr;
     loaded_ = false;
-    jet.follow(groups_);
+    jet.compute_deferred(groups_);
 }
 
-/// Computes the series of some directions, from one on.
+/// Computes the series of the directions from `first` on.
 void TangentSteps::load(std::size_t first) {
     TangentSeries& here = *lanes_of_mode().here;
     if (loaded_ && first_ == first)
@@ -86,14 +86,14 @@ void TangentSteps::load(std::size_t first) {
     loaded_ = true;
 }
 
-/// Measured where the step begins, once it is asked for.
+/// Measures the couplings at the beginning of the step on demand.
 const Couplings& TangentSteps::couplings_here() {
     if (measured_ == nullptr)
         measured_ = &couplings_->measured(mode_, place_);
     return *measured_;
 }
 
-/// To what each component may be brought by the others, from where all are now.
+/// Returns the sizes to which each component may be brought by the others from their present values.
 std::span<const double> TangentSteps::floors(double length) {
     const Couplings& couplings = couplings_here();
     const TangentSeries& here = *lanes_[mode_].here;
@@ -112,10 +112,10 @@ std::span<const double> TangentSteps::floors(double length) {
     return floors_;
 }
 
-/// What round-off may make of a direction's rates: the terms of which each is the sum are as large as the strongest
-/// coupling makes them of the direction's largest component, in the units of the couplings, but may cancel.
+/// Returns the possible effect of round-off on a direction's rates. Each rate is a sum of terms as large as the
+/// strongest coupling times the direction's largest component, in the units of the couplings; these terms may cancel.
 std::span<const double> TangentSteps::noise() {
-    constexpr double round_off = 100 * 0x1p-53; // of a sum of some terms, and now and then more
+    constexpr double round_off = 100 * 0x1p-53; // of a sum of several terms, with a margin
     const Couplings& couplings = couplings_here();
     const TangentSeries& here = *lanes_[mode_].here;
     const double rate = couplings.response_time() > 0 ? round_off / couplings.response_time() : 0;
@@ -132,15 +132,15 @@ std::span<const double> TangentSteps::noise() {
     return noise_;
 }
 
-/// What follows the motion begins at the end of a step, where `state_` is.
+/// Begins the directions at the end of a step, at `state_`.
 void TangentSteps::begin_end(Jet& next, double step) {
     next.begin(state_);
-    next.begin_followers(groups_);
+    next.begin_deferred(groups_);
     at_ = step;
 }
 
-/// Follows the directions that are loaded for a step or a part of it.
-/// @return how far; what is there is in `sums_`, the motion itself in `state_`
+/// Follows the loaded directions for a step or a part of it.
+/// @return the length of the part; the result is in `sums_`, the state in `state_`
 double TangentSteps::follow(Jet& next, double length) {
     Lanes& lanes = lanes_of_mode();
     std::span<const double> known;
@@ -148,7 +148,7 @@ double TangentSteps::follow(Jet& next, double length) {
     double reach = tangent_reach(*lanes.here, tolerance_, std::abs(length), least);
     if (reach >= whole_ * std::abs(length))
         reach = std::abs(length);
-    const auto look = [&](double step) {
+    const auto evaluate_at = [&](double step) {
         if (at_ != step) {
             jet_->evaluate_states({&step, 1}, state_);
             begin_end(next, step);
@@ -157,8 +157,9 @@ double TangentSteps::follow(Jet& next, double length) {
         lanes.there->load(sums_, *lanes.here);
         lanes.there->begin(next);
     };
-    const TangentPlaces places{
-        *lanes.here, *lanes.there, sums_, slopes_, states_, std::min(lanes.here->width(), directions_ - first_), look};
+    const TangentEndpoints places{*lanes.here, *lanes.there, sums_,
+                                  slopes_,     states_,      std::min(lanes.here->width(), directions_ - first_),
+                                  evaluate_at};
     return follow_tangents(places, tolerance_, std::copysign(reach, length), least, [this] { return noise(); });
 }
 
@@ -173,16 +174,16 @@ double TangentSteps::carry(Jet& next, double length, std::span<double> after, st
         std::copy(end.begin(), end.end(), state_.begin());
         begin_end(next, length);
     }
-    const std::size_t width = lanes_of_mode().here->width(), goes = (directions_ + width - 1) / width;
-    // Where some directions do not come as far as those before them, these are asked again.
-    std::size_t there = 0; // goes in a row that have come so far
-    for (std::size_t go = 0; there < goes && go < most_rounds * goes; ++go) {
-        const std::size_t first = go % goes * width, count = std::min(width, directions_ - first);
+    const std::size_t width = lanes_of_mode().here->width(), passes = (directions_ + width - 1) / width;
+    // Where later directions shorten the step, the earlier ones are repeated for the shorter step.
+    std::size_t agreeing = 0; // consecutive passes that reached the present length
+    for (std::size_t pass = 0; agreeing < passes && pass < most_rounds * passes; ++pass) {
+        const std::size_t first = pass % passes * width, count = std::min(width, directions_ - first);
         load(first);
         const double part = follow(next, length);
         if (std::isnan(part))
             return part;
-        there = part == length ? there + 1 : 1;
+        agreeing = part == length ? agreeing + 1 : 1;
         length = part;
         for (std::size_t i = 0; i < states_; ++i)
             std::copy_n(&sums_[i * width], count, &after[i * directions_ + first]);
@@ -199,12 +200,12 @@ std::vector<std::uint32_t> TangentSteps::groups_with_events() const {
 void TangentSteps::event_at_end(Jet& next, std::span<const double> after, std::size_t watched,
                                 std::span<double> row) const {
     require_size(row.size(), directions_, "derivatives of an event");
-    next.begin_followers(groups_with_events());
+    next.begin_deferred(groups_with_events());
     std::fill(row.begin(), row.end(), 0.0);
     for (const TangentEntry& entry : system_.linear(mode_).events) {
         if (entry.row != watched || (entry.source >= states_ && moving_[entry.source - states_] == 0))
             continue;
-        const double slope = *next.follower(entry.follower);
+        const double slope = *next.deferred(entry.deferred);
         const double* change = entry.source < states_ ? &after[entry.source * directions_]
                                                       : &parameter_seeds_[(entry.source - states_) * directions_];
         for (std::size_t d = 0; d < directions_; ++d)
@@ -214,7 +215,7 @@ void TangentSteps::event_at_end(Jet& next, std::span<const double> after, std::s
 
 void TangentSteps::event_coefficient(std::size_t watched, std::size_t k, std::span<double> row) {
     require_size(row.size(), directions_, "derivatives of an event");
-    jet_->follow(groups_with_events());
+    jet_->compute_deferred(groups_with_events());
     std::fill(row.begin(), row.end(), 0.0);
     const LinearMode& linear = system_.linear(mode_);
     const std::size_t width = lanes_of_mode().here->width();
@@ -225,8 +226,8 @@ void TangentSteps::event_coefficient(std::size_t watched, std::size_t k, std::sp
             const double* change = here.source(entry.source);
             if (entry.row != watched || change == nullptr)
                 continue;
-            const double* slope = jet_->follower(entry.follower);
-            const std::size_t degree = linear.tape.followers[entry.follower].constant ? 0 : k;
+            const double* slope = jet_->deferred(entry.deferred);
+            const std::size_t degree = linear.tape.deferred[entry.deferred].constant ? 0 : k;
             for (std::size_t j = 0; j <= degree; ++j)
                 for (std::size_t l = 0; l < width && first + l < directions_; ++l)
                     row[first + l] += slope[j] * change[(k - j) * width + l];

@@ -17,21 +17,21 @@ namespace graze {
 
 namespace {
 
-/// Differentiates in a copy of a system's model, whose graph may grow and is thrown away at the end.
+/// Differentiates in a copy of a system's model, whose graph may grow and is discarded afterwards.
 class VariationalCompiler {
 public:
     VariationalCompiler(const System& system, std::span<const ParameterId> free);
 
-    /// Those of a model of its own, in which the tangent is a state like others.
+    /// Returns the modes of a separate model, in which the tangent is part of the state.
     System modes();
-    /// Values, derivatives and second derivatives of functions in the model's symbols.
+    /// Compiles values, derivatives and second derivatives of functions in the model's symbols.
     Function function_of(std::span<const Expression> functions);
     Function function_of(const Expression& function) { return function_of(std::span(&function, 1)); }
-    /// The same of a map of states, which is the identity where it is empty.
+    /// The same for a map of states; an empty map is the identity.
     Function map_of(const std::vector<Expression>& map) { return function_of(map.empty() ? states_ : map); }
 
     Model& model() { return model_; }
-    /// Of all functions compiled.
+    /// Largest workspace of all functions compiled.
     std::size_t workspace() const { return workspace_; }
 
 private:

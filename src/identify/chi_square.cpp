@@ -7,7 +7,8 @@ namespace graze {
 double chi_square_tail(double squares, std::size_t freedom) {
     if (freedom == 0 || !(squares > 0))
         return 1;
-    // The incomplete gamma function of half the freedom, from that of 1/2 or 1 upwards: each term is positive.
+    // Recurrence of the incomplete gamma function in its parameter, from 1/2 or 1 up to freedom/2; all terms are
+    // positive, so nothing cancels.
     const double x = 0.5 * squares;
     const bool odd = freedom % 2 == 1;
     double tail = odd ? std::erfc(std::sqrt(x)) : std::exp(-x);

@@ -4,7 +4,8 @@
 
 namespace graze {
 
-/// The chance that a sum of squares of so many independent normal variables of variance one is larger (1 without any).
+/// Returns the probability that a chi-square variable with `freedom` degrees of freedom exceeds `squares` (1 for 0
+/// degrees of freedom).
 /// @param squares not negative
 double chi_square_tail(double squares, std::size_t freedom);
 

@@ -10,32 +10,33 @@
 
 namespace graze {
 
-/// Units in which records that are put together are taken: those of the first.
+/// Converts channels of several records to the units of the first record.
 class CommonUnits {
 public:
-    /// How the numbers of a column become those of the first record's.
+    /// Conversion of a column's numbers to the unit of the first record.
     struct Conversion {
-        std::optional<PhysicalUnit> from{}, to{}; ///< none: they stay
+        std::optional<PhysicalUnit> from{}, to{}; ///< both empty: numbers stay unchanged
         double operator()(double value) const { return from ? converted(value, *from, *to) : value; }
     };
-    /// Of a record's time, whose unit in the header becomes the common one.
-    /// @throws InputError here and below for units of different kinds, for different ones of which one is not known,
-    /// and where one of two records says none
+    /// Returns the conversion of a record's time, and replaces its unit in the header by the common one.
+    /// @throws InputError here and below when the units have different dimensions, when they differ and one is unknown,
+    /// or when only one of the records states a unit
     Conversion take_time(RecordHeader& header);
-    /// Of a channel, in the same way.
+    /// Does the same for a channel.
     Conversion take_channel(RecordHeader& header, std::size_t channel);
 
 private:
     Conversion take(Channel& column, const std::string& role);
 
-    std::vector<std::pair<std::string, std::string>> units_; ///< of the time (under no name) and channels, so far
+    /// Units so far by channel name; the time has an empty name.
+    std::vector<std::pair<std::string, std::string>> units_;
 };
 
-/// A record in common units.
+/// A record converted to common units while it is read.
 class CommonUnitSource : public SampleSource {
 public:
-    enum class Times { common, as_they_are }; ///< whether what is found depends on them
-    /// @param channels that are used; others stay as they are
+    enum class Times { common, as_they_are }; ///< whether times are converted too (when the estimate depends on them)
+    /// @param channels to convert; others stay unchanged
     CommonUnitSource(SampleSource& source, CommonUnits& units, const std::vector<std::size_t>& channels,
                      Times times = Times::common);
     const RecordHeader& header() const override { return header_; }

@@ -15,7 +15,7 @@ namespace graze {
 
 namespace {
 
-/// The sums of Eqs. (5.14) to (5.16): linear in the root of beta1 and in beta2.
+/// Solves the regression of Eqs. (5.14) to (5.16), which is linear in the root of beta1 and in beta2.
 Eigen::Vector2d regression_of(std::span<const StaticLoad> loads, const CouplingSettings& settings) {
     std::vector<Eigen::Vector3d> rows;
     for (const StaticLoad& load : loads)
@@ -35,7 +35,7 @@ Eigen::Vector2d regression_of(std::span<const StaticLoad> loads, const CouplingS
     const PivotedQR factors(matrix * scale.cwiseInverse().asDiagonal());
     constexpr double too_small = 1e-10;
     if (!(std::abs(factors.pivot(1)) > too_small))
-        throw InputError("the equilibria do not tell both constants", "load it with several currents");
+        throw InputError("the equilibria do not determine both constants", "load it with several currents");
     const Eigen::Vector2d found = factors.solve(right).cwiseQuotient(scale);
     return {found[0] * found[0], found[1]};
 }
@@ -47,21 +47,20 @@ void require_loads(std::span<const StaticLoad> loads, const CouplingSettings& se
     }
     for (const double value : {settings.gap, settings.stiffness, settings.gap_error, settings.stiffness_error,
                                settings.displacement_noise, settings.current_noise}) {
-        require_finite(value, "what is known beforehand");
+        require_finite(value, "a gap, stiffness, error or noise");
         if (value < 0)
-            throw InputError("what is known beforehand is negative", "give positive numbers");
+            throw InputError("a gap, stiffness, error or noise is negative", "give positive numbers");
     }
     if (settings.gap == 0)
         throw InputError("there is no gap", "give the gap at rest");
-    constexpr double noisy = 5; // standard deviations: a mass that touches may be read further
+    constexpr double noisy = 5; // standard deviations: noise may place a touching mass beyond the gap
     for (const StaticLoad& load : loads)
         if (load.displacement > settings.gap + noisy * settings.displacement_noise)
-            throw InputError(
-                fmt::format("a displacement of {:.4g} is larger than the gap at rest, {:.4g}, which none of "
-                            "the mass can be",
-                            load.displacement, settings.gap),
-                "give the gap, the stiffness and displacements in the same unit of length (--scale "
-                "NAME=FACTOR, or scale in the run that has the record)");
+            throw InputError(fmt::format("a displacement of {:.4g} is larger than the gap at rest, {:.4g}, which is "
+                                         "impossible",
+                                         load.displacement, settings.gap),
+                             "give the gap, the stiffness and displacements in the same unit of length (--scale "
+                             "NAME=FACTOR, or scale in the run that has the record)");
     constexpr std::size_t fewest = 3;
     if (loads.size() < fewest || !(settings.stiffness > 0))
         throw InputError("there are too few equilibria, or no stiffness", "give three or more, and m w0^2");
@@ -84,9 +83,9 @@ Coupling coupling(std::span<const StaticLoad> loads, const CouplingSettings& set
     const auto rows = static_cast<Eigen::Index>(loads.size());
     Eigen::MatrixXd matrix(rows, 2);
     Eigen::VectorXd rest(rows), by_gap(rows), by_stiffness(rows);
-    // Points of the curve, of which the measured ones are noisy images, are found along with the constants (H. I. Britt
-    // and R. H. Luecke, Technometrics 15 (1973) 233): regressors that share their noise with the residuals would bias
-    // them.
+    // The true equilibria, on the curve, are estimated along with the constants (H. I. Britt and R. H. Luecke,
+    // Technometrics 15 (1973) 233): derivatives at the noisy loads would be correlated with the residuals and bias the
+    // constants.
     std::vector<StaticLoad> points(loads.begin(), loads.end());
     std::vector<double> deviations(loads.size());
     const auto weigh = [&] {
@@ -94,7 +93,8 @@ Coupling coupling(std::span<const StaticLoad> loads, const CouplingSettings& set
             const LoadBalance balance(points[i], settings, betas[0], betas[1]);
             const double deviation = std::hypot(balance.by_displacement * noise_q, balance.by_current * noise_i);
             if (!(deviation > 0))
-                throw InputError("an equilibrium is where neither noise would show", "give noise of the currents, too");
+                throw InputError("the force balance at an equilibrium does not depend on the noisy quantities",
+                                 "give noise of the currents, too");
             const auto row = static_cast<Eigen::Index>(i);
             deviations[i] = deviation;
             matrix.row(row) << balance.by_beta1 / deviation, balance.by_beta2 / deviation;
@@ -135,7 +135,7 @@ Coupling coupling(std::span<const StaticLoad> loads, const CouplingSettings& set
     const double freedom = static_cast<double>(rows - 2);
     const Eigen::Matrix2d by_noise = scale.cwiseInverse().asDiagonal() * (rest.squaredNorm() / freedom * inverse) *
                                      scale.cwiseInverse().asDiagonal();
-    // What is known beforehand moves the constants as the equations say.
+    // Errors of gap and stiffness propagate to the constants by the linearised equations.
     const auto moved = [&](const Eigen::VectorXd& by, double error) -> Eigen::Vector2d {
         return -(inverse * (scaled.transpose() * by)).cwiseQuotient(scale) * error;
     };

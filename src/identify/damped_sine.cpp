@@ -37,7 +37,7 @@ DampedSine::DampedSine(const std::vector<Period>& periods, const Samples& sample
                  static_cast<double>(periods.size()) / static_cast<double>(periods.size() - 1);
 }
 
-std::optional<Rest> DampedSine::fit() {
+std::optional<DecayFit> DampedSine::fit() {
     constexpr Eigen::Index unknowns = 5;
     const auto rows = static_cast<Eigen::Index>(places_.size());
     if (rows <= 2 * unknowns || !std::isfinite(decay_))
@@ -50,7 +50,7 @@ std::optional<Rest> DampedSine::fit() {
     double before = std::numeric_limits<double>::infinity();
     for (int step = 0; step < steps; ++step) {
         fill(slopes, left, linear);
-        if (step == 0) { // what is linear is solved for first
+        if (step == 0) { // initial guess of the linear unknowns
             linear = PivotedQR(slopes.leftCols(3)).solve(left);
             fill(slopes, left, linear);
         }
@@ -65,7 +65,7 @@ std::optional<Rest> DampedSine::fit() {
         decay_ += share * change[4];
         constexpr double enough = 1e-13, nearly = 1e-9;
         if (size < enough * turn_ || (size < nearly * turn_ && size >= before))
-            return rest_of(slopes, left, linear);
+            return result_of(slopes, left, linear);
         before = size;
     }
     return std::nullopt;
@@ -80,12 +80,12 @@ void DampedSine::fill(Eigen::MatrixXd& slopes, Eigen::VectorXd& left, const Eige
     }
 }
 
-Rest DampedSine::rest_of(const Eigen::MatrixXd& slopes, const Eigen::VectorXd& left,
-                         const Eigen::VectorXd& linear) const {
+DecayFit DampedSine::result_of(const Eigen::MatrixXd& slopes, const Eigen::VectorXd& left,
+                               const Eigen::VectorXd& linear) const {
     const double variance = left.squaredNorm() / static_cast<double>(left.size() - slopes.cols());
     const Eigen::MatrixXd covariance =
         variance * (slopes.transpose() * slopes).ldlt().solve(Eigen::MatrixXd::Identity(slopes.cols(), slopes.cols()));
-    const double lag = std::atan(decay_ / turn_), top = std::atan2(linear[2], linear[1]) - lag; // of the phase
+    const double lag = std::atan(decay_ / turn_), top = std::atan2(linear[2], linear[1]) - lag; // phase of the maximum
     return {level_ + linear[0],
             std::sqrt(std::max(0.0, covariance(0, 0))),
             std::sqrt(variance),
@@ -96,11 +96,11 @@ Rest DampedSine::rest_of(const Eigen::MatrixXd& slopes, const Eigen::VectorXd& l
             wave_of(covariance, left)};
 }
 
-/// The unknowns turn and decay are those within all samples.
+/// Converts frequency and decay, which the fit has over the whole window, to rates in time.
 DecayWave DampedSine::wave_of(const Eigen::MatrixXd& covariance, const Eigen::VectorXd& left) const {
     DecayWave wave;
-    wave.left = test_residuals({left.data(), static_cast<std::size_t>(left.size())}, values_);
-    const double scale = std::pow(wave.left.widening / length_, 2);
+    wave.residual_test = test_residuals({left.data(), static_cast<std::size_t>(left.size())}, values_);
+    const double scale = std::pow(wave.residual_test.widening / length_, 2);
     wave.turn = turn_ / length_;
     wave.decay = decay_ / length_;
     wave.turn_variance = scale * covariance(3, 3);

@@ -11,33 +11,35 @@
 
 namespace graze {
 
-/// Where an oscillation comes to rest, and the noise about it.
-struct Rest {
+/// A fitted damped sine: its rest position, its peaks and its noise.
+struct DecayFit {
     double value = 0, error = 0;
     double noise = 0;              ///< standard deviation of a sample
-    double peak = 0, distance = 1; ///< time of one of the oscillation's peaks, and from one to the next
-    double height = 0, decay = 0;  ///< of that one, and how the others' logarithms fall with time
+    double peak = 0, distance = 1; ///< time of one of the peaks, and the distance of neighbouring ones
+    double height = 0, decay = 0;  ///< height of that peak above the rest position, and decay rate of the heights
     DecayWave wave{};
 
+    /// Height of the envelope at a time.
     double height_at(double time) const { return height * std::exp(-decay * (time - peak)); }
 
+    /// Time of the peak nearest to the middle of a period.
     double peak_in(const Period& period) const {
         const double middle = 0.5 * (period.begin + period.end);
         return peak + distance * std::round((middle - peak) / distance);
     }
 };
 
-/// c + exp(-decay s) (a cos(turn s) + b sin(turn s)) through the samples of whole periods by least squares, with s from
-/// 0 to 1.
+/// Least-squares fit of c + exp(-decay s) (a cos(turn s) + b sin(turn s)) to the samples of whole periods, where s runs
+/// from 0 to 1 over these periods.
 class DampedSine {
 public:
     DampedSine(const std::vector<Period>& periods, const Samples& samples, std::size_t channel, double level);
-    /// @return none where the samples do not follow such an oscillation
-    std::optional<Rest> fit();
+    /// @return nothing when there are too few samples, or the Gauss-Newton iteration does not converge
+    std::optional<DecayFit> fit();
 
 private:
     void fill(Eigen::MatrixXd& slopes, Eigen::VectorXd& left, const Eigen::VectorXd& linear) const;
-    Rest rest_of(const Eigen::MatrixXd& slopes, const Eigen::VectorXd& left, const Eigen::VectorXd& linear) const;
+    DecayFit result_of(const Eigen::MatrixXd& slopes, const Eigen::VectorXd& left, const Eigen::VectorXd& linear) const;
     DecayWave wave_of(const Eigen::MatrixXd& covariance, const Eigen::VectorXd& left) const;
 
     double level_, begin_ = 0, length_ = 1, turn_ = 0, decay_ = 0;

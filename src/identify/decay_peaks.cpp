@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::size_t most_samples = 10'000'000;
 
-/// About what a channel swings in the end: its mean over the second half of the record.
+/// Estimate of the final position of a channel: its mean over the second half of the record.
 double level_of(const std::vector<double>& values) {
     double sum = 0;
     const std::size_t first = values.size() / 2;
@@ -31,7 +31,7 @@ double level_of(const std::vector<double>& values) {
     return values[first] + sum;
 }
 
-/// Of a wave with many samples a period second differences are small. Their median passes over jumps.
+/// Noise from second differences, which are small for a wave with many samples a period. Their median ignores jumps.
 double noise_by_differences(const std::vector<double>& values) {
     std::vector<double> differences;
     for (std::size_t i = 1; i + 1 < values.size(); ++i)
@@ -40,9 +40,9 @@ double noise_by_differences(const std::vector<double>& values) {
     return median(std::move(differences)) / (median_of_normal * std::sqrt(squares));
 }
 
-/// Of a damped wave about any level some sum of three neighbours, each times a factor, is always the same, however few
-/// samples a period has: by the factors with which it changes least (V. F. Pisarenko, Geophys. J. R. astr. Soc. 33
-/// (1973) 347).
+/// Noise from the linear recurrence that a damped sine obeys: a weighted sum of three neighbouring samples is constant,
+/// however few samples a period has. The weights are those for which the sum varies least (V. F. Pisarenko, Geophys. J.
+/// R. astr. Soc. 33 (1973) 347).
 double noise_by_recurrence(const std::vector<double>& values) {
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
     Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
@@ -56,7 +56,8 @@ double noise_by_recurrence(const std::vector<double>& values) {
     return variances ? std::sqrt(std::max(0.0, (*variances)[0])) : std::numeric_limits<double>::infinity();
 }
 
-/// Standard deviation of the noise. Each of the ways takes what it does not know for noise, too.
+/// Standard deviation of the noise: the smaller of two estimates, as each takes what its own model does not describe
+/// for noise.
 double noise_of(const std::vector<double>& values) {
     constexpr std::size_t fewest = 10;
     if (values.size() < fewest)
@@ -64,7 +65,7 @@ double noise_of(const std::vector<double>& values) {
     return std::min(noise_by_differences(values), noise_by_recurrence(values));
 }
 
-/// Means over a quarter of the period of the largest wave, so that noise makes no periods.
+/// Moving average over a quarter of the period of the largest wave, so that noise does not create periods.
 std::vector<double> smoothed(const Samples& samples, std::size_t channel, double level) {
     std::vector<double> values = samples.values[channel];
     for (double& value : values)
@@ -72,7 +73,7 @@ std::vector<double> smoothed(const Samples& samples, std::size_t channel, double
     const Spectrum waves = spectrum(values, sampling_frequency(samples.times));
     const auto highest = std::max_element(waves.amplitudes.begin(), waves.amplitudes.end());
     const double period = 1 / waves.frequencies[static_cast<std::size_t>(highest - waves.amplitudes.begin())];
-    constexpr double share = 0.125; // on each side
+    constexpr double share = 0.125; // of a period, on each side
     const double rows = share * period * sampling_frequency(samples.times);
     const auto count = values.size();
     if (!(rows >= 1 && rows < static_cast<double>(count)))
@@ -87,8 +88,8 @@ std::vector<double> smoothed(const Samples& samples, std::size_t channel, double
     return result;
 }
 
-/// Periods as they were recorded, from one rising crossing of the level to the next.
-/// @param seen the same, smoothed where that is needed
+/// Returns the recorded periods, from one rising crossing of the level to the next, up to `most`.
+/// @param seen the samples in which crossings are looked for: the recorded ones, or smoothed ones
 std::vector<Period> periods_above(double hysteresis, const Samples& seen, const Samples& samples,
                                   const RecordHeader& header, std::size_t channel, double level, std::size_t most) {
     StoredSamples source(header, seen);
@@ -112,8 +113,8 @@ std::vector<Period> periods_above(double hysteresis, const Samples& seen, const 
     return periods;
 }
 
-/// Those that stand out by a tenth of the range, as far as noise is not in the way. Where damping is strong there are
-/// too few of them: what is asked for then falls, down to the noise.
+/// Finds periods whose swing exceeds a tenth of the range. Strong damping leaves too few of them: then the threshold is
+/// lowered step by step, down to the noise.
 std::vector<Period> periods_of(const Samples& samples, const RecordHeader& header, std::size_t channel, double level,
                                std::size_t most) {
     Samples seen = samples;
@@ -121,13 +122,13 @@ std::vector<Period> periods_of(const Samples& samples, const RecordHeader& heade
         const auto [least, greatest] = std::minmax_element(some.values[channel].begin(), some.values[channel].end());
         return *greatest - *least;
     };
-    constexpr double noisy = 0.02; // of the range: a fifth of what a crossing needs
+    constexpr double noisy = 0.02; // of the range: a fifth of the threshold of a crossing
     const double noise = noise_of(samples.values[channel]);
     if (noise > noisy * range_of(samples))
         seen.values[channel] = smoothed(samples, channel, level);
     const double range = range_of(seen);
     constexpr double usual = 0.1, smaller = 0.25, stands_out = 5, resolved = 1e-9;
-    constexpr std::size_t enough = 3; // peaks that tell their error
+    constexpr std::size_t enough = 3; // peaks that determine a standard error
     const double lowest = std::max(stands_out * noise, resolved * range);
     std::vector<Period> periods;
     for (double hysteresis = usual * range; hysteresis > 0; hysteresis *= smaller) {
@@ -138,10 +139,10 @@ std::vector<Period> periods_of(const Samples& samples, const RecordHeader& heade
     return periods;
 }
 
-/// A polynomial near a peak, and where its top is.
+/// A polynomial fitted near a peak, in powers of (t - middle)/width, and the time of its maximum.
 struct PeakFit {
     double time = 0, middle = 0, width = 1;
-    double noise = 0; ///< of its height
+    double noise = 0; ///< standard error of the height
     std::vector<double> powers{};
 
     double height(double t) const {
@@ -153,13 +154,13 @@ struct PeakFit {
     }
 };
 
-/// So many powers that what they leave of a cosine is less than the noise: more of them would follow the noise.
+/// Smallest degree whose truncation error for a cosine is below the noise: a higher degree would follow the noise.
 std::size_t powers_for(double noise_by_height) {
     struct Left {
         std::size_t degree;
         double size;
     };
-    // Of a cosine over 0.15 of its period on each side of its top, by Chebyshev's polynomial of the next even degree.
+    // Error of Chebyshev's polynomials for a cosine over 0.15 of its period on each side of its maximum.
     constexpr Left left[] = {{2, 4e-3}, {4, 3e-5}, {6, 1.2e-7}};
     constexpr double share = 0.1;
     for (const Left& one : left)
@@ -168,25 +169,26 @@ std::size_t powers_for(double noise_by_height) {
     return 8;
 }
 
-/// What is fitted to all peaks of a release, so that what is left of the wave is the same part of each of them: where
-/// noise alone decides from peak to peak, the later ones are lower by it, and damping comes out too strong.
+/// Shape of the fit, common to all peaks of a release, so that the truncation error is the same fraction of each peak.
+/// If it were chosen peak by peak, later (noisier) peaks would come out lower and the damping too strong.
 struct PeakShape {
-    bool noisy = false; ///< the highest sample says little, and it takes more of the wave to see that it bends
+    bool noisy = false; ///< noise dominates the highest sample, so a wider window is needed to see the curvature
     std::size_t degree = 2;
 };
 
-/// Of peaks with such heights. @param samples of the channel in about a third of a period
+/// Chooses the shape for peaks between two heights. @param samples samples of the channel in about a third of a period
 PeakShape shape_of(double highest, double lowest, double noise, double samples) {
     constexpr double much = 0.02;
     PeakShape shape;
     shape.noisy = noise > much * lowest;
-    if (!shape.noisy) // a parabola leaves more
+    if (!shape.noisy) // then a parabola, whose truncation error is larger, would bias the peaks
         shape.degree = powers_for(noise / std::sqrt(std::max(1.0, samples)) / highest);
     return shape;
 }
 
-/// That of the samples around the highest one of a period. @return whether it has a top that stands out from the noise
-bool fit_peak(const Period& period, std::size_t channel, const Rest& rest, const PeakShape& shape, PeakFit& peak) {
+/// Fits the samples around the highest one of a period. @return whether they have a maximum that stands out from the
+/// noise
+bool fit_peak(const Period& period, std::size_t channel, const DecayFit& rest, const PeakShape& shape, PeakFit& peak) {
     const std::vector<double>&times = period.samples.times, &values = period.samples.values[channel];
     std::size_t highest = times.size();
     for (std::size_t i = 0; i < times.size(); ++i)
@@ -195,7 +197,7 @@ bool fit_peak(const Period& period, std::size_t channel, const Rest& rest, const
             highest = i;
     if (highest == times.size() || !(values[highest] > rest.value))
         return false;
-    // Noise moves the highest sample; the middle of what is nearly as high is not moved so far.
+    // Noise shifts the highest sample; the middle of the samples above 80 % of its height is shifted less.
     constexpr double share = 0.8, reach = 0.15;
     const double nearly = rest.value + share * (values[highest] - rest.value);
     std::size_t first = highest, last = highest;
@@ -222,7 +224,7 @@ bool fit_peak(const Period& period, std::size_t channel, const Rest& rest, const
     const std::vector<double> powers = fit.powers(heights.data());
     double x = 0;
     constexpr int steps = 50;
-    for (int i = 0; i < steps; ++i) { // Newton's method for the slope
+    for (int i = 0; i < steps; ++i) { // Newton's method for the zero of the slope
         double slope = 0, bend = 0;
         for (std::size_t k = powers.size(); k-- > 1;) {
             bend = bend * x + slope;
@@ -243,13 +245,14 @@ bool fit_peak(const Period& period, std::size_t channel, const Rest& rest, const
     for (std::size_t k = 0; k <= fit.degree(); ++k)
         squares += fit.at_zero(k) * fit.at_zero(k);
     peak.noise = rest.noise * std::sqrt(squares);
-    // By the height that the oscillation has there: by its own, those that noise has raised would be taken.
+    // Compare the fitted envelope, not the peak itself, with the noise: else peaks that noise has raised would be
+    // selected.
     constexpr double stands_out = 5;
     return std::abs(x) < 1 && rest.height_at(peak.time) > stands_out * peak.noise;
 }
 
-/// The heights are those at times as far from one another as all of them say: at its own top each polynomial is too
-/// high by what noise has moved the top, and the lower the peak the more.
+/// Evaluates all polynomials at equidistant times fitted to their maxima. At its own maximum each polynomial is too
+/// high by an amount that grows as the peak becomes lower, since noise shifts that maximum.
 DecayPeaks at_common_times(const std::vector<PeakFit>& fits) {
     double weights = 0, x = 0, y = 0, xx = 0, xy = 0;
     for (std::size_t k = 0; k < fits.size(); ++k) {
@@ -273,8 +276,8 @@ DecayPeaks at_common_times(const std::vector<PeakFit>& fits) {
     return peaks;
 }
 
-/// Those that stand out, until one does not.
-std::vector<PeakFit> fits_of(const std::vector<Period>& periods, std::size_t channel, const Rest& rest) {
+/// Fits peaks until one does not stand out.
+std::vector<PeakFit> fits_of(const std::vector<Period>& periods, std::size_t channel, const DecayFit& rest) {
     const auto fits_by = [&](std::size_t most, const auto& shape_at) {
         std::vector<PeakFit> fits;
         PeakFit fit;
@@ -294,7 +297,7 @@ std::vector<PeakFit> fits_of(const std::vector<Period>& periods, std::size_t cha
     return fits_by(count, [&](std::size_t) { return shape; });
 }
 
-/// Where rows are missing for so long that a period may be hidden, periods are counted wrongly.
+/// Refuses a record with a gap so long that it may hide a period, as periods would be miscounted.
 void require_no_gap(const std::vector<Period>& periods, const Samples& samples, const std::string& name) {
     std::vector<double> durations;
     for (const Period& one : periods)
@@ -324,29 +327,28 @@ DecayPeaks decay_peaks(SampleSource& source, std::size_t channel, std::size_t mo
     const std::vector<Period> periods = periods_of(samples, header, channel, level, most);
     if (periods.size() < 2)
         throw InputError(
-            fmt::format(
-                "'{}' has {} from one rise through {:.4g}, its mean over the second half, to the next, of those "
-                "that stand out from noise; two are needed",
-                name, periods.size() == 1 ? "one period" : "no period", level),
-            "give the record of an oscillation that dies out, and all of it; damping may be too strong for this");
+            fmt::format("'{}' has {} (from one rise through {:.4g}, its mean over the second half, to the next) "
+                        "that stands out from noise; two are needed",
+                        name, periods.size() == 1 ? "one period" : "no period", level),
+            "give the whole record of a decaying oscillation; damping may be too strong for this");
     require_no_gap(periods, samples, name);
-    const std::optional<Rest> found = DampedSine(periods, samples, channel, level).fit();
+    const std::optional<DecayFit> found = DampedSine(periods, samples, channel, level).fit();
     if (!found)
-        throw InputError(fmt::format("'{}' is no oscillation that dies out", name),
+        throw InputError(fmt::format("'{}' is not a decaying oscillation", name),
                          "give the record of a single one, from its release on (graze identify ... --from T --to T)");
     const std::vector<PeakFit> fits = fits_of(periods, channel, *found);
-    if (fits.size() < 2 && !found->wave.left.is_noise())
-        throw InputError(fmt::format("'{}' is not a damped sine: {}", name, found->wave.left.text()),
+    if (fits.size() < 2 && !found->wave.residual_test.is_noise())
+        throw InputError(fmt::format("'{}' is not a damped sine: {}", name, found->wave.residual_test.text()),
                          "look at the record there, and give a part of it that is free of that (graze identify ... "
                          "--from T --to T)");
     if (fits.size() < 2)
-        throw InputError(fmt::format("of the peaks of '{}' {} of {} stand out from the noise, of {:.2g} a sample", name,
-                                     fits.size(), periods.size(), found->noise),
-                         "take away what is faster, by graze record FILE --pass F --write FILE, or record a larger "
+        throw InputError(fmt::format("{1} of {2} peaks of '{0}' stand out from the noise, which is {3:.2g} a sample",
+                                     name, fits.size(), periods.size(), found->noise),
+                         "filter out higher frequencies by graze record FILE --pass F --write FILE, or record a larger "
                          "release");
     DecayPeaks peaks = at_common_times(fits);
     peaks.rest = found->value;
-    peaks.rest_error = found->error * found->wave.left.widening;
+    peaks.rest_error = found->error * found->wave.residual_test.widening;
     peaks.wave = found->wave;
     return peaks;
 }

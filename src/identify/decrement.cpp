@@ -24,18 +24,18 @@ void require_peaks(std::span<const DecayPeaks> releases) {
         if (peaks.times.size() < 2 ||
             std::any_of(peaks.heights.begin(), peaks.heights.end(), [](double h) { return !(h > 0); }) ||
             !std::is_sorted(peaks.times.begin(), peaks.times.end(), std::less_equal<>()))
-            throw InputError("these are no peaks of an oscillation that dies out",
+            throw InputError("these are not peaks of a decaying oscillation",
                              "give two or more of each release, with positive heights, in the order of time");
     }
     if (!enough)
-        throw InputError("there are too few peaks to tell their errors", "give three or more of a release");
+        throw InputError("there are too few peaks to determine standard errors", "give three or more of a release");
 }
 
-/// Lines of one slope and intercepts of their own over 0, 1, 2, ...
+/// Straight lines with a common slope, and an intercept for each release, over the peak numbers 0, 1, 2, ...
 struct CommonSlope {
     double slope = 0, error = 0;
     std::vector<double> intercepts;
-    std::vector<double> by_rest; ///< what the slope of the logarithms gains by each release's rest position
+    std::vector<double> by_rest; ///< derivative of the slope of the logarithms by each release's rest position
 };
 
 CommonSlope common_slope(std::span<const DecayPeaks> releases, const std::vector<std::vector<double>>& values,
@@ -69,7 +69,7 @@ CommonSlope common_slope(std::span<const DecayPeaks> releases, const std::vector
     }
     line.error = std::sqrt(squares / freedom / xx);
     for (std::size_t r = 0; r < releases.size(); ++r) {
-        double change = 0; // of a logarithm -1/height, by weights of height^2
+        double change = 0; // the derivative of a logarithm is -1/height, its weight height^2
         for (std::size_t k = 0; k < values[r].size(); ++k)
             change -= releases[r].heights[k] * (static_cast<double>(k) - mean_x[r]);
         line.by_rest.push_back(change / xx);
@@ -133,7 +133,7 @@ DampedOscillation damped_oscillation(std::span<const DecayWave> releases) {
             require_finite(value, "a number of a wave");
         if (!(wave.turn > 0) || !(wave.freedom > 0))
             throw InputError("a wave has no frequency, or no samples", "give waves of decay_peaks");
-        // Of exact samples the errors are nought: then all count the same, by round-off.
+        // Exact samples have zero errors: a floor at round-off then gives all waves equal weight.
         const double least = std::pow(1e-15 * wave.turn, 2);
         Eigen::Matrix2d covariance;
         covariance << wave.turn_variance + least, wave.covariance, wave.covariance, wave.decay_variance + least;

@@ -9,7 +9,7 @@ namespace graze {
 
 namespace {
 
-/// Continued fraction of the incomplete beta function (W. Lentz's method).
+/// Continued fraction of the incomplete beta function (by W. Lentz's method).
 double beta_fraction(double a, double b, double x) {
     constexpr double tiny = 1e-300, enough = 1e-16;
     constexpr int most = 10'000;
@@ -44,7 +44,8 @@ double incomplete_beta(double a, double b, double x) {
 
 double student_quantile(double probability, double freedom) {
     if (!(probability > 0 && probability < 1) || !(freedom > 0))
-        throw InputError("there is no such quantile", "give a probability between 0 and 1, and positive freedom");
+        throw InputError("there is no such quantile",
+                         "give a probability between 0 and 1, and positive degrees of freedom");
     const auto beyond = [&](double t) { return incomplete_beta(0.5 * freedom, 0.5, freedom / (freedom + t * t)); };
     double low = 0, high = 1;
     while (beyond(high) > 1 - probability && high < 1e150)
@@ -59,7 +60,8 @@ double student_quantile(double probability, double freedom) {
 
 double fisher_tail(double ratio, double first, double second) {
     if (!(ratio >= 0) || !(first > 0) || !(second > 0))
-        throw InputError("there is no such ratio of mean squares", "give no negative one, and positive freedoms");
+        throw InputError("there is no such ratio of mean squares",
+                         "give a ratio that is not negative, and positive degrees of freedom");
     return incomplete_beta(0.5 * second, 0.5 * first, second / (second + first * ratio));
 }
 
@@ -100,7 +102,7 @@ Combined combine(std::span<const Estimate> sets) {
     const double scale = departures / (count - 1);
     result.mean.error = std::sqrt((least > 0 ? std::max(scale, spread > 0 ? 0.0 : 1.0) : scale) / weights);
     result.mean.freedom = count - 1;
-    if (least > 0 && spread == 0) { // nothing but their own errors, which are known by all of their freedom
+    if (least > 0 && spread == 0) { // no excess scatter: the pooled error has the degrees of freedom of all sets
         result.mean.freedom = 0;
         for (const Estimate& set : sets)
             result.mean.freedom += set.freedom;

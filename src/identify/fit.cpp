@@ -2,12 +2,12 @@
 
 #include "base/median.hpp"
 #include "graze/base/input_error.hpp"
-#include "identify/fit_beginning.hpp"
+#include "identify/alternative_solutions.hpp"
 #include "identify/fit_findings.hpp"
+#include "identify/fit_initialisation.hpp"
 #include "identify/fit_mismatch.hpp"
 #include "identify/fit_solver.hpp"
 #include "identify/fit_start.hpp"
-#include "identify/fit_twins.hpp"
 #include "identify/joined_descent.hpp"
 
 #include <fmt/format.h>
@@ -22,18 +22,18 @@ namespace graze {
 
 namespace {
 
-/// Gaps are then some millionth of what readings are off; the larger it is, the shorter steps have to be along the
-/// curved set of motions that join.
+/// Final weight of gaps between pieces. Gaps are then about 1e-6 of the readings' noise; with a larger weight, steps
+/// along the curved set of joined motions would have to be shorter.
 constexpr double last_joint = 3e3;
 
-/// A further step that would change numbers by so little of their errors makes no difference.
-constexpr double smooth = 0.01;
+/// A remaining step below this part of the standard errors is negligible.
+constexpr double negligible_step = 0.01;
 
-/// Pieces join more and more.
+/// Returns the stages of a fit, with increasing weight of the gaps between pieces.
 std::vector<FitStage> stages_of(const FitRows& rows, const FitSettings& settings) {
     constexpr int few = 30;
     const bool joined = std::any_of(rows.layout.pieces.begin(), rows.layout.pieces.end(),
-                                    [](const FitPiece& piece) { return piece.leads; });
+                                    [](const FitPiece& piece) { return piece.has_next; });
     FitStage last;
     last.joint = last_joint;
     last.most_iterations = settings.most_iterations;
@@ -52,14 +52,14 @@ std::vector<FitStage> stages_of(const FitRows& rows, const FitSettings& settings
 }
 
 bool is_settled(const std::vector<double>& noise, const std::vector<double>& before, const FitRows& rows) {
-    constexpr double enough = 0.01, nothing = 1e-9;
+    constexpr double enough = 0.01, negligible = 1e-9;
     for (std::size_t o = 0; o < noise.size(); ++o)
-        if (std::abs(noise[o] - before[o]) > enough * before[o] && noise[o] + before[o] > nothing * rows.range(o))
+        if (std::abs(noise[o] - before[o]) > enough * before[o] && noise[o] + before[o] > negligible * rows.range(o))
             return false;
     return true;
 }
 
-/// In which a wrong unit of the times shows, where nothing could be compared.
+/// Describes the length of the records, which reveals a wrong unit of time.
 std::string extent_of(const FitTask& task) {
     double length = 0;
     for (const FitRecord& record : task.records)
@@ -76,7 +76,7 @@ public:
         point_ = starting_point(rows_);
     }
 
-    /// An ending that is no result tells what does not match, as far as that was computed.
+    /// Runs the fit. If it does not converge, `detail` also names the channels that do not match, as far as known.
     Fit run() {
         Fit fit;
         try {
@@ -88,9 +88,9 @@ public:
         if (fit.ending != FitEnding::converged && !mismatch_.empty())
             fit.detail += "; " + mismatch_;
         else if (fit.ending == FitEnding::interrupted)
-            fit.detail += compared_
-                              ? "; what was compared by then matches"
-                              : "; no motion was known by then that could be compared: " + extent_of(rows_.task());
+            fit.detail +=
+                compared_ ? "; what was compared by then matches"
+                          : "; no motion had been computed by then that could be compared: " + extent_of(rows_.task());
         return fit;
     }
 
@@ -100,7 +100,7 @@ private:
     Fit run_to_the_end() {
         require_noise();
         Fit fit;
-        const Way best = best_way(fit);
+        const Solution best = best_solution(fit);
         rows_.layout = best.layout;
         rows_.noise = best.noise;
         if (const std::string broken = unreadable(rows_, best.known); !broken.empty()) {
@@ -115,54 +115,56 @@ private:
         return chosen(best, std::move(fit));
     }
 
-    /// Where a fit has come to.
-    struct Way {
+    /// A solution that a pass of the fit has reached.
+    struct Solution {
         FitLayout layout;
         std::vector<double> noise;
         FitPoint point;
         StageReport report;
         std::vector<PieceRows> known;
-        double unlikelihood = std::numeric_limits<double>::infinity(); ///< if it is a motion at all
+        /// Negative log-likelihood; infinite if its pieces do not join.
+        double negative_log_likelihood = std::numeric_limits<double>::infinity();
         std::size_t contacts = 0;
-        bool exact = false, noise_alone = false; ///< what is left: nothing; nothing but noise
-        bool settled = false;                    ///< nothing beside it is better
+        bool exact = false, noise_alone = false; ///< residuals are round-off; residuals are random noise
+        bool settled = false;                    ///< it is a local minimum
     };
 
-    /// Of solutions that meet the readings as well, one whose signs are those of the guesses.
-    Fit chosen(const Way& way, Fit fit) {
-        const std::vector<FoundTwin> twins = twins_of(rows_, way.point, way.known, fit);
+    /// Among solutions that fit equally well, chooses one whose signs are those of the guesses; the others are
+    /// reported.
+    Fit chosen(const Solution& solution, Fit fit) {
+        const std::vector<FoundSolution> solutions = alternative_solutions(rows_, solution.point, solution.known, fit);
         std::vector<double> shared;
         for (const FittedNumber& number : fit.numbers)
             shared.push_back(number.estimate.value);
-        const std::size_t strays = strays_of(rows_.task(), shared);
-        for (const FoundTwin& twin : twins)
-            if (twin.strays < strays)
-                return moved_to(twin, std::move(fit));
-        for (const FoundTwin& twin : twins)
-            if (twin.strays == strays)
-                fit.twins.push_back(twin.twin);
+        const std::size_t changed_signs = changed_signs_of(rows_.task(), shared);
+        for (const FoundSolution& other : solutions)
+            if (other.changed_signs < changed_signs)
+                return moved_to(other, std::move(fit));
+        for (const FoundSolution& other : solutions)
+            if (other.changed_signs == changed_signs)
+                fit.alternatives.push_back(other.solution);
         return fit;
     }
-    Fit moved_to(const FoundTwin& twin, Fit before) {
-        point_ = twin.point;
+    Fit moved_to(const FoundSolution& other, Fit before) {
+        point_ = other.point;
         for (std::size_t k = 0; k < pieces().size(); ++k)
-            pieces()[k].mode = twin.modes[k];
+            pieces()[k].mode = other.modes[k];
         FitStage stage;
         stage.joint = last_joint;
         stage.most_iterations = settings_->most_iterations;
         Fit fit;
         fit.iterations = before.iterations;
         const StageReport report = make(stage, 0, 1, fit);
-        const Way way = way_here(report);
-        if (!unreadable(rows_, way.known).empty())
+        const Solution solution = solution_here(report);
+        if (!unreadable(rows_, solution.known).empty())
             return before;
-        describe(rows_, way.point, way.known, last_joint, fit);
-        judge(report, check_point(rows_, way.point, way.known, last_joint), fit);
-        return fit.ending == before.ending ? chosen(way, std::move(fit)) : before;
+        describe(rows_, solution.point, solution.known, last_joint, fit);
+        judge(report, check_point(rows_, solution.point, solution.known, last_joint), fit);
+        return fit.ending == before.ending ? chosen(solution, std::move(fit)) : before;
     }
 
     void require_noise() const {
-        constexpr double most = 1e12; // beyond, squares of what is left lose their digits
+        constexpr double most = 1e12; // beyond this, squared residuals lose their digits
         for (std::size_t o = 0; o < rows_.task().outputs.size(); ++o)
             if (const MeasuredOutput& output = rows_.task().outputs[o];
                 output.noise > 0 && !(output.noise <= most * rows_.range(o) && output.noise >= rows_.range(o) / most))
@@ -172,46 +174,47 @@ private:
                     "give the standard deviation of its readings");
     }
 
-    Way way_here(const StageReport& report) {
-        Way way{rows_.layout, rows_.noise, point_, report, rows_.evaluate(point_)};
-        note_mismatch(way.known);
-        for (const PieceRows& piece : way.known)
-            way.contacts += piece.contacts;
-        if (report.interrupted || !unreadable(rows_, way.known).empty())
-            return way;
-        const FitChecks checks = check_point(rows_, point_, way.known, last_joint);
+    Solution solution_here(const StageReport& report) {
+        Solution solution{rows_.layout, rows_.noise, point_, report, rows_.evaluate(point_)};
+        note_mismatch(solution.known);
+        for (const PieceRows& piece : solution.known)
+            solution.contacts += piece.contacts;
+        if (report.interrupted || !unreadable(rows_, solution.known).empty())
+            return solution;
+        const FitChecks checks = check_point(rows_, point_, solution.known, last_joint);
         if (!checks.joined())
-            return way;
-        way.settled = report.least || checks.off <= smooth;
-        way.unlikelihood = unlikelihood_of(rows_, way.known);
-        way.exact = is_exact(rows_, way.known);
+            return solution;
+        solution.settled = report.least || checks.remaining_step <= negligible_step;
+        solution.negative_log_likelihood = negative_log_likelihood(rows_, solution.known);
+        solution.exact = is_exact(rows_, solution.known);
         Fit trial;
-        describe(rows_, point_, way.known, last_joint, trial);
-        way.noise_alone = true;
+        describe(rows_, point_, solution.known, last_joint, trial);
+        solution.noise_alone = true;
         for (std::size_t o = 0; o < trial.outputs.size(); ++o)
-            way.noise_alone = way.noise_alone && !is_no_noise(trial.outputs[o], o);
-        return way;
+            solution.noise_alone = solution.noise_alone && !is_structured(trial.outputs[o], o);
+        return solution;
     }
 
-    /// A slow contact that is missed, or was made out of noise, is a way from which small steps do not lead back. So
-    /// one begins again with what was found, elsewhere and otherwise, until the best is found a second time.
-    Way best_way(Fit& fit) {
+    /// Repeats the fit from its result, alternately by prediction and by readings and with other piece lengths, until
+    /// the best solution is found again. A slow contact that was missed, or created by noise, is a local minimum from
+    /// which small steps do not escape.
+    Solution best_solution(Fit& fit) {
         constexpr int most_passes = 8;
-        constexpr double same = 0.01, one_error = 0.5; // of logarithms of likelihoods
-        Way best = way_here(pass(false, fit));
+        constexpr double same = 0.01, one_error = 0.5; // of log-likelihoods
+        Solution best = solution_here(pass(false, fit));
         const double usual = usual_length();
-        // Of what not even free pieces come near no beginning makes a fit.
-        constexpr double hopeless = 0.2; // of the range
+        // If not even unjoined pieces reproduce the readings, no initialisation can help.
+        constexpr double hopeless = 0.2; // of the range of the readings
         const bool is_hopeless = greatest_mismatch_ > hopeless;
         bool again = !is_hopeless && (best.contacts > 0 || !best.noise_alone);
         for (int round = 1; again && round < most_passes && !best.exact && !best.report.interrupted; ++round) {
             restore(best);
             if (round > 1)
                 cut_anew(usual * (round < 4 ? 0.7 : round < 6 ? 0.5 : 1.4));
-            Way other = way_here(pass(round % 2 == 1, fit));
+            Solution other = solution_here(pass(round % 2 == 1, fit));
             if (other.report.interrupted)
                 return other;
-            const double better = best.unlikelihood - other.unlikelihood;
+            const double better = best.negative_log_likelihood - other.negative_log_likelihood;
             again = !(std::abs(better) <= same) || (best.contacts > 0 && !best.noise_alone);
             const double enough = best.settled == other.settled ? 0 : best.settled ? one_error : -one_error;
             if (better > enough)
@@ -220,55 +223,56 @@ private:
         restore(best);
         if (best.report.interrupted || best.exact || !descend(true, best.report, fit))
             return best;
-        return way_here(best.report);
+        return solution_here(best.report);
     }
 
-    /// Where steps of pieces that hardly give way have come to no end: those of motions that join. @return whether
-    /// there was need
-    bool descend(bool look, StageReport& report, Fit& fit) {
+    /// Continues with exactly joined motions if the nearly joined pieces have not converged, because their gaps allow
+    /// only short steps. @return whether that was necessary
+    bool descend(bool probe, StageReport& report, Fit& fit) {
         const std::vector<PieceRows> known = rows_.evaluate(point_);
         if (!unreadable(rows_, known).empty())
             return false;
         const FitChecks checks = check_point(rows_, point_, known, last_joint);
-        if (!checks.joined() || checks.off <= smooth)
+        if (!checks.joined() || checks.remaining_step <= negligible_step)
             return false;
         const int before = fit.iterations;
         const DescentReport descent = descend_joined(
-            rows_, point_, last_joint, look, [&](double cost) { return tell(0, 1, ++fit.iterations - before, cost); });
+            rows_, point_, last_joint, probe, [&](double cost) { return tell(0, 1, ++fit.iterations - before, cost); });
         report.least = descent.least;
         report.interrupted = report.interrupted || descent.interrupted;
-        merge_bound(rows_, point_);
+        merge_constrained(rows_, point_);
         return true;
     }
 
-    /// From the first pieces to all of them, and until they join.
+    /// One pass of the fit: initialisation, then stages with increasing weight of the gaps.
     StageReport pass(bool by_prediction, Fit& fit) {
         const std::vector<FitStage> stages = stages_of(rows_, *settings_);
         const int count = static_cast<int>(stages.size());
-        FitBeginning beginning(rows_, point_, [&](const FitStage& stage) { return make(stage, 0, count + 1, fit); });
-        StageReport report = by_prediction ? beginning.by_prediction() : beginning.by_readings();
+        FitInitialisation initialisation(rows_, point_,
+                                         [&](const FitStage& stage) { return make(stage, 0, count + 1, fit); });
+        StageReport report = by_prediction ? initialisation.by_prediction() : initialisation.by_readings();
         for (int s = by_prediction ? 2 : 0; s + 1 < count && !report.interrupted; ++s) {
             FitStage stage = stages[static_cast<std::size_t>(s)];
             stage.prior = s == 0 ? prior_weight(rows_) : 0;
             report = make(stage, s + 1, count + 1, fit);
-            merge_bound(rows_, point_);
+            merge_constrained(rows_, point_);
             update_modes(rows_, point_);
             if (!report.interrupted)
                 rows_.noise = noise_here();
         }
-        // Once more where weights or modes have changed by what was found.
+        // Repeat as long as the fit changes the weights of outputs or the modes of pieces.
         constexpr int most_rounds = 8;
         for (int round = 0; round < most_rounds && !report.interrupted; ++round) {
             report = make(stages.back(), count, count + 1, fit);
             const std::vector<double> before = rows_.noise;
             if (report.interrupted || report.failed)
                 break;
-            // Steps that end at a bound hide what the other numbers should do.
+            // At a bound steps are cut short: hold these parameters and let the other numbers converge.
             FitStage bounded = stages.back();
-            bounded.held = bounded_at(rows_, point_);
+            bounded.held = parameters_at_bounds(rows_, point_);
             if (!bounded.held.empty())
                 report = make(bounded, count, count + 1, fit);
-            const bool merged = merge_bound(rows_, point_), switched = update_modes(rows_, point_) || merged;
+            const bool merged = merge_constrained(rows_, point_), switched = update_modes(rows_, point_) || merged;
             const std::vector<double> noise = noise_here();
             if (!switched && is_settled(noise, before, rows_))
                 break;
@@ -297,31 +301,31 @@ private:
         return median(std::move(lengths));
     }
 
-    /// Pieces whose ends are elsewhere: a contact near one may have been missed.
+    /// Cuts the records at other times, since a contact near the end of a piece may have been missed.
     void cut_anew(double length) {
         FitSettings settings = *settings_;
-        std::vector<Eigen::VectorXd> openings;
+        std::vector<Eigen::VectorXd> first_states;
         for (std::size_t k = 0; k < pieces().size(); ++k)
-            if (pieces()[k].opening)
-                openings.push_back(point_.states[k]);
+            if (pieces()[k].is_first)
+                first_states.push_back(point_.states[k]);
         settings.piece = length;
         pieces() = cut_records(rows_.system(), rows_.task(), settings);
         point_.states.clear();
         for (const FitPiece& piece : pieces())
-            point_.states.push_back(piece.opening
-                                        ? openings[piece.record]
+            point_.states.push_back(piece.is_first
+                                        ? first_states[piece.record]
                                         : Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows_.layout.states)));
     }
 
-    bool is_no_noise(const FittedOutput& output, std::size_t number) const {
+    bool is_structured(const FittedOutput& output, std::size_t number) const {
         constexpr double round_off = 1e-9;
         return !output.independent && output.deviation > round_off * rows_.range(number);
     }
 
-    void restore(const Way& way) {
-        rows_.layout = way.layout;
-        rows_.noise = way.noise;
-        point_ = way.point;
+    void restore(const Solution& solution) {
+        rows_.layout = solution.layout;
+        rows_.noise = solution.noise;
+        point_ = solution.point;
     }
     std::vector<FitPiece>& pieces() { return rows_.layout.pieces; }
 
@@ -372,42 +376,45 @@ private:
                                    "or with shorter pieces",
                                    checks.gap));
         if (!fit.free.empty())
-            return end(FitEnding::undetermined,
-                       fmt::format("readings do not tell all numbers, for nothing changes with {}: give some of these, "
-                                   "or record what tells them",
-                                   fit.free.front().text));
+            return end(
+                FitEnding::undetermined,
+                fmt::format("the readings do not determine all numbers: they do not depend on {}; give some of these, "
+                            "or record what depends on them",
+                            fit.free.front().text));
         if (!is_least(report, checks, fit))
             return end(FitEnding::unfinished,
                        fmt::format("it has not converged after {} iterations: begin from other guesses, bound "
                                    "parameters, or cut other pieces",
                                    fit.iterations));
         for (std::size_t o = 0; o < fit.outputs.size(); ++o)
-            if (is_no_noise(fit.outputs[o], o))
+            if (is_structured(fit.outputs[o], o))
                 return end(
                     FitEnding::misfit,
-                    fmt::format("what is left of '{}' is no noise (neighbours have a correlation of {:.2g}): the "
-                                "model misses something, or a contact is missed, and errors are larger than told",
-                                fit.outputs[o].name, fit.outputs[o].correlation));
+                    fmt::format(
+                        "the residuals of '{}' are not random noise (neighbours have a correlation of {:.2g}): the "
+                        "model lacks something, or a contact is missed, and true errors are larger than stated",
+                        fit.outputs[o].name, fit.outputs[o].correlation));
         end(FitEnding::converged, {});
     }
 
-    /// Where a reading is passed by a contact that is too slow to be told from noise the sum of squares has a step, and
-    /// can be least at its edge. The way that is left is part of the errors.
+    /// Whether a point is accepted as the minimum. Where a contact too slow to be told from noise passes a reading, the
+    /// sum of squares has a step and its minimum can lie at the edge of the step, with a nonzero gradient. The
+    /// remaining step there is included in the errors.
     static bool is_least(const StageReport& report, const FitChecks& checks, const Fit& fit) {
-        constexpr double at_edge = 0.3; // of errors
+        constexpr double at_edge = 0.3; // of standard errors
         const bool contacts = std::any_of(fit.records.begin(), fit.records.end(),
                                           [](const FittedRecord& record) { return record.contacts > 0; });
-        const bool stopped = report.converged || report.gained * fit.freedom <= smooth * report.cost;
-        return checks.held_well &&
-               (checks.off <= smooth || (contacts && (report.least || (stopped && checks.off <= at_edge))));
+        const bool stopped = report.converged || report.gained * fit.freedom <= negligible_step * report.cost;
+        return checks.bounds_hold && (checks.remaining_step <= negligible_step ||
+                                      (contacts && (report.least || (stopped && checks.remaining_step <= at_edge))));
     }
 
     const FitSettings* settings_;
     FitRows rows_;
     FitPoint point_;
-    bool compared_ = false;        ///< all of them could be
-    std::string mismatch_;         ///< what did not match when all pieces were last looked at
-    double greatest_mismatch_ = 0; ///< relative to the range of the readings
+    bool compared_ = false;        ///< the model gives finite values for all readings
+    std::string mismatch_;         ///< mismatch found at the last evaluation of all pieces
+    double greatest_mismatch_ = 0; ///< its size, relative to the range of the readings
 };
 
 } // namespace
@@ -441,7 +448,7 @@ Fit fit_model(const System& system, const FitTask& task, const FitSettings& sett
     require_task(system, task, settings);
     try {
         return Fitter(system, task, settings).run();
-    } catch (const FitInterruption&) { // before there was a point
+    } catch (const FitInterruption&) { // interrupted before the starting point was complete
         Fit fit;
         fit.ending = FitEnding::interrupted;
         fit.detail = "the fit was ended before the first motions were known: " + extent_of(task);

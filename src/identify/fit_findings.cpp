@@ -12,33 +12,33 @@ namespace graze {
 
 namespace {
 
-/// No reading is right to more than that of its range.
+/// Relative accuracy of readings, at best.
 constexpr double round_off = 1e-12;
 
-/// What is left of readings, output by output, in the order of records and times.
-struct Rests {
+/// Residuals of all readings, by output and by record, in the order of records and times.
+struct Residuals {
     std::vector<std::vector<double>> of_output;
     std::vector<std::vector<std::vector<double>>> of_record; ///< record, readings, times
 };
 
-Rests rests_of(const FitRows& rows, const std::vector<PieceRows>& known) {
+Residuals residuals_of(const FitRows& rows, const std::vector<PieceRows>& known) {
     const FitTask& task = rows.task();
-    Rests rests;
-    rests.of_output.resize(task.outputs.size());
+    Residuals residuals;
+    residuals.of_output.resize(task.outputs.size());
     for (const FitRecord& record : task.records)
-        rests.of_record.emplace_back(record.readings.size());
+        residuals.of_record.emplace_back(record.readings.size());
     for (std::size_t k = 0; k < rows.layout.pieces.size(); ++k) {
         const FitPiece& piece = rows.layout.pieces[k];
         const auto& readings = task.records[piece.record].readings;
-        for (std::size_t i = 0; i < known[k].rests.size(); ++i)
-            rests.of_record[piece.record][i % readings.size()].push_back(known[k].rests[i]);
+        for (std::size_t i = 0; i < known[k].residuals.size(); ++i)
+            residuals.of_record[piece.record][i % readings.size()].push_back(known[k].residuals[i]);
     }
     for (std::size_t r = 0; r < task.records.size(); ++r)
         for (std::size_t c = 0; c < task.records[r].readings.size(); ++c) {
-            auto& all = rests.of_output[task.records[r].readings[c].output];
-            all.insert(all.end(), rests.of_record[r][c].begin(), rests.of_record[r][c].end());
+            auto& all = residuals.of_output[task.records[r].readings[c].output];
+            all.insert(all.end(), residuals.of_record[r][c].begin(), residuals.of_record[r][c].end());
         }
-    return rests;
+    return residuals;
 }
 
 std::size_t unknowns_of(const FitRows& rows) {
@@ -59,14 +59,14 @@ double square_sum(const std::vector<double>& values) {
     return std::transform_reduce(values.begin(), values.end(), 0.0, std::plus<>(), [](double x) { return x * x; });
 }
 
-/// Which of all numbers, in the order of FitInformation, is which.
+/// The fitted numbers in the order of FitInformation: initial states first, then shared ones.
 std::vector<FittedNumber> numbers_at(const FitRows& rows, const FitPoint& point, std::vector<double>& scales) {
     const FitTask& task = rows.task();
     const FitLayout& layout = rows.layout;
     const Model& model = rows.system().model();
     std::vector<FittedNumber> numbers;
     for (std::size_t k = 0; k < layout.pieces.size(); ++k) {
-        if (!layout.pieces[k].opening)
+        if (!layout.pieces[k].is_first)
             continue;
         const FitRecord& record = task.records[layout.pieces[k].record];
         for (std::size_t c = 0; c < record.unknown_states.size(); ++c) {
@@ -110,13 +110,13 @@ std::vector<FittedNumber> numbers_at(const FitRows& rows, const FitPoint& point,
     return numbers;
 }
 
-/// The variance of the rows' noise; of robust losses, what stands in its place in the covariance (Huber, chapter 7).
-double variance_of(const FitRows& rows, const Rests& rests, double freedom) {
+/// The variance of the rows' noise; for robust losses the factor that replaces it in the covariance (Huber, chapter 7).
+double variance_of(const FitRows& rows, const Residuals& residuals, double freedom) {
     constexpr double huber = 1.345, cauchy = 2.385;
     double squares = 0, slopes = 0, count = 0;
-    for (std::size_t o = 0; o < rests.of_output.size(); ++o)
-        for (const double rest : rests.of_output[o]) {
-            const double u = rest / rows.noise[o];
+    for (std::size_t o = 0; o < residuals.of_output.size(); ++o)
+        for (const double residual : residuals.of_output[o]) {
+            const double u = residual / rows.noise[o];
             double pull = u, slope = 1;
             if (rows.loss() == FitLoss::huber && std::abs(u) > huber) {
                 pull = std::copysign(huber, u);
@@ -144,7 +144,7 @@ std::string text_of(const std::vector<FreeCombination::Part>& parts, const std::
 
 FreeCombination combination(const FitDecomposition& parts, Eigen::Index k, const std::vector<FittedNumber>& numbers,
                             const std::vector<double>& scales, const std::vector<std::size_t>& order) {
-    constexpr double least = 0.01, nothing = 1e-6;
+    constexpr double least = 0.01, negligible = 1e-6;
     FreeCombination result;
     result.strength = parts.values[0] > 0 ? parts.values[k] / parts.values[0] : 0;
     std::vector<FreeCombination::Part> all;
@@ -153,7 +153,7 @@ FreeCombination combination(const FitDecomposition& parts, Eigen::Index k, const
         const auto c = static_cast<Eigen::Index>(i);
         const double length = parts.lengths[c] > 0 ? parts.lengths[c] : 1, value = numbers[order[i]].estimate.value;
         const double change = parts.directions(c, k) / length;
-        all.push_back({order[i], std::abs(value) > nothing * scales[i] ? change * scales[i] / value : change});
+        all.push_back({order[i], std::abs(value) > negligible * scales[i] ? change * scales[i] / value : change});
         largest = std::abs(all.back().change) > std::abs(largest) ? all.back().change : largest;
     }
     for (FreeCombination::Part part : all) {
@@ -167,14 +167,14 @@ FreeCombination combination(const FitDecomposition& parts, Eigen::Index k, const
     return result;
 }
 
-void describe_outputs(const FitRows& rows, const Rests& rests, Fit& fit) {
+void describe_outputs(const FitRows& rows, const Residuals& residuals, Fit& fit) {
     constexpr double chance = 4, far = 5;
     const FitTask& task = rows.task();
     const double freed = fit.freedom / static_cast<double>(fit.readings);
     for (std::size_t o = 0; o < task.outputs.size(); ++o) {
         FittedOutput output;
         output.name = task.outputs[o].name;
-        const std::vector<double>& all = rests.of_output[o];
+        const std::vector<double>& all = residuals.of_output[o];
         output.readings = all.size();
         if (all.empty()) {
             fit.outputs.push_back(std::move(output));
@@ -188,7 +188,8 @@ void describe_outputs(const FitRows& rows, const Rests& rests, Fit& fit) {
             for (std::size_t c = 0; c < task.records[r].readings.size(); ++c) {
                 if (task.records[r].readings[c].output != o)
                     continue;
-                const std::vector<double>&left = rests.of_record[r][c], &values = task.records[r].readings[c].values;
+                const std::vector<double>&left = residuals.of_record[r][c],
+                      &values = task.records[r].readings[c].values;
                 sum = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
                 for (const double value : values)
                     spread += (value - sum) * (value - sum);
@@ -204,28 +205,28 @@ void describe_outputs(const FitRows& rows, const Rests& rests, Fit& fit) {
         if (task.outputs[o].noise > 0)
             output.chi_square = squares / (task.outputs[o].noise * task.outputs[o].noise * count * freed);
         output.outliers = static_cast<std::size_t>(std::count_if(
-            all.begin(), all.end(), [&](double rest) { return std::abs(rest) > far * output.deviation; }));
+            all.begin(), all.end(), [&](double residual) { return std::abs(residual) > far * output.deviation; }));
         fit.outputs.push_back(std::move(output));
     }
 }
 
-/// Of what is left of an output, unless the noise was given.
-double noise_of(const FitRows& rows, std::size_t output, std::vector<double> rests) {
+/// Standard deviation of an output: the given one, or that of its residuals.
+double noise_of(const FitRows& rows, std::size_t output, std::vector<double> residuals) {
     if (const double given = rows.task().outputs[output].noise; given > 0)
         return given;
     const auto readings = static_cast<double>(readings_of(rows.task()));
     const double freed = (readings - static_cast<double>(unknowns_of(rows))) / readings;
-    double noise = std::sqrt(square_sum(rests) / (static_cast<double>(rests.size()) * freed));
-    if (rows.loss() != FitLoss::squares) { // the median is not moved by readings that are far off
+    double noise = std::sqrt(square_sum(residuals) / (static_cast<double>(residuals.size()) * freed));
+    if (rows.loss() != FitLoss::squares) { // the median is insensitive to outliers
         constexpr double of_normal = 1.4826;
-        for (double& rest : rests)
-            rest = std::abs(rest);
-        noise = of_normal * median(std::move(rests)) / std::sqrt(freed);
+        for (double& residual : residuals)
+            residual = std::abs(residual);
+        noise = of_normal * median(std::move(residuals)) / std::sqrt(freed);
     }
     return std::max(noise, round_off * rows.range(output));
 }
 
-/// Numbers with errors and correlations, and what is not told.
+/// Fills in numbers with errors and correlations, and undetermined combinations.
 void describe_numbers(const FitRows& rows, const FitPoint& point, const std::vector<PieceRows>& known, double joint,
                       double variance, Fit& fit) {
     std::vector<double> scales;
@@ -233,7 +234,7 @@ void describe_numbers(const FitRows& rows, const FitPoint& point, const std::vec
     std::vector<bool> held;
     for (const FittedNumber& number : numbers)
         held.push_back(number.at_bound);
-    // Parameters first; what comes from FitInformation has states first.
+    // Results list parameters first; FitInformation lists states first.
     const std::size_t shared = static_cast<std::size_t>(rows.layout.shared()), states = numbers.size() - shared;
     std::vector<std::size_t> order(numbers.size());
     for (std::size_t i = 0; i < order.size(); ++i)
@@ -245,7 +246,7 @@ void describe_numbers(const FitRows& rows, const FitPoint& point, const std::vec
         const auto c = static_cast<Eigen::Index>(i);
         if (parts.known[i]) {
             numbers[i].estimate.error = scales[i] * std::sqrt(variance * parts.covariance(c, c));
-            if (rows.robust && rows.loss() == FitLoss::squares) // what a contact at a reading keeps it from
+            if (rows.robust && rows.loss() == FitLoss::squares) // the remaining step at the edge of a contact
                 numbers[i].estimate.error = std::hypot(numbers[i].estimate.error, scales[i] * parts.step[c]);
             numbers[i].estimate.freedom = fit.freedom;
             for (std::size_t j = 0; j < numbers.size(); ++j) {
@@ -258,10 +259,11 @@ void describe_numbers(const FitRows& rows, const FitPoint& point, const std::vec
     }
     for (std::size_t i = 0; i < numbers.size(); ++i)
         fit.numbers[order[i]] = std::move(numbers[i]);
-    const auto told = static_cast<std::size_t>(std::count(parts.told.begin(), parts.told.end(), true));
+    const auto determined =
+        static_cast<std::size_t>(std::count(parts.determined.begin(), parts.determined.end(), true));
     const auto bound = static_cast<std::size_t>(std::count(held.begin(), held.end(), true));
-    fit.condition = told > 0 ? parts.values[0] / parts.values[static_cast<Eigen::Index>(told) - 1] : 0;
-    for (std::size_t k = told; k + bound < parts.told.size(); ++k)
+    fit.condition = determined > 0 ? parts.values[0] / parts.values[static_cast<Eigen::Index>(determined) - 1] : 0;
+    for (std::size_t k = determined; k + bound < parts.determined.size(); ++k)
         if (FreeCombination free = combination(parts, static_cast<Eigen::Index>(k), fit.numbers, scales, order);
             !free.parts.empty())
             fit.free.push_back(std::move(free));
@@ -272,7 +274,7 @@ void describe_numbers(const FitRows& rows, const FitPoint& point, const std::vec
 void describe(FitRows& rows, const FitPoint& point, const std::vector<PieceRows>& known, double joint, Fit& fit) {
     const FitTask& task = rows.task();
     fit.records.assign(task.records.size(), {});
-    const Rests rests = rests_of(rows, known);
+    const Residuals residuals = residuals_of(rows, known);
     fit.readings = readings_of(task);
     fit.freedom = static_cast<double>(fit.readings) - static_cast<double>(unknowns_of(rows));
     fit.pieces = rows.layout.pieces.size();
@@ -280,7 +282,7 @@ void describe(FitRows& rows, const FitPoint& point, const std::vector<PieceRows>
         for (std::size_t c = 0; c < task.records[r].readings.size(); ++c) {
             std::vector<double> fitted = task.records[r].readings[c].values;
             for (std::size_t i = 0; i < fitted.size(); ++i)
-                fitted[i] += rests.of_record[r][c][i];
+                fitted[i] += residuals.of_record[r][c][i];
             fit.records[r].fitted.push_back(std::move(fitted));
         }
     for (std::size_t k = 0; k < rows.layout.pieces.size(); ++k) {
@@ -288,7 +290,7 @@ void describe(FitRows& rows, const FitPoint& point, const std::vector<PieceRows>
         FittedRecord& record = fit.records[piece.record];
         record.contacts += known[k].contacts;
         record.misplaced += known[k].misplaced;
-        if (piece.opening)
+        if (piece.is_first)
             record.start = rows.first_state(piece, point.shared, point.states[k]);
         else
             record.joints.push_back(piece.begin);
@@ -297,11 +299,11 @@ void describe(FitRows& rows, const FitPoint& point, const std::vector<PieceRows>
     for (std::size_t j = 0; j < task.parameters.size(); ++j)
         fit.parameters[task.parameters[j].parameter.place()] =
             point.shared[static_cast<Eigen::Index>(j)] * rows.layout.shared_scale[static_cast<Eigen::Index>(j)];
-    describe_outputs(rows, rests, fit);
-    const double variance = variance_of(rows, rests, fit.freedom);
+    describe_outputs(rows, residuals, fit);
+    const double variance = variance_of(rows, residuals, fit.freedom);
     if (rows.loss() == FitLoss::squares)
         return describe_numbers(rows, point, known, joint, variance, fit);
-    rows.robust = false; // errors are those of squares, by the variance that stands for the loss
+    rows.robust = false; // the covariance is that of least squares, times the variance for the loss
     describe_numbers(rows, point, rows.evaluate(point), joint, variance, fit);
     rows.robust = true;
 }
@@ -313,15 +315,15 @@ std::string unreadable(const FitRows& rows, const std::vector<PieceRows>& known)
             return fmt::format("no motion begins at time {:.6g} ({}): begin from other guesses, or with longer pieces",
                                piece.begin, known[k].detail);
         if (!known[k].finite)
-            return fmt::format("what the model tells for readings from time {:.6g} to {:.6g} is not finite: look at "
-                               "what they mean, begin from other guesses, or bound parameters",
+            return fmt::format("the model's values for readings from time {:.6g} to {:.6g} are not finite: check "
+                               "the outputs, begin from other guesses, or bound parameters",
                                piece.begin, piece.end);
     }
     return {};
 }
 
 FitChecks check_point(const FitRows& rows, const FitPoint& point, const std::vector<PieceRows>& known, double joint) {
-    constexpr double nothing = 1e-9, part_of_noise = 1e-3;
+    constexpr double negligible = 1e-9, part_of_noise = 1e-3;
     FitChecks checks;
     double squares = 0;
     const std::vector<FitPiece>& pieces = rows.layout.pieces;
@@ -330,37 +332,37 @@ FitChecks check_point(const FitRows& rows, const FitPoint& point, const std::vec
         squares += piece.squares();
         if (!piece.complete && checks.broken.empty())
             checks.broken = piece.detail;
-        if (!pieces[k].leads)
+        if (!pieces[k].has_next)
             continue;
         checks.gap = std::max(checks.gap, rows.gap(piece, point.states[k + 1]).lpNorm<Eigen::Infinity>());
         checks.modes_agree = checks.modes_agree && piece.end_mode == pieces[k + 1].mode;
     }
     const double freedom = static_cast<double>(readings_of(rows.task())) - static_cast<double>(unknowns_of(rows));
     const double size = std::sqrt(squares / freedom);
-    checks.allowed_gap = std::max(nothing, part_of_noise * size);
+    checks.allowed_gap = std::max(negligible, part_of_noise * size);
     std::vector<double> scales;
     std::vector<bool> held;
     for (const FittedNumber& number : numbers_at(rows, point, scales))
         held.push_back(number.at_bound);
     const FitInformation information = information_of(rows, point, known, joint);
     const FitDecomposition parts = decompose(information, held);
-    // At a bound the sum of squares must fall towards what is beyond it.
+    // At a bound the sum of squares must decrease towards the outside.
     const Eigen::Index count = information.rows.cols() - 1, first = count - rows.layout.shared();
     bool beyond = true;
-    for (const int j : bounded_at(rows, point)) {
+    for (const int j : parameters_at_bounds(rows, point)) {
         const UnknownParameter& unknown = rows.task().parameters[static_cast<std::size_t>(j)];
         const double value = point.shared[j] * rows.layout.shared_scale[j];
         const double slope = information.rows.col(first + j).dot(information.rows.col(count));
         beyond = beyond && (unknown.greatest - value < value - unknown.least ? slope <= 0 : slope >= 0);
     }
-    checks.off = parts.step.size() == 0 || parts.step.lpNorm<Eigen::Infinity>() <= nothing
-                     ? 0
-                     : std::sqrt(parts.gain + information.eliminated) / size;
-    checks.held_well = beyond;
+    checks.remaining_step = parts.step.size() == 0 || parts.step.lpNorm<Eigen::Infinity>() <= negligible
+                                ? 0
+                                : std::sqrt(parts.gain + information.eliminated) / size;
+    checks.bounds_hold = beyond;
     return checks;
 }
 
-std::vector<int> bounded_at(const FitRows& rows, const FitPoint& point) {
+std::vector<int> parameters_at_bounds(const FitRows& rows, const FitPoint& point) {
     std::vector<double> scales;
     std::vector<int> bounded;
     for (const FittedNumber& number : numbers_at(rows, point, scales))
@@ -371,36 +373,36 @@ std::vector<int> bounded_at(const FitRows& rows, const FitPoint& point) {
     return bounded;
 }
 
-double unlikelihood_of(const FitRows& rows, const std::vector<PieceRows>& known) {
-    const Rests rests = rests_of(rows, known);
+double negative_log_likelihood(const FitRows& rows, const std::vector<PieceRows>& known) {
+    const Residuals residuals = residuals_of(rows, known);
     double sum = 0;
-    for (std::size_t o = 0; o < rests.of_output.size(); ++o) {
-        if (rests.of_output[o].empty())
+    for (std::size_t o = 0; o < residuals.of_output.size(); ++o) {
+        if (residuals.of_output[o].empty())
             continue;
-        const double noise = noise_of(rows, o, rests.of_output[o]);
-        sum += static_cast<double>(rests.of_output[o].size()) * std::log(noise / rows.range(o));
-        for (const double rest : rests.of_output[o])
-            sum += 0.5 * cost_of(rest / noise, rows.loss());
+        const double noise = noise_of(rows, o, residuals.of_output[o]);
+        sum += static_cast<double>(residuals.of_output[o].size()) * std::log(noise / rows.range(o));
+        for (const double residual : residuals.of_output[o])
+            sum += 0.5 * cost_of(residual / noise, rows.loss());
     }
     return sum;
 }
 
 bool is_exact(const FitRows& rows, const std::vector<PieceRows>& known) {
-    constexpr double nothing = 1e-9;
-    const Rests rests = rests_of(rows, known);
-    for (std::size_t o = 0; o < rests.of_output.size(); ++o)
-        for (const double rest : rests.of_output[o])
-            if (!(std::abs(rest) <= nothing * rows.range(o)))
+    constexpr double negligible = 1e-9;
+    const Residuals residuals = residuals_of(rows, known);
+    for (std::size_t o = 0; o < residuals.of_output.size(); ++o)
+        for (const double residual : residuals.of_output[o])
+            if (!(std::abs(residual) <= negligible * rows.range(o)))
                 return false;
     return true;
 }
 
 std::vector<double> noise_at(const FitRows& rows, const std::vector<PieceRows>& known) {
-    const Rests rests = rests_of(rows, known);
+    const Residuals residuals = residuals_of(rows, known);
     std::vector<double> noise = rows.noise;
     for (std::size_t o = 0; o < noise.size(); ++o)
-        if (!rests.of_output[o].empty())
-            noise[o] = noise_of(rows, o, rests.of_output[o]);
+        if (!residuals.of_output[o].empty())
+            noise[o] = noise_of(rows, o, residuals.of_output[o]);
     return noise;
 }
 

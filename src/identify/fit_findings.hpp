@@ -4,39 +4,39 @@
 
 namespace graze {
 
-// What follows is said of a point at which all pieces have been evaluated: `known` has them in their order. All but
-// `unreadable` want all of them finite.
+// Functions of a point at which all pieces have been evaluated: `known` holds the evaluated pieces in their order. All
+// but `unreadable` require all of them to be finite.
 
-/// What of the readings cannot be computed. Empty if all can.
+/// Returns why some readings cannot be computed; empty if all can.
 std::string unreadable(const FitRows& rows, const std::vector<PieceRows>& known);
 
-/// Puts into a fit what is known at a point: numbers with their errors, what is not told, how well readings are met.
-/// @param joint weight of gaps at which the point was found
+/// Fills in the result at a point: numbers with their errors, undetermined combinations, quality of the fit.
+/// @param joint weight of gaps with which the point was found
 void describe(FitRows& rows, const FitPoint& point, const std::vector<PieceRows>& known, double joint, Fit& fit);
 
-/// What makes a point the result, or not: half of the reasons are words for Fit::detail.
+/// Checks of a point that decide whether it is the result.
 struct FitChecks {
-    double off = 0;        ///< how far a further step would change the numbers, relative to their errors
-    bool held_well = true; ///< numbers at bounds would go beyond
+    double remaining_step = 0; ///< size of the next Gauss-Newton step, relative to the standard errors
+    bool bounds_hold = true;   ///< parameters at bounds would move further out if released
     double gap = 0, allowed_gap = 0;
-    std::string broken; ///< the first motion that ends early; empty without
+    std::string broken; ///< why the first incomplete motion ended; empty if all are complete
     bool modes_agree = true;
 
-    /// It is a motion from the beginning of each record to its end.
+    /// True when the pieces form one motion over each whole record.
     bool joined() const { return broken.empty() && modes_agree && gap <= allowed_gap; }
 };
 FitChecks check_point(const FitRows& rows, const FitPoint& point, const std::vector<PieceRows>& known, double joint);
 
-/// Shared unknowns that are at a bound.
-std::vector<int> bounded_at(const FitRows& rows, const FitPoint& point);
+/// Returns the indices of shared unknowns that are at a bound.
+std::vector<int> parameters_at_bounds(const FitRows& rows, const FitPoint& point);
 
-/// The negative logarithm of how likely the readings are, but for a constant: with noise of each output as it is left,
-/// or was given. Of two motions the one that has less is better.
-double unlikelihood_of(const FitRows& rows, const std::vector<PieceRows>& known);
-/// Whether all readings are met but for round-off.
+/// Returns the negative log-likelihood of the readings up to a constant, with the given or estimated noise of each
+/// output. The smaller, the better the solution.
+double negative_log_likelihood(const FitRows& rows, const std::vector<PieceRows>& known);
+/// Returns true if all residuals are at the level of round-off.
 bool is_exact(const FitRows& rows, const std::vector<PieceRows>& known);
 
-/// Standard deviations of what is left of each output.
+/// Returns the noise of each output: given, or estimated from its residuals.
 std::vector<double> noise_at(const FitRows& rows, const std::vector<PieceRows>& known);
 
 } // namespace graze

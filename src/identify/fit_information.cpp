@@ -12,7 +12,7 @@ namespace graze {
 
 namespace {
 
-/// The triangle of a matrix's sums of squares, as many rows as columns.
+/// The triangular factor R of a matrix's QR decomposition, padded to as many rows as columns.
 Eigen::MatrixXd triangle(Eigen::MatrixXd matrix) {
     if (matrix.rows() < matrix.cols())
         matrix.conservativeResizeLike(Eigen::MatrixXd::Zero(matrix.cols(), matrix.cols()));
@@ -21,18 +21,18 @@ Eigen::MatrixXd triangle(Eigen::MatrixXd matrix) {
     return matrix.topRows(size).triangularView<Eigen::Upper>();
 }
 
-/// Of one record: columns are its first states, what is shared, and what is left.
+/// Rows of one record. Columns: its unknown initial states, the shared unknowns, the residuals.
 Eigen::MatrixXd record_rows(const FitRows& rows, const FitPoint& point, const std::vector<PieceRows>& known,
                             std::size_t first, std::size_t last, double joint, double& eliminated) {
     const std::vector<FitPiece>& pieces = rows.layout.pieces;
     Eigen::MatrixXd carried;
     for (std::size_t k = last + 1; k-- > first;) {
         const PieceRows& piece = known[k];
-        if (!pieces[k].leads) {
+        if (!pieces[k].has_next) {
             carried = piece.readings;
             continue;
         }
-        // Columns: the states of the next piece, those of this one, what is shared, what is left.
+        // Columns: states of the next piece, states of this piece, shared unknowns, residuals.
         const Eigen::Index ahead = point.states[k + 1].size(), own = piece.readings.cols(), behind = carried.rows();
         const Eigen::Index states = own - (carried.cols() - ahead);
         Eigen::MatrixXd all = Eigen::MatrixXd::Zero(behind + own + ahead, ahead + own);
@@ -44,7 +44,8 @@ Eigen::MatrixXd record_rows(const FitRows& rows, const FitPoint& point, const st
         rows.add_period_slopes(piece, point.states[k + 1], ends.rightCols(rows.layout.shared()));
         all.block(behind + own, ahead, ahead, own - 1) = joint * ends;
         all.block(behind + own, ahead + own - 1, ahead, 1) = joint * rows.gap(piece, point.states[k + 1]);
-        // Gaps weigh more than readings by far: with the heavy rows first, reflections lose nothing of the others.
+        // Gap rows are far heavier than reading rows; placing them first keeps the Householder reflections accurate for
+        // both.
         Eigen::MatrixXd sorted(all.rows(), all.cols());
         sorted << all.bottomRows(ahead), all.topRows(behind + own);
         const Eigen::MatrixXd factor = triangle(std::move(sorted));
@@ -62,15 +63,15 @@ FitInformation information_of(const FitRows& rows, const FitPoint& point, const 
     const Eigen::Index shared = rows.layout.shared();
     Eigen::Index states = 0;
     for (std::size_t k = 0; k < pieces.size(); ++k)
-        states += pieces[k].opening ? point.states[k].size() : 0;
+        states += pieces[k].is_first ? point.states[k].size() : 0;
     FitInformation result;
     Eigen::MatrixXd carried = Eigen::MatrixXd::Zero(0, states + shared + 1);
     Eigen::Index at = 0;
     for (std::size_t k = 0; k < pieces.size(); ++k) {
-        if (!pieces[k].opening)
+        if (!pieces[k].is_first)
             continue;
         std::size_t last = k;
-        while (pieces[last].leads)
+        while (pieces[last].has_next)
             ++last;
         const Eigen::MatrixXd one = record_rows(rows, point, known, k, last, joint, result.eliminated);
         const Eigen::Index own = one.cols() - shared - 1, before = carried.rows();
@@ -86,8 +87,8 @@ FitInformation information_of(const FitRows& rows, const FitPoint& point, const 
 }
 
 FitDecomposition decompose(const FitInformation& information, const std::vector<bool>& held) {
-    // Derivatives are known to some ten digits; what is smaller may be their error.
-    constexpr double nothing = 1e-9, involved = 1e-3;
+    // Derivatives are accurate to about ten digits; smaller singular values may be their error.
+    constexpr double negligible = 1e-9, involved = 1e-3;
     const Eigen::Index count = information.rows.cols() - 1;
     FitDecomposition result;
     Eigen::MatrixXd scaled = information.rows.topLeftCorner(count, count);
@@ -107,10 +108,10 @@ FitDecomposition decompose(const FitInformation& information, const std::vector<
     const Eigen::VectorXd left = factors.left.transpose() * information.rows.col(count).head(count);
     result.known.assign(static_cast<std::size_t>(count), true);
     for (Eigen::Index k = 0; k < count; ++k) {
-        const bool told = result.values[k] > nothing * result.values[0];
-        result.told.push_back(told);
+        const bool determined = result.values[k] > negligible * result.values[0];
+        result.determined.push_back(determined);
         const Eigen::VectorXd direction = result.directions.col(k);
-        if (told) {
+        if (determined) {
             result.covariance += direction * direction.transpose() / (result.values[k] * result.values[k]);
             result.gain += left[k] * left[k];
             result.step -= direction * (left[k] / result.values[k]);

@@ -8,33 +8,33 @@
 
 namespace graze {
 
-/// What readings say about the shared unknowns and the unknown states at the beginnings of records, given that pieces
-/// join. In scales.
+/// Linearised least-squares problem in the shared unknowns and the unknown initial states of records, after the states
+/// between pieces have been eliminated by the condition that pieces join. Unknowns are in their scales.
 struct FitInformation {
-    /// Triangular, of the sums of squares of all rows: columns are the states of each record, one after another, then
-    /// what is shared, and what is left.
+    /// Triangular factor of all rows: columns are the initial states of each record, one record after another, then the
+    /// shared unknowns, then the residuals.
     Eigen::MatrixXd rows;
-    double eliminated = 0; ///< by how much a step of the states in between would lessen the sum of squares
+    double eliminated = 0; ///< decrease of the sum of squares by the step of the eliminated states
 };
 
-/// Eliminates the states at the beginnings of pieces that follow others, from the last one back (G. J. Bierman,
-/// Factorization Methods for Discrete Sequential Estimation, 1977, of square roots of information).
-/// @param known all pieces at the point, in which all is finite
+/// Eliminates the initial states of all pieces but the first, from the last one back (square-root information filter:
+/// G. J. Bierman, Factorization Methods for Discrete Sequential Estimation, 1977).
+/// @param known all evaluated pieces; they must be finite
 /// @param joint weight of gaps
 FitInformation information_of(const FitRows& rows, const FitPoint& point, const std::vector<PieceRows>& known,
                               double joint);
 
-/// Of columns brought to length 1.
+/// Singular value decomposition of a FitInformation, with columns scaled to length 1.
 struct FitDecomposition {
-    Eigen::VectorXd lengths, values; ///< of the columns; singular values, falling
-    Eigen::MatrixXd directions;      ///< columns
-    std::vector<bool> told;          ///< of each singular value: whether it is more than what round-off leaves
-    Eigen::MatrixXd covariance;      ///< in scales, for a variance of 1 of the rows' noise, of what is told
-    std::vector<bool> known;         ///< of each unknown: whether it is
-    double gain = 0;                 ///< by how much a Gauss-Newton step would lessen the sum of squares,
-    Eigen::VectorXd step;            ///< and that step, in scales
+    Eigen::VectorXd lengths, values; ///< lengths of the columns before scaling; singular values, decreasing
+    Eigen::MatrixXd directions;      ///< right singular vectors, as columns
+    std::vector<bool> determined;    ///< for each singular value: whether it exceeds round-off
+    Eigen::MatrixXd covariance; ///< covariance of the determined part, in scales, for rows with noise of variance 1
+    std::vector<bool> known;    ///< for each unknown: whether it is determined
+    double gain = 0;            ///< decrease of the sum of squares by a Gauss-Newton step,
+    Eigen::VectorXd step;       ///< and that step, in scales
 };
-/// @param held unknowns that do not move, as those at bounds
+/// @param held unknowns that are fixed, such as those at bounds
 FitDecomposition decompose(const FitInformation& information, const std::vector<bool>& held);
 
 } // namespace graze

@@ -37,17 +37,17 @@ void require_parameters(const System& system, const FitTask& task) {
 
 void require_outputs(const FitTask& task) {
     if (task.outputs.empty())
-        throw InputError("nothing that was measured is compared with the model", "give one output or more");
+        throw InputError("no output is compared with the model", "give one output or more");
     for (const MeasuredOutput& output : task.outputs) {
         for (const double value : {output.gain, output.offset, output.noise})
             require_finite(value, fmt::format("gain, offset or noise of '{}'", output.name));
         if (output.gain == 0 || output.noise < 0)
-            throw InputError(fmt::format("'{}' has no gain, or noise below nought", output.name),
+            throw InputError(fmt::format("the gain of '{}' is 0, or its noise is negative", output.name),
                              "give a gain that is not 0, and noise of 0 where it is not known");
     }
 }
 
-/// A reading that is out of all proportion leaves no digits to the others.
+/// Refuses readings so large that the others would lose all digits beside them.
 void require_proportion(const FitTask& task) {
     constexpr double most = 1e12;
     for (std::size_t r = 0; r < task.records.size(); ++r)
@@ -101,7 +101,7 @@ void require_record(const System& system, const FitTask& task, const FitRecord& 
     }
 }
 
-/// How much readings bend beside each time, by their ranges.
+/// Size of the second differences of all readings around each time, relative to their ranges.
 std::vector<double> roughness_of(const FitRecord& record) {
     std::vector<double> rough(record.times.size(), 0.0);
     for (const FitRecord::Readings& readings : record.readings) {
@@ -110,13 +110,13 @@ std::vector<double> roughness_of(const FitRecord& record) {
         for (std::size_t i = 1; i + 1 < rough.size(); ++i)
             rough[i] += std::abs(readings.values[i - 1] - 2 * readings.values[i] + readings.values[i + 1]) / range;
     }
-    std::vector<double> around = rough; // the worst of three neighbours
+    std::vector<double> around = rough; // the largest of three neighbours
     for (std::size_t i = 1; i + 1 < rough.size(); ++i)
         around[i] = std::max({rough[i - 1], rough[i], rough[i + 1]});
     return around;
 }
 
-/// How many pieces a record has by itself: enough readings in each, and not too many unknowns.
+/// Default number of pieces of a record: enough readings in each, and not too many unknowns.
 std::size_t usual_pieces(const System& system, const FitRecord& record) {
     constexpr std::size_t readings_each = 30, most_unknowns = 240, most_pieces = 60;
     const std::size_t by_readings = record.times.size() / readings_each;
@@ -141,9 +141,9 @@ void require_task(const System& system, const FitTask& task, const FitSettings& 
     }
     require_proportion(task);
     if (unknown == 0)
-        throw InputError("nothing is to be found", "name a parameter, gain, offset or state that is not known");
+        throw InputError("there is no unknown to fit", "name a parameter, gain, offset or state that is not known");
     if (readings <= unknown)
-        throw InputError(fmt::format("{} readings cannot tell {} numbers", readings, unknown),
+        throw InputError(fmt::format("{} readings cannot determine {} numbers", readings, unknown),
                          "record more, or say what is known");
     if (!std::isfinite(settings.piece) || settings.piece < 0 || settings.most_iterations < 1)
         throw InputError("the length of pieces is negative, or no iteration is allowed", "give 0 or a length of time");
@@ -180,13 +180,13 @@ std::vector<FitPiece> cut_records(const System& system, const FitTask& task, con
                 continue;
             FitPiece piece;
             piece.record = r;
-            piece.opening = from == 0;
+            piece.is_first = from == 0;
             piece.first = from == 0 ? 0 : from + 1;
             piece.last = to + 1;
             piece.begin = record.times[from];
             piece.end = record.times[to];
             piece.mode = record.mode;
-            piece.leads = to + 1 < record.times.size();
+            piece.has_next = to + 1 < record.times.size();
             pieces.push_back(piece);
             from = to;
         }

@@ -9,7 +9,7 @@ namespace graze {
 
 namespace {
 
-/// What was read, and what is left, of one channel of one record.
+/// Readings and residuals of one channel of one record.
 struct Compared {
     std::vector<double> times, read, left;
 };
@@ -22,10 +22,10 @@ Compared compared(const FitRows& rows, const std::vector<PieceRows>& known, std:
         const FitPiece& piece = rows.layout.pieces[k];
         if (piece.record != record || !known[k].finite)
             continue;
-        for (std::size_t i = 0; i < known[k].rests.size() / channels && piece.first + i < piece.last; ++i) {
+        for (std::size_t i = 0; i < known[k].residuals.size() / channels && piece.first + i < piece.last; ++i) {
             result.times.push_back(all.times[piece.first + i]);
             result.read.push_back(all.readings[channel].values[piece.first + i]);
-            result.left.push_back(known[k].rests[i * channels + channel]);
+            result.left.push_back(known[k].residuals[i * channels + channel]);
         }
     }
     return result;
@@ -38,7 +38,7 @@ double mean_square(const std::vector<double>& values, std::size_t first, std::si
     return sum / static_cast<double>(last - first);
 }
 
-/// The slope of readings over what the model makes of them, where these hardly scatter about it.
+/// Slope of the readings over the model's values if they are nearly proportional; otherwise 0.
 double factor_of(const Compared& all) {
     constexpr double close = 0.9; // a correlation
     const auto count = static_cast<double>(all.read.size());
@@ -59,7 +59,7 @@ double factor_of(const Compared& all) {
 } // namespace
 
 std::vector<FitMismatch> mismatches_of(const FitRows& rows, const std::vector<PieceRows>& known) {
-    constexpr double much = 0.1; // of the range: of a sine, a third of its deviation
+    constexpr double much = 0.1; // of the range; for a sine, a third of its standard deviation
     constexpr std::size_t window = 8;
     std::vector<FitMismatch> found;
     for (std::size_t r = 0; r < rows.task().records.size(); ++r)

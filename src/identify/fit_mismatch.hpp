@@ -8,18 +8,19 @@
 
 namespace graze {
 
-/// A channel of which the model makes something else than was measured.
+/// A channel that the model does not reproduce.
 struct FitMismatch {
     std::size_t output = 0, record = 0;
-    double since = 0; ///< time
-    double size = 0;  ///< root of the mean square of what is left, relative to the range of the readings
-    /// By which the readings are larger than what the model makes, where they are in proportion; 0: they are not.
+    double since = 0; ///< time from which on it differs
+    double size = 0;  ///< root mean square of the residuals, relative to the range of the readings
+    /// Ratio of readings to model values if they are proportional; otherwise 0.
     double factor = 0;
 };
 
-/// Those by far more than a fit leaves that is on its way. @param known of the pieces, of which some may not be finite
+/// Returns the channels whose residuals are far larger than those of a fit that may still converge. @param known the
+/// evaluated pieces, some of which may not be finite
 std::vector<FitMismatch> mismatches_of(const FitRows& rows, const std::vector<PieceRows>& known);
-/// In one line; empty for none.
+/// Describes mismatches in one line; empty if there are none.
 std::string text_of(const std::vector<FitMismatch>& mismatches, const FitTask& task);
 
 } // namespace graze

@@ -14,7 +14,8 @@ namespace graze {
 
 namespace {
 
-/// How far apart the two sides of a contact must be, in standard deviations, for a reading to choose.
+/// Distance of the two sides of a contact, in standard deviations, above which a reading is assigned to the nearer
+/// side.
 constexpr double distinct = 6;
 
 std::vector<double> ranges_of(const FitTask& task) {
@@ -35,11 +36,10 @@ std::vector<double> ranges_of(const FitTask& task) {
     return ranges;
 }
 
-/// What noise at most makes of readings, by their third differences: smooth motion has small ones, and contacts are
-/// few.
+/// Upper estimate of an output's noise by third differences: they are small for smooth motion, and contacts are rare.
 double rough_noise(const FitTask& task, std::size_t output, double range) {
     constexpr double of_normal = 1.4826, least = 1e-3, greatest = 0.05;
-    const double spread = std::sqrt(20.0); // 1, 3, 3, 1
+    const double spread = std::sqrt(20.0); // norm of the weights 1, -3, 3, -1
     std::vector<double> sizes;
     for (const FitRecord& record : task.records)
         for (const FitRecord::Readings& readings : record.readings)
@@ -69,28 +69,29 @@ std::vector<std::size_t> places_of(const FitTask& task) {
     return places;
 }
 
-/// What is left, by its standard deviation, is replaced by the root of what it costs: a sum of squares again.
+/// Replaces a residual (in standard deviations) by the root of its cost, so that a robust loss is a sum of squares
+/// again.
 struct Costed {
     double value, slope;
 };
-Costed root_cost_of(double rest, FitLoss loss) {
-    constexpr double huber = 1.345, cauchy = 2.385; // 95 % of the efficiency of least squares for normal noise
-    const double size = std::abs(rest);
+Costed root_cost_of(double residual, FitLoss loss) {
+    constexpr double huber = 1.345, cauchy = 2.385; // 95 % efficiency relative to least squares for normal noise
+    const double size = std::abs(residual);
     if (loss == FitLoss::huber && size > huber) {
         const double root = std::sqrt(2 * huber * size - huber * huber);
-        return {std::copysign(root, rest), huber / root};
+        return {std::copysign(root, residual), huber / root};
     }
     if (loss == FitLoss::cauchy && size > 1e-4 * cauchy) {
         const double part = size / cauchy, root = cauchy * std::sqrt(std::log1p(part * part));
-        return {std::copysign(root, rest), size / ((1 + part * part) * root)};
+        return {std::copysign(root, residual), size / ((1 + part * part) * root)};
     }
-    return {rest, 1};
+    return {residual, 1};
 }
 
 } // namespace
 
-double cost_of(double rest, FitLoss loss) {
-    const double root = root_cost_of(rest, loss).value;
+double cost_of(double residual, FitLoss loss) {
+    const double root = root_cost_of(residual, loss).value;
     return root * root;
 }
 
@@ -110,14 +111,14 @@ FitRows::FitRows(const System& system, const FitTask& task, const FitSettings& s
         outputs_.push_back(system.with_gradient(task.outputs[o].value));
         noise.push_back(task.outputs[o].noise > 0 ? task.outputs[o].noise : rough_noise(task, o, ranges_[o]));
     }
-    std::size_t room = system.workspace();
+    std::size_t largest = system.workspace();
     for (const State& state : system.model().states)
         initials_.push_back(system.with_gradient(state.initial));
     for (const auto* functions : {&outputs_, &initials_})
         for (const Function& function : *functions)
-            room = std::max(room, function.workspace());
+            largest = std::max(largest, function.workspace());
     inputs_.resize(system.states() + system.parameters());
-    work_.resize(room);
+    work_.resize(largest);
     gradient_.resize(1 + inputs_.size());
     layout.shared_scale = Eigen::VectorXd::Ones(layout.shared());
     layout.state_scale = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(layout.states));
@@ -163,7 +164,7 @@ double FitRows::offset(std::size_t output, const Eigen::VectorXd& shared) const 
 std::vector<double> FitRows::first_state(const FitPiece& piece, const Eigen::VectorXd& shared,
                                          const Eigen::VectorXd& states) {
     std::vector<double> state(layout.states);
-    if (!piece.opening) {
+    if (!piece.is_first) {
         for (std::size_t i = 0; i < state.size(); ++i)
             state[i] = states[static_cast<Eigen::Index>(i)] * layout.state_scale[static_cast<Eigen::Index>(i)];
         return state;
@@ -195,18 +196,17 @@ const PredictedMotion& FitRows::motion(const FitPiece& piece, const Eigen::Vecto
     std::vector<double> seeds(layout.states * count, 0.0);
     for (std::size_t i = 0; i < layout.states; ++i)
         seeds[i * count + i] = 1;
-    if (piece.opening) {
+    if (piece.is_first) {
         const std::vector<std::size_t>& unknown = task_->records[piece.record].unknown_states;
         for (std::size_t i = 0; i < layout.states; ++i) {
             if (std::find(unknown.begin(), unknown.end(), i) != unknown.end())
                 continue;
-            initials_[i].evaluate(inputs_, gradient_, work_); // the inputs are those of the first state
+            initials_[i].evaluate(inputs_, gradient_, work_); // the inputs are still those of model_start
             for (std::size_t j = 0; j < layout.parameters; ++j)
                 seeds[i * count + layout.states + j] =
                     gradient_[1 + layout.states + task_->parameters[j].parameter.place()];
         }
     }
-    // A parameter that this record has of its own does not move.
     motion_.set_parameters(values);
     system_.periods().evaluate(values, periods_, work_);
     find_period_slopes(values);
@@ -245,7 +245,7 @@ void FitRows::find_period_slopes(std::span<const double> parameters) {
                 gradients[i * parameters.size() + task_->parameters[j].parameter.place()];
 }
 
-/// Values of all outputs in a state, and their derivatives in all directions.
+/// Evaluates all outputs in a state, and their derivatives in all directions.
 void FitRows::read(std::span<const double> state, std::span<const double> derivatives, Side& side) {
     const std::size_t count = layout.states + layout.parameters;
     side.values.resize(outputs_.size());
@@ -263,7 +263,8 @@ void FitRows::read(std::span<const double> state, std::span<const double> deriva
     }
 }
 
-/// Whether readings are nearer to the other side of a contact, and the sides so far apart that noise does not tell it.
+/// Whether the readings are closer to the motion on the other side of a contact, and the sides differ by clearly more
+/// than noise.
 bool FitRows::is_beyond(const FitRecord& record, std::size_t sample, const Eigen::VectorXd& shared) const {
     double here = 0, there = 0, apart = 0;
     for (const FitRecord::Readings& readings : record.readings) {
@@ -282,7 +283,7 @@ double FitRows::scale_of(const FitPiece& piece, Eigen::Index column) const {
     const Eigen::Index states = layout.unknown_states(*task_, piece);
     if (column >= states)
         return layout.shared_scale[column - states];
-    const std::size_t state = piece.opening
+    const std::size_t state = piece.is_first
                                   ? task_->records[piece.record].unknown_states[static_cast<std::size_t>(column)]
                                   : static_cast<std::size_t>(column);
     return layout.state_scale[static_cast<Eigen::Index>(state)];
@@ -296,14 +297,14 @@ void FitRows::add_time(const FitPiece& piece, std::size_t sample, const Eigen::V
     for (const FitRecord::Readings& readings : record.readings) {
         const std::size_t o = readings.output;
         const double factor = gain(o, shared),
-                     rest = factor * side_.values[o] + offset(o, shared) - readings.values[sample];
-        rows_.rests.push_back(rest);
-        const Costed costed = root_cost_of(rest / noise[o], loss());
+                     residual = factor * side_.values[o] + offset(o, shared) - readings.values[sample];
+        rows_.residuals.push_back(residual);
+        const Costed costed = root_cost_of(residual / noise[o], loss());
         const double weight = size * costed.slope / noise[o];
         const double* slope = &side_.slopes[o * count];
         for (Eigen::Index c = 0; c < states; ++c) {
             const std::size_t state =
-                piece.opening ? record.unknown_states[static_cast<std::size_t>(c)] : static_cast<std::size_t>(c);
+                piece.is_first ? record.unknown_states[static_cast<std::size_t>(c)] : static_cast<std::size_t>(c);
             raw_(row, c) = weight * factor * slope[state] * scale_of(piece, c);
         }
         for (std::size_t j = 0; j < layout.parameters; ++j) {
@@ -336,7 +337,7 @@ void FitRows::add_ends(const FitPiece& piece, const PredictedMotion& predicted) 
         const double* slope = &predicted.end_derivatives[static_cast<std::size_t>(i) * count];
         for (Eigen::Index c = 0; c < states; ++c) {
             const std::size_t state =
-                piece.opening ? record.unknown_states[static_cast<std::size_t>(c)] : static_cast<std::size_t>(c);
+                piece.is_first ? record.unknown_states[static_cast<std::size_t>(c)] : static_cast<std::size_t>(c);
             rows_.ends(i, c) = slope[state] * scale_of(piece, c) / layout.state_scale[i];
         }
         for (std::size_t j = 0; j < layout.parameters; ++j) {
@@ -358,7 +359,7 @@ const PieceRows& FitRows::evaluate(const FitPiece& piece, const Eigen::VectorXd&
     const auto readings = static_cast<Eigen::Index>(record.readings.size());
     const auto times = static_cast<Eigen::Index>(piece.last - piece.first);
     raw_.setZero(std::max(times * readings, columns), columns);
-    rows_.rests.clear();
+    rows_.residuals.clear();
     rows_.misplaced = 0;
     for (std::size_t k = 0; k < predicted.samples.size(); ++k) {
         const PredictedMotion::Sample& sample = predicted.samples[k];
@@ -373,7 +374,7 @@ const PieceRows& FitRows::evaluate(const FitPiece& piece, const Eigen::VectorXd&
         add_time(piece, piece.first + k, shared, static_cast<Eigen::Index>(k) * readings);
     }
     add_ends(piece, predicted);
-    constexpr double most = 1e150; // squares are finite, too
+    constexpr double most = 1e150; // so that squares are finite, too
     rows_.finite = (raw_.array().abs() < most).all() && (rows_.ends.array().abs() < most).all();
     rows_.complete = predicted.complete;
     rows_.contacts = predicted.contacts;

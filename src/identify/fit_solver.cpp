@@ -19,8 +19,8 @@ namespace {
 
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Readings of a piece, and the gap behind it. Blocks: what is shared, the states at its beginning, those of the next
-/// piece; those without numbers are left out.
+/// Cost of a piece: its readings and the gap to the next piece. Parameter blocks: the shared unknowns, its initial
+/// states, those of the next piece; empty blocks are left out.
 class PieceCost : public ceres::CostFunction {
 public:
     PieceCost(FitRows& rows, const FitPiece& piece, bool joined, double joint)
@@ -35,12 +35,12 @@ public:
         set_num_residuals(static_cast<int>(states_ + shared_ + 1 + ahead_));
     }
 
-    /// Whether it can be evaluated there; if so, that is kept for when it is asked for.
+    /// Whether the piece can be evaluated at a point; the result is kept for the first call of Evaluate.
     bool can_begin(const Eigen::VectorXd& shared, const Eigen::VectorXd& states) const {
         return update(shared, states);
     }
 
-    bool Evaluate(const double* const* numbers, double* rests, double** slopes) const override {
+    bool Evaluate(const double* const* numbers, double* residuals, double** slopes) const override {
         std::size_t block = 0;
         const auto next = [&](Eigen::Index size) {
             return size > 0 ? Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(numbers[block++], size))
@@ -50,10 +50,10 @@ public:
         if (!update(shared, states))
             return false;
         const Eigen::Index own = states_ + shared_ + 1;
-        Eigen::Map<Eigen::VectorXd> rest(rests, own + ahead_);
-        rest.head(own) = known_.readings.col(own - 1);
+        Eigen::Map<Eigen::VectorXd> residual(residuals, own + ahead_);
+        residual.head(own) = known_.readings.col(own - 1);
         if (ahead_ > 0)
-            rest.tail(ahead_) = joint_ * rows_->gap(known_, ahead);
+            residual.tail(ahead_) = joint_ * rows_->gap(known_, ahead);
         if (slopes == nullptr)
             return true;
         block = 0;
@@ -82,7 +82,7 @@ public:
     }
 
 private:
-    /// One evaluation serves a trial and, if it is accepted, the next iteration.
+    /// Caches the last evaluation: a trial step that is accepted is evaluated again for the next iteration.
     bool update(const Eigen::VectorXd& shared, const Eigen::VectorXd& states) const {
         if (evaluated_ && shared == at_shared_ && states == at_states_)
             return known_.finite;
@@ -91,9 +91,9 @@ private:
         at_states_ = states;
         try {
             known_ = rows_->evaluate(piece_, shared, states);
-        } catch (const InputError&) { // no motion begins there
+        } catch (const InputError&) { // no motion can start there
             known_.finite = false;
-        } catch (const FitInterruption&) { // the solver is left in order
+        } catch (const FitInterruption&) { // let the solver return in the regular way
             known_.finite = false;
         }
         return known_.finite;
@@ -108,15 +108,15 @@ private:
     mutable PieceRows known_;
 };
 
-/// Holds unknowns where they are, softly.
+/// Soft prior: penalises moving unknowns from their present values.
 class PriorCost : public ceres::CostFunction {
 public:
     PriorCost(Eigen::VectorXd at, double weight) : at_(std::move(at)), weight_(weight) {
         mutable_parameter_block_sizes()->push_back(static_cast<int>(at_.size()));
         set_num_residuals(static_cast<int>(at_.size()));
     }
-    bool Evaluate(const double* const* numbers, double* rests, double** slopes) const override {
-        Eigen::Map<Eigen::VectorXd>(rests, at_.size()) =
+    bool Evaluate(const double* const* numbers, double* residuals, double** slopes) const override {
+        Eigen::Map<Eigen::VectorXd>(residuals, at_.size()) =
             weight_ * (Eigen::Map<const Eigen::VectorXd>(numbers[0], at_.size()) - at_);
         if (slopes != nullptr && slopes[0] != nullptr) {
             Eigen::Map<RowMatrix> slope(slopes[0], at_.size(), at_.size());
@@ -175,7 +175,7 @@ StageReport minimise(FitRows& rows, FitPoint& point, const FitStage& stage, cons
             blocks.push_back(point.shared.data());
         if (point.states[k].size() > 0)
             blocks.push_back(point.states[k].data());
-        const bool joined = pieces[k].leads && is_active(k + 1);
+        const bool joined = pieces[k].has_next && is_active(k + 1);
         if (joined)
             blocks.push_back(point.states[k + 1].data());
         if (!blocks.empty()) {
@@ -189,7 +189,7 @@ StageReport minimise(FitRows& rows, FitPoint& point, const FitStage& stage, cons
     if (!stage.states_only)
         hold(point.shared);
     StageReport report;
-    if (!possible) { // Ceres would say so, in its log
+    if (!possible) { // Ceres would fail and log it
         report.failed = true;
         report.cost = std::numeric_limits<double>::infinity();
         report.interrupted = rows.is_interrupted();
@@ -216,8 +216,10 @@ StageReport minimise(FitRows& rows, FitPoint& point, const FitStage& stage, cons
     options.max_num_iterations = stage.most_iterations;
     options.function_tolerance = stage.tolerance;
     if (stage.tolerance < 1e-12)
-        options.initial_trust_region_radius = 1e10; // near the end already: what is hardly told must move, too
-    // Where pieces hardly give way, a step along the curved set of joined ones is uphill for a moment (N. Maratos).
+        // near the solution: a large trust region lets badly determined directions move, too
+        options.initial_trust_region_radius = 1e10;
+    // With a large weight of gaps, a step along the curved set of joined motions first increases the cost (the Maratos
+    // effect); non-monotonic steps accept it.
     constexpr double stiff = 10;
     options.use_nonmonotonic_steps = stage.joint > stiff;
     options.max_consecutive_nonmonotonic_steps = 10;

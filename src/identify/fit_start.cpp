@@ -10,13 +10,14 @@ namespace graze {
 
 namespace {
 
-class Starter {
+/// Sets states of a starting point from readings.
+class StateReader {
 public:
-    explicit Starter(FitRows& rows, const System& system) : rows_(&rows), system_(system) {
+    explicit StateReader(FitRows& rows, const System& system) : rows_(&rows), system_(system) {
         work_.resize(system.workspace());
     }
 
-    /// Whether no barrier of the mode is violated.
+    /// Whether a state violates no barrier of the mode.
     bool is_admissible(std::size_t mode, std::span<const double> state, std::span<const double> parameters) {
         const System::CompiledMode& compiled = system_.mode(mode);
         std::vector<double> inputs(state.begin(), state.end());
@@ -29,7 +30,7 @@ public:
         return true;
     }
 
-    /// Replaces states that are read directly, as long as the mode admits it.
+    /// Replaces states that an output shows directly by their readings, unless that would violate a barrier.
     void take_readings(const FitPiece& piece, std::size_t time, const Eigen::VectorXd& shared,
                        std::vector<double>& state) {
         const std::vector<double> parameters = rows_->parameters(piece.record, shared);
@@ -41,8 +42,8 @@ public:
                 continue;
             const std::optional<std::size_t> index = system_.model().find_state(output.value.name());
             const bool free =
-                index && (!piece.opening || std::find(record.unknown_states.begin(), record.unknown_states.end(),
-                                                      *index) != record.unknown_states.end());
+                index && (!piece.is_first || std::find(record.unknown_states.begin(), record.unknown_states.end(),
+                                                       *index) != record.unknown_states.end());
             if (!free)
                 continue;
             const double before = state[*index];
@@ -64,7 +65,7 @@ double length_or(double length, std::size_t readings) {
     return length > 0 ? std::sqrt(static_cast<double>(readings)) / length : 1;
 }
 
-/// Where a guess or a state is 0, its scale is what changes readings by their ranges.
+/// Where a guess or a state is 0, chooses the scale that changes the readings by their ranges.
 void scale_by_effects(FitRows& rows, FitPoint& point) {
     FitLayout& layout = rows.layout;
     Eigen::VectorXd shared = Eigen::VectorXd::Zero(layout.shared());
@@ -93,9 +94,9 @@ void scale_by_effects(FitRows& rows, FitPoint& point) {
             shared[j] += known.readings.col(own + j).squaredNorm();
         for (Eigen::Index c = 0; c < own; ++c) {
             const Eigen::Index state =
-                piece.opening ? static_cast<Eigen::Index>(
-                                    rows.task().records[piece.record].unknown_states[static_cast<std::size_t>(c)])
-                              : c;
+                piece.is_first ? static_cast<Eigen::Index>(
+                                     rows.task().records[piece.record].unknown_states[static_cast<std::size_t>(c)])
+                               : c;
             states[state] += known.readings.col(c).squaredNorm();
         }
     }
@@ -105,7 +106,7 @@ void scale_by_effects(FitRows& rows, FitPoint& point) {
     for (Eigen::Index i = 0; i < states.size(); ++i)
         if (no_state[static_cast<std::size_t>(i)])
             layout.state_scale[i] = length_or(std::sqrt(states[i]), readings);
-    // Where the scale was 0 so is the number, which needs no conversion.
+    // A number whose scale was 0 is 0 itself, so it needs no conversion.
 }
 
 void set_shared(FitRows& rows, FitPoint& point) {
@@ -136,27 +137,27 @@ FitPoint starting_point(FitRows& rows) {
     const FitTask& task = rows.task();
     FitPoint point;
     set_shared(rows, point);
-    Starter starter(rows, rows.system());
+    StateReader reader(rows, rows.system());
     Eigen::VectorXd sizes = Eigen::VectorXd::Zero(layout.state_scale.size());
     std::vector<double> state;
     std::vector<std::vector<double>> firsts;
     for (std::size_t k = 0; k < layout.pieces.size(); ++k) {
         FitPiece& piece = layout.pieces[k];
         const FitRecord& record = task.records[piece.record];
-        const auto unknown = static_cast<Eigen::Index>(piece.opening ? record.unknown_states.size() : layout.states);
+        const auto unknown = static_cast<Eigen::Index>(piece.is_first ? record.unknown_states.size() : layout.states);
         Eigen::VectorXd states(unknown);
-        if (piece.opening) {
+        if (piece.is_first) {
             states.setZero();
             state = rows.first_state(piece, point.shared, states);
             const std::vector<double> usual = rows.model_start(piece.record, point.shared);
             for (const std::size_t i : record.unknown_states)
                 state[i] = record.start.empty() ? usual[i] : record.start[i];
         }
-        if (!piece.opening || record.start.empty())
-            starter.take_readings(piece, piece.opening ? piece.first : piece.first - 1, point.shared, state);
+        if (!piece.is_first || record.start.empty())
+            reader.take_readings(piece, piece.is_first ? piece.first : piece.first - 1, point.shared, state);
         for (Eigen::Index c = 0; c < unknown; ++c)
-            states[c] =
-                state[piece.opening ? record.unknown_states[static_cast<std::size_t>(c)] : static_cast<std::size_t>(c)];
+            states[c] = state[piece.is_first ? record.unknown_states[static_cast<std::size_t>(c)]
+                                             : static_cast<std::size_t>(c)];
         point.states.push_back(states);
         firsts.push_back(state);
         const PredictedMotion& motion = rows.motion(piece, point.shared, states);
@@ -166,15 +167,16 @@ FitPoint starting_point(FitRows& rows) {
         for (Eigen::Index i = 0; i < sizes.size(); ++i)
             sizes[i] = std::max(sizes[i], std::abs(state[static_cast<std::size_t>(i)]));
         state = motion.end_state;
-        if (piece.leads)
+        if (piece.has_next)
             layout.pieces[k + 1].mode = motion.end_mode;
     }
     layout.state_scale = sizes;
     for (std::size_t k = 0; k < layout.pieces.size(); ++k) {
         const FitPiece& piece = layout.pieces[k];
         for (Eigen::Index c = 0; c < point.states[k].size(); ++c) {
-            const std::size_t i = piece.opening ? task.records[piece.record].unknown_states[static_cast<std::size_t>(c)]
-                                                : static_cast<std::size_t>(c);
+            const std::size_t i = piece.is_first
+                                      ? task.records[piece.record].unknown_states[static_cast<std::size_t>(c)]
+                                      : static_cast<std::size_t>(c);
             const double size = sizes[static_cast<Eigen::Index>(i)];
             point.states[k][c] = size > 0 ? firsts[k][i] / size : 0;
         }
@@ -190,29 +192,29 @@ void continue_from(FitRows& rows, FitPoint& point, std::size_t piece, bool read)
     if (motion.complete)
         next.mode = motion.end_mode;
     if (read)
-        Starter(rows, rows.system()).take_readings(next, next.first - 1, point.shared, state);
+        StateReader(rows, rows.system()).take_readings(next, next.first - 1, point.shared, state);
     for (Eigen::Index i = 0; i < point.states[piece].size(); ++i)
         point.states[piece][i] = state[static_cast<std::size_t>(i)] / rows.layout.state_scale[i];
 }
 
-bool ends_bound(FitRows& rows, const FitPoint& point, std::size_t piece) {
+bool ends_constrained(FitRows& rows, const FitPoint& point, std::size_t piece) {
     const PredictedMotion& motion = rows.motion(rows.layout.pieces[piece], point.shared, point.states[piece]);
-    return motion.complete && motion.bound;
+    return motion.complete && motion.constrained;
 }
 
 void merge(FitRows& rows, FitPoint& point, std::size_t piece) {
     std::vector<FitPiece>& pieces = rows.layout.pieces;
     pieces[piece - 1].last = pieces[piece].last;
     pieces[piece - 1].end = pieces[piece].end;
-    pieces[piece - 1].leads = pieces[piece].leads;
+    pieces[piece - 1].has_next = pieces[piece].has_next;
     pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(piece));
     point.states.erase(point.states.begin() + static_cast<std::ptrdiff_t>(piece));
 }
 
-bool merge_bound(FitRows& rows, FitPoint& point) {
+bool merge_constrained(FitRows& rows, FitPoint& point) {
     bool any = false;
     for (std::size_t k = 0; k < rows.layout.pieces.size(); ++k)
-        while (rows.layout.pieces[k].leads && ends_bound(rows, point, k)) {
+        while (rows.layout.pieces[k].has_next && ends_constrained(rows, point, k)) {
             merge(rows, point, k + 1);
             any = true;
         }
@@ -223,7 +225,7 @@ bool update_modes(FitRows& rows, const FitPoint& point) {
     std::vector<FitPiece>& pieces = rows.layout.pieces;
     bool changed = false;
     for (std::size_t k = 0; k + 1 < pieces.size(); ++k) {
-        if (!pieces[k].leads)
+        if (!pieces[k].has_next)
             continue;
         const PredictedMotion& motion = rows.motion(pieces[k], point.shared, point.states[k]);
         if (!motion.complete || motion.end_mode == pieces[k + 1].mode)

@@ -4,22 +4,23 @@
 
 namespace graze {
 
-/// The point from which a fit begins: parameters as guessed, states from readings where these tell them and otherwise
+/// Returns the starting point of a fit: parameters as guessed; states from readings that show them directly, otherwise
 /// by following the motion from piece to piece. Sets the layout's scales, and the modes of its pieces.
 FitPoint starting_point(FitRows& rows);
 
-/// Begins a piece anew where the one before it ends. @param read whether with the states that readings tell
+/// Sets the initial state of a piece to the final state of the one before. @param read whether states that are read
+/// directly are taken from the readings instead
 void continue_from(FitRows& rows, FitPoint& point, std::size_t piece, bool read = true);
 
-/// Whether a piece ends where not all states are free, as where friction has brought a mass to rest: no other can begin
-/// there.
-bool ends_bound(FitRows& rows, const FitPoint& point, std::size_t piece);
-/// Makes a piece part of the one before it.
+/// Whether a piece ends in a state that is constrained, as where friction has brought a mass to rest: then no piece
+/// with free initial states can start there.
+bool ends_constrained(FitRows& rows, const FitPoint& point, std::size_t piece);
+/// Merges a piece with the one before it.
 void merge(FitRows& rows, FitPoint& point, std::size_t piece);
-/// The same for all pieces that cannot begin where they do. @return whether there were any
-bool merge_bound(FitRows& rows, FitPoint& point);
+/// Merges all pieces that would start in a constrained state. @return whether there were any
+bool merge_constrained(FitRows& rows, FitPoint& point);
 
-/// The modes of pieces are those in which the ones before them end. @return whether one has changed
+/// Sets the mode of each piece to the one in which the piece before it ends. @return whether a mode has changed
 bool update_modes(FitRows& rows, const FitPoint& point);
 
 } // namespace graze

@@ -8,7 +8,7 @@
 #include "graze/identify/restitution.hpp"
 #include "graze/record/impacts.hpp"
 #include "identify/common_units.hpp"
-#include "identify/doubts.hpp"
+#include "identify/estimate_checks.hpp"
 #include "identify/impact_proportion.hpp"
 #include "identify/row_gap.hpp"
 
@@ -29,7 +29,7 @@ std::string name_or(const std::string& given, const char* usual) {
     return given.empty() ? usual : given;
 }
 
-/// What is known of each value by itself, as a matrix.
+/// Fills in the diagonal of the covariance matrix.
 void set_variances(Identification& found) {
     const std::size_t count = found.values.size();
     found.covariance.assign(count * count, 0);
@@ -41,8 +41,8 @@ double mean_of(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Passes samples on, and refuses those that nothing can be found from: none, and numbers whose squares and ratios
-/// would overflow or vanish.
+/// Passes samples on, and refuses records without rows and numbers whose squares and ratios would overflow or
+/// underflow.
 class UsableSource : public SampleSource {
 public:
     UsableSource(SampleSource& source, std::vector<std::size_t> channels)
@@ -79,32 +79,33 @@ private:
 
     SampleSource* source_;
     std::vector<std::size_t> channels_;
-    std::vector<double> greatest_; ///< magnitudes so far
+    std::vector<double> greatest_; ///< largest magnitudes so far
     double first_ = 0, last_ = 0;
     bool has_rows_ = false;
 };
 
-/// Records of which none has more peaks than two tell no errors.
+/// Refuses releases of which none has three peaks: they do not determine a standard error.
 void require_three_peaks(const std::vector<DecayPeaks>& releases, const std::vector<std::string>& names) {
     constexpr std::size_t fewest = 3;
     if (names.empty() ||
         std::any_of(releases.begin(), releases.end(), [](const DecayPeaks& one) { return one.times.size() >= fewest; }))
         return;
     for (std::size_t r = 0; r < releases.size(); ++r)
-        if (const ResidualTest& left = releases[r].wave.left; !left.is_noise())
+        if (const ResidualTest& left = releases[r].wave.residual_test; !left.is_noise())
             throw InputError(fmt::format("{}: this is not a damped sine: {}", names[r], left.text()),
                              "look at the record there, and give a part of it that is free of that (--from T --to T)");
-    throw InputError(fmt::format("{}{}: there are too few peaks to tell their errors: two stand out from the noise, "
-                                 "three are needed",
-                                 names.front(), names.size() > 1 ? " and others" : ""),
-                     "give a longer record or one with less damping, and let --peaks be three or more");
+    throw InputError(
+        fmt::format("{}{}: there are too few peaks to determine standard errors: two stand out from the noise, "
+                    "three are needed",
+                    names.front(), names.size() > 1 ? " and others" : ""),
+        "give a longer record or one with less damping, and let --peaks be three or more");
 }
 
-/// A channel that does not jump has places that look like jumps, too: of a displacement they are its corners.
+/// Refuses a channel that is not a velocity: a displacement has corners, which resemble jumps.
 void require_impacts(const std::string& name, const std::string& channel, const std::vector<RecordedImpact>& impacts) {
     if (const std::size_t doubtful = doubtful_impacts(impacts); 2 * doubtful >= impacts.size())
         throw InputError(fmt::format("{}: at {} of {} jumps of '{}' the velocity before is not larger than twice its "
-                                     "error, or has the sign of that after: these are no impacts",
+                                     "error, or has the sign of that after: these are not impacts",
                                      name, doubtful, impacts.size(), channel),
                          "look at which channel is the velocity, and give velocities relative to the stop (graze "
                          "record FILE --what impacts shows them)");
@@ -144,14 +145,14 @@ Identification identify_decrement(const EachRecord& records, const Identificatio
         rests.push_back({peaks.rest, peaks.rest_error, decrement.damping.freedom});
     found.values.push_back({"rest_position", velocity.unit, combine(rests).mean});
     for (std::size_t r = 0; r < releases.size(); ++r)
-        doubt(found, names[r], velocity.name, releases[r].wave.left, "a damped sine");
-    constexpr double hardly = 1e-4;
-    if (oscillation.chance < hardly)
+        check_residuals(found, names[r], velocity.name, releases[r].wave.residual_test, "a damped sine");
+    constexpr double level = 1e-4;
+    if (oscillation.chance < level)
         found.warnings.emplace_back(
-            "the releases differ by more than their noise: frequency or damping change from one "
+            "the releases differ by more than their noise: frequency or damping changes from one "
             "to the next, and intervals are too narrow");
     if (!(oscillation.damping.value > 0))
-        refuse_value(found, "damping_ratio", "the oscillation grows");
+        remove_value(found, "damping_ratio", "the oscillation grows");
     set_variances(found);
     found.x = {time.name + " since the first peak", time.unit};
     found.y = {"peaks of " + velocity.name, velocity.unit};
@@ -192,13 +193,13 @@ Identification identify_restitution(const EachRecord& records, const Identificat
         const std::vector<RecordedImpact> recorded = find_impacts(watched, of_impacts);
         for (const RecordedImpact& impact : recorded)
             impacts.push_back({impact.before, impact.after, impact.before_error, impact.after_error});
-        if (impacts.size() < 3) { // a sweep begins before there are any
+        if (impacts.size() < 3) { // a sweep may start without impacts
             few = impacts;
             return;
         }
         require_impacts(name, velocity.name, recorded);
         const Restitution one = restitution(impacts);
-        doubt_impacts(found, name, velocity.name, watched, recorded, one);
+        check_impacts(found, name, velocity.name, watched, recorded, one);
         sets.push_back(one.coefficient);
         names.push_back(name);
         Identification::Shown& shown = found.shown.emplace_back();
@@ -209,7 +210,7 @@ Identification identify_restitution(const EachRecord& records, const Identificat
             shown.left.y.push_back(one.residuals[i]);
         }
     });
-    if (sets.empty()) { // two are better than none
+    if (sets.empty()) { // no record has three impacts: use one with two
         sets.push_back(restitution(few).coefficient);
         names.emplace_back();
         Identification::Shown& shown = found.shown.emplace_back();
@@ -226,7 +227,7 @@ Identification identify_restitution(const EachRecord& records, const Identificat
         found.values.push_back({"restitution of " + names[i], "", sets[i]});
     if (sets.size() > 1)
         found.values.push_back({"spread_between_records", "", {all.spread, 0, 0}});
-    refuse_restitutions(found);
+    check_restitutions(found);
     set_variances(found);
     double fastest = 0, slowest = 0;
     for (const Identification::Shown& shown : found.shown)
@@ -271,7 +272,7 @@ Identification identify_coupling(const EachRecord& records, const Identification
     known.current_noise = settings.current_noise;
     const Coupling constants = coupling(loads, known);
     const std::string &length = displacement.unit, &ampere = current.unit;
-    // Of stiffness in N/m, as it is where lengths are in m.
+    // The stiffness is in N/m if lengths are in m.
     const std::string product = length != "m" || ampere.empty() ? ""
                                 : ampere == "A"                 ? "H m"
                                                                 : fmt::format("N m^2/{0} {0}", ampere);
@@ -281,7 +282,7 @@ Identification identify_coupling(const EachRecord& records, const Identification
                     {"correlation", "", {constants.correlation, 0, 0}},
                     {"beta1_of_regression", product, {constants.regression_beta1, 0, 0}},
                     {"beta2_of_regression", length, {constants.regression_beta2, 0, 0}}};
-    doubt_loads(found, loads, known, constants);
+    check_loads(found, loads, known, constants);
     set_variances(found);
     const std::size_t count = found.values.size();
     if (count > 1 && found.values[0].name == "beta1" && found.values[1].name == "beta2")
@@ -310,7 +311,7 @@ Identification identify_coupling(const EachRecord& records, const Identification
 
 namespace {
 
-/// What the current is in the first periods of a record, and what it should be.
+/// The measured current in the first periods of a record, with its fitted sine.
 Identification::Shown shown_current(const Samples& all, std::size_t current, const Impedance& one) {
     constexpr double periods = 3;
     const double middle = 0.5 * (all.times.front() + all.times.back());
@@ -356,13 +357,12 @@ Identification identify_impedance(const EachRecord& records, const Identificatio
         frequencies.push_back({one.frequency / (2 * std::numbers::pi), 0, 0});
         resistances.push_back(one.resistance);
         inductances.push_back(one.inductance);
-        doubt(found, name, header.channels[v].name, one.voltage_left, "a sine");
-        doubt(found, name, header.channels[c].name, one.current_left, "a sine");
-        if (const auto gap = longest_gap(all.times); gap && !settings.frequency && !one.voltage_left.is_noise())
-            found.warnings.push_back(
-                fmt::format("{}: there are no rows from {:.6g} to {:.6g}, and the frequency may have "
-                            "been missed: {}frequency says about where it is",
-                            name, gap->from, gap->to, asked));
+        check_residuals(found, name, header.channels[v].name, one.voltage_test, "a sine");
+        check_residuals(found, name, header.channels[c].name, one.current_test, "a sine");
+        if (const auto gap = longest_gap(all.times); gap && !settings.frequency && !one.voltage_test.is_noise())
+            found.warnings.push_back(fmt::format("{}: there are no rows from {:.6g} to {:.6g}, so the frequency may "
+                                                 "be wrong: give an approximate one by {}frequency",
+                                                 name, gap->from, gap->to, asked));
         if (settings.beta1)
             leakages.push_back(
                 leakage_inductance(one.inductance, *settings.beta1, *settings.beta2, *settings.gap, settings.clamped));
@@ -393,7 +393,7 @@ Identification identify_impedance(const EachRecord& records, const Identificatio
     for (std::size_t i = 0; i < frequencies.size(); ++i)
         found.values.push_back(
             {frequencies.size() == 1 ? "frequency" : "frequency of " + names[i], hertz, frequencies[i]});
-    refuse_signs(found);
+    check_coil(found);
     set_variances(found);
     return found;
 }

@@ -16,19 +16,19 @@ double dot(const std::vector<double>& one, const std::vector<double>& other) {
     return std::inner_product(one.begin(), one.end(), other.begin(), 0.0);
 }
 
-/// What a direction of length one does not have in it.
+/// Subtracts the component of a column along a unit vector.
 void take_out(std::vector<double>& column, const std::vector<double>& direction) {
     const double along = dot(column, direction);
     for (std::size_t i = 0; i < column.size(); ++i)
         column[i] -= along * direction[i];
 }
 
-/// Residuals of the line through nought, and of lines with further terms, in standard errors.
+/// Residuals of the line through the origin, and of fits with further terms, in standard errors.
 class WeighedImpacts {
 public:
     WeighedImpacts(std::span<const RecordedImpact> impacts, double e) {
         for (const RecordedImpact& one : impacts) {
-            // An impact that is later than it is taken for moves both velocities.
+            // An error of the impact's time shifts both velocities, so their errors are correlated.
             const double variance = one.after_error * one.after_error + e * e * one.before_error * one.before_error +
                                     2 * e * one.covariance;
             weights_.push_back(1 / std::sqrt(std::max(variance, least_variance)));
@@ -42,11 +42,12 @@ public:
     }
 
     double squares() const { return dot(left_, left_); }
-    /// Of the coefficient: one over its variance by the own errors.
+    /// Inverse variance of the coefficient by the velocities' own errors.
     double information() const { return information_; }
     std::size_t count() const { return left_.size(); }
 
-    /// The chance that errors alone explain as much by these terms; 1 where more than errors is left with them.
+    /// The p value of further terms by the velocities' own errors; 1 if the residuals exceed these errors even with the
+    /// terms.
     template <class... Term>
     double chance(const Term&... terms) const {
         constexpr double too_much = 1e-3;
@@ -72,7 +73,7 @@ private:
             value = length > 0 ? value / length : 0;
         return length > 0;
     }
-    /// What a term has that those before do not (Gram and Schmidt); nothing where it has nothing.
+    /// Adds the part of a term that is orthogonal to those before (Gram-Schmidt), if there is one.
     static void add(std::vector<std::vector<double>>& directions, std::vector<double>& left,
                     std::vector<double> column) {
         constexpr double independent = 1e-4;
@@ -93,7 +94,7 @@ private:
     }
 
     std::vector<double> weights_, before_, left_;
-    std::vector<std::vector<double>> directions_; ///< that of the line itself
+    std::vector<std::vector<double>> directions_; ///< unit vector of the line itself
     double information_ = 0;
 };
 
@@ -110,10 +111,10 @@ ImpactProportion test_proportion(std::span<const RecordedImpact> impacts, double
     const auto order = [](double v, double k) { return v * k; };
     result.scatter = weighed.squares() / static_cast<double>(weighed.count() - 1);
     constexpr double inexact = 2;
-    // What scatters more than that is none of errors, and makes no restitution above one likelier.
+    // More scatter than that cannot come from inexact errors, and does not make a restitution above one more likely.
     result.excess = (e - 1) * std::sqrt(weighed.information() / std::clamp(result.scatter, 1.0, inexact));
     result.unlike = chi_square_tail(weighed.squares() / inexact, weighed.count() - 1);
-    // Each of so many terms may be the one by chance.
+    // Bonferroni correction: several terms are tested.
     result.offset = std::min(1.0, 2 * std::min(weighed.chance(one), weighed.chance(one, row)));
     result.change =
         std::min(1.0, 3 * std::min({weighed.chance(square), weighed.chance(order), weighed.chance(square, order)}));
@@ -123,7 +124,7 @@ ImpactProportion test_proportion(std::span<const RecordedImpact> impacts, double
 std::size_t doubtful_impacts(std::span<const RecordedImpact> impacts) {
     constexpr double errors = 2;
     return static_cast<std::size_t>(std::count_if(impacts.begin(), impacts.end(), [](const RecordedImpact& one) {
-        // What keeps nothing of its velocity may seem to go on by as much as the error.
+        // After a fully plastic impact the velocity may have either sign within its error.
         const bool goes_on = one.before * one.after > 0 && std::abs(one.after) > errors * one.after_error;
         return !(std::abs(one.before) > errors * one.before_error) || goes_on;
     }));

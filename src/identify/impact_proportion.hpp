@@ -7,24 +7,24 @@
 
 namespace graze {
 
-/// Whether velocities after impacts are in proportion to those before, as far as their own errors allow to tell. About
-/// a line that is bent or shifted the scatter is large, and hides that it is: therefore a further term is judged by the
-/// velocities' own errors, where with that term nothing but these is left. Where more is left (as where restitution
-/// differs from impact to impact) the own errors say nothing about a term, and neither does this.
+/// Tests whether velocities after impacts are proportional to those before, by the velocities' own errors. The scatter
+/// about the line cannot tell: a line that is bent or shifted enlarges it. A further term is tested only if the
+/// residuals with it are consistent with the own errors; otherwise (as where restitution differs from impact to impact)
+/// its p value is 1.
 struct ImpactProportion {
-    double offset = 1; ///< the chance that errors make up an offset of the velocity, or its drift, as large
-    double change = 1; ///< that they make up as large a change of the restitution with speed or from impact to impact
-    /// That errors twice as large in the square make impacts as unlike one another about the line through nought: what
-    /// an impact's own samples tell of its errors is itself not exact.
+    double offset = 1; ///< p value: errors alone produce an offset of the velocity, or a drift, as large
+    double change = 1; ///< p value of a change of the restitution with speed or from impact to impact
+    /// The p value of the scatter about the line through the origin for errors twice as large in the square, since the
+    /// errors of an impact are themselves estimated.
     double unlike = 1;
-    double scatter = 0; ///< mean square of what is left about the line, over that of the own errors
-    double excess = 0;  ///< of the restitution over one, in standard errors by own errors that are inexact likewise
+    double scatter = 0; ///< mean square of the residuals of the line, in units of the own errors
+    double excess = 0;  ///< by how much the restitution exceeds one, in standard errors (with the same allowance)
 };
 
-/// @param e the coefficient of the line through nought
+/// @param e coefficient of restitution, from the line through the origin
 ImpactProportion test_proportion(std::span<const RecordedImpact> impacts, double e);
 
-/// Impacts whose velocity before is no larger than twice its error, or whose body goes on in the same direction.
+/// Counts impacts whose velocity before is at most twice its error, or whose body continues in the same direction.
 std::size_t doubtful_impacts(std::span<const RecordedImpact> impacts);
 
 } // namespace graze

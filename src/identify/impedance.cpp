@@ -18,7 +18,7 @@ namespace graze {
 
 namespace {
 
-/// Of samples at any times; where they are noisy there are crossings that no period has.
+/// Angular frequency from upward crossings of the mean, for samples at any times. Noise adds false crossings.
 double frequency_of_crossings(std::span<const double> times, std::span<const double> voltage) {
     Samples samples;
     samples.times.assign(times.begin(), times.end());
@@ -37,7 +37,7 @@ double frequency_of_crossings(std::span<const double> times, std::span<const dou
     return 2 * std::numbers::pi / fit_period(crossings).period;
 }
 
-/// The longest part in which no row is missing: first and number of its samples.
+/// The longest part without a missing row: index of its first sample, and number of samples.
 std::pair<std::size_t, std::size_t> longest_part(std::span<const double> times) {
     const double most = longer_than_usual * usual_step(times);
     std::pair<std::size_t, std::size_t> longest{0, 0};
@@ -50,8 +50,8 @@ std::pair<std::size_t, std::size_t> longest_part(std::span<const double> times) 
     return longest;
 }
 
-/// Where the largest wave of equally distant samples has the largest amplitude, to a tenth of what tells two waves
-/// apart.
+/// Angular frequency at which a sine fitted to equidistant samples has the largest amplitude, to a tenth of the
+/// frequency resolution.
 double frequency_of_waves(std::span<const double> times, std::span<const double> voltage) {
     constexpr int parts = 10;
     double by_time = 0;
@@ -77,10 +77,11 @@ double frequency_of_waves(std::span<const double> times, std::span<const double>
     return best;
 }
 
-/// Of a record with gaps from the part without them that tells most: in each gap a wave of another frequency may hide.
+/// Initial guess of the angular frequency. If the record has gaps, in which the phase may slip, it comes from the
+/// longest part without gaps.
 double guessed_frequency(std::span<const double> times, std::span<const double> voltage) {
     const auto [first, count] = longest_part(times);
-    constexpr std::size_t parts = 4; // of the record: of shorter ones the whole tells more
+    constexpr std::size_t parts = 4; // parts of the record: a shorter part would tell less than the whole
     if (count == times.size() || parts * count < times.size())
         return frequency_of_waves(times, voltage);
     const std::span<const double> part = times.subspan(first, count), seen = voltage.subspan(first, count);
@@ -115,9 +116,9 @@ Impedance impedance(std::span<const double> times, std::span<const double> volta
     const double size = result.voltage.amplitude(), flow = result.current.amplitude();
     if (!(flow > 0) || !(size > 0))
         throw InputError("there is no voltage or no current", "give both, of a coil that carries a current");
-    result.voltage_left = test_sine(centred, voltage, result.voltage);
-    result.current_left = test_sine(centred, current, result.current);
-    const double wider_voltage = result.voltage_left.widening, wider_current = result.current_left.widening;
+    result.voltage_test = test_sine(centred, voltage, result.voltage);
+    result.current_test = test_sine(centred, current, result.current);
+    const double wider_voltage = result.voltage_test.widening, wider_current = result.current_test.widening;
     constexpr double unknowns = 3;
     const double freedom = static_cast<double>(times.size()) - unknowns;
     const double magnitude = size / flow;

@@ -18,12 +18,12 @@ namespace graze {
 
 namespace {
 
-/// A motion of all records, and what it leaves of their readings.
+/// A motion of all records whose pieces join exactly, with its residuals.
 struct JoinedMotion {
     FitPoint point;
     std::vector<std::size_t> modes;
     std::vector<PieceRows> known;
-    double cost = std::numeric_limits<double>::infinity(); ///< of one that is not to its end
+    double cost = std::numeric_limits<double>::infinity(); ///< infinite if the motion is incomplete
 };
 
 class JoinedDescent {
@@ -35,13 +35,13 @@ public:
 
     double freedom() const { return freedom_; }
 
-    DescentReport run(bool look, const std::function<bool(double)>& tell) {
-        constexpr int most_iterations = 100, most_looks = 10;
+    DescentReport run(bool probe, const std::function<bool(double)>& tell) {
+        constexpr int most_iterations = 100, most_probes = 10;
         DescentReport report;
-        for (int looks = 0; looks < (look ? most_looks : 1) && !report.least; ++looks) {
+        for (int probes = 0; probes < (probe ? most_probes : 1) && !report.least; ++probes) {
             for (int i = 0; i < most_iterations; ++i) {
                 prepare();
-                if (off_ <= stationary || !descend())
+                if (remaining_step_ <= stationary || !descend())
                     break;
                 ++report.iterations;
                 if (!tell(best_.cost)) {
@@ -50,13 +50,13 @@ public:
                 }
             }
             prepare();
-            report.least = off_ <= stationary || (look && !look_around());
+            report.least = remaining_step_ <= stationary || (probe && !probe_directions());
         }
         return report;
     }
 
 private:
-    static constexpr double stationary = 1e-3; ///< of errors
+    static constexpr double stationary = 1e-3; ///< of standard errors
 
     JoinedMotion follow(FitPoint point) {
         const std::vector<FitPiece>& pieces = rows_->layout.pieces;
@@ -64,14 +64,14 @@ private:
         double squares = 0;
         for (std::size_t k = 0; k < pieces.size(); ++k) {
             FitPiece piece = pieces[k];
-            if (!piece.opening) {
+            if (!piece.is_first) {
                 const PieceRows& before = motion.known.back();
                 point.states[k] = before.ends.col(before.ends.cols() - 1);
                 piece.mode = before.end_mode;
             }
             try {
                 motion.known.push_back(rows_->evaluate(piece, point.shared, point.states[k]));
-            } catch (const InputError&) { // no motion begins there
+            } catch (const InputError&) { // no motion can start there
                 return motion;
             }
             const PieceRows& rows = motion.known.back();
@@ -85,12 +85,12 @@ private:
         return motion;
     }
 
-    /// The linearised problem at the best motion, in columns of length 1.
+    /// Linearises the problem at the best motion, with columns scaled to length 1.
     void prepare() {
         const FitInformation information = information_of(*rows_, best_.point, best_.known, joint_);
         const Eigen::Index count = information.rows.cols() - 1;
         Eigen::MatrixXd scaled = information.rows.topLeftCorner(information.rows.rows(), count);
-        for (const int j : bounded_at(*rows_, best_.point))
+        for (const int j : parameters_at_bounds(*rows_, best_.point))
             scaled.col(count - rows_->layout.shared() + j).setZero();
         lengths_ = scaled.colwise().norm();
         for (Eigen::Index c = 0; c < count; ++c)
@@ -100,29 +100,29 @@ private:
         directions_ = factors.right;
         left_ = factors.left.transpose() * information.rows.col(count);
         for (Eigen::Index k = 0; k < count; ++k)
-            left_[k] = is_told(k) ? left_[k] : 0;
+            left_[k] = is_determined(k) ? left_[k] : 0;
         freedom_ = std::max(1.0, readings() - static_cast<double>(count));
         size_ = std::sqrt(2 * best_.cost / freedom_);
-        off_ = size_ > 0 ? left_.norm() / size_ : 0;
+        remaining_step_ = size_ > 0 ? left_.norm() / size_ : 0;
     }
-    bool is_told(Eigen::Index k) const {
-        constexpr double nothing = 1e-9; // as in FitDecomposition
-        return values_[k] > nothing * values_[0];
+    bool is_determined(Eigen::Index k) const {
+        constexpr double negligible = 1e-9; // as in FitDecomposition
+        return values_[k] > negligible * values_[0];
     }
     double readings() const {
         double count = 0;
         for (const PieceRows& piece : best_.known)
-            count += static_cast<double>(piece.rests.size());
+            count += static_cast<double>(piece.residuals.size());
         return count;
     }
 
-    /// A step of Levenberg and Marquardt. @return false if none leads down
+    /// Takes a Levenberg-Marquardt step. @return false if no step decreases the cost
     bool descend() {
         constexpr double most = 1e4, rise = 10, fall = 100;
         for (;;) {
             Eigen::VectorXd step = Eigen::VectorXd::Zero(values_.size());
             for (Eigen::Index k = 0; k < values_.size(); ++k)
-                if (is_told(k))
+                if (is_determined(k))
                     step -= directions_.col(k) *
                             (left_[k] * values_[k] /
                              (values_[k] * values_[k] + damping_ * damping_ * values_[0] * values_[0]));
@@ -138,16 +138,16 @@ private:
         }
     }
 
-    /// Along each direction by parts of its error. @return whether one leads down
-    bool look_around() {
+    /// Tries steps along each singular direction by parts of its standard error. @return whether one decreases the cost
+    bool probe_directions() {
         for (Eigen::Index k = 0; k < values_.size(); ++k)
             for (const double part : {1.0, -1.0, 0.5, -0.5, 0.25, -0.25})
-                if (is_told(k) && take(directions_.col(k) * (part * size_ / values_[k])))
+                if (is_determined(k) && take(directions_.col(k) * (part * size_ / values_[k])))
                     return true;
         return false;
     }
 
-    /// @param step in columns of length 1. @return whether it leads down
+    /// Takes a step if it decreases the cost. @param step in columns of length 1. @return whether it did
     bool take(const Eigen::VectorXd& step) {
         const std::vector<FitPiece>& pieces = rows_->layout.pieces;
         FitPoint point = best_.point;
@@ -157,7 +157,7 @@ private:
             ++column;
         };
         for (std::size_t k = 0; k < pieces.size(); ++k)
-            if (pieces[k].opening)
+            if (pieces[k].is_first)
                 for (double& number : point.states[k])
                     moved(number);
         for (double& number : point.shared)
@@ -183,12 +183,12 @@ private:
     JoinedMotion best_;
     Eigen::VectorXd lengths_, values_, left_;
     Eigen::MatrixXd directions_;
-    double size_ = 0, off_ = 0, damping_ = 0, freedom_ = 1;
+    double size_ = 0, remaining_step_ = 0, damping_ = 0, freedom_ = 1;
 };
 
 } // namespace
 
-DescentReport descend_joined(FitRows& rows, FitPoint& point, double joint, bool look,
+DescentReport descend_joined(FitRows& rows, FitPoint& point, double joint, bool probe,
                              const std::function<bool(double)>& tell) {
     double squares = 0;
     for (const PieceRows& piece : rows.evaluate(point)) {
@@ -199,8 +199,8 @@ DescentReport descend_joined(FitRows& rows, FitPoint& point, double joint, bool 
     JoinedDescent descent(rows, point, joint);
     if (!std::isfinite(descent.best().cost))
         return {};
-    const DescentReport report = descent.run(look, tell);
-    constexpr double as_good = 1; // a motion that is a standard error away is worse by so much
+    const DescentReport report = descent.run(probe, tell);
+    constexpr double as_good = 1; // a motion one standard error away costs this much more
     if (!(descent.best().cost <= (1 + as_good / descent.freedom()) * squares / 2))
         return {.interrupted = report.interrupted, .least = false, .iterations = report.iterations};
     point = descent.best().point;

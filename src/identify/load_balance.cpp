@@ -14,10 +14,10 @@ namespace graze {
 
 namespace {
 
-constexpr double hardly = 1e-4;  // that chance makes as much
-constexpr double nothing = 1e-9; // of the balance's parts: round-off
+constexpr double test_level = 1e-4; // significance level of the tests
+constexpr double negligible = 1e-9; // relative to the terms of the balance: round-off
 
-/// What the balances of loads are by, each divided by what noise makes of it.
+/// Residuals of the balances of the loads, each divided by its standard deviation.
 class LoadTest {
 public:
     LoadTest(std::span<const StaticLoad> loads, std::span<const StaticLoad> points, const CouplingSettings& settings,
@@ -35,11 +35,11 @@ public:
             squares += left_.back() * left_.back();
             sizes += std::pow(weight * balance.by_beta1 * beta1, 2);
         }
-        is_exact_ = !(squares > nothing * nothing * sizes);
+        is_exact_ = !(squares > negligible * negligible * sizes);
     }
     bool is_exact() const { return is_exact_; }
 
-    /// The chance that errors of displacement and current of this form explain as much as they do.
+    /// The p value of errors of displacement or current of this form (offset, drift, curvature).
     template <class Form>
     double chance(bool of_displacement, const Form& form) const {
         std::vector<double> column = of_displacement ? by_displacement_ : by_current_;
@@ -47,8 +47,8 @@ public:
             column[i] *= form(i);
         return chance_of_fit(left_, own_, {column});
     }
-    /// The load that lies furthest from what all others say, and the chance that one lies so far (an F test whose
-    /// further column is that load alone).
+    /// The load furthest from what all others predict, and its p value (an F test whose further column is that load
+    /// alone).
     std::pair<std::size_t, double> furthest() const {
         const std::vector<double> first = unit(own_[0]), second = unit(without(own_[1], first)),
                                   left = without(without(left_, first), second);
@@ -65,7 +65,7 @@ public:
         }
         return found;
     }
-    /// In the order of displacements.
+    /// Tests the residuals in the order of displacements.
     ResidualTest in_order() const {
         std::vector<std::size_t> order(left_.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
@@ -116,12 +116,12 @@ std::vector<std::string> reasons_against(std::span<const StaticLoad> loads, std:
     const double offset = std::min(test.chance(true, one), test.chance(false, one)),
                  drift = std::min(test.chance(true, row), test.chance(false, row)),
                  bend = std::min(test.chance(true, square_q), test.chance(false, square_i));
-    if (std::min({offset, drift, bend}) < hardly)
+    if (std::min({offset, drift, bend}) < test_level)
         reasons.emplace_back(offset <= drift && offset <= bend ? "displacement or current may have an offset"
                              : drift <= bend                   ? "displacement or current may drift from row to row"
                                              : "displacement or current may be no straight scale, or the "
                                                "gap another one");
-    if (const auto [load, chance] = test.furthest(); chance * static_cast<double>(loads.size()) < hardly)
+    if (const auto [load, chance] = test.furthest(); chance * static_cast<double>(loads.size()) < test_level)
         reasons.push_back(fmt::format("load {} lies far off", load + 1));
     if (const ResidualTest order = test.in_order(); !order.is_noise())
         reasons.push_back("in the order of displacements: " + order.text());

@@ -19,7 +19,7 @@ bool all_finite(std::span<const double> values) {
 
 } // namespace
 
-/// Takes samples out of steps as they are made, and looks beyond contacts.
+/// Takes samples from the steps of a trajectory, and extrapolates beyond contacts.
 class PieceMotion::Watcher : public Observer {
 public:
     Watcher(PieceMotion& owner, const MotionPiece& piece)
@@ -28,11 +28,12 @@ public:
 
     void watch(const Trajectory& trajectory) { trajectory_ = &trajectory; }
     std::size_t taken() const { return next_; }
-    /// Samples before a time, from the motion of the first mode.
+    /// Takes samples before a time by extrapolating the motion of the initial mode.
     void take_until(double time) {
-        owner_->fan_.begin(piece_->mode, piece_->state, piece_->seeds);
+        owner_->evaluator_.begin(piece_->mode, piece_->state, piece_->seeds);
         for (; next_ < piece_->times.size() && piece_->times[next_] < time; ++next_) {
-            owner_->motion_.differentiable &= owner_->fan_.at(piece_->times[next_] - piece_->begin, state_, matrix_);
+            owner_->motion_.differentiable &=
+                owner_->evaluator_.at(piece_->times[next_] - piece_->begin, state_, matrix_);
             owner_->take(next_, state_, matrix_);
         }
     }
@@ -48,10 +49,10 @@ public:
         for (; next_ < piece_->times.size() && piece_->times[next_] <= step.start + step.length; ++next_) {
             const double s = std::max(0.0, piece_->times[next_] - step.start);
             if (!begun)
-                owner_->fan_.begin(step.mode, first_, first_matrix_);
+                owner_->evaluator_.begin(step.mode, first_, first_matrix_);
             begun = true;
-            // The polynomials of the motion itself are more accurate than those of its tangents.
-            owner_->motion_.differentiable &= owner_->fan_.at(s, state_, matrix_);
+            // The motion's own polynomials are more accurate than those computed with its tangents.
+            owner_->motion_.differentiable &= owner_->evaluator_.at(s, state_, matrix_);
             for (std::size_t i = 0; i < state_.size(); ++i)
                 state_[i] = step.state(i, s);
             owner_->take(next_, state_, matrix_);
@@ -67,7 +68,7 @@ public:
         if (contact.kind == ContactKind::touch)
             return;
         ++owner_->motion_.contacts;
-        owner_->motion_.bound = is_bound(contact);
+        owner_->motion_.constrained = is_constrained(contact);
         if (contact.kind != ContactKind::crossing || trajectory_->finished() || !(piece_->reach > 0))
             return;
         const std::vector<double> after(contact.after.begin(), contact.after.end());
@@ -76,22 +77,22 @@ public:
         const auto to = std::upper_bound(piece_->times.begin(), piece_->times.end(), contact.time + piece_->reach);
         const auto middle = std::lower_bound(from, to, contact.time);
         const auto index = [&](auto place) { return static_cast<std::size_t>(place - piece_->times.begin()); };
-        // Backwards from the contact in the mode behind it, and on in the one before.
-        owner_->fan_.begin(contact.mode_after, after, after_matrix);
+        // Extrapolate the motion after the contact backwards in time, and the motion before it forwards.
+        owner_->evaluator_.begin(contact.mode_after, after, after_matrix);
         for (std::size_t i = index(middle); i-- > index(from);)
             if (!look(i, piece_->times[i] - contact.time, contact.time))
                 break;
-        if (first_.empty()) // a contact where the piece begins
+        if (first_.empty()) // a contact at the start of the piece
             return;
-        owner_->fan_.begin(mode_, first_, first_matrix_);
+        owner_->evaluator_.begin(mode_, first_, first_matrix_);
         for (std::size_t i = index(middle); i < index(to); ++i)
             if (!look(i, piece_->times[i] - start_, contact.time))
                 break;
     }
 
 private:
-    /// Whether the jump of a contact takes freedom from the states.
-    bool is_bound(const Contact& contact) {
+    /// Whether the jump of a contact has a singular Jacobian, so that fewer states are free after it.
+    bool is_constrained(const Contact& contact) {
         const System& system = owner_->simulation_.system();
         const Transition& transition = owner_->simulation_.model().transitions[contact.transition];
         const System::CompiledJump& jump = system.jump(
@@ -114,7 +115,7 @@ private:
     bool look(std::size_t sample, double s, double contact) {
         const double distance = std::abs(piece_->times[sample] - contact);
         PredictedMotion::Sample& one = owner_->motion_.samples[sample];
-        if (!owner_->fan_.at(s, state_, matrix_) || !all_finite(state_) || !all_finite(matrix_))
+        if (!owner_->evaluator_.at(s, state_, matrix_) || !all_finite(state_) || !all_finite(matrix_))
             return false;
         if (one.other && one.distance <= distance)
             return true;
@@ -130,14 +131,14 @@ private:
     const Trajectory* trajectory_ = nullptr;
     std::size_t next_ = 0;
     std::vector<double> state_, matrix_;
-    double start_ = 0; ///< of the last step
+    double start_ = 0; ///< start of the last step
     std::size_t mode_ = 0;
     std::vector<double> first_, first_matrix_;
 };
 
 PieceMotion::PieceMotion(const Simulation& simulation, std::vector<std::size_t> moved)
     : simulation_(simulation), moved_(std::move(moved)), jets_(simulation, LaneKind::single),
-      fan_(simulation, simulation.system().states() + moved_.size()) {}
+      evaluator_(simulation, simulation.system().states() + moved_.size()) {}
 
 void PieceMotion::set_parameters(std::span<const double> parameters) {
     const std::size_t states = simulation_.system().states();
@@ -145,7 +146,7 @@ void PieceMotion::set_parameters(std::span<const double> parameters) {
     parameter_seeds_.assign(parameters.size() * directions(), 0.0);
     for (std::size_t d = 0; d < moved_.size(); ++d)
         parameter_seeds_[moved_[d] * directions() + states + d] = 1;
-    fan_.set_parameters(parameters_, parameter_seeds_);
+    evaluator_.set_parameters(parameters_, parameter_seeds_);
 }
 
 void PieceMotion::take(std::size_t sample, std::span<const double> state, std::span<const double> matrix) {
@@ -154,7 +155,7 @@ void PieceMotion::take(std::size_t sample, std::span<const double> state, std::s
     one.derivatives.assign(matrix.begin(), matrix.end());
 }
 
-/// A watched barrier that the state is beyond; as many as there are events if none.
+/// Index of a watched barrier that the state violates; the number of events if there is none.
 std::size_t PieceMotion::violated(std::size_t mode, std::span<const double> state) {
     const System& system = simulation_.system();
     const System::CompiledMode& compiled = system.mode(mode);
@@ -169,8 +170,8 @@ std::size_t PieceMotion::violated(std::size_t mode, std::span<const double> stat
     return simulation_.model().events.size();
 }
 
-/// Newton's method for where the motion, without events, is on the right side of a surface by a thousandth of what it
-/// is beyond now.
+/// Newton's method for the time at which the motion, extrapolated without events, is on the admissible side of a
+/// surface by a thousandth of its present violation.
 bool PieceMotion::find_side(const MotionPiece& piece, std::size_t event) {
     constexpr int most = 20;
     const System& system = simulation_.system();
@@ -195,8 +196,8 @@ bool PieceMotion::find_side(const MotionPiece& piece, std::size_t event) {
         side_ += (aim - gradient[0]) / rate;
         if (!(std::abs(side_) <= piece.end - piece.begin))
             return false;
-        fan_.begin(piece.mode, piece.state, piece.seeds);
-        if (!fan_.at(side_, side_state_, side_matrix_))
+        evaluator_.begin(piece.mode, piece.state, piece.seeds);
+        if (!evaluator_.at(side_, side_state_, side_matrix_))
             return false;
     }
     return false;
@@ -208,7 +209,7 @@ const PredictedMotion& PieceMotion::follow(const MotionPiece& piece) {
     for (PredictedMotion::Sample& sample : motion_.samples)
         sample.other = false;
     motion_.contacts = 0;
-    motion_.bound = false;
+    motion_.constrained = false;
     motion_.differentiable = true;
     motion_.detail.clear();
     std::span<const double> first = piece.state, first_seeds = piece.seeds;

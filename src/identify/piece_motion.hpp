@@ -2,7 +2,7 @@
 
 #include "graze/trajectory/jet_set.hpp"
 #include "graze/trajectory/trajectory.hpp"
-#include "identify/tangent_fan.hpp"
+#include "identify/tangent_evaluator.hpp"
 
 #include <cstddef>
 #include <functional>
@@ -14,56 +14,56 @@
 
 namespace graze {
 
-/// A piece of a motion, from a state at one time to another time.
+/// Input of PieceMotion: a piece of a motion from an initial state to a final time.
 struct MotionPiece {
     std::span<const double> state;
     std::span<const double> seeds; ///< derivatives of that state, states x directions
     std::size_t mode = 0;
     double begin = 0, end = 0;
-    std::span<const double> times; ///< rising, within begin ... end
-    /// Times this close to a contact, on either side, are also told what the motion on the other side of it would be
-    /// had the contact come later, or earlier.
+    std::span<const double> times; ///< increasing, within begin ... end
+    /// For times this close to a contact the motion on its other side is computed too, as if the contact came later or
+    /// earlier.
     double reach = 0;
 };
 
-/// States at the times of a piece, and their derivatives.
+/// States at the times of a piece, with their derivatives.
 struct PredictedMotion {
     struct Sample {
-        std::vector<double> state, derivatives; ///< states; states x directions
-        bool other = false;                     ///< there is a contact near it: the state beyond
-        double distance = 0;                    ///< of that contact
+        std::vector<double> state, derivatives; ///< state; its derivatives, states x directions
+        bool other = false;                     ///< a contact is near: other_state is the state on its other side
+        double distance = 0;                    ///< time to that contact
         std::vector<double> other_state, other_derivatives;
     };
     std::vector<Sample> samples;
     std::vector<double> end_state, end_derivatives;
     std::size_t end_mode = 0, contacts = 0;
-    bool complete = false;      ///< it came to its end; samples behind where it ended have the last state and its seeds
-    bool differentiable = true; ///< no contact without speed
-    /// The last jump has left fewer states free than there are, as where friction brings a mass to rest.
-    bool bound = false;
-    std::string detail; ///< why it is not complete
+    bool complete = false; ///< the end was reached; otherwise later samples repeat the last state and its derivatives
+    bool differentiable = true; ///< false after a grazing contact
+    /// The last jump has left fewer states free, as where friction brings a mass to rest.
+    bool constrained = false;
+    std::string detail; ///< why the motion is not complete
 };
 
-/// Follows pieces of motions with their derivatives by states at their beginnings and by some parameters: along arcs by
-/// the first variational equations, through contacts by saltation, through accumulations of contacts as Trajectory
-/// does.
+/// Computes pieces of motions with their derivatives by initial states and by some parameters: along arcs by the first
+/// variational equations, through contacts by saltation matrices, through accumulations of contacts as Trajectory does.
 ///
-/// A state at the beginning may be a little beyond a surface, as an unknown can while it is sought: then the motion is
-/// followed, back or on, to where it is on the right side, and begins there. So it depends smoothly on that state.
+/// The initial state may slightly violate a barrier, as happens while it is fitted: then the motion is extrapolated,
+/// forwards or backwards, to the admissible side, and starts there. The result so depends smoothly on the initial
+/// state.
 class PieceMotion {
 public:
-    /// @param moved independent parameters by which derivatives are asked for, as the last directions; the ones before
-    /// are those of the states
+    /// @param moved independent parameters by which derivatives are computed, as the last directions; the first
+    /// directions are the states
     PieceMotion(const Simulation& simulation, std::vector<std::size_t> moved);
 
-    /// Asked at every step: true ends a motion, and no other begins.
+    /// `interrupted` is called at every step; returning true ends the motion, and no other starts.
     void end_when(std::function<bool()> interrupted) { interrupted_ = std::move(interrupted); }
-    /// Whether one was ended so.
+    /// Whether a motion was ended that way.
     bool is_interrupted() const { return is_interrupted_; }
 
     std::size_t directions() const { return simulation_.system().states() + moved_.size(); }
     void set_parameters(std::span<const double> parameters);
-    /// @throws InputError for what no trajectory can begin with
+    /// @throws InputError for input with which no trajectory can start
     const PredictedMotion& follow(const MotionPiece& piece);
 
 private:
@@ -78,11 +78,11 @@ private:
     std::vector<std::size_t> moved_;
     std::vector<double> parameters_, parameter_seeds_, seeds_;
     JetSet jets_;
-    TangentFan fan_;
+    TangentEvaluator evaluator_;
     PredictedMotion motion_;
     std::vector<double> inputs_, values_, work_;
-    double side_ = 0; ///< how far from its beginning a piece is on the right side of all surfaces
-    std::vector<double> side_state_, side_matrix_; ///< there
+    double side_ = 0;                              ///< time from the start of the piece to the admissible side
+    std::vector<double> side_state_, side_matrix_; ///< state and derivatives at that time
 };
 
 } // namespace graze

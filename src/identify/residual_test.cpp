@@ -19,11 +19,11 @@ namespace graze {
 
 namespace {
 
-constexpr double deviations = 4;      ///< that chance makes in one of 16,000 cases
-constexpr double small_chance = 1e-5; ///< of the largest line
-constexpr std::size_t fewest = 12;    ///< residuals that tell anything
-constexpr double far_off = 6;         ///< standard deviations
-constexpr double nothing = 1e-6;      ///< of the readings' deviation: what is left then is no concern
+constexpr double deviations = 4;      ///< a level of 1/16,000 for normal variables
+constexpr double small_chance = 1e-5; ///< level for the largest line of the periodogram
+constexpr std::size_t fewest = 12;    ///< fewer residuals are not tested
+constexpr double far_off = 6;         ///< outliers, in standard deviations
+constexpr double negligible = 1e-6;   ///< smaller residuals, relative to the readings' deviation, are ignored
 
 double square_sum_of(std::span<const double> values) {
     double sum = 0;
@@ -32,7 +32,7 @@ double square_sum_of(std::span<const double> values) {
     return sum;
 }
 
-/// Of what is left about nought.
+/// Correlation of neighbouring residuals, about zero.
 double neighbours_correlation(std::span<const double> left) {
     double products = 0;
     for (std::size_t i = 1; i < left.size(); ++i)
@@ -41,7 +41,7 @@ double neighbours_correlation(std::span<const double> left) {
     return squares > 0 ? products / squares : 0;
 }
 
-/// Standard deviations by which there are fewer runs of one sign than chance makes.
+/// Number of standard deviations by which runs of equal sign are fewer than expected by chance.
 double missing_runs(std::span<const double> left) {
     double positive = 0, negative = 0, runs = 0;
     int before = 0;
@@ -60,9 +60,10 @@ double missing_runs(std::span<const double> left) {
     return variance > 0 ? (mean - runs) / std::sqrt(variance) : 0;
 }
 
+/// A line of the periodogram.
 struct Line {
-    std::size_t number = 0; ///< cycles within all that is left
-    double height = 0;      ///< over the mean of all lines
+    std::size_t number = 0; ///< cycles within all residuals
+    double height = 0;      ///< power relative to the mean of all lines
 };
 
 Line largest_line(std::span<const double> left) {
@@ -86,14 +87,14 @@ std::size_t count_far_off(std::span<const double> left) {
     for (double& size : sizes)
         size = std::abs(size);
     constexpr double of_normal = 1.4826;
-    // Of few readings the median itself is uncertain.
+    // The median of few readings is itself uncertain.
     const double limit = far_off * (1 + 2 / std::sqrt(static_cast<double>(left.size()))) * of_normal * median(sizes);
     return limit > 0 ? static_cast<std::size_t>(
                            std::count_if(sizes.begin(), sizes.end(), [&](double size) { return size > limit; }))
                      : 0;
 }
 
-/// In which readings go, where most of them are there more than once; 0: they do not.
+/// Step of a converter: the smallest difference of readings, if most values occur more than once; otherwise 0.
 double step_of(std::vector<double> readings) {
     std::sort(readings.begin(), readings.end());
     double step = std::numeric_limits<double>::infinity();
@@ -106,7 +107,7 @@ double step_of(std::vector<double> readings) {
     return 2 * distinct < readings.size() && std::isfinite(step) ? step : 0;
 }
 
-/// How many readings differ from the one before. Errors of rounding of those that do not are not independent.
+/// Counts readings that differ from the one before. Rounding errors of equal neighbours are not independent.
 double changes_of(std::span<const double> readings) {
     double changes = 1;
     for (std::size_t i = 1; i < readings.size(); ++i)
@@ -123,8 +124,8 @@ double deviation_of(std::span<const double> readings) {
     return std::sqrt(squares / static_cast<double>(readings.size()));
 }
 
-/// How many times larger the root of mean squares is in the first half than in the second; 1 where chance makes as much
-/// of noise with tails like these.
+/// Ratio of the residuals' root mean squares in the first and the second half; 1 if chance explains it, for noise with
+/// the measured kurtosis.
 double change_of_size(std::span<const double> left) {
     const std::size_t half = left.size() / 2;
     const std::span<const double> parts[] = {left.first(half), left.subspan(half)};
@@ -149,13 +150,13 @@ std::vector<std::string> reasons_of(std::span<const double> left, double correla
     std::vector<std::string> reasons;
     const auto count = static_cast<double>(left.size());
     if (std::abs(correlation) * std::sqrt(count) > deviations)
-        reasons.push_back(fmt::format("neighbours have a correlation of {:.2g}", correlation));
+        reasons.push_back(fmt::format("neighbouring residuals have a correlation of {:.2g}", correlation));
     if (const double missing = missing_runs(left); missing > deviations)
-        reasons.emplace_back("it keeps its sign too long");
+        reasons.emplace_back("residuals keep their sign too long");
     const Line line = largest_line(left);
     if (line.height > std::log(0.5 * count / small_chance))
-        reasons.push_back(line.number <= 2 ? std::string("it drifts")
-                                           : fmt::format("it has a wave of {} cycles", line.number));
+        reasons.push_back(line.number <= 2 ? std::string("residuals drift")
+                                           : fmt::format("residuals have a wave of {} cycles", line.number));
     if (const std::size_t far = count_far_off(left); far > 0)
         reasons.push_back(
             fmt::format("{} of {} readings are more than {} standard deviations off", far, left.size(), far_off));
@@ -171,7 +172,7 @@ std::string ResidualTest::text() const {
 std::size_t clipped_readings(std::span<const double> readings) {
     constexpr std::size_t least = 5, times = 5;
     constexpr std::size_t flat =
-        3; // in a row: a whole number of samples a period meets each peak alike, but not so long
+        3; // consecutive: with a whole number of samples a period each peak repeats its reading, but not consecutively
     std::size_t clipped = 0;
     for (const double sign : {1.0, -1.0}) {
         double most = -std::numeric_limits<double>::infinity(), next = most;
@@ -199,7 +200,7 @@ std::size_t clipped_readings(std::span<const double> readings) {
 }
 
 ResidualTest test_residuals(std::span<const double> left, std::span<const double> readings) {
-    require_finite(left, "what is left of a reading");
+    require_finite(left, "a residual");
     if (!readings.empty())
         require_size(readings.size(), left.size(), "readings");
     ResidualTest test;
@@ -211,19 +212,19 @@ ResidualTest test_residuals(std::span<const double> left, std::span<const double
         return test;
     test.correlation = neighbours_correlation(left);
     test.reasons = reasons_of(left, test.correlation);
-    constexpr double of_step = 0.6; // of independent errors of rounding 0.29
+    constexpr double of_step = 0.6; // independent rounding errors have 0.29
     const bool rounded = !readings.empty() && test.deviation <= of_step * step_of({readings.begin(), readings.end()});
-    const bool small = rounded || (!readings.empty() && test.deviation <= nothing * deviation_of(readings));
+    const bool small = rounded || (!readings.empty() && test.deviation <= negligible * deviation_of(readings));
     if (small && !test.reasons.empty()) {
         test.reasons.clear();
         test.widening = std::sqrt(count);
     } else if (rounded) {
         test.widening = std::sqrt(count / changes_of(readings));
     }
-    // Rounding makes errors whose size depends on the motion, which are allowed for.
+    // Rounding errors depend on the motion, so their size may change.
     if (const double change = change_of_size(left); change != 1 && !small && !readings.empty())
         test.reasons.push_back(
-            fmt::format("it is {:.2g} times as large in the first half as in the second, as of a clock "
+            fmt::format("residuals are {:.2g} times as large in the first half as in the second, as with a clock "
                         "that jitters",
                         change));
     if (const std::size_t clipped = clipped_readings(readings); clipped > 0)
@@ -253,7 +254,7 @@ double chance_of_fit(std::span<const double> left, const std::vector<std::vector
     Eigen::MatrixXd more = matrix_of(further);
     more -= own * first.solve_columns(more);
     constexpr double independent = 1e-4;
-    std::vector<Eigen::Index> kept; // those that the fit's own columns do not have in them already
+    std::vector<Eigen::Index> kept; // columns that are independent of the fit's own
     for (Eigen::Index c = 0; c < more.cols(); ++c)
         if (more.col(c).norm() > independent)
             kept.push_back(c);

@@ -14,7 +14,7 @@ double variance_at(const ImpactSpeeds& impact, double e) {
     return impact.after_error * impact.after_error + e * e * impact.before_error * impact.before_error;
 }
 
-/// Half of the derivative, by the angle of the line, of the sum of squared distances: nought where the line is nearest.
+/// Half the derivative of the sum of squared distances by the slope e; zero for the nearest line.
 double slope_at(std::span<const ImpactSpeeds> impacts, double e) {
     double sum = 0;
     for (const ImpactSpeeds& one : impacts) {
@@ -28,7 +28,7 @@ double slope_at(std::span<const ImpactSpeeds> impacts, double e) {
 
 Restitution restitution(std::span<const ImpactSpeeds> impacts) {
     if (impacts.size() < 2)
-        throw InputError("there are too few impacts to tell the restitution's error", "give two or more");
+        throw InputError("there are too few impacts to determine the restitution's error", "give two or more");
     Restitution result;
     const auto count = static_cast<double>(impacts.size());
     double squares = 0, products = 0;
@@ -45,7 +45,7 @@ Restitution restitution(std::span<const ImpactSpeeds> impacts) {
     if (!(products > 0))
         throw InputError("velocities after impacts have the signs of those before",
                          "give velocities relative to the stop");
-    // A regression is below the nearest line by as much as noise makes it; one the other way round above.
+    // Noise biases a regression to smaller slopes; the root is bracketed above that.
     double low = 0, high = std::max(1.0, 2 * products / squares);
     while (slope_at(impacts, high) < 0 && high < 1e6)
         high *= 2;
@@ -60,7 +60,7 @@ Restitution restitution(std::span<const ImpactSpeeds> impacts) {
         const double rest = one.after + e * one.before, variance = variance_at(one, e);
         result.residuals.push_back(rest);
         misfit += rest * rest / variance;
-        // The point of the line that is nearest to the impact.
+        // Projection of the impact on the line.
         const double before = one.before - rest * e * one.before_error * one.before_error / variance;
         information += before * before / variance;
     }

@@ -9,12 +9,12 @@
 
 namespace graze {
 
-/// Two neighbouring times between which rows are missing.
+/// Two neighbouring times of a record between which rows are missing.
 struct RowGap {
     double from = 0, to = 0;
 };
 
-/// The median of the distances of times; 0 of fewer than two.
+/// Median distance of neighbouring times; 0 for fewer than two.
 inline double usual_step(std::span<const double> times) {
     std::vector<double> steps;
     for (std::size_t i = 1; i < times.size(); ++i)
@@ -22,9 +22,9 @@ inline double usual_step(std::span<const double> times) {
     return steps.empty() ? 0 : median(std::move(steps));
 }
 
-constexpr double longer_than_usual = 1.5; ///< a step over which a row is missing
+constexpr double longer_than_usual = 1.5; ///< steps longer than this, in usual steps, skip a row
 
-/// The longest one; none where all steps are about as long.
+/// The longest gap; none if no step is longer than usual.
 inline std::optional<RowGap> longest_gap(std::span<const double> times) {
     std::optional<RowGap> longest;
     const double usual = usual_step(times);

@@ -9,10 +9,10 @@
 
 namespace graze {
 
-/// The generator of a virtual bench in this process, as if it were at the end of a serial line.
+/// Line to the generator of a virtual bench in this process, in place of a serial line.
 class BenchGeneratorLine : public InstrumentLine {
 public:
-    /// @param bench must outlive this
+    /// @param bench must outlive this object
     explicit BenchGeneratorLine(ScpiBench& bench) : bench_(&bench) {}
     void send(std::string_view line) override;
     std::optional<std::string> receive(double wait) override;
@@ -24,10 +24,10 @@ private:
     std::deque<std::string> answers_;
 };
 
-/// The samples of a virtual bench in this process. Its time passes as they are read.
+/// Line to the sample device of a virtual bench in this process. Its time passes as samples are read.
 class BenchSampleLine : public InstrumentLine {
 public:
-    /// @param bench must outlive this
+    /// @param bench must outlive this object
     explicit BenchSampleLine(VirtualBench& bench) : protocol_(bench) {}
     void send(std::string_view line) override;
     std::optional<std::string> receive(double wait) override;
@@ -40,7 +40,7 @@ public:
 private:
     SampleProtocol protocol_;
     std::string text_;
-    std::size_t begin_ = 0; ///< of what has not been handed out
+    std::size_t begin_ = 0; ///< start of the unread text
 };
 
 } // namespace graze

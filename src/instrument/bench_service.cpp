@@ -27,8 +27,8 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t most_to_send = std::size_t{1} << 18; ///< bytes that wait for whoever reads
-constexpr std::size_t most_on_line = 4096;                 ///< a serial line loses what nobody takes
+constexpr std::size_t most_to_send = std::size_t{1} << 18; ///< bytes buffered for the client
+constexpr std::size_t most_on_line = 4096;                 ///< as a serial line, it drops what exceeds this
 
 void require_between(double value, double least, double most, const char* what) {
     if (!(value >= least && value <= most))
@@ -79,7 +79,7 @@ struct BenchService::State {
     LineCutter serial_lines{FunctionGenerator::longest_line}, client_lines{SampleProtocol::longest_line};
     std::string to_serial{}, to_client{};
     Clock::time_point serial_due{}, back_at{}, began = Clock::now();
-    double began_at = 0; ///< time of the bench
+    double began_at = 0; ///< simulated time at `began`
     std::size_t drawn_letters = 0, line_count = 0, row_count = 0;
     bool has_broken = false;
 
@@ -108,7 +108,7 @@ struct BenchService::State {
 void BenchService::State::serial_line(const std::string& line, bool too_long) {
     if (too_long)
         return bench.generator().note_error(521);
-    if (!settings.on_demand) // what is set acts from now on
+    if (!settings.on_demand) // a setting acts from now on
         bench.pass(std::min(now_of_bench() - bench.time(), 1.0));
     std::string answer = bench.command(line);
     if (!answer.empty()) {
@@ -195,7 +195,7 @@ void BenchService::State::write_client() {
         drop_client();
 }
 
-/// What is to be told to the client, as far as it is there and there is room.
+/// Fills the client's buffer with available data.
 void BenchService::State::fill() {
     while (client.get() >= 0 && to_client.size() < most_to_send) {
         const bool reading = protocol.is_reading();
@@ -215,7 +215,7 @@ void BenchService::State::fill() {
 }
 
 void BenchService::State::wait() {
-    // The first is the terminal, which may be missing; negative files are passed over.
+    // The first is the terminal, which may be missing; poll ignores negative files.
     std::array<pollfd, 3> files{
         {{terminal ? terminal->file() : -1, POLLIN, 0}, {listening.get(), POLLIN, 0}, {client.get(), POLLIN, 0}}};
     if (!to_client.empty())

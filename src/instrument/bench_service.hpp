@@ -10,35 +10,36 @@
 
 namespace graze {
 
+/// Options of `BenchService`; some of them simulate faulty connections.
 struct ServiceSettings {
-    std::string port;       ///< name for the generator's serial line: a link to a pseudo-terminal
-    std::uint16_t tcp = 0;  ///< port on the loopback interface for samples; 0: one that is free
-    double speed = 1;       ///< seconds of the bench in a second
-    bool on_demand = false; ///< time passes only as samples are read, as fast as they can be computed
-    double drop = 0;        ///< probability of each character on the serial line to get lost
-    double delay = 0;       ///< s, before the generator's answers
-    std::size_t lines = 0;  ///< on the serial line before it breaks; 0: it does not
-    double broken = 1;      ///< s, until it is there again
-    std::size_t rows = 0;   ///< of samples before their connection breaks, each time anew; 0: it does not
-    std::uint64_t seed = 1; ///< of what is lost
+    std::string port;       ///< name of the generator's serial line: a link to a pseudo-terminal
+    std::uint16_t tcp = 0;  ///< port on the loopback interface for samples; 0: any free one
+    double speed = 1;       ///< simulated seconds per second
+    bool on_demand = false; ///< simulated time passes only as samples are read, as fast as they can be computed
+    double drop = 0;        ///< probability that a character on the serial line is lost
+    double delay = 0;       ///< delay of the generator's answers, in s
+    std::size_t lines = 0;  ///< lines on the serial line until it breaks; 0: never
+    double broken = 1;      ///< time until it is back, in s
+    std::size_t rows = 0;   ///< sample rows until their connection breaks, each time anew; 0: never
+    std::uint64_t seed = 1; ///< seed of the lost characters
     /// @throws InputError naming the setting that is out of range
     void validate() const;
 };
 
-/// Gives a virtual bench the connections of a real one: a serial line, as a pseudo-terminal that goes by a name of
-/// one's own, and a TCP port for samples that only this machine can reach.
+/// Gives a virtual bench the connections of a real one: a serial line (a pseudo-terminal under a chosen name), and a
+/// TCP port for samples on the loopback interface.
 class BenchService {
 public:
-    /// @param bench must outlive this
-    /// @throws InputError for settings out of range, and when the port's name is taken or a connection cannot be made
+    /// @param bench must outlive this object
+    /// @throws InputError for settings out of range, and when the port's name is taken or a connection cannot be opened
     BenchService(ScpiBench& bench, const ServiceSettings& settings);
-    /// Takes the name away again.
+    /// Removes the name.
     ~BenchService();
     BenchService(const BenchService&) = delete;
     BenchService& operator=(const BenchService&) = delete;
 
     std::uint16_t tcp_port() const;
-    /// Serves until asked to stop, which may take 50 ms.
+    /// Serves until `stop` returns true, which it is asked every 50 ms at least.
     void run(const std::function<bool()>& stop);
 
 private:

@@ -4,7 +4,7 @@
 
 namespace graze {
 
-/// A file of the system that is closed in time.
+/// Owns a file descriptor.
 class Descriptor {
 public:
     explicit Descriptor(int file = -1) : file_(file) {}

@@ -20,10 +20,10 @@ namespace {
 constexpr std::size_t most_errors = 20;
 constexpr double least_frequency = 1e-4, most_frequency = 15e6; // of a sine
 constexpr double least_amplitude = GeneratorOutput::least_amplitude, most_amplitude = GeneratorOutput::most_amplitude;
-constexpr double most_voltage = 5; // of offset and half of the amplitude together
+constexpr double most_voltage = 5; // limit of offset plus half the amplitude
 constexpr std::string_view identity = "HEWLETT-PACKARD,33120A,0,8.0-5.0-2.0";
 
-// Of the register of standard events (IEEE 488.2).
+// Bits of the standard event register (IEEE 488.2).
 constexpr int operation_complete = 1, query_error = 4, device_error = 8, execution_error = 16, command_error = 32;
 
 int event_of(int error) {
@@ -51,7 +51,7 @@ FunctionGenerator::FunctionGenerator(const GeneratorSettings& settings) : settin
 }
 
 struct FunctionGenerator::Unit {
-    std::string header;                 ///< in capitals, from the root, without a question mark
+    std::string header;                 ///< in capitals, from the root, without the question mark
     std::vector<std::string> arguments; ///< in capitals
     bool query = false;
     std::string answer{};
@@ -59,10 +59,10 @@ struct FunctionGenerator::Unit {
 
 struct FunctionGenerator::Command {
     std::string_view pattern;
-    bool query, set;         ///< whether it exists with and without a question mark
-    std::size_t least, most; ///< arguments, where it has no question mark
+    bool query, set;         ///< whether it exists as a query and as a command
+    std::size_t least, most; ///< number of arguments of the command
     void (FunctionGenerator::*work)(Unit&);
-    bool in_local = false; ///< whether it is heeded before SYST:REM
+    bool in_local = false; ///< whether it is accepted before SYST:REM
 };
 
 std::span<const FunctionGenerator::Command> FunctionGenerator::commands() {
@@ -141,7 +141,7 @@ std::string FunctionGenerator::execute(std::string_view line) {
         unit.query = unit.header.ends_with('?');
         if (unit.query)
             unit.header.pop_back();
-        if (!unit.header.starts_with('*')) { // headers go on where the one before stood
+        if (!unit.header.starts_with('*')) { // headers are relative to the path of the one before
             unit.header = unit.header.starts_with(':') ? unit.header.substr(1) : path + unit.header;
             const std::size_t last = unit.header.rfind(':');
             path = last == std::string::npos ? std::string() : unit.header.substr(0, last + 1);
@@ -215,8 +215,8 @@ double FunctionGenerator::shown_amplitude() const {
     return shown_voltage(output_.amplitude * load_factor(), unit_, output_.shape);
 }
 
-/// @param least, most for MIN and MAX @param value in Hz, or in V from peak to peak @return false for what is no number
-/// in a unit that goes with it
+/// Parses a number with its unit. @param least, most values of MIN and MAX @param value in Hz, or in V peak to peak
+/// @return false for an invalid number or unit
 bool FunctionGenerator::read_number(const std::string& text, bool is_frequency, double least, double most,
                                     double& value) {
     if (is_form_of(text, "MINimum") || is_form_of(text, "MAXimum")) {
@@ -244,7 +244,7 @@ bool FunctionGenerator::read_number(const std::string& text, bool is_frequency, 
     return false;
 }
 
-/// Of what is shown. The amplitude comes first: an offset for which there is no room any more gives way.
+/// Sets the displayed voltages. The amplitude has priority: an offset beyond the remaining range is reduced.
 bool FunctionGenerator::set_voltages(double amplitude, double offset) {
     const double factor = load_factor();
     if (!GeneratorOutput::reaches(amplitude / factor)) {
@@ -270,7 +270,7 @@ void FunctionGenerator::apply(Unit& unit) {
                                   output_.offset * factor);
         return;
     }
-    const WaveShape before = std::exchange(output_.shape, WaveShape::sine); // in which amplitudes are meant
+    const WaveShape before = std::exchange(output_.shape, WaveShape::sine); // amplitudes refer to a sine
     constexpr double usual_frequency = 1000, usual_amplitude = 0.1;
     std::array<double, 3> values{usual_frequency, usual_amplitude * factor, 0};
     const std::array<std::pair<double, double>, 3> limits{{{least_frequency, most_frequency},
@@ -322,7 +322,7 @@ void FunctionGenerator::amplitude(Unit& unit) {
 void FunctionGenerator::offset(Unit& unit) {
     const double factor = load_factor();
     double value = output_.offset * factor;
-    // An offset has no other unit than volt.
+    // An offset is always in volts.
     const VoltageUnit before = std::exchange(unit_, VoltageUnit::vpp);
     const bool good = unit.arguments.empty() ||
                       read_number(unit.arguments[0], false, -most_voltage * factor, most_voltage * factor, value);
@@ -343,7 +343,7 @@ void FunctionGenerator::voltage_unit(Unit& unit) {
     else if (is_form_of(unit.arguments[0], "DEFault"))
         unit_ = VoltageUnit::vpp;
     else if (unit.arguments[0] == "DBM" && high_load_)
-        raise(-221); // a power at 50 ohm
+        raise(-221); // a power needs a load of 50 ohm
     else if (const std::optional<VoltageUnit> asked = voltage_unit_named(unit.arguments[0]))
         unit_ = *asked;
     else
@@ -360,7 +360,7 @@ void FunctionGenerator::shape(Unit& unit) {
         if (unit.query && shape == output_.shape)
             unit.answer = std::string(form.substr(0, form == "RAMP" ? 4 : 3));
         if (!unit.query && is_form_of(unit.arguments[0], form)) {
-            output_.shape = shape; // the amplitude from peak to peak stays
+            output_.shape = shape; // the peak-to-peak amplitude is kept
             return;
         }
     }
@@ -374,7 +374,7 @@ void FunctionGenerator::modulation(Unit& unit) {
     if (unit.query) {
         unit.answer = found == modulations_.end() ? "0" : "1";
     } else if (unit.arguments[0] == "ON" || unit.arguments[0] == "1") {
-        modulations_.assign({name}); // one at a time
+        modulations_.assign({name}); // only one at a time
     } else if (unit.arguments[0] != "OFF" && unit.arguments[0] != "0") {
         raise(-224);
     } else if (found != modulations_.end()) {

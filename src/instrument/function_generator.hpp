@@ -11,50 +11,50 @@
 
 namespace graze {
 
-/// In which amplitudes are told and shown: from peak to peak, root mean square, or power at 50 ohm above a milliwatt.
+/// Unit of amplitudes: peak to peak, root mean square, or power at 50 ohm relative to a milliwatt.
 enum class VoltageUnit { vpp, vrms, dbm };
 
-/// In what a generator differs from a whole one.
+/// Deviations of the simulated generator from a faultless one.
 struct GeneratorSettings {
-    bool takes_offset = true; ///< without it every offset but 0 is in conflict with other settings
-    /// The largest amplitude that it gives, whatever it accepts: larger ones are cut down without an error, and only
-    /// what it tells of itself shows it.
+    bool takes_offset = true; ///< false: every offset but 0 conflicts with other settings
+    /// Largest amplitude of its output: larger ones are accepted without an error and clipped, which only reading back
+    /// reveals.
     double clip = std::numeric_limits<double>::infinity();
-    /// A line of commands that has been carried out before anybody comes: as whoever used it last has left it.
+    /// A line of commands that is executed at the start: the state in which a previous user left it.
     std::string left_as{};
 };
 
-/// What a generator answers to SCPI: commands, settings and errors of Hewlett-Packard's 33120A, as its user's
-/// guide describes them for the RS-232 interface. Lines in, lines out; no time, no input or output.
+/// A simulated SCPI function generator with commands, settings and errors of Hewlett-Packard's 33120A, as its user's
+/// guide describes them for RS-232. It maps lines to lines, without time, input or output.
 ///
-/// Known are SYST:REM, SYST:LOC, SYST:RWL, SYST:ERR?, SYST:BEEP, *CLS, *IDN?, *RST, *OPC, *OPC?, *TST?, *WAI, *ESR?,
-/// APPL:SIN f, vpp, offset, APPL?, FREQ, VOLT, VOLT:OFFS, VOLT:UNIT (VPP, VRMS or DBM), FUNC:SHAP (SIN, SQU, TRI, RAMP
-/// or DC), OUTP:LOAD 50 or INF, and the switches of modulations AM:STAT, FM:STAT, FSK:STAT, BM:STAT and SWE:STAT, with
-/// what goes with them: queries, MIN, MAX and DEF, units, long and short forms, SOUR: before them, several commands in
-/// a line. A value out of range (-222) changes nothing. Modulations are switches here that do nothing else.
+/// It understands SYST:REM, SYST:LOC, SYST:RWL, SYST:ERR?, SYST:BEEP, *CLS, *IDN?, *RST, *OPC, *OPC?, *TST?, *WAI,
+/// *ESR?, APPL:SIN f, vpp, offset, APPL?, FREQ, VOLT, VOLT:OFFS, VOLT:UNIT (VPP, VRMS or DBM), FUNC:SHAP (SIN, SQU,
+/// TRI, RAMP or DC), OUTP:LOAD 50 or INF, and the switches of modulations AM:STAT, FM:STAT, FSK:STAT, BM:STAT and
+/// SWE:STAT, with queries, MIN, MAX and DEF, units, long and short forms, a leading SOUR:, and several commands in a
+/// line. A value out of range (-222) changes nothing. Modulations are switches without an effect.
 class FunctionGenerator {
 public:
-    /// @throws InputError for a clip that is not positive, and when it has an error after the line that it was left by
+    /// @throws InputError for a clip that is not positive, and when `left_as` causes an error
     explicit FunctionGenerator(const GeneratorSettings& settings = {});
 
-    /// Does what a line asks for. @return its answer without a terminator, answers to several queries separated by
-    /// semicolons; empty: none
+    /// Executes a line. @return its answer without a terminator, answers to several queries separated by semicolons;
+    /// empty: none
     std::string execute(std::string_view line);
-    /// Notes an error that was found before the line was whole, such as 521 of a line that is too long.
+    /// Queues an error that was found before the line was complete, such as 521 for a line that is too long.
     void note_error(int number);
 
-    /// As under a load of 50 ohm, whatever load it was told of: what the output gives does not change with that.
+    /// The output at a load of 50 ohm; the load that it was told does not change it.
     const GeneratorOutput& output() const { return output_; }
-    /// Whether SYST:REM has been given; before that nothing can be set.
+    /// Whether SYST:REM has been given; nothing can be set before.
     bool is_remote() const { return remote_; }
-    /// Errors that have not been read yet: the oldest 20, of which the last is -350 when there were more.
+    /// Unread errors: the oldest 20, of which the last is -350 when there were more.
     std::span<const int> errors() const { return errors_; }
 
-    static constexpr std::size_t longest_line = 256; ///< bytes; longer ones are error 521
+    static constexpr std::size_t longest_line = 256; ///< bytes; a longer line is error 521
 
 private:
-    struct Unit;    // of a line: one command with its arguments
-    struct Command; // that is known
+    struct Unit;    // one command of a line, with its arguments
+    struct Command; // an entry of the table of commands
     static std::span<const Command> commands();
     void execute_unit(Unit& unit);
     void raise(int number);
@@ -80,12 +80,12 @@ private:
     GeneratorOutput output_;
     VoltageUnit unit_ = VoltageUnit::vpp;
     bool remote_ = false, high_load_ = false;
-    std::vector<std::string> modulations_; ///< that are on
-    int events_ = 0;                       ///< register of standard events
+    std::vector<std::string> modulations_; ///< modulations that are on
+    int events_ = 0;                       ///< standard event register
     std::vector<int> errors_;
 };
 
-/// What goes with an error number of SCPI, such as "Undefined header".
+/// Returns the text of an SCPI error number, such as "Undefined header".
 std::string_view scpi_error_text(int number);
 
 } // namespace graze

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double ohms = 50, milliwatt = 1e-3;
 
-/// From peak to peak over root mean square.
+/// Ratio of peak-to-peak amplitude to root mean square.
 double crest(WaveShape shape) {
     switch (shape) {
     case WaveShape::sine:

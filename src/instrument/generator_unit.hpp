@@ -7,10 +7,10 @@
 
 namespace graze {
 
-/// What a display shows of an amplitude. @param peaks in V from peak to peak
+/// Converts an amplitude to the number that the display shows. @param peaks in V peak to peak
 double shown_voltage(double peaks, VoltageUnit unit, WaveShape shape);
-/// Of an amplitude with a suffix, V from peak to peak. @param suffix in capitals; empty: the unit itself
-/// @return false for a suffix that there is not
+/// Converts an amplitude with a suffix to V peak to peak. @param suffix in capitals; empty: the present unit
+/// @return false for an unknown suffix
 bool read_voltage(std::string_view suffix, VoltageUnit unit, WaveShape shape, double& value);
 /// "VPP", "VRMS" or "DBM".
 std::string_view name_of(VoltageUnit unit);

@@ -6,11 +6,11 @@
 
 namespace graze {
 
-/// Cuts what comes into lines; carriage returns and line feeds end them.
+/// Splits received text into lines, which end with carriage returns or line feeds.
 class LineCutter {
 public:
     explicit LineCutter(std::size_t longest) : longest_(longest) {}
-    /// @param take is given lines, and whether each was too long, in which case its end is missing
+    /// @param take called with each line, and whether it was too long, in which case it is truncated
     template <class Take>
     void add(std::string_view text, const Take& take) {
         for (const char letter : text) {
@@ -26,7 +26,7 @@ public:
             }
         }
     }
-    /// Whether the line that is coming is too long already.
+    /// Whether the present, incomplete line is already too long.
     bool is_too_long() const { return too_long_; }
     void clear() {
         line_.clear();

@@ -10,7 +10,7 @@
 
 namespace graze {
 
-/// The virtual bench as a device of samples: lines that ask, lines that answer (docs/experiment.md).
+/// The virtual bench as a sample device: it answers lines with lines (docs/experiment.md).
 ///
 ///     CHANNELS   t [s], V [V], q [m]            names and units, as the first line of a record
 ///     RATE 1000  OK 1000                        samples in a second, as they will be
@@ -21,24 +21,25 @@ namespace graze {
 ///     MARK 7     OK                             keeps how all is now, and
 ///     RETURN 7   OK                             makes it so again; devices of hardware know neither
 ///
-/// What cannot be done is answered by ERROR and a reason.
+/// A request that cannot be met is answered by ERROR and a reason.
 class SampleProtocol {
 public:
-    /// @param bench must outlive this
+    /// @param bench must outlive this object
     explicit SampleProtocol(VirtualBench& bench) : bench_(&bench) {}
 
-    /// A line without its terminator. While rows are given only STOP and MORE are heeded at once; the rest waits.
-    /// @return false when too many wait, and the device gives up
+    /// Receives a line without its terminator. While rows are sent only STOP and MORE act at once; other lines are
+    /// queued.
+    /// @return false when the queue is full, and the device gives up
     bool receive(std::string_view line);
-    /// What is to be sent next; empty when there is nothing.
-    /// @param rows at most, of those that there are up to a time of the bench
+    /// Returns the next text to send; empty when there is none.
+    /// @param rows largest number of rows, of those available until a simulated time
     std::string next(std::size_t rows, double until = std::numeric_limits<double>::infinity());
     bool is_reading() const { return reading_; }
-    /// Whoever asked is gone: nothing is owed any more.
+    /// Forgets all requests, as the client has disconnected.
     void forget();
 
     static constexpr std::size_t longest_line = 256;
-    static constexpr std::size_t rows_at_once = 1024; ///< of which the samples' last bits may depend
+    static constexpr std::size_t rows_at_once = 1024; ///< block size, on which the last bits of samples may depend
     static constexpr std::size_t most_rows = 1'000'000'000;
 
 private:
@@ -49,7 +50,7 @@ private:
     std::deque<std::string> waiting_;
     bool reading_ = false;
     std::size_t wanted_ = 0, given_ = 0;
-    std::size_t block_ = 0, allowed_ = 0; ///< rows that may be given before MORE
+    std::size_t block_ = 0, allowed_ = 0; ///< allowed_: rows that may be sent before the next MORE
     Samples samples_;
 };
 

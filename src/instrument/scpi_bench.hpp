@@ -8,14 +8,14 @@
 
 namespace graze {
 
-/// A virtual bench whose generator is told what to give by lines of SCPI.
+/// A virtual bench whose generator is controlled by SCPI lines.
 class ScpiBench : public VirtualBench {
 public:
-    /// @param generator takes offsets if the bench has a parameter for them, whatever is said here
-    /// @throws InputError for settings out of range, and for a model that cannot be run
+    /// @param generator its `takes_offset` is ignored: it takes offsets if the bench has a parameter for them
+    /// @throws InputError for settings out of range, and for a model that cannot be simulated
     explicit ScpiBench(const BenchSettings& settings, const GeneratorSettings& generator = {});
 
-    /// A line for the generator; see FunctionGenerator::execute.
+    /// Executes a line on the generator; see FunctionGenerator::execute.
     std::string command(std::string_view line);
     const FunctionGenerator& generator() const { return generator_; }
     FunctionGenerator& generator() { return generator_; }

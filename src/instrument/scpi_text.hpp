@@ -7,11 +7,11 @@
 namespace graze {
 
 std::string capitals(std::string_view text);
-/// Between separators, trimmed.
+/// Splits a text at separators, and trims the parts.
 std::vector<std::string_view> parts(std::string_view text, char separator);
-/// Whether a word is the long or the short form of one written as in "FREQuency", whose capitals are the short form.
+/// Whether a word is the long or the short form of a keyword such as "FREQuency", whose capitals are the short form.
 bool is_form_of(std::string_view word, std::string_view pattern);
-/// Whether a header such as FREQ:MODE is of a pattern such as "FREQuency:MODE".
+/// Whether a header such as FREQ:MODE matches a pattern such as "FREQuency:MODE".
 bool matches(std::string_view header, std::string_view pattern);
 
 } // namespace graze

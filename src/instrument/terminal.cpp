@@ -19,7 +19,7 @@ namespace graze {
 
 namespace {
 
-/// Nobody else's file is replaced.
+/// Frees the name if it is a stale link to a terminal; any other file is kept.
 void clear_name(const std::string& name) {
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::symlink_status(name, error);
@@ -28,7 +28,7 @@ void clear_name(const std::string& name) {
     const std::string target =
         std::filesystem::is_symlink(status) ? std::filesystem::read_symlink(name, error).string() : std::string();
     if (!target.starts_with("/dev/pts/"))
-        throw InputError(Place{"--port", 0, 0}, fmt::format("'{}' is there already", name), "choose another name");
+        throw InputError(Place{"--port", 0, 0}, fmt::format("'{}' exists already", name), "choose another name");
     if (std::filesystem::exists(target, error))
         throw InputError(Place{"--port", 0, 0}, fmt::format("'{}' is a terminal that is in use", name),
                          "choose another name, or remove it if no bench is running there");
@@ -55,7 +55,7 @@ Terminal::Terminal(std::string name) : name_(std::move(name)) {
         refuse(name_);
     }
     target_ = path.data();
-    // Kept open, so that the line does not hang up when somebody else closes it.
+    // Kept open so that the line does not hang up when a client closes it.
     slave_ = open(target_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
     termios raw{};
     if (slave_ < 0 || tcgetattr(slave_, &raw) != 0) {
@@ -79,7 +79,7 @@ void Terminal::close_both() const {
 
 Terminal::~Terminal() {
     std::error_code error;
-    if (std::filesystem::read_symlink(name_, error).string() == target_) // and not somebody else's by now
+    if (std::filesystem::read_symlink(name_, error).string() == target_) // only if it still leads to this terminal
         std::filesystem::remove(name_, error);
     close_both();
 }

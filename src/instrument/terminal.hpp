@@ -4,12 +4,11 @@
 
 namespace graze {
 
-/// A pseudo-terminal under a name of one's own, from the side of the instrument.
+/// The instrument's end of a pseudo-terminal, which a link names.
 class Terminal {
 public:
-    /// @param name of a link to it; a link to a terminal that is there already, left by a process that was killed, is
-    ///             replaced, and nothing else is
-    /// @throws InputError when it cannot be made
+    /// @param name of the link; only an existing link to a terminal, left by a process that was killed, is replaced
+    /// @throws InputError when it cannot be created
     explicit Terminal(std::string name);
     ~Terminal();
     Terminal(const Terminal&) = delete;

@@ -25,7 +25,7 @@ BoxSet set_of(std::span<const GridBox> boxes, const GridBox& clip) {
     return set;
 }
 
-/// Without corners on straight sides.
+/// Corners of a polygon, without those on straight sides.
 GridPolygon corners_of(const planar::polygon_90_with_holes_data<Coordinate>& polygon) {
     GridPolygon all;
     for (const auto& point : polygon)

@@ -7,8 +7,8 @@
 
 namespace graze {
 
-/// Outlines of what is in any of `boxes`, in none of `without` and within `clip`: polygons with sides along the axes,
-/// which do not overlap. @throws std::logic_error when one has a hole, which a mask's polygon cannot have
+/// Returns the outlines of the union of `boxes` minus `without`, within `clip`: axis-parallel polygons that do not
+/// overlap. @throws std::logic_error for an area with a hole, which a mask's polygon cannot have
 std::vector<GridPolygon> outlines(std::span<const GridBox> boxes, std::span<const GridBox> without,
                                   const GridBox& clip);
 

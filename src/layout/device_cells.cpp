@@ -19,13 +19,13 @@ LayoutCell flexure_cell(const DeviceDrawing& drawing, const std::string& name) {
     return cell;
 }
 
-/// Dimensions, written where they are.
+/// Adds the dimensions as texts, each at its place.
 void add_notes(LayoutCell& cell, const DeviceDrawing& drawing) {
     const DeviceDimensions& d = drawing.dimensions;
     const GridBox mass = bounding_box(drawing.mass), electrode = bounding_box(drawing.electrode);
     const GridBox beam = drawing.beams().front(), stop = bounding_box(drawing.stops.front());
     const auto note = [&](GridPoint at, const char* what, double value) {
-        constexpr double small = 0.1; // of the mass's width, for a person who looks at all of it
+        constexpr double small = 0.1; // relative to the mass's width: readable in a view of the whole device
         cell.texts.push_back({mask_layers::notes, at, fmt::format("{} = {:.10g} um", what, value),
                               small * static_cast<double>(mass.width()) / grid_per_micrometre});
     };
@@ -77,7 +77,7 @@ void add_device_cells(LayoutLibrary& library, const DeviceDrawing& drawing, cons
         {mask_layers::notes, {drawing.die.left + edge, drawing.die.top - edge}, label, d.label_height});
     add_notes(cell, drawing);
     if (size > 0) {
-        // The mark's own origin is its middle, of which an odd size has half a nanometre more to the right.
+        // The mark's origin is its middle; for an odd size the right half is a nanometre longer.
         const std::int64_t x = drawing.die.right - edge - (size - size / 2);
         cell.references.push_back({mark, {x, drawing.die.top - edge - (size - size / 2)}, false, 0});
         cell.references.push_back({mark, {x, drawing.die.bottom + edge + size / 2}, false, 0});

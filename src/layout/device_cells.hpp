@@ -6,10 +6,10 @@
 
 namespace graze {
 
-/// Adds the cells of a device, the last of which is it. @param ending of their names
+/// Adds the cells of a device, the last of which is the device itself. @param ending suffix of their names
 void add_device_cells(LayoutLibrary& library, const DeviceDrawing& drawing, const std::string& ending);
 
-/// Adds letters on a layer. @param at their lower left corner; @param mirrored for the back, in their own place
+/// Adds letters on a layer. @param at lower left corner; @param mirrored for the back, within the same box
 void add_letters(LayoutCell& cell, MaskLayer layer, const std::string& text, GridPoint at, std::int64_t height,
                  bool mirrored = false);
 

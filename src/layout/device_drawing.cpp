@@ -9,7 +9,7 @@ namespace graze {
 
 namespace {
 
-/// Of this length, about zero: an odd one is a nanometre longer above.
+/// An interval of a given length centred at zero; if odd, a nanometre longer above.
 struct Span {
     std::int64_t low, high;
     explicit Span(double micrometres) {
@@ -19,7 +19,7 @@ struct Span {
     }
 };
 
-/// Where the beams of a flexure are, counted outwards from the middle.
+/// Positions of the beams of a flexure, counted outwards from the middle.
 class BeamRow {
 public:
     explicit BeamRow(const DeviceDimensions& d)
@@ -27,12 +27,12 @@ public:
           pitch_(width_ + nanometres(d.flexure_spacing)), count_(2 * static_cast<std::int64_t>(d.folds)) {}
 
     std::int64_t count() const { return count_; }
-    /// From beam to beam of one side, with all that is between them.
+    /// Boundaries of a beam on either side.
     std::int64_t right_from(std::int64_t beam) const { return middle_.high + beam * pitch_; }
     std::int64_t right_to(std::int64_t beam) const { return right_from(beam) + width_; }
     std::int64_t left_to(std::int64_t beam) const { return middle_.low - beam * pitch_; }
     std::int64_t left_from(std::int64_t beam) const { return left_to(beam) - width_; }
-    /// The faces of the bars.
+    /// Faces of the bars.
     std::int64_t right_bar() const { return right_from(count_); }
     std::int64_t left_bar() const { return left_to(count_); }
 
@@ -71,7 +71,7 @@ FlexureDrawing draw_flexure(const DeviceDimensions& d) {
     return flexure;
 }
 
-/// All boxes of which a device consists, about the centre of the H at first.
+/// All boxes of a device, first about the centre of the H.
 class DeviceBoxes {
 public:
     explicit DeviceBoxes(const DeviceDimensions& d, const FlexureDrawing& flexure) : d_(&d) {
@@ -135,7 +135,8 @@ private:
         const std::int64_t moat = nanometres(d_->moat);
         window_.push_back({plate.left - moat, plate.bottom - moat, mass_.left, plate.top + moat});
         window_.push_back({pad.left - moat, pad.bottom - moat, std::min(pad.right + moat, mass_.left), pad.top + moat});
-        // The outline set back on all sides: where the two meet, the narrower one goes on into the wider one.
+        // The base is the outline set back on all sides; where the two parts meet, the narrower one continues into the
+        // wider one.
         const std::int64_t inset = nanometres(d_->base_inset);
         GridBox plate_base = plate.grown(-inset, -inset), pad_base = pad.grown(-inset, -inset);
         if (plate.height() < pad.height())
@@ -153,8 +154,8 @@ private:
         stays_.insert(stays_.end(), stops_.begin(), stops_.end());
     }
 
-    /// Where trenches of a notch open towards the frame. What goes on beyond is cut there: polygons that touch have
-    /// their corners in common, and no crack opens where a device is turned and its corners are rounded.
+    /// Positions where trenches of a notch open towards the frame. Adjacent polygons are cut there: they share corners,
+    /// so that no crack opens when a device is rotated and its corners are rounded.
     static std::vector<std::int64_t> openings(const FlexureDrawing& flexure, GridPoint centre) {
         std::vector<std::int64_t> all;
         const auto add = [&](std::int64_t x) {
@@ -185,9 +186,10 @@ private:
         return outlines(placed, {}, all).at(0);
     }
 
-    /// What is etched: windows and channel, grown by a margin, without what stays. In two halves, for polygons to have
-    /// no holes: whatever stays within reaches over the line y = 0, or is joined to what does.
-    /// @param cuts where they are cut along y, too, in coordinates of the die
+    /// Returns the etched area: windows and channel, expanded by a margin, minus what remains. It is split in two
+    /// halves so that polygons have no holes: all that remains inside crosses the line y = 0, or is connected to what
+    /// does.
+    /// @param cuts further cuts along y, in coordinates of the die
     static std::vector<GridPolygon> drawn(const std::vector<GridBox>& windows, const std::vector<GridBox>& stays,
                                           GridPoint centre, GridBox channel, const GridBox& die, std::int64_t margin,
                                           std::vector<std::int64_t> cuts) {
@@ -211,7 +213,7 @@ private:
     }
 
     const DeviceDimensions* d_;
-    GridBox mass_, bridge_; ///< the mass with its notches
+    GridBox mass_, bridge_; ///< mass including its notches
     std::vector<GridBox> h_, electrode_, base_, stops_, window_, stays_;
 };
 

@@ -8,7 +8,7 @@
 
 namespace graze {
 
-/// Reads the sections of a design file from which a device is drawn; a mistake in one leaves the others to be read.
+/// Reads the sections of a design file that define the drawing; after an error in one the others are still read.
 class DeviceFileReader {
 public:
     explicit DeviceFileReader(const std::string& file) : reader_(file) { result_.file = file; }
@@ -16,7 +16,7 @@ public:
     DeviceFile read(const toml::table& root, const GivenLengths& given);
 
 private:
-    /// In micrometres, on the grid.
+    /// Reads a length in micrometres, rounded to the grid.
     double length(const TomlEntry& entry, bool may_be_zero);
     template <class Section>
     bool read_length(std::span<const LengthField<Section>> fields, const TomlEntry& entry, Section& section);

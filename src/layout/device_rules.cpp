@@ -18,7 +18,7 @@ class Requirements {
 public:
     explicit Requirements(const DeviceFile& file) : file_(&file) {}
 
-    /// @param key the dimension to blame
+    /// Throws unless a rule holds. @param key the dimension to change
     void require(bool holds, const char* key, const std::string& problem, const std::string& remedy) const {
         if (!holds)
             throw InputError(file_->place(std::string("device.") + key), problem, remedy);
@@ -33,7 +33,7 @@ std::string at(GridPoint point) {
                        static_cast<double>(point.y) / grid_per_micrometre);
 }
 
-/// Of what takes room, that which takes most: what does not fit is most likely due to it.
+/// Name of the largest of several lengths, which is most likely the one to change.
 const char* greatest(std::initializer_list<std::pair<const char*, double>> parts) {
     return std::max_element(parts.begin(), parts.end(),
                             [](const auto& a, const auto& b) { return a.second < b.second; })
@@ -45,7 +45,7 @@ struct Part {
     GridBox box;
 };
 
-/// Parts that do not belong together must be apart.
+/// Checks that unconnected parts do not touch.
 void require_apart(const std::vector<Part>& some, const std::vector<Part>& others, const DeviceFile& file) {
     for (const Part& one : some)
         for (const Part& other : others)
@@ -54,7 +54,7 @@ void require_apart(const std::vector<Part>& some, const std::vector<Part>& other
                                  "give dimensions that keep them apart");
 }
 
-/// Whether a length is not greater than another: both are multiples of half a nanometre, but for errors of sums.
+/// Whether a length is at most another one: both are multiples of half a nanometre, up to round-off.
 bool fits(double length, double room) {
     constexpr double quarter = 0.25;
     return length <= room + quarter / grid_per_micrometre;
@@ -64,7 +64,7 @@ std::string text_of(double length) {
     return fmt::format("{:.10g} um", length);
 }
 
-/// Of electrode and pad with their moat and chamber.
+/// Half the extent along y of electrode and pad, with moat and chamber.
 double half_across_electrode(const DeviceDimensions& d) {
     return std::max(d.electrode_length, d.pad_width) / 2 + d.moat + d.chamber_margin;
 }
@@ -80,18 +80,18 @@ void require_lengths(const Requirements& rules, const DeviceDimensions& d) {
                   fmt::format("give a whole number from 1 to {}", most_folds));
 }
 
-/// Between the chamber and the die's edge across the motion, less what stays free.
+/// Extent along y from the middle to the end of the chamber.
 double beyond_chamber(const DeviceDimensions& d) {
     return std::max(d.mass_half_length() + d.clearance + d.chamber_margin, half_across_electrode(d));
 }
 
-/// Of the die: room for device, electrode, frame, marks and letters.
+/// Width of a die that holds device, electrode, frame, marks and letters.
 double sufficient_width(const DeviceDimensions& d) {
     const double edges = d.frame_width / 2;
     return 2 * (beyond_chamber(d) + std::max(d.frame_width, edges + std::max(d.mark_size, d.label_height)));
 }
 
-/// Along y.
+/// Checks extents along y.
 void require_width(const Requirements& rules, const DeviceDimensions& d) {
     const double half = d.mass_half_length();
     const double across = 2 * (half + d.clearance + d.chamber_margin + d.frame_width);
@@ -115,17 +115,17 @@ void require_width(const Requirements& rules, const DeviceDimensions& d) {
         fmt::format("give a smaller electrode and pad, or a die_width of at least {}", text_of(sufficient_width(d))));
 }
 
-/// How long the label is.
+/// Length of the label, in micrometres.
 double written_length(const DeviceDimensions& d) {
     return static_cast<double>(letters_width(label_of(d), nanometres(d.label_height))) / grid_per_micrometre;
 }
 
-/// Of a die with room for its label, a mark and three edges.
+/// Length of a die that holds its label, a mark and three edges.
 double length_of_letters(const DeviceDimensions& d) {
     return nanometres(d.label_height) < letter_rows ? 0 : written_length(d) + 0.75 * d.frame_width + d.mark_size;
 }
 
-/// Along x.
+/// Checks extents along x.
 void require_length(const Requirements& rules, const DeviceDimensions& d) {
     const double left = std::max(d.clearance, d.moat + d.pad_length + d.electrode_width + d.gap);
     const double length =
@@ -149,7 +149,7 @@ void require_length(const Requirements& rules, const DeviceDimensions& d) {
         fmt::format("give a smaller {}, or a die_length of at least {}", longest, text_of(sufficient)));
 }
 
-/// What faces the mass, or lies below the electrode.
+/// Checks the parts that face the mass, or lie below the electrode.
 void require_parts(const Requirements& rules, const DeviceDimensions& d) {
     const double length = 2 * d.mass_half_length();
     rules.require(fits(d.electrode_length, length), "electrode_length",
@@ -171,7 +171,7 @@ void require_parts(const Requirements& rules, const DeviceDimensions& d) {
                   "give a smaller base_inset, or a larger electrode and pad");
 }
 
-/// Letters and marks stand in the strip between the chamber and the die's upper edge.
+/// Checks letters and marks, which lie in the strip between the chamber and the die's upper edge.
 void require_letters(const Requirements& rules, const DeviceDimensions& d) {
     const double edge = d.frame_width / 4;
     const double strip = d.die_width / 2 - beyond_chamber(d) - 2 * edge;
@@ -278,7 +278,7 @@ void require_well_drawn(const DeviceDrawing& drawing, const DeviceFile& file) {
     require_apart(beams, bars, file);
     require_each_apart(beams, file);
     require_each_apart(trusses, file);
-    // Everything that is not joined to the mass faces it.
+    // All parts that are not connected to the mass face it.
     const GridBox mass = bounding_box(drawing.mass), electrode = bounding_box(drawing.electrode);
     require_apart({{"the fixed electrode", electrode}}, {{"the mass", mass}}, file);
     for (const GridPolygon& one : drawing.stops)

@@ -4,18 +4,18 @@
 
 namespace graze {
 
-/// @throws InputError for dimensions of which no device can be drawn, with the place of the one that is to be changed
+/// Checks dimensions. @throws InputError for those that cannot be drawn, with the place of the one to change
 void require_drawable(const DeviceDimensions& dimensions, const DeviceFile& file);
 
-/// What cannot be told before a device is drawn. @throws InputError
+/// Checks that are only possible after drawing. @throws InputError
 void require_well_drawn(const DeviceDrawing& drawing, const DeviceFile& file);
 
-/// The letters that a die bears: its most important dimensions.
+/// Returns the label on a die: its most important dimensions.
 std::string label_of(const DeviceDimensions& dimensions);
-/// Between the die's edge and its letters and marks. Nanometres.
+/// Distance between the die's edge and its letters and marks. Nanometres.
 std::int64_t edge_distance(const DeviceDimensions& dimensions);
 
-/// Nanometres.
+/// Converts to nanometres, rounded.
 std::int64_t nanometres(double micrometres);
 
 } // namespace graze

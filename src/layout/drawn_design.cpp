@@ -20,9 +20,9 @@ namespace graze {
 
 namespace {
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); // an empty cell
+constexpr double empty_cell = std::numeric_limits<double>::quiet_NaN(); // an empty cell
 
-/// The design whose device is that of the folder, whatever its file begins with.
+/// Returns the design with the device of the folder as its first device.
 Design with_device(const Design& own, const Model& device) {
     Design result = own;
     result.set.clear();
@@ -36,7 +36,7 @@ Design with_device(const Design& own, const Model& device) {
     return result;
 }
 
-/// The designed device's trip point, which follows from that of the drawn one.
+/// Finds the designed device's trip point from that of the drawn one.
 std::optional<TripPoint> designed_trip(const TripPoint& drawn, const Design& designed) {
     const std::vector<ParameterId> others = parameters_but(drawn.system.model(), drawn.control);
     const std::vector<std::string> names = drawn.system.model().independent_parameters();
@@ -50,7 +50,7 @@ std::optional<TripPoint> designed_trip(const TripPoint& drawn, const Design& des
     return moved_to(drawn, found.orbit);
 }
 
-/// Rows of what was designed and what is drawn.
+/// The table that compares designed and drawn values.
 class Comparison {
 public:
     void add(const std::string& name, double designed, double drawn, const std::string& unit, const std::string& text) {
@@ -58,7 +58,7 @@ public:
         table_.add(designed);
         table_.add(drawn);
         constexpr double percent = 100;
-        table_.add(designed != 0 ? percent * (drawn / designed - 1) : nothing);
+        table_.add(designed != 0 ? percent * (drawn / designed - 1) : empty_cell);
         table_.add(unit);
         table_.add(text);
     }
@@ -66,7 +66,7 @@ public:
         table_.add(name);
         table_.add(designed);
         table_.add(drawn);
-        table_.add(nothing);
+        table_.add(empty_cell);
         table_.add("");
         table_.add(text);
     }
@@ -81,7 +81,7 @@ void add_quantities(Comparison& rows, const DesignedDevice& designed) {
         rows.add(one.parameter, one.designed, one.drawn, one.unit,
                  one.met ? fmt::format("by {} = {:.9g} {}", one.number, one.after, one.number_unit)
                          : "not as designed: " + one.reason);
-    // What is not drawn but chosen, as the drive's frequency.
+    // Chosen numbers that are not drawn, such as the drive's frequency.
     for (const DesignDimension& one : designed.own.dimensions) {
         bool is_drawn = false;
         for (const MatchedQuantity& quantity : designed.matched.quantities)
@@ -94,8 +94,8 @@ void add_quantities(Comparison& rows, const DesignedDevice& designed) {
     }
 }
 
-/// The drawn device has what is wanted. Of values to be met exactly the grid keeps it, by far less than a share of
-/// them.
+/// Whether the drawn device meets the requirements; the grid prevents exact values, by far less than this relative
+/// error.
 bool has_what_is_wanted(const MetWishes& wishes) {
     constexpr double grid = 1e-2;
     for (std::size_t i = 0; i < wishes.found.wants.size(); ++i) {
@@ -113,12 +113,12 @@ void add_wants(Comparison& rows, const MetWishes& drawn, const std::optional<Met
     for (std::size_t i = 0; i < drawn.found.wants.size(); ++i) {
         const Want& want = drawn.list.wants[i];
         const FoundWant& one = drawn.found.wants[i];
-        double before = nothing;
+        double before = empty_cell;
         if (designed)
             for (std::size_t k = 0; k < designed->found.wants.size(); ++k)
                 if (designed->list.wants[k].name == want.name)
-                    before = designed->found.wants[k].value.value_or(nothing);
-        rows.add("want_" + want.name, before, one.value.value_or(nothing), "", words_of(want, one));
+                    before = designed->found.wants[k].value.value_or(empty_cell);
+        rows.add("want_" + want.name, before, one.value.value_or(empty_cell), "", words_of(want, one));
     }
 }
 
@@ -130,11 +130,11 @@ void add_time(Comparison& rows, const Design& design, const TripPoint& drawn, co
     const auto time_of = [&](const TripPoint& trip) {
         const TripTimes times = trip_times(trip, trip.point.solution.orbit, class_at(trip), request, interrupted);
         const TripTime* best = times.rows.empty() ? nullptr : times.rows.front().best();
-        return std::pair(best ? best->time : nothing, times.rows.empty() ? 0 : times.rows.front().overshoot);
+        return std::pair(best ? best->time : empty_cell, times.rows.empty() ? 0 : times.rows.front().overshoot);
     };
     const auto [time, overshoot] = time_of(drawn);
     if (std::isfinite(time))
-        rows.add(fmt::format("trip_time_{:.3g}", std::abs(overshoot)), designed ? time_of(*designed).first : nothing,
+        rows.add(fmt::format("trip_time_{:.3g}", std::abs(overshoot)), designed ? time_of(*designed).first : empty_cell,
                  time, drawn.system.model().time_unit, "at that overshoot");
 }
 
@@ -144,7 +144,7 @@ std::optional<DrawnDesign> drawn_design(const DesignedDevice& designed, const st
                                         const DesignReportOptions& options) {
     const Design found = with_device(designed.own, designed.device);
     Design drawn = with_place(found.approach.place, [&] { return design_of_device(found, designed.matched.file); });
-    drawn.dimensions = found.dimensions; // of which wishes tell
+    drawn.dimensions = found.dimensions; // they are part of the requirements' table
     const std::optional<TripPoint> trip = locate_trip(drawn, results, options);
     if (!trip)
         return std::nullopt;
@@ -161,7 +161,7 @@ std::optional<DrawnDesign> drawn_design(const DesignedDevice& designed, const st
     const Model& model = trip->system.model();
     const std::string unit = model.parameters[*model.find_parameter(designed.own.control)].unit;
     const GrazingOutcome outcome = class_at(*trip).outcome;
-    rows.add("trip_value", before ? before->value() : nothing, trip->value(), unit,
+    rows.add("trip_value", before ? before->value() : empty_cell, trip->value(), unit,
              fmt::format("of {}, at {} of run '{}'", designed.own.control, trip->label, trip->run));
     rows.add("class", before ? std::string(class_name(class_at(*before).outcome)) : "not found",
              std::string(class_name(outcome)), "");

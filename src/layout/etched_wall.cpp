@@ -3,7 +3,7 @@
 namespace graze {
 
 double EtchedWidth::mean_cube() const {
-    // The integral of a cube of a linear function, without the difference of fourth powers that would cancel.
+    // Integral of the cube of a linear function, factored to avoid cancellation of fourth powers.
     return 0.25 * (top + bottom) * (top * top + bottom * bottom);
 }
 

@@ -14,7 +14,7 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t most_places = 5; // of one rule: further ones are counted
+constexpr std::size_t most_places = 5; // listed places of one rule; further ones are counted
 
 double micrometres(std::int64_t nanometres) {
     return static_cast<double>(nanometres) / grid_per_micrometre;
@@ -49,7 +49,7 @@ public:
     }
 
 private:
-    /// A place's value, the worse the lower.
+    /// A place with its value; lower is worse.
     struct Measured {
         double value;
         std::string part;
@@ -70,8 +70,8 @@ private:
                 break;
         }
     }
-    /// The worst place of a rule is told in any case, others where the rule is broken; many are only counted.
-    /// @param count how many of the rule there were @return whether there may be more
+    /// Adds a finding: the worst place of a rule always, others if they break the rule, up to a number.
+    /// @param count number of findings of the rule so far @return whether more may be added
     bool tell(RuleFinding finding, std::size_t& count) {
         if (count > 0 && finding.holds())
             return false;
@@ -82,7 +82,7 @@ private:
         return true;
     }
 
-    /// What there is to blame: a rule, or what the process does to all widths.
+    /// Key that is responsible: the rule, or the process where it shifts all widths.
     std::string key_of(const std::string& rule) const {
         if (!rule.starts_with("smallest_etched"))
             return "rules." + rule;
@@ -96,7 +96,7 @@ private:
                            [&](const GridPolygon& one) { return contains(one, point); });
     }
 
-    /// What the silicon of the front is at a place.
+    /// Name of the part of the front at a point.
     std::string part_at(GridPoint point) const {
         const auto has = [&](const std::vector<GridBox>& boxes) {
             return std::any_of(boxes.begin(), boxes.end(), [&](const GridBox& box) {
@@ -114,7 +114,7 @@ private:
         return within_any(drawing_->stops, point) ? "a stop" : "the frame";
     }
 
-    /// Just beyond an edge, on its other side.
+    /// A point just beyond an edge, on its other side.
     static GridPoint beyond(GridPoint edge, GridPoint from) {
         const auto step = [](std::int64_t d) { return d > 0 ? 1 : d < 0 ? -1 : 0; };
         return {edge.x + step(edge.x - from.x), edge.y + step(edge.y - from.y)};
@@ -146,7 +146,7 @@ private:
         return within_any(back_, place.middle()) ? process.layer_thickness() : process.wafer_thickness;
     }
 
-    /// Of what is etched from the front, whose walls the process tells.
+    /// Adds widths of lines and trenches of the front after the etch.
     void add_etched_widths(const char* rule, double limit, bool etched) {
         std::vector<Measured> places;
         const EtchedWall wall = file_->conditions.wall();
@@ -172,14 +172,14 @@ private:
         add("largest_aspect", limits_->largest_aspect, "", false, std::move(places));
     }
 
-    /// How far within an area a polygon's edges stay from its outline; negative where a corner is outside.
+    /// Distances of a polygon's edges within an area from its outline; negative if a corner is outside.
     std::vector<Measured> margins(const GridPolygon& inner, const std::vector<GridPolygon>& area,
                                   const std::string& part) const {
         std::vector<Measured> places;
         const std::vector<MaskEdge> outline = mask_edges(area);
         for (const MaskEdge& edge : mask_edges(std::span(&inner, 1)))
             for (const MaskEdge& wall : outline) {
-                // Edges of the same direction that overlap, with the area beyond the wall on the polygon's side.
+                // Parallel edges that overlap, with the area beyond the wall on the polygon's side.
                 const std::int64_t low = std::max(edge.from, wall.from), high = std::min(edge.to, wall.to);
                 const std::int64_t distance = edge.side * (edge.at - wall.at), along = (low + high) / 2;
                 if (edge.upright != wall.upright || edge.side != wall.side || low >= high || distance < 0)
@@ -193,7 +193,7 @@ private:
         return places;
     }
 
-    /// From the nearest of edges.
+    /// Distance from the nearest edge.
     static double distance_of(GridPoint point, const std::vector<MaskEdge>& edges) {
         double least = std::numeric_limits<double>::infinity();
         for (const MaskEdge& edge : edges) {
@@ -221,7 +221,7 @@ private:
             margins(drawing_->base, {drawing_->electrode}, "the fixed electrode's base"));
     }
 
-    /// Of a part of which nothing is left there is no model; its rule says so.
+    /// Whether the etch removes a part completely: then there is no model, and its rule says so.
     bool is_etched_away() const {
         return std::any_of(findings_.begin(), findings_.end(), [](const RuleFinding& one) {
             return one.rule.starts_with("smallest_etched") && one.value <= 0 && !one.holds();
@@ -245,7 +245,7 @@ private:
             {{lumped.squeeze, "the gas between the electrodes", bounding_middle(drawing_->electrode)}});
     }
 
-    /// To either side the worst place, and all others where the mass is held up.
+    /// Adds the worst place in either direction, and all others where the mass is blocked.
     void add_free_ways() {
         std::vector<FreeWay> ways =
             free_ways(*drawing_, front_, file_->conditions.wall(), file_->process.layer_thickness());
@@ -256,21 +256,20 @@ private:
             for (const FreeWay& one : ways) {
                 if (one.to_stops != to_stops)
                     continue;
-                RuleFinding finding{
-                    .rule = "free_way",
-                    .value = one.way,
-                    .limit = one.needed,
-                    .unit = "um",
-                    .at_least = true,
-                    .part = fmt::format("the mass on its way to {}, until {}", aim, one.part),
-                    .at = one.at,
-                    .device = device_,
-                    .beyond = true,
-                    .key = "device." + one.key,
-                    .remedy = fmt::format("give a greater {}, or a smaller {}: what else it meets, the model does not "
-                                          "know",
-                                          one.key, to_stops ? "stop_gap" : "gap"),
-                    .more = 0};
+                RuleFinding finding{.rule = "free_way",
+                                    .value = one.way,
+                                    .limit = one.needed,
+                                    .unit = "um",
+                                    .at_least = true,
+                                    .part = fmt::format("the mass on its way to {}, until {}", aim, one.part),
+                                    .at = one.at,
+                                    .device = device_,
+                                    .beyond = true,
+                                    .key = "device." + one.key,
+                                    .remedy = fmt::format("give a greater {}, or a smaller {}: the model has no "
+                                                          "contacts with other parts",
+                                                          one.key, to_stops ? "stop_gap" : "gap"),
+                                    .more = 0};
                 if (!tell(std::move(finding), count))
                     break;
             }

@@ -13,17 +13,17 @@ namespace graze {
 
 namespace {
 
-/// Force in x and y and moment at the guided end, force in y in the middle; x is the direction of motion, y that of the
-/// beams.
+/// Loads: force in x and y and moment at the guided end, force in y in the middle; x is the direction of motion, y that
+/// of the beams.
 using Load = Eigen::Vector4d;
 
-/// A straight part of the chain. Lengths in units of a beam's, compliances in units of a beam's 1/(E I).
+/// A straight part of the chain. Lengths in units of a beam's length, compliances in units of a beam's 1/(E I).
 struct Piece {
-    double x = 0, y = 0;                   ///< where it begins
-    double dx = 0, dy = 0;                 ///< to its end
-    double bending = 0;                    ///< I of a beam by its own; 0: rigid
-    double stretching = 0;                 ///< the same of A, times the square of a beam's radius of gyration
-    bool to_end = true, to_middle = false; ///< whose loads it carries
+    double x = 0, y = 0;   ///< start
+    double dx = 0, dy = 0; ///< vector to its end
+    double bending = 0;    ///< ratio of a beam's I to its own; 0: rigid
+    double stretching = 0; ///< ratio of a beam's A to its own, times the squared radius of gyration of a beam
+    bool to_end = true, to_middle = false; ///< which loads it carries
     bool is_beam = false;
 
     double length() const { return std::abs(dx) + std::abs(dy); }
@@ -40,23 +40,23 @@ public:
         add(0, dy, 1, stretching);
         pieces_.back().is_beam = true;
     }
-    /// From here to the middle.
+    /// Adds the branch from here to the middle.
     void add_branch(double rigid, double free, double bending) {
         for (Piece& piece : pieces_)
             piece.to_middle = true;
         middle_x_ = x_ - rigid - free;
-        // The branch carries nothing along itself.
+        // The branch carries no axial force.
         pieces_.push_back({x_ - rigid, y_, -free, 0, bending, 0, false, true});
     }
     const std::vector<Piece>& pieces() const { return pieces_; }
 
-    /// Bending moment in a share of a piece by each load.
+    /// Bending moments at a relative position of a piece, by each load.
     Load moments(const Piece& piece, double share) const {
         const double x = piece.x + share * piece.dx, y = piece.y + share * piece.dy;
         const double end = piece.to_end ? 1 : 0, middle = piece.to_middle ? 1 : 0;
         return {-end * (y_ - y), end * (x_ - x), end, middle * (middle_x_ - x)};
     }
-    /// Force along a piece by each load.
+    /// Axial forces of a piece, by each load.
     static Load forces(const Piece& piece) {
         const double x = piece.dx / piece.length(), y = piece.dy / piece.length();
         return {piece.to_end ? x : 0, piece.to_end ? y : 0, 0, piece.to_middle ? y : 0};
@@ -70,7 +70,7 @@ public:
                 continue;
             const Load first = moments(piece, 0), middle = moments(piece, 0.5), last = moments(piece, 1);
             const Load axial = forces(piece);
-            // Simpson's rule is exact for the product of linear functions.
+            // Simpson's rule is exact for a product of linear functions.
             sum += piece.bending * length / 6 *
                    (first * first.transpose() + 4 * middle * middle.transpose() + last * last.transpose());
             sum += piece.stretching * length * axial * axial.transpose();
@@ -95,7 +95,7 @@ Chain chain_of(const FoldedSpring& spring) {
     const double stretching = gyration * width / spring.truss_width.mean();
     const double half_truss = 0.5 * spring.truss_width.mean() / length, half_beam = 0.5 * width / length;
     Chain chain;
-    if (spring.finger_length > 0) // half of it is this half's
+    if (spring.finger_length > 0) // half of it belongs to this half
         chain.add(0, spring.finger_length / length, 2 * spring.beam_width.mean_cube() / finger_of(spring).mean_cube());
     chain.add(spring.half_middle / length + half_beam, 0);
     double direction = 1;
@@ -122,7 +122,7 @@ Chain chain_of(const FoldedSpring& spring) {
     return chain;
 }
 
-/// Greatest stress at the ends of beams, in units of E, by displacement in units of a beam's length.
+/// Largest stress at the ends of beams, in units of E, per displacement in units of a beam's length.
 double greatest_stress(const Chain& chain, const Load& loads, double half_width, double gyration) {
     double greatest = 0;
     for (const Piece& piece : chain.pieces())

@@ -15,15 +15,15 @@ double micrometres(std::int64_t nanometres) {
     return static_cast<double>(nanometres) / grid_per_micrometre;
 }
 
-/// What moves by one share of the mass's way.
+/// A part that moves by a share of the mass's travel.
 struct SweptPart {
     const char* name;
     double share;
-    std::vector<MaskEdge> left, right; ///< its upright faces
+    std::vector<MaskEdge> left, right; ///< its vertical faces
     GridBox box;
 };
 
-/// @param inside whether the edges' polygons are the part, and not what is around it
+/// @param inside true: the polygons are the part; false: they surround it
 SweptPart swept_part(const char* name, double share, std::span<const GridPolygon> polygons, bool inside) {
     SweptPart part{name, share, {}, {}, bounding_box(polygons.front())};
     for (const GridPolygon& one : polygons)
@@ -69,7 +69,7 @@ private:
     }
 
     std::vector<SweptPart> parts_of(std::span<const GridPolygon> front) const {
-        // The outline of the frame is that of all else: polygons that touch count as one.
+        // The outline of the frame is that of all other polygons; touching polygons count as one.
         std::vector<GridPolygon> beside(front.begin(), front.end());
         beside.push_back(drawing_->mass);
         beside.push_back(drawing_->electrode);
@@ -88,11 +88,11 @@ private:
         return parts;
     }
 
-    /// By the number of beams from the frame to this truss.
+    /// Share of a truss, by the number of beams between the frame and it.
     double share_of(const GridBox& truss) const {
         const std::vector<GridBox>& beams = drawing_->flexure.beams;
         const std::size_t half = beams.size() / 2;
-        std::size_t within = 0; // with the outer one of those that it joins
+        std::size_t within = 0; // including the outer one of those that it joins
         for (std::size_t i = 0; i < half; ++i)
             within +=
                 (truss.right >= beams[half].right ? beams[half + i].right <= truss.right : beams[i].left >= truss.left)
@@ -101,7 +101,7 @@ private:
         return static_cast<double>(within - 1) / static_cast<double>(half);
     }
 
-    /// Silicon that grows in place of receding does so around corners, too.
+    /// With a negative recess silicon grows around corners, too.
     std::int64_t grown() const {
         return least_recess_ < 0 ? std::llround(-2 * least_recess_ * grid_per_micrometre) : 0;
     }
@@ -110,7 +110,7 @@ private:
         return one.box.bottom < other.box.top + grown() && other.box.bottom < one.box.top + grown();
     }
 
-    /// Of parts of which the one is to the left of the other there.
+    /// Finds where two parts meet first, the first one being on the left.
     std::optional<FreeWay> first_meeting(const SweptPart& one, const SweptPart& other) const {
         std::optional<FreeWay> first;
         const double closing = std::abs(one.share - other.share);
@@ -140,7 +140,7 @@ private:
         return drawing_->in_device(notch, false).contains(point) || drawing_->in_device(notch, true).contains(point);
     }
 
-    /// Within the notches the frame's finger and the mass's lugs are at the same height.
+    /// Within the notches the frame's finger and the mass's lugs are at the same y.
     std::string name_of(const SweptPart& part, bool in_notch, GridPoint at, std::int64_t face) const {
         const FlexureDrawing& flexure = drawing_->flexure;
         const auto has = [&](const GridBox& box) {
@@ -155,7 +155,7 @@ private:
     }
 
     const DeviceDrawing* drawing_;
-    double least_recess_; ///< um, of a wall: there trenches are narrowest
+    double least_recess_; ///< um, least recess of a wall: there trenches are narrowest
 };
 
 } // namespace

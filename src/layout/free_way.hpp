@@ -11,19 +11,20 @@ namespace graze {
 
 /// Two parts that meet when the mass moves far enough along x.
 struct FreeWay {
-    double way = 0;       ///< um, of the mass until they meet, after the etch
-    double needed = 0;    ///< um, to the stops or to the fixed electrode: the mass must meet these first
-    bool to_stops = true; ///< or else to the fixed electrode
-    std::string part;     ///< what meets what, for people
-    GridPoint at;         ///< of the die, between them
-    std::string key;      ///< dimension between them
+    double way = 0;       ///< um, travel of the mass until they meet, after the etch
+    double needed = 0;    ///< um, travel to the stops or the fixed electrode, which the mass must meet first
+    bool to_stops = true; ///< false: towards the fixed electrode
+    std::string part;     ///< description of the two parts
+    GridPoint at;         ///< position on the die, between them
+    std::string key;      ///< dimension that determines their distance
 };
 
-/// Moves the polygons of the mass along x, both ways, with the trusses by their share of its way: of n beams in a row
-/// each takes an n-th. Beams need no look of their own: they are nowhere nearer to each other than at their ends, which
-/// these parts are. The frame is what the front's mask leaves besides all that moves, electrode and stops.
-/// @param front polygons of mask 2, of the die @param depth um, of what moves
-/// @return for each two parts, to each side, where they meet first
+/// Finds where parts meet when the mass moves along x in either direction, with the trusses moving by their share: of n
+/// beams in a row each takes 1/n of the travel. Beams need no check of their own: they are closest to each other at
+/// their ends, which belong to these parts. The frame is all that remains of the front besides moving parts, electrode
+/// and stops.
+/// @param front polygons of mask 2, in coordinates of the die @param depth thickness of moving parts, um
+/// @return for each pair of parts and each direction, where they meet first
 std::vector<FreeWay> free_ways(const DeviceDrawing& drawing, std::span<const GridPolygon> front, const EtchedWall& wall,
                                double depth);
 

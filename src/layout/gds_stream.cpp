@@ -14,7 +14,7 @@ namespace graze {
 
 namespace {
 
-/// Record types, with the types of their data in the second byte.
+/// Record types, with the data type in the second byte.
 enum GdsRecord : int {
     header = 0x0002,
     begin_library = 0x0102,
@@ -46,7 +46,7 @@ class GdsWriter {
 public:
     std::string write(const LayoutLibrary& library) {
         constexpr int version = 600;
-        constexpr double user_unit = 1e-3, metres = 1e-9; // of a nanometre, in user units and in metres
+        constexpr double user_unit = 1e-3, metres = 1e-9; // size of a nanometre in user units and in metres
         shorts(header, {version});
         dates(begin_library);
         if (library.name.size() > longest_text)
@@ -145,9 +145,9 @@ private:
             bits(static_cast<std::uint64_t>(value) & 0xffffU, 16);
     }
     void real(double value) { bits(gds_real(value), 64); }
-    /// Of the last change and the last look: the first of January 2000, for all.
+    /// Dates of modification and access: constantly the first of January 2000.
     void dates(GdsRecord record) { shorts(record, {2000, 1, 1, 0, 0, 0, 2000, 1, 1, 0, 0, 0}); }
-    /// Filled up to an even length.
+    /// Writes a name, padded to even length.
     void name(GdsRecord record, const std::string& value) {
         begin(record, value.size() + value.size() % 2);
         bytes_ += value;
@@ -175,13 +175,13 @@ std::uint64_t gds_real(double value) {
     if (value == 0 || !std::isfinite(value))
         return 0;
     int exponent = 0;
-    constexpr double largest = 0x1p251, least = 0x1p-256; // 16^63 less a little, 16^-64
+    constexpr double largest = 0x1p251, least = 0x1p-256; // slightly below 16^63; 16^-64
     if (std::abs(value) > largest)
         throw std::out_of_range(fmt::format("the number {} does not fit in GDSII", value));
     if (std::abs(value) < least)
         return 0;
     double fraction = std::frexp(std::abs(value), &exponent);
-    while (exponent % digit_bits != 0) { // a power of 16, and a fraction from 1/16 to 1
+    while (exponent % digit_bits != 0) { // normalise to a power of 16 and a fraction from 1/16 to 1
         fraction /= 2;
         ++exponent;
     }

@@ -8,7 +8,8 @@ namespace graze {
 
 namespace {
 
-/// Twice the area of the triangle, positive to the left of a to b: no overflow for coordinates within a metre.
+/// Twice the signed area of a triangle, positive to the left of a to b; does not overflow for coordinates within a
+/// metre.
 std::int64_t turn(GridPoint a, GridPoint b, GridPoint c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
@@ -58,13 +59,13 @@ GridBox bounding_box(std::span<const GridPoint> corners) {
 }
 
 double area_of(std::span<const GridPoint> corners) {
-    // Sums may wrap; twice an area within two metres square does not, and comes out right.
+    // Unsigned sums may wrap, but twice an area within two metres square fits, so the result is exact.
     std::uint64_t twice = 0;
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const GridPoint &a = corners[i], &b = corners[(i + 1) % corners.size()];
         twice += static_cast<std::uint64_t>(a.x - b.x) * static_cast<std::uint64_t>(a.y + b.y);
     }
-    constexpr double square_nanometres = 1e6; // in a square micrometre
+    constexpr double square_nanometres = 1e6; // per square micrometre
     return std::abs(static_cast<double>(static_cast<std::int64_t>(twice))) / 2 / square_nanometres;
 }
 
@@ -106,14 +107,14 @@ std::optional<PolygonFault> polygon_fault(std::span<const GridPoint> corners, st
         if (std::hypot(static_cast<double>(b.x - a.x), static_cast<double>(b.y - a.y)) < static_cast<double>(least))
             return PolygonFault{"has a step that is too small", a};
         if (turn(a, b, c) == 0)
-            return PolygonFault{"turns back, or has a corner that is none", b};
+            return PolygonFault{"turns back, or has a straight corner", b};
         if (ahead < 0)
             return PolygonFault{"has an acute angle", b};
     }
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = i + 2; j < n; ++j)
             if ((j + 1) % n != i && meet(corners[i], corners[i + 1], corners[j], corners[(j + 1) % n]))
-                return PolygonFault{"meets itself", corners[j]};
+                return PolygonFault{"intersects itself", corners[j]};
     return std::nullopt;
 }
 

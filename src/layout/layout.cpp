@@ -41,7 +41,7 @@ void append_mask(LayoutLibrary& to, const Layout& layout, int mask) {
     }
     LayoutCell plate;
     plate.name = fmt::format("MASK_{}", mask);
-    constexpr double half_turn = 180; // after which y -> -y has become x -> -x
+    constexpr double half_turn = 180; // turns y -> -y into x -> -x
     const bool back = mask == 1;
     plate.references.push_back({top, {}, back, back ? half_turn : 0});
     to.cells.push_back(std::move(plate));

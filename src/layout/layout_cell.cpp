@@ -36,7 +36,7 @@ constexpr std::array<LayerText, 16> layer_table{{
     {mask_layers::usable, "outline of the part for devices"},
 }};
 
-constexpr std::size_t longest_cell_name = 28; // GDSII has 32, of which an ending may take some
+constexpr std::size_t longest_cell_name = 28; // GDSII allows 32, some of which a suffix may need
 
 struct Transform {
     double cosine = 1, sine = 0;
@@ -52,7 +52,7 @@ struct Transform {
 Transform within(const Transform& outer, const CellReference& reference) {
     constexpr double right_angle = 90;
     const double turns = reference.degrees / right_angle, angle = reference.degrees * std::numbers::pi / 180;
-    // Right angles are exact, for what they turn to stay on the grid.
+    // Right angles are exact, so that rotated cells stay on the grid.
     const bool exact = turns == std::round(turns);
     const double cosine = exact ? std::round(std::cos(angle)) : std::cos(angle);
     const double sine = exact ? std::round(std::sin(angle)) : std::sin(angle);
@@ -67,7 +67,7 @@ Transform within(const Transform& outer, const CellReference& reference) {
 
 using CellIndex = std::unordered_map<std::string_view, const LayoutCell*>;
 
-/// A cell contains only those before it: none itself.
+/// Indexes the cells; each may only contain earlier ones, hence never itself.
 CellIndex index_of(const LayoutLibrary& library) {
     CellIndex index;
     for (const LayoutCell& cell : library.cells) {

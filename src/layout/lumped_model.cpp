@@ -54,7 +54,7 @@ private:
     EtchedWidth line(std::int64_t drawn) const { return etched_line(wall_, micrometres(drawn), depth_); }
     EtchedWidth trench(std::int64_t drawn) const { return etched_trench(wall_, micrometres(drawn), depth_); }
 
-    /// Both flexures have two halves.
+    /// Adds the springs: both flexures have two halves.
     void add_springs(LumpedModel& result) const {
         const FlexureDrawing& flexure = drawing_->flexure;
         const std::size_t count = flexure.beams.size() / 2;
@@ -83,7 +83,7 @@ private:
         result.mass = halves * half.moving_area * spring.height * conditions_->density;
     }
 
-    /// Where electrode and mass face each other.
+    /// Film between electrode and mass.
     GasFilm electrode_film() const { return film_between(drawing_->electrode, drawing_->mass, 0); }
 
     GasFilm film_between(const GridPolygon& left, const GridPolygon& right, double departure) const {
@@ -137,7 +137,7 @@ double LumpedModel::pull_in() const {
 }
 
 double etched_area(std::span<const GridPoint> corners, const EtchedWall& wall, double depth) {
-    // Edges that recede by r take r from the area for each length, and corners of turn t give r^2 tan(t/2) back.
+    // Receding edges by r reduce the area by r times their length; corners of turning angle t give r^2 tan(t/2) back.
     double perimeter = 0, corner_sum = 0, turning = 0;
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const GridPoint &a = corners[i], &b = corners[(i + 1) % corners.size()], &c = corners[(i + 2) % corners.size()];
@@ -164,8 +164,8 @@ LumpedModel lumped_model_of(const DeviceFile& file) {
 
 namespace {
 
-/// To be blamed where the etch leaves nothing: what was given on the command line, the etch before what is drawn, or
-/// else what takes most.
+/// Place to report when the etch removes a part: a number of the command line, else the etch, else the largest
+/// contribution.
 Place place_of_etch(const DeviceFile& file) {
     const auto is_given = [](const Place& place) { return place.file.starts_with("--set"); };
     const double by_taper = file.conditions.wall().slope * file.process.layer_thickness();

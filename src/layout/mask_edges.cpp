@@ -8,7 +8,7 @@ namespace graze {
 
 namespace {
 
-/// Twice the area, positive for corners that are counterclockwise.
+/// Twice the signed area, positive for counterclockwise corners.
 double winding(const GridPolygon& polygon) {
     double sum = 0;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -19,7 +19,7 @@ double winding(const GridPolygon& polygon) {
     return sum;
 }
 
-/// Changes of what lies beyond a line, along it: how many polygons begin there more than end.
+/// Changes of the coverage beyond a line, along it: number of polygons that begin minus those that end.
 using Changes = std::map<std::int64_t, int>;
 
 void add_edges(const std::map<std::int64_t, Changes>& lines, bool upright, std::vector<MaskEdge>& edges) {
@@ -45,7 +45,7 @@ std::vector<MaskEdge> mask_edges(std::span<const GridPolygon> polygons) {
         const int sense = winding(polygon) >= 0 ? 1 : -1;
         for (std::size_t i = 0; i < polygon.size(); ++i) {
             const GridPoint &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-            if (a.x == b.x) { // what is within is to the left of an edge: beyond it, where it goes down
+            if (a.x == b.x) { // the interior is to the left of an edge: beyond it if the edge goes down
                 const int side = b.y < a.y ? sense : -sense;
                 upright[a.x][std::min(a.y, b.y)] += side;
                 upright[a.x][std::max(a.y, b.y)] -= side;
@@ -67,7 +67,7 @@ std::vector<FacingEdges> facing_edges(const std::vector<MaskEdge>& edges) {
     for (std::size_t i = 0; i < edges.size(); ++i) {
         const MaskEdge& one = edges[i];
         std::int64_t nearest = -1;
-        for (std::size_t k = i + 1; k < edges.size() && edges[k].upright == one.upright; ++k) { // in rising order
+        for (std::size_t k = i + 1; k < edges.size() && edges[k].upright == one.upright; ++k) { // in increasing order
             const MaskEdge& other = edges[k];
             const std::int64_t low = std::max(one.from, other.from), high = std::min(one.to, other.to);
             if (low >= high || other.at == one.at)

@@ -7,28 +7,28 @@
 
 namespace graze {
 
-/// A straight part of the outline of what is etched.
+/// A straight part of the outline of the etched area.
 struct MaskEdge {
-    std::int64_t at = 0;           ///< x of an upright edge, y of a level one
-    std::int64_t from = 0, to = 0; ///< along it
-    int side = 1;                  ///< 1 where what is etched lies beyond greater values of `at`
+    std::int64_t at = 0;           ///< x of a vertical edge, y of a horizontal one
+    std::int64_t from = 0, to = 0; ///< interval along it
+    int side = 1;                  ///< 1: the etched area is on the side of larger `at`
     bool upright = true;
 };
 
-/// Two edges that face each other with nothing between them.
+/// Two edges that face each other with no other edge between them.
 struct FacingEdges {
-    bool etched = false; ///< what is between them: a trench, or silicon
+    bool etched = false; ///< true: a trench is between them; false: silicon
     std::int64_t distance = 0;
-    GridPoint first, second; ///< on either edge, in the middle of what faces
+    GridPoint first, second; ///< on either edge, in the middle of the opposing part
 
     GridPoint middle() const { return {(first.x + second.x) / 2, (first.y + second.y) / 2}; }
 };
 
-/// The outline of polygons with sides along the axes, as of one area: where two touch, nothing remains. Sides in other
-/// directions are left out.
+/// Returns the outline of the union of axis-parallel polygons; edges where two touch cancel. Sides in other directions
+/// are ignored.
 std::vector<MaskEdge> mask_edges(std::span<const GridPolygon> polygons);
 
-/// For each edge the nearest ones that face it.
+/// Returns for each edge the nearest ones that face it.
 std::vector<FacingEdges> facing_edges(const std::vector<MaskEdge>& edges);
 
 /// Whether a point is within a polygon or on its outline.

@@ -10,10 +10,10 @@ namespace {
 
 struct Glyph {
     char letter;
-    std::array<const char*, letter_rows> rows; ///< from the top
+    std::array<const char*, letter_rows> rows; ///< rows from the top
 };
 
-/// Drawn so that squares which touch at a corner have a neighbour in common: a corner alone would be no polygon.
+/// Squares that touch at a corner always share a neighbour: touching at a corner alone would not form a valid polygon.
 constexpr Glyph glyphs[] = {
     {' ', {"     ", "     ", "     ", "     ", "     ", "     ", "     "}},
     {'0', {"#####", "#   #", "#   #", "#   #", "#   #", "#   #", "#####"}},
@@ -71,8 +71,8 @@ const Glyph* glyph_of(char letter) {
     return found == std::end(glyphs) ? nullptr : found;
 }
 
-/// Square by square: all corners that touch an edge are the ends of one, so that no crack opens where letters are
-/// turned and their corners are rounded.
+/// One box per square: all corners on an edge are ends of an edge, so that no crack opens when letters are rotated and
+/// their corners are rounded.
 void add_boxes(const Glyph& glyph, std::int64_t left, std::int64_t square, std::vector<GridBox>& boxes) {
     for (std::int64_t row = 0; row < letter_rows; ++row) {
         const std::string_view squares = glyph.rows[static_cast<std::size_t>(row)];

@@ -16,16 +16,16 @@ namespace {
 
 constexpr double atmosphere = 101325; // Pa
 
-/// How a quantity of the model is come by.
+/// A parameter of the model, and the number of the drawing or process that determines it.
 struct Way {
     const char* parameter;
     const char* section;
     const char* number;
     const char* unit;
-    double DeviceDimensions::*length; ///< none: it is the pressure
-    int sign;                         ///< of the quantity's change with the number
+    double DeviceDimensions::*length; ///< null: it is the pressure
+    int sign;                         ///< sign of the parameter's derivative by the number
 };
-/// Each quantity depends most on its own number, and on those before it.
+/// Each parameter depends most on its own number, and on those before it.
 constexpr std::array ways{
     Way{"d", "device", "gap", "um", &DeviceDimensions::gap, 1},
     Way{"stop", "device", "stop_gap", "um", &DeviceDimensions::stop_gap, 1},
@@ -39,7 +39,7 @@ double& number_of(DeviceFile& file, const Way& way) {
     return way.length ? file.device.*way.length : file.conditions.pressure;
 }
 
-/// A number in whole steps: nanometres, or equal ratios of the pressure.
+/// A number in discrete steps: nanometres, or equal ratios of the pressure.
 class Steps {
 public:
     Steps(const Way& way, const DeviceFile& given) : is_length_(way.length != nullptr) {
@@ -67,7 +67,7 @@ class Matching {
 public:
     Matching(const DeviceFile& file, const Model& designed) : model_(&designed) {
         result_.file = file;
-        const LumpedModel first = lumped_model_of(file); // refuses what cannot be drawn
+        const LumpedModel first = lumped_model_of(file); // throws if it cannot be drawn
         for (const auto& named : parameters_of(first, designed).set) {
             const std::string& name = named.first;
             const Way& way = ways[order(name)];
@@ -75,7 +75,7 @@ public:
             const std::size_t place = *designed.find_parameter(name);
             one.parameter = name;
             one.unit = designed.parameters[place].unit;
-            one.designed = *designed.parameters[place].value; // parameters_of refuses dependent ones
+            one.designed = *designed.parameters[place].value; // parameters_of throws for dependent ones
             one.number = fmt::format("{}.{}", way.section, way.number);
             one.number_unit = way.unit;
             one.before = number_of(result_.file, way);
@@ -86,7 +86,7 @@ public:
     }
 
     MatchedDrawing match() {
-        constexpr int most_rounds = 60; // each takes most of what is left
+        constexpr int most_rounds = 60; // each round removes most of the remaining error
         bool moves = true;
         for (int round = 0; round < most_rounds && moves; ++round) {
             moves = false;
@@ -110,8 +110,8 @@ private:
             ways.begin());
     }
 
-    /// By how much the quantity departs from what is designed, in the direction in which its number grows. None where
-    /// nothing can be drawn; `refusal_` says why.
+    /// Deviation of the parameter from the designed value, signed so that it increases with the number. Empty if the
+    /// device cannot be drawn; `refusal_` says why.
     std::optional<double> departure(std::size_t which, double number) {
         const Way& way = ways[which];
         DeviceFile trial = result_.file;
@@ -126,7 +126,7 @@ private:
         return std::nullopt;
     }
 
-    /// @return whether the number has changed
+    /// Solves for one number. @return whether it has changed
     bool solve(std::size_t which) {
         const Way& way = ways[which];
         MatchedQuantity& quantity = result_.quantities[which];
@@ -138,7 +138,7 @@ private:
         }
         const std::optional<double> here = departure(which, number);
         quantity.met = here && *here == 0;
-        quantity.reason = here ? "" : refusal_; // by a number before it, which has moved
+        quantity.reason = here ? "" : refusal_; // because an earlier number has changed
         if (!here || quantity.met)
             return false;
         const Steps steps(way, result_.file);
@@ -154,8 +154,8 @@ private:
         double departure;
     };
 
-    /// Steps that grow until the designed value lies between two. Where there is no such step, it ends at the last
-    /// number of which anything can be drawn.
+    /// Steps of growing size until the designed value is bracketed, then bisection. If it cannot be bracketed, the last
+    /// number that can be drawn.
     std::int64_t nearest(std::size_t which, const Steps& steps, Tried near) {
         const bool up = near.departure < 0;
         const std::int64_t end = up ? steps.highest() : steps.lowest();

@@ -9,7 +9,7 @@ namespace graze {
 
 namespace {
 
-/// By how much an extent of the plates seems greater to the force.
+/// Increase of the effective extent of the plates by the fringe field.
 double fringe(double gap, double backing) {
     return gap / std::numbers::pi * (1 + std::sqrt(backing / (gap + backing)));
 }

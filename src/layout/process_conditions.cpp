@@ -11,7 +11,7 @@ namespace graze {
 namespace {
 
 using Field = QuantityField<ProcessConditions>;
-// Limits are far beyond what can be made, and keep all that is computed finite.
+// The limits are far beyond any real process; they keep results finite.
 constexpr std::array table{
     Field{"bias", &ProcessConditions::bias, "um", -1e3, 1e3, "by which silicon recedes from each drawn edge"},
     Field{"taper", &ProcessConditions::taper, "deg", -45, 45,

@@ -8,7 +8,7 @@ namespace graze {
 
 namespace {
 
-/// For a shell: between quotes unless it is plain.
+/// Quotes a word for a shell, unless it is plain.
 std::string shell_word(const std::string& text) {
     constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-+/=,@";
     if (!text.empty() && text.find_first_not_of(plain) == std::string::npos)
@@ -31,7 +31,7 @@ std::string mask_command(const DeviceFile& file, const std::vector<std::string>&
 std::string recipe_text(const DeviceFile& file, const std::vector<std::string>& options) {
     const ProcessData& process = file.process;
     const ProcessConditions& conditions = file.conditions;
-    // Appendix D etches 50 um in 6 min and 250 um in 38 min: the rate falls in deep trenches.
+    // Appendix D etches 50 um in 6 min and 250 um in 38 min: the rate decreases in deep trenches.
     const double chamber_minutes = process.chamber_depth * 6 / 50;
     const double through_minutes = process.layer_thickness() * 38 / 250;
     std::string text = fmt::format("# How {} is made\n\n", file.name);

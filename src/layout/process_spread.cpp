@@ -21,7 +21,7 @@ constexpr std::array fields{
     DepartureField{"stop_gap", &ProcessSpread::stop_gap, &ProcessDeparture::stop_gap, "um"},
 };
 
-/// A root of the correlations: independent numbers times it are correlated.
+/// Returns a root of the correlation matrix, which correlates independent numbers.
 Eigen::MatrixXd root_of_correlations(std::span<const SitePlace> sites, double length) {
     const auto n = static_cast<Eigen::Index>(sites.size());
     Eigen::MatrixXd correlations(n, n);
@@ -31,7 +31,7 @@ Eigen::MatrixXd root_of_correlations(std::span<const SitePlace> sites, double le
             const double distance = std::hypot(a.x - b.x, a.y - b.y) / length;
             correlations(i, k) = std::exp(-0.5 * distance * distance);
         }
-    // Of sites that are near to each other the matrix is singular but for round-off, which may make a pivot negative.
+    // For close sites the matrix is singular up to round-off, which may make a pivot negative.
     const Eigen::LDLT<Eigen::MatrixXd> factored(correlations);
     const Eigen::VectorXd pivots = factored.vectorD().cwiseMax(0).cwiseSqrt();
     const Eigen::MatrixXd lower = factored.matrixL();

@@ -11,16 +11,16 @@ namespace graze {
 
 namespace {
 
-/// From the left to the right end of a stretch of the section, in micrometres.
-struct Stretch {
+/// An interval of the section, in micrometres.
+struct Interval {
     double left, right;
 };
-using Stretches = std::vector<Stretch>; ///< from left to right, apart
+using Intervals = std::vector<Interval>; ///< disjoint, from left to right
 
-Stretches joined(Stretches all) {
-    std::sort(all.begin(), all.end(), [](const Stretch& a, const Stretch& b) { return a.left < b.left; });
-    Stretches result;
-    for (const Stretch& one : all)
+Intervals joined(Intervals all) {
+    std::sort(all.begin(), all.end(), [](const Interval& a, const Interval& b) { return a.left < b.left; });
+    Intervals result;
+    for (const Interval& one : all)
         if (!result.empty() && one.left <= result.back().right)
             result.back().right = std::max(result.back().right, one.right);
         else
@@ -28,10 +28,10 @@ Stretches joined(Stretches all) {
     return result;
 }
 
-/// Where a line y = const is within polygons. Corners lie on the grid, the line between its rows.
-Stretches cut(const std::vector<GridPolygon>& polygons, double y) {
+/// Intervals of a line y = const within polygons. Corners lie on the grid; the line is put between its rows.
+Intervals cut(const std::vector<GridPolygon>& polygons, double y) {
     const double row = std::floor(y * grid_per_micrometre) + 0.5;
-    Stretches all;
+    Intervals all;
     for (const GridPolygon& polygon : polygons) {
         std::vector<double> crossings;
         for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -48,11 +48,11 @@ Stretches cut(const std::vector<GridPolygon>& polygons, double y) {
     return joined(std::move(all));
 }
 
-/// What is between stretches, from end to end.
-Stretches beside(const Stretches& stretches, const Stretch& whole) {
-    Stretches rest;
+/// Complement of intervals within the whole.
+Intervals beside(const Intervals& intervals, const Interval& whole) {
+    Intervals rest;
     double left = whole.left;
-    for (const Stretch& one : stretches) {
+    for (const Interval& one : intervals) {
         if (one.left > left)
             rest.push_back({left, one.left});
         left = std::max(left, one.right);
@@ -62,12 +62,12 @@ Stretches beside(const Stretches& stretches, const Stretch& whole) {
     return rest;
 }
 
-bool holds(const Stretches& stretches, double x) {
-    return std::any_of(stretches.begin(), stretches.end(),
-                       [&](const Stretch& one) { return one.left <= x && x < one.right; });
+bool holds(const Intervals& intervals, double x) {
+    return std::any_of(intervals.begin(), intervals.end(),
+                       [&](const Interval& one) { return one.left <= x && x < one.right; });
 }
 
-/// The stretches of a section, and what is made of them.
+/// The intervals of a section, and its fabrication steps.
 class CrossSection {
 public:
     CrossSection(const DeviceFile& file, const Layout& layout, double y)
@@ -94,7 +94,7 @@ public:
 
     std::vector<ProcessStep> steps() {
         const double front = file_->process.wafer_thickness;
-        const Stretches all{whole_};
+        const Intervals all{whole_};
         step("1  resist on the back, opened by mask 1").add(wafer(all));
         last().add(film_of(ProcessMaterial::resist, beside(chambers_, whole_), -film_, 0));
         step(fmt::format("2  chambers are etched, {:g} µm deep", file_->process.chamber_depth)).add(carved(all));
@@ -107,7 +107,7 @@ public:
         step("6  epoxy on a second wafer").add(base());
         step("7  the wafers are bonded").add(base()).add(carved(all));
         last().add(film_of(ProcessMaterial::aluminium, marks_, front, front + film_ / 2));
-        const Stretches kept = beside(etched_, whole_);
+        const Intervals kept = beside(etched_, whole_);
         step("8  resist opened by mask 2; developer takes the marks").add(base()).add(carved(all));
         last().add(film_of(ProcessMaterial::resist, kept, front, front + film_));
         step("9  silicon is etched through, to the epoxy").add(base()).add(carved(kept));
@@ -119,35 +119,35 @@ public:
 
 private:
     using Slabs = std::vector<ProcessSlab>;
-    /// A step that is being described.
-    struct Pen {
+    /// Adds slabs to a step.
+    struct StepWriter {
         ProcessStep* step;
-        Pen& add(const Slabs& slabs) {
+        StepWriter& add(const Slabs& slabs) {
             step->slabs.insert(step->slabs.end(), slabs.begin(), slabs.end());
             return *this;
         }
     };
-    Pen step(std::string text) {
+    StepWriter step(std::string text) {
         steps_.push_back({std::move(text), {}});
         return last();
     }
-    Pen last() { return {&steps_.back()}; }
+    StepWriter last() { return {&steps_.back()}; }
 
-    static Slabs film_of(ProcessMaterial material, const Stretches& stretches, double low, double high) {
+    static Slabs film_of(ProcessMaterial material, const Intervals& intervals, double low, double high) {
         Slabs slabs;
-        for (const Stretch& one : stretches)
+        for (const Interval& one : intervals)
             slabs.push_back({material, one.left, one.right, low, high});
         return slabs;
     }
-    Slabs wafer(const Stretches& stretches) const {
-        return film_of(ProcessMaterial::silicon, stretches, 0, file_->process.wafer_thickness);
+    Slabs wafer(const Intervals& intervals) const {
+        return film_of(ProcessMaterial::silicon, intervals, 0, file_->process.wafer_thickness);
     }
-    /// The device's wafer with its chambers, where it is left.
-    Slabs carved(const Stretches& left) const {
+    /// The device wafer with its chambers, where it remains.
+    Slabs carved(const Intervals& left) const {
         Slabs slabs;
-        for (const Stretch& one : left) {
+        for (const Interval& one : left) {
             std::vector<double> ends{one.left, one.right};
-            for (const Stretch& chamber : chambers_)
+            for (const Interval& chamber : chambers_)
                 for (const double end : {chamber.left, chamber.right})
                     if (one.left < end && end < one.right)
                         ends.push_back(end);
@@ -164,14 +164,14 @@ private:
             {ProcessMaterial::silicon, whole_.left, whole_.right, -film_ - file_->conditions.base_thickness, -film_},
             {ProcessMaterial::epoxy, whole_.left, whole_.right, -film_, 0}};
     }
-    /// On the front, down the walls, and on the epoxy where it is seen from the front: not below what overhangs.
-    Slabs coat(const Stretches& kept) const {
+    /// Metal on the front, on the walls, and on epoxy that is visible from the front, but not below overhangs.
+    Slabs coat(const Intervals& kept) const {
         const double front = file_->process.wafer_thickness, metal = film_ / 2;
         Slabs slabs = film_of(ProcessMaterial::aluminium, kept, front, front + metal);
         const Slabs floors = film_of(ProcessMaterial::aluminium, beside(kept, whole_), 0, metal);
         slabs.insert(slabs.end(), floors.begin(), floors.end());
         constexpr double beside_wall = 1e-3;
-        for (const Stretch& one : kept) {
+        for (const Interval& one : kept) {
             const double of_wall = std::min(metal, (one.right - one.left) / 4);
             if (one.left > whole_.left)
                 slabs.push_back({ProcessMaterial::aluminium, one.left, one.left + of_wall,
@@ -183,11 +183,11 @@ private:
         return slabs;
     }
 
-    static constexpr double film = 0.08; ///< of the wafer's thickness: how thick films are shown
+    static constexpr double film = 0.08; ///< relative to the wafer's thickness: displayed thickness of films
     const DeviceFile* file_;
     double film_;
-    Stretch whole_{};
-    Stretches chambers_, etched_, marks_;
+    Interval whole_{};
+    Intervals chambers_, etched_, marks_;
     std::vector<ProcessStep> steps_;
 };
 

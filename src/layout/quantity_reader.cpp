@@ -19,7 +19,8 @@ struct ValueAndUnit {
     PhysicalUnit unit;
 };
 
-/// The unit begins behind a blank, and may have blanks itself (the longest one counts), or right behind a number.
+/// Splits value and unit. The unit follows a blank (and may contain blanks; the longest one counts), or follows a
+/// number directly.
 std::optional<ValueAndUnit> split_unit(const std::string& text) {
     const auto split = [&](std::size_t end, std::size_t begin) -> std::optional<ValueAndUnit> {
         const auto unit = known_unit(std::string_view(text).substr(begin));
@@ -36,7 +37,7 @@ std::optional<ValueAndUnit> split_unit(const std::string& text) {
     return error == std::errc() && length < text.size() ? split(length, length) : std::nullopt;
 }
 
-/// @throws InputError with the place, for a text that ends in a word behind a value
+/// @throws InputError with the place, for a text that ends in a word after a value
 void require_no_unit(const std::string& text, const std::string& name, const char* units, const Place& place) {
     const std::size_t blank = text.find_last_of(' ');
     const std::size_t before = blank == std::string::npos ? blank : text.find_last_not_of(' ', blank);
@@ -44,8 +45,8 @@ void require_no_unit(const std::string& text, const std::string& name, const cha
         return;
     const std::string word = text.substr(blank + 1);
     const auto first = static_cast<unsigned char>(word.front());
-    const bool is_word = std::isalpha(first) || first >= 0x80; // or the Greek letter
-    // Behind an operator it is a name, which the expression is left to refuse.
+    const bool is_word = std::isalpha(first) || first >= 0x80; // or the Greek letter mu
+    // After an operator it is a name, which the expression parser will refuse.
     if (!is_word || std::string_view("+-*/^(,").find(text[before]) != std::string_view::npos ||
         word.find('(') != std::string::npos)
         return;

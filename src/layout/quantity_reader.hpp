@@ -7,18 +7,19 @@
 
 namespace graze {
 
-/// The value in a unit of a text: a number or an expression, or either with a unit of the kind behind it.
-/// @param name what it is, for messages @param units for the remedy, where more than the unit helps
-/// @param inside where the text itself begins @throws InputError with the place
+/// Parses a number or an expression, optionally followed by a unit of the same dimension, and returns the value in
+/// `unit`.
+/// @param name for messages @param units description of the units for the remedy
+/// @param inside place at which the text itself begins @throws InputError with the place
 double quantity_of_text(const std::string& text, const std::string& name, const char* unit, const Place& place,
                         const Place& inside, const char* units = nullptr);
-/// The same of an entry, which may be a number. @throws InputError with the place
+/// Reads such a value from an entry, which may be a number. @throws InputError with the place
 double read_quantity(const StudyReader& reader, const TomlEntry& entry, const char* unit, const char* units = nullptr);
 
 /// @throws InputError (without a place) for a number that is not finite or out of range
 void require_within(double value, const std::string& what, const char* unit, double least, double greatest);
 
-/// Sets a section's number from an entry of its name. @return whether it has one
+/// Sets a section's number from the entry of its name. @return whether the section has it
 template <class Section>
 bool read_quantity_field(const StudyReader& reader, std::span<const QuantityField<Section>> fields,
                          const TomlEntry& entry, Section& section) {

@@ -11,7 +11,7 @@
 
 namespace graze {
 
-/// A length in m is told in um.
+/// Formats a value for messages; a length in m is given in um.
 inline std::string size_text(double value, std::string_view unit) {
     constexpr double micro = 1e-6;
     return unit == "m" ? fmt::format("{:.6g} um", value / micro) : fmt::format("{:.6g} {}", value, unit);
@@ -23,7 +23,7 @@ inline void require_positive(double value, std::string_view what, std::string_vi
         throw InputError(fmt::format("the {} is {}", what, size_text(value, unit)), "it must be positive and finite");
 }
 
-/// @throws InputError unless it is positive and finite all over the depth
+/// @throws InputError unless it is positive and finite at all depths
 inline void require_positive(const EtchedWidth& width, std::string_view what) {
     require_positive(width.least(), what);
     require_positive(width.greatest(), what);

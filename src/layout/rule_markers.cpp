@@ -13,7 +13,7 @@ namespace {
 
 constexpr double half_marker = 5; ///< um, half of a marker's side
 
-/// As KLayout quotes words.
+/// Quotes a word as KLayout does.
 std::string quoted_word(const std::string& text) {
     std::string result = "'";
     for (const char letter : text) {

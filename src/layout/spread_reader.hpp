@@ -5,7 +5,7 @@
 
 namespace graze {
 
-/// Reads [spread]. @throws InputErrors with the places of all that is wrong, or InputError
+/// Reads [spread]. @throws InputErrors with places for several errors, or InputError
 ProcessSpread read_spread(const StudyReader& reader, const TomlEntry& entry);
 
 } // namespace graze

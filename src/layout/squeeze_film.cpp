@@ -24,7 +24,7 @@ void require_film(const GasFilm& film) {
     require_positive(film.gap, "gap of the film");
 }
 
-/// The share that remains of a long film's damping. @param ratio of the shorter side to the longer
+/// Ratio of the damping of a finite film to that of a long one. @param ratio of the shorter side to the longer
 double share_of_finite(double ratio) {
     double sum = 0;
     for (int n = 1;; n += 2) {
@@ -38,7 +38,7 @@ double share_of_finite(double ratio) {
 
 /// 12 (I2 - I1^2/I0) of a gap 1 + a x, x from -1 to 1, in units of (height/mean gap)^3: 3 (artanh(a)/a - 1)/a^2.
 double cross_section(double a) {
-    constexpr double small = 0.1; // the difference cancels
+    constexpr double small = 0.1; // below this the difference cancels
     if (std::abs(a) >= small)
         return 3 * (std::atanh(a) / a - 1) / (a * a);
     double sum = 0, power = 1;
@@ -58,7 +58,7 @@ double mean_free_path_of(const Gas& gas) {
 
 double effective_viscosity(const Gas& gas, double gap) {
     require_positive(gap, "gap of the film");
-    constexpr double factor = 9.638, power = 1.159; // of the fit by Veijola and others
+    constexpr double factor = 9.638, power = 1.159; // of the fit by Veijola et al.
     return gas.viscosity / (1 + factor * std::pow(mean_free_path_of(gas) / gap, power));
 }
 
@@ -67,7 +67,7 @@ double squeeze_film_damping(const GasFilm& film, const Gas& gas) {
     const double mean = film.gap.mean(), change = 0.5 * (film.gap.bottom - film.gap.top) / mean;
     const double ratio = std::min(film.height, film.length) / std::max(film.height, film.length);
     const double slender = film.height / mean;
-    // For a film higher than long the flow is along the length; the factor is symmetric in both.
+    // If the film is higher than long, the flow is along the length; the factor is symmetric.
     const double along = film.height <= film.length ? 1 : ratio * ratio;
     return effective_viscosity(gas, mean) * film.length * slender * slender * slender * along * cross_section(change) *
            share_of_finite(ratio);

@@ -18,7 +18,7 @@ TurnedBox::TurnedBox(const GridBox& box, GridPoint at, double angle) {
 }
 
 bool TurnedBox::keeps_off(const TurnedBox& other) const {
-    constexpr double alike = 1; // a nanometre, to which corners are rounded
+    constexpr double alike = 1; // nanometres: corners are rounded
     for (std::size_t i = 0; i < corners_.size(); ++i) {
         const BoxCorner &a = corners_[i], &b = corners_[(i + 1) % corners_.size()];
         const double length = std::hypot(b.x - a.x, b.y - a.y);

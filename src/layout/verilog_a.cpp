@@ -18,7 +18,7 @@ namespace {
 struct ModuleParameter {
     const char* name;
     const char* unit;
-    const char* range; ///< of Verilog-A
+    const char* range; ///< range in Verilog-A
     const char* text;
     double least, most;
     bool may_be_least; ///< whether the least value itself is allowed
@@ -42,7 +42,7 @@ std::optional<std::size_t> find_independent(const Model& model, const char* name
     return place && !model.parameters[*place].expression ? place : std::nullopt;
 }
 
-/// In the unit of the SI.
+/// Value of a parameter in SI units.
 double value_of(const Model& model, const ModuleParameter& one) {
     const auto place = find_independent(model, one.name);
     if (!place)
@@ -63,7 +63,7 @@ double value_of(const Model& model, const ModuleParameter& one) {
     return value;
 }
 
-/// No word of the language ends like that.
+/// The suffix avoids all keywords of the language.
 std::string module_name(const std::string& name) {
     std::string result = name.empty() || std::isdigit(static_cast<unsigned char>(name.front())) ? "_" : "";
     for (const char letter : name)

@@ -17,12 +17,13 @@ namespace {
 
 constexpr double full_turn = 360;
 
-/// A circle with a flat below, as a polygon. Nanometres. @param flat distance of the flat from the middle
+/// Returns a circle with a flat at the bottom as a polygon. Nanometres. @param flat distance of the flat from the
+/// centre
 GridPolygon wafer_outline(double radius, double flat) {
     constexpr int corners = 720;
     const double lowest = -std::min(flat, radius), half = std::sqrt(std::max(0.0, radius * radius - lowest * lowest));
     const double from = std::atan2(lowest, half), to = std::numbers::pi - from;
-    const bool is_round = half < 1; // nothing to be cut off
+    const bool is_round = half < 1; // no flat
     GridPolygon outline;
     for (int i = 0; i < (is_round ? corners : corners + 1); ++i) {
         const double angle = from + (is_round ? 2 * std::numbers::pi : to - from) * i / corners;
@@ -34,7 +35,7 @@ GridPolygon wafer_outline(double radius, double flat) {
 class WaferDrawing {
 public:
     explicit WaferDrawing(const DeviceFile& file) : file_(file), plan_(file_.wafer) {
-        // What differs from device to device is said in the plan.
+        // Errors in varied dimensions are reported at the plan.
         for (const auto& [name, values] : plan_.vary)
             file_.places.insert_or_assign("device." + name, file.place("wafer.vary." + name));
         radius_ = grid_per_micrometre * plan_.diameter / 2;
@@ -89,7 +90,7 @@ private:
 
     const DeviceDrawing& device_at(std::size_t site) const { return layout_.devices[layout_.sites[site]].drawing; }
 
-    /// From the die's edge to the wafer's.
+    /// The channel from the die's edge to the wafer's.
     GridBox channel_of(const DeviceDrawing& device, std::int64_t margin) const {
         const std::int64_t width = nanometres(device.dimensions.channel_width), low = -(width / 2);
         const std::int64_t edge = std::llround(radius_) - nanometres(plan_.radius);
@@ -98,7 +99,7 @@ private:
 
     void place_sites() {
         const auto count = static_cast<double>(plan_.devices);
-        const double first = plan_.devices % 2 == 0 ? 0.5 : 0.25; // of a pitch: none lies on the x axis
+        const double first = plan_.devices % 2 == 0 ? 0.5 : 0.25; // in pitches: keeps the x axis free
         const double radius = grid_per_micrometre * plan_.radius;
         for (std::size_t i = 0; i < plan_.devices; ++i) {
             const double degrees = full_turn * (static_cast<double>(i) + first) / count;
@@ -125,7 +126,7 @@ private:
         for (const TurnedBox& die : dies_)
             widest = std::max(widest, die.reach());
         for (std::size_t distance = 1; distance <= dies_.size() / 2; ++distance) { // neighbours first
-            // Farther than this from the other one's radius, along which its channel goes, there is nothing to meet.
+            // Beyond this distance from the other's radius, along which its channel runs, they cannot meet.
             const double angle =
                 2 * std::numbers::pi * static_cast<double>(distance) / static_cast<double>(dies_.size());
             if (grid_per_micrometre * plan_.radius * std::sin(std::min(angle, std::numbers::pi / 2)) > 2 * widest)
@@ -161,7 +162,7 @@ private:
         return {TurnedBox(box, {radius, 0}, 0), TurnedBox(box, {-radius, 0}, 0)};
     }
 
-    /// Of both masks, one above the other.
+    /// Label of a mask; those of both masks lie one above the other.
     std::string label(int mask) const {
         return fmt::format("{} MASK {}", plan_.label.empty() ? file_.name : plan_.label, mask);
     }
@@ -190,8 +191,8 @@ private:
                     "give a shorter label or a smaller label_height");
     }
 
-    /// How far a site's channel goes on at a distance from its middle, in the site's own coordinates: to the rim, or to
-    /// the flat.
+    /// End of a site's channel at a distance from its middle line, in the site's coordinates: at the rim, or at the
+    /// flat.
     std::int64_t channel_end(std::size_t site, std::int64_t aside) const {
         const auto y = static_cast<double>(aside);
         const double radius = grid_per_micrometre * plan_.radius;
@@ -202,8 +203,8 @@ private:
         return std::max<std::int64_t>(std::llround(std::floor(end)), device_at(site).die.right);
     }
 
-    /// In two halves, as the die's own part of the channel is, for corners to be in common; cut off along the wafer's
-    /// edge.
+    /// Adds the channel in two halves, like the die's part of it, so that corners are shared; it is cut off at the
+    /// wafer's edge.
     void add_channel(LayoutCell& cell, MaskLayer layer, std::size_t site, const GridBox& channel) const {
         for (const std::int64_t aside : {channel.top, channel.bottom})
             cell.add(layer, GridPolygon{{channel.left, 0},
@@ -258,7 +259,7 @@ private:
 
     DeviceFile file_;
     const WaferPlan& plan_;
-    double radius_ = 0, flat_ = 0; ///< nanometres, the latter from the middle to the flat
+    double radius_ = 0, flat_ = 0; ///< nanometres; flat_ is the distance of the flat from the centre
     std::vector<GridPoint> centres_;
     std::vector<TurnedBox> dies_, channels_;
     Layout layout_;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char *drive_name = "f", *frequency_name = "f0";
 
-/// What a model is driven with, by its own frequency.
+/// Ratio of the drive's frequency to the natural one.
 double drive_ratio(const Model& model, const DeviceFile& file) {
     const auto drive = model.find_parameter(drive_name), own = model.find_parameter(frequency_name);
     if (!drive || !own || model.parameters[*drive].expression || model.parameters[*own].expression)
@@ -33,11 +33,11 @@ LumpedModel departed(const DeviceFile& file, const DeviceDrawing& drawing, const
     return lumped_model_of(drawing, process, conditions, departure.stop_gap);
 }
 
-/// Makes devices of a design's process.
-class WaferShop {
+/// Simulates the devices of a process.
+class WaferSimulation {
 public:
-    WaferShop(const Design& design, const DeviceFile& file, const Layout& wafer, const TripPoint& trip,
-              const WaferYieldSettings& settings)
+    WaferSimulation(const Design& design, const DeviceFile& file, const Layout& wafer, const TripPoint& trip,
+                    const WaferYieldSettings& settings)
         : design_(&design), file_(&file), wafer_(&wafer), trip_(&trip), settings_(&settings),
           model_(trip.system.model()) {
         if (file.spread.tuned)
@@ -84,7 +84,7 @@ private:
         }
     }
 
-    /// Values of the model's parameters; none where the etch leaves nothing.
+    /// Values of the model's parameters; empty if the etch removes a part.
     std::vector<double> values_of(const LumpedModel& lumped) const {
         std::vector<double> values;
         double frequency = 0;
@@ -120,11 +120,12 @@ private:
 
     const DeviceDrawing& drawing_at(std::size_t site) const { return wafer_->devices[wafer_->sites[site]].drawing; }
 
-    /// By the exact derivatives of the trip value by the model's parameters, and differences of these by the process.
+    /// Adds the linear effects: exact derivatives of the trip value by the model's parameters, times differences of
+    /// these by the process.
     void add_effects() {
         const LocatedValue located(trip_->system, trip_->point, trip_->control, parameters_);
         const DeviceDrawing nominal = draw_device(*file_);
-        constexpr double step = 1e-3; // um or degrees: numbers of the process are of order one; the error is 1e-6 of it
+        constexpr double step = 1e-3; // um or degrees: numbers of the process are of order one; relative error 1e-6
         for (const DepartureField& field : departure_fields()) {
             const SpreadParts& parts = file_->spread.*field.spread;
             ProcessDeparture less, more;
@@ -141,7 +142,7 @@ private:
         }
     }
 
-    /// The one that is wanted of the time, or else the greatest that the design asks for.
+    /// Chooses the overshoot of the required trip time, or else the largest requested one.
     void choose_overshoot() {
         if (design_->wanted.overshoot)
             result_.overshoot = design_->wanted.overshoot;
@@ -149,7 +150,7 @@ private:
             result_.overshoot = *std::max_element(design_->trip.overshoots.begin(), design_->trip.overshoots.end());
     }
 
-    /// Called from any thread, for devices of their own.
+    /// Classifies a device; called from any thread, each for its own devices.
     void classify(WaferDevice& device, const LocatedSolution& solution) const {
         const TripPoint moved = moved_to(*trip_, solution.orbit);
         const TripClass found = class_at(moved);
@@ -195,7 +196,7 @@ private:
 
 Design design_of_device(const Design& design, const DeviceFile& file) {
     Design result = design;
-    result.dimensions.clear(); // from which the designer may choose: this device is what it is
+    result.dimensions.clear(); // this device has no free dimensions
     result.planes.clear();
     result.adjustable.reset();
     const auto set = [&](const std::string& name, double value) {
@@ -218,7 +219,7 @@ WaferYield wafer_yield_of(const Design& design, const DeviceFile& file, const La
     if (settings.wafers == 0 || settings.wafers > most)
         throw InputError(fmt::format("{} wafers are out of range", settings.wafers),
                          fmt::format("choose from 1 to {}", most));
-    return WaferShop(design, file, wafer, trip, settings).make();
+    return WaferSimulation(design, file, wafer, trip, settings).make();
 }
 
 } // namespace graze

@@ -16,7 +16,7 @@ namespace graze {
 
 namespace {
 
-/// The first sentence of the text, or its first line.
+/// Returns the first sentence of the text, or its first line.
 std::string first_sentence(const std::string& text) {
     const std::size_t start = std::min(text.find_first_not_of(" \t\n"), text.size());
     const std::size_t end = std::min({text.find(". ", start), text.find(".\n", start), text.find("\n\n", start)});

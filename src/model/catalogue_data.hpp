@@ -5,10 +5,9 @@
 
 namespace graze {
 
-/// A file of models/, studies/ or designs/ in the program; the build writes the source that defines them
-/// (cmake/catalogue.cmake).
+/// A file of models/, studies/ or designs/ that is embedded in the program (cmake/catalogue.cmake writes the source).
 struct EmbeddedModel {
-    std::string_view name; ///< of the file, without its ending
+    std::string_view name; ///< name of the file, without its extension
     std::string_view text;
 };
 

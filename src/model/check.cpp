@@ -160,7 +160,7 @@ private:
         }
     }
 
-    /// Values of expressions in the initial state.
+    /// Returns the values of expressions in the initial state.
     std::vector<double> at_start(const std::vector<Expression>& expressions) const {
         std::vector<double> values = model_.initial_state();
         for (const double value : model_.parameter_values())
@@ -193,15 +193,15 @@ private:
         }
     }
 
-    /// The definition or dependent parameter in which a value that is not finite arises: one that is not finite
-    /// though all that it uses is. Empty when that is the expression itself.
+    /// Returns the definition or dependent parameter in which a value first becomes non-finite: its own inputs are
+    /// finite. Empty when this is the expression itself.
     std::string culprit(const Expression& expression) const {
         std::string result;
         std::vector<Expression> search{expression};
         while (true) {
             std::vector<Expression> used;
             for (const Expression& symbol : symbols_of(search))
-                if (!stands_for(symbol).empty())
+                if (!expression_of(symbol).empty())
                     used.push_back(symbol);
             const std::vector<double> values = at_start(used);
             const auto bad = std::find_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); });
@@ -209,12 +209,12 @@ private:
                 return result;
             const Expression& symbol = used[static_cast<std::size_t>(bad - values.begin())];
             result = fmt::format("'{}' is {}", symbol.name(), *bad);
-            search = {stands_for(symbol)};
+            search = {expression_of(symbol)};
         }
     }
 
-    /// What a definition or dependent parameter stands for.
-    Expression stands_for(const Expression& symbol) const {
+    /// Returns the expression of a definition or dependent parameter.
+    Expression expression_of(const Expression& symbol) const {
         for (const Definition& definition : model_.definitions)
             if (definition.name == symbol.name())
                 return definition.value;
@@ -229,7 +229,7 @@ private:
     std::vector<ModelWarning> warnings_;
 };
 
-/// A string of the Graphviz language.
+/// Returns a string literal of the Graphviz language.
 std::string dot_string(const std::string& text) {
     std::string line = text, result = "\"";
     std::replace_if(
@@ -242,7 +242,7 @@ std::string dot_string(const std::string& text) {
     return result + '"';
 }
 
-/// Arrows between modes: one for all transitions that lead from one to another, each with a line of the label.
+/// The arrows of the graph: one for all transitions from one mode to another, its label has a line for each.
 class Arrows {
 public:
     void add(const std::string& from, const std::string& to, const std::string& label, bool dashed) {

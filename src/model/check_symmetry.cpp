@@ -13,8 +13,8 @@ namespace graze {
 
 namespace {
 
-/// Both sides of DS(x) f(x) = f'(S(x)), where f' is the vector field of the image of the mode: first all
-/// components of the left side, then those of the right.
+/// Returns both sides of DS(x) f(x) = f'(S(x)), where f' is the vector field of the image of the mode: first all
+/// components of the left side, then those of the right side.
 Function both_sides(Model model, const Symmetry& symmetry, std::size_t mode) {
     const std::vector<Expression> states = model.state_symbols();
     const std::vector<Expression> map = model.expand(symmetry.map);
@@ -31,7 +31,7 @@ Function both_sides(Model model, const Symmetry& symmetry, std::size_t mode) {
     return {model.inputs(), sides};
 }
 
-/// States around the initial one, at distances that suit models in any units; always the same ones.
+/// Returns a fixed set of states around the initial one, at distances relative to the size of each state.
 std::vector<std::vector<double>> probes(const Model& model) {
     const std::vector<double> initial = model.initial_state();
     const std::vector<double> parameters = model.parameter_values();
@@ -49,7 +49,7 @@ std::vector<std::vector<double>> probes(const Model& model) {
     return result;
 }
 
-/// The first state whose rate the symmetry does not take where it should.
+/// Returns the first state whose rate the symmetry does not map to the rate in the image mode.
 std::optional<std::size_t> broken_rate(const Model& model, const Symmetry& symmetry, std::size_t mode) {
     constexpr double tolerance = 1e-6; // far above round-off, far below a wrong sign
     const Function sides = both_sides(model, symmetry, mode);

@@ -7,7 +7,7 @@
 
 namespace graze {
 
-/// Says which rates a declared symmetry does not take to one another, judged at a few states around the initial one.
+/// Returns warnings about rates that violate a declared symmetry, tested at a few states around the initial one.
 std::vector<std::string> symmetry_warnings(const Model& model);
 
 } // namespace graze

@@ -32,11 +32,11 @@ bool contains(const Expression& expression, const Expression& symbol) {
     return std::find(symbols.begin(), symbols.end(), symbol) != symbols.end();
 }
 
-/// What is fixed for good: it must not depend on the parameter.
+/// Refuses the parameter if a quantity that must stay constant depends on it.
 void require_fixed(Model& model, const Expression& expression, const Expression& symbol, const std::string& what) {
     if (!expression.empty() && contains(model.expand(expression), symbol))
         throw InputError(
-            fmt::format("{} depends on '{}', which cannot change in time therefore", what, to_string(symbol)),
+            fmt::format("{} depends on '{}', which therefore cannot change in time", what, to_string(symbol)),
             "choose another parameter");
 }
 
@@ -49,7 +49,7 @@ void require_drivable(Model& model, const Expression& symbol) {
             require_fixed(model, section.value, symbol, fmt::format("the place of the section '{}'", section.name));
 }
 
-/// The parameter, and those that depend on it, by what they are now.
+/// Returns the driven value of the parameter, and the resulting values of parameters that depend on it.
 std::vector<Replacement> replacements_for(Model& model, const Expression& symbol, const Expression& value) {
     const std::vector<Replacement> own{{symbol, value}};
     std::vector<Replacement> all = own;
@@ -64,7 +64,7 @@ std::vector<Replacement> replacements_for(Model& model, const Expression& symbol
     return all;
 }
 
-/// Replaces in all that is in terms of states, and leaves parameters and initial states as they are.
+/// Replaces symbols in all expressions of states; parameters and initial states are left unchanged.
 void replace_everywhere(Model& model, const std::vector<Replacement>& replacements) {
     const std::vector<Parameter> parameters = model.parameters;
     const std::vector<State> states = model.states;
@@ -79,7 +79,7 @@ void replace_everywhere(Model& model, const std::vector<Replacement>& replacemen
 } // namespace
 
 DrivenParameter drive_parameter(const Model& model, std::string_view parameter, DriveKind kind) {
-    model.independent_parameter(parameter); // refuses others
+    model.independent_parameter(parameter); // throws for other names
     DrivenParameter driven;
     driven.source_ = std::make_shared<Model>(model);
     driven.parameter_ = std::string(parameter);
@@ -118,7 +118,7 @@ Expression DrivenParameter::of(const Expression& expression) const {
     Model source = *source_, scratch = model;
     const Expression plain = source.expand(expression);
     source.require_known(source.inputs(), std::vector<Expression>{plain});
-    const Expression here = scratch.expand(plain); // nothing is left to expand: it is only taken over
+    const Expression here = scratch.expand(plain); // has nothing left to expand; this adopts it into the graph
     return substitute(here, std::vector<Replacement>{{scratch.symbol(parameter_), scratch.expand(value)}});
 }
 

@@ -54,11 +54,11 @@ void require_sensible(const MicrobeamOptions& o) {
             "give a distance that is not 0 and less than the gap");
 }
 
-/// Collects the parts of the model; each function adds one of them.
+/// Builds the model; each function adds one part.
 ///
-/// Operands of sums and products are printed in the order in which they came into being, while compilers choose the
-/// order in which they evaluate operands. So every name is known from where it is declared on, and terms that are
-/// composed are composed before they are added.
+/// Operands of sums and products are printed in the order of their creation, and compilers choose the order in which
+/// they evaluate operands. For a reproducible text, every symbol is created at its declaration, and compound terms
+/// before they are added.
 class MicrobeamBuilder {
 public:
     explicit MicrobeamBuilder(const MicrobeamOptions& options)
@@ -106,7 +106,7 @@ private:
         return symbol(name);
     }
 
-    /// Sum of terms, of which those that vanish identically are left out.
+    /// Returns the sum; terms that vanish identically are left out.
     static Expression added(const Expression& sum, const Expression& term) {
         if (term.is_number(0)) {
             return sum;
@@ -188,7 +188,7 @@ private:
         define("stretch", "mean square of the slope, twice the strain of the mid-line", stretch);
     }
 
-    /// Deflection at x due to the symmetric modes (first = 1) or the antisymmetric ones (first = 2).
+    /// Returns the deflection at x due to the symmetric modes (first = 1) or the antisymmetric modes (first = 2).
     Expression partial_deflection(double x, int first) const {
         Expression sum = number(0);
         for (int i = first; i <= count(); i += 2) {
@@ -197,14 +197,14 @@ private:
         return sum;
     }
 
-    /// Definitions of gap and attraction at the node `label`, where the deflection is as given.
+    /// Adds definitions of gap and attraction at the node `label`, where the deflection is given.
     Expression add_pressure(const std::string& label, const Expression& deflection) {
         const Expression gap = define("gap_" + label, "distance between beam and electrode", symbol("g0") - deflection);
         return define("pressure_" + label, "attraction there per V^2, Eqs. (3.11) and (3.12)",
                       (1 + symbol("fringe") * pow(gap / symbol("b"), 0.76)) / pow(gap, 2.0));
     }
 
-    /// Nodes x and 1 - x are treated together: there, symmetric modes have equal and antisymmetric modes opposite
+    /// Nodes x and 1 - x are treated together: symmetric modes have equal and antisymmetric modes opposite
     /// values, which halves the work.
     void add_electrostatics() {
         std::vector<Expression> pulls(static_cast<std::size_t>(count()), number(0));
@@ -312,7 +312,7 @@ private:
         model_.initial_mode = free_on;
     }
 
-    /// The voltage is always on. The phase goes on turning, so that equilibria are orbits with a period.
+    /// Steady voltage: the phase still advances, so that equilibria are orbits with a period.
     void add_steady_motion() {
         constexpr std::size_t free = 0, contact = 1;
         model_.events = {{"touch", "the beam meets the stop", symbol("clearance"), EventKind::barrier},
@@ -404,7 +404,7 @@ std::optional<MicrobeamOptions> microbeam_member(std::string_view model_name) {
         return options;
     }
     const auto read = std::from_chars(member.data(), member.data() + member.size(), options.modes);
-    // One mode makes the member that is called by the family's own name.
+    // "microbeam-1" is refused: its name is that of the family.
     const bool number = !member.starts_with('0') && read.ec == std::errc() && read.ptr == member.data() + member.size();
     return number && options.modes > 1 ? std::optional(options) : std::nullopt;
 }

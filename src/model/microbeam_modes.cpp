@@ -17,8 +17,8 @@ bool is_symmetric(int i) {
     return i % 2 == 1;
 }
 
-/// Root number i of cos k cosh k = 1. With k = (i + 1/2) pi + s the equation is sin(s) = +-1/cosh(k), in which
-/// nothing overflows and s, which tends to zero like exp(-k), keeps its relative accuracy.
+/// Returns root number i of cos k cosh k = 1. With k = (i + 1/2) pi + s the equation reads sin(s) = +-1/cosh(k):
+/// nothing overflows, and s, which decays like exp(-k), keeps its relative accuracy.
 double wave_number(int i) {
     const double base = (i + 0.5) * std::numbers::pi;
     const double sign = is_symmetric(i) ? 1 : -1;
@@ -38,7 +38,8 @@ double wave_number(int i) {
     return base + shift;
 }
 
-/// The weight of sinh and sin in the mode shape: tanh(k/2) for symmetric modes, 1/tanh(k/2) for the others.
+/// Returns the coefficient of sinh and sin in the mode shape: tanh(k/2) for symmetric modes, 1/tanh(k/2) for the
+/// others.
 double sine_weight(int i, double k) {
     const double tanh = std::tanh(k / 2);
     return is_symmetric(i) ? tanh : 1 / tanh;
@@ -73,8 +74,8 @@ double ClampedBeamModes::frequency(int i) const {
     return k * k;
 }
 
-// cosh kx - cos kx - s (sinh kx - sin kx), whose hyperbolic functions are written as boundary layers that decay from
-// either end: their difference, of order exp(kx), would leave nothing of the shapes of higher modes.
+// cosh kx - cos kx - s (sinh kx - sin kx), with the hyperbolic functions written as boundary layers that decay from
+// either end: a direct evaluation subtracts terms of order exp(kx), which loses all digits for higher modes.
 double ClampedBeamModes::shape(int i, double x) const {
     require_mode(i, count());
     require_place(x);
@@ -124,7 +125,7 @@ double ClampedBeamModes::slope_product(int i, int j) const {
 
 namespace {
 
-constexpr double mean_square = 128.0 / 315; // of 16 x^2 (x - 1)^2
+constexpr double mean_square = 128.0 / 315; // mean square of 16 x^2 (x - 1)^2
 
 } // namespace
 

@@ -51,7 +51,7 @@ std::vector<NodePair> gauss_pairs(int nodes) {
     std::vector<NodePair> pairs;
     for (int k = 1; k <= (nodes + 1) / 2; ++k) {
         const bool centre = 2 * k == nodes + 1;
-        // Tricomi's estimate is so near to the root of the Legendre polynomial that Newton takes four steps at most.
+        // Tricomi's estimate is so close to the root of the Legendre polynomial that Newton needs at most four steps.
         double z = centre ? 0 : std::cos(std::numbers::pi * (k - 0.25) / (nodes + 0.5));
         for (int step = 0; step < 10 && !centre; ++step) {
             const Legendre polynomial = legendre(nodes, z);

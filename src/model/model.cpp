@@ -23,7 +23,7 @@ std::optional<std::size_t> find_named(const std::vector<Item>& items, std::strin
     return static_cast<std::size_t>(found - items.begin());
 }
 
-/// Index of the named item. @throws InputError with the nearest name
+/// Returns the index of the named item. @throws InputError with the nearest name
 template <typename Item>
 std::size_t require_named(const std::vector<Item>& items, std::string_view name, const char* kind) {
     if (const auto index = find_named(items, name))
@@ -43,10 +43,10 @@ Model::Model() {
 
 Model::Model(const Model& other) : ModelItems(other) {
     if (!graph)
-        return; // of a model that was moved from
+        return; // the other model has been moved from
     graph = graph->copy();
     visit_expressions(*this, [&](Expression& expression) {
-        if (expression.graph() == other.graph) // others are for `validate` to find
+        if (expression.graph() == other.graph) // `validate` reports foreign expressions
             expression = Expression(graph, expression.index());
     });
 }
@@ -58,7 +58,7 @@ Model& Model::operator=(const Model& other) {
 }
 
 void Model::freeze() {
-    // What is asked for by name must be there.
+    // A frozen graph must already contain all symbols, since names are looked up in it.
     for (const State& state : states)
         symbol(state.name);
     for (const Parameter& parameter : parameters)

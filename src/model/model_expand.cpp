@@ -17,13 +17,13 @@
 
 namespace graze {
 
-/// The definitions and dependent parameters on which some expressions depend, directly or not, found in one walk
-/// that visits each node once and does not recurse. Asked again it finds only what is new.
+/// Finds all definitions and dependent parameters on which given expressions depend, directly or not, by a walk without
+/// recursion that visits each node once. Later calls report only those that are new.
 class Abbreviations {
 public:
     struct Item {
         Expression symbol, value;
-        std::uint32_t level; ///< from 1; all that `value` needs is on lower levels
+        std::uint32_t level; ///< from 1; `value` depends only on lower levels
     };
 
     explicit Abbreviations(const Model& model) : graph_(*model.graph) {
@@ -38,22 +38,22 @@ public:
                 know(parameter.name, *parameter.expression);
     }
 
-    /// Whether there is nothing to be expanded in any expression.
+    /// True when the model has neither definitions nor dependent parameters.
     bool none() const { return known_.empty(); }
 
-    /// Finds those that have not been found before.
+    /// Finds the abbreviations that no earlier call has found.
     void find(std::span<const Expression> expressions) {
         items_.clear();
-        levels_.resize(graph_.size(), unvisited); // a name that was never used before is a new node
+        levels_.resize(graph_.size(), unvisited); // symbols created since the last call have new nodes
         for (const Expression& expression : expressions)
             if (circle_.empty())
                 visit(expression);
         std::stable_sort(items_.begin(), items_.end(), [](const Item& a, const Item& b) { return a.level < b.level; });
     }
 
-    /// By level; incomplete when there is a circle.
+    /// The abbreviations found, by level; incomplete when there is a circle.
     const std::vector<Item>& items() const { return items_; }
-    /// Names of the first circle found, the first repeated at the end.
+    /// Names in the first circle found, the first repeated at the end.
     const std::vector<std::string>& circle() const { return circle_; }
 
 private:
@@ -64,7 +64,7 @@ private:
     static constexpr std::uint32_t unvisited = 0xffffffff;
     static constexpr std::uint32_t open = 0xfffffffe;
 
-    /// Operands of a node; an abbreviation has what it stands for as its only operand.
+    /// Returns the operands of a node; the only operand of an abbreviation is its expression.
     std::span<const NodeIndex> operands(NodeIndex index, std::array<NodeIndex, 2>& space) const {
         const Node& node = graph_.node(index);
         space = {node.left, node.right};
@@ -121,14 +121,14 @@ private:
     }
 
     const Graph& graph_;
-    std::vector<std::uint32_t> levels_; ///< of each node: the highest level below it
+    std::vector<std::uint32_t> levels_; ///< for each node, the highest level on which it depends
     std::unordered_map<NodeIndex, Expression> known_;
     std::vector<Item> items_;
     std::vector<std::string> circle_;
 };
 
 std::string circle_text(const std::vector<std::string>& names) {
-    constexpr std::size_t most = 8, ends = 3; // a circle of thousands is not to be read
+    constexpr std::size_t most = 8, ends = 3; // longer circles are shortened in messages
     if (names.size() <= most)
         return fmt::format("{}", fmt::join(names, " -> "));
     return fmt::format("{} -> ... ({} more) ... -> {}", fmt::join(names.begin(), names.begin() + ends, " -> "),
@@ -174,7 +174,7 @@ std::vector<Expression> Expander::expand(std::span<const Expression> given) {
         throw InputError({model_.name, 0, 0},
                          "definitions refer to one another in a circle: " + circle_text(abbreviations_->circle()),
                          "define one of them without the others");
-    // Level by level, for parts that definitions share to be visited once.
+    // Replace level by level, so that parts shared by definitions are visited once.
     const auto& items = abbreviations_->items();
     for (std::size_t begin = 0; begin < items.size();) {
         std::vector<Expression> level;
@@ -196,14 +196,14 @@ std::vector<Expression> Model::expand(std::span<const Expression> expressions) {
 }
 
 Function Model::function_of(std::span<const Expression> expressions) const {
-    Model copy = *this; // for to expand them makes its graph grow
+    Model copy = *this; // since expanding appends to the graph
     const std::vector<Expression> inputs = copy.inputs(), outputs = copy.expand(expressions);
     copy.require_known(inputs, outputs);
     return {inputs, outputs};
 }
 
 Function Model::function_of_parameters(std::span<const Expression> expressions) const {
-    // Mostly numbers, of which there may be thousands, and where none has to be expanded there is no need of a copy.
+    // Often the expressions are thousands of numbers: without anything to expand, copying the model is not needed.
     const std::shared_ptr<Graph> own = Graph::create();
     std::vector<Expression> own_symbols, adopted;
     for (const std::string& parameter : independent_parameters())

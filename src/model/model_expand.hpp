@@ -13,18 +13,18 @@ namespace graze {
 
 class Abbreviations;
 
-/// Expands expressions of one model in many calls, as Model::expand does in one. What definitions stand for is found
-/// once, so that the time for all of them goes by their size.
+/// Expands expressions of one model in many calls, as Model::expand does in one. Each definition is expanded once, so
+/// that the total time is proportional to the size of all expressions.
 class Expander {
 public:
-    /// @param model whose definitions must stay as they are for as long; its graph grows
+    /// @param model its definitions must not change during the lifetime of this object; its graph grows
     explicit Expander(Model& model);
     ~Expander();
     Expander(const Expander&) = delete;
     Expander& operator=(const Expander&) = delete;
 
     Expression expand(const Expression& expression);
-    /// @throws InputError when definitions refer to one another in a circle; then it is of no more use
+    /// @throws InputError when definitions refer to one another in a circle; the object cannot be used afterwards
     std::vector<Expression> expand(std::span<const Expression> expressions);
 
 private:
@@ -32,14 +32,14 @@ private:
 
     Model& model_;
     std::unique_ptr<Abbreviations> abbreviations_;
-    std::unordered_map<NodeIndex, Expression> values_; ///< of those that have been expanded
+    std::unordered_map<NodeIndex, Expression> values_; ///< of the abbreviations expanded so far
 };
 
-/// Names of definitions or dependent parameters that refer to one another in a circle, the first repeated at the
+/// Returns the names of definitions or dependent parameters that form a circle, the first repeated at the
 /// end; empty when there is no circle.
 std::vector<std::string> find_circle(const Model& model);
 
-/// "a -> b -> a"
+/// Returns the text "a -> b -> a", shortened if long.
 std::string circle_text(const std::vector<std::string>& names);
 
 } // namespace graze

@@ -14,13 +14,13 @@ namespace {
 enum class Role {
     general,       ///< may contain anything
     in_parameters, ///< may contain parameters only
-    unused,        ///< nothing asks for it
+    unused,        ///< never evaluated
 };
 
-/// Expressions that maps of states share, each to be visited once.
+/// Expressions shared by several state maps; each is visited once.
 class SharedImages {
 public:
-    /// Visits those of a map that it uses and that have not been visited. @param visit of a state and its image
+    /// Visits the images that a map uses and that have not been visited. @param visit receives a state and its image
     template <class Visit>
     void visit(const StateMap& map, const Visit& visit) {
         if (map.empty())
@@ -46,8 +46,8 @@ private:
 };
 
 /// Visits all expressions of a model, in the order of the file.
-/// @param visit is called with an expression, its role, and a function that makes its path (which few want)
-/// @param visit_map with the map of a jump and a function that makes the path of a state's image
+/// @param visit receives an expression, its role, and a function that returns its path (seldom needed)
+/// @param visit_map receives the map of a jump and a function that returns the path of a state's image
 template <class AnyModel, class Visit, class VisitMap>
 void walk(AnyModel& model, const Visit& visit, const VisitMap& visit_map) {
     const auto visit_each_state = [&](auto& expressions, const auto& prefix) {
@@ -89,7 +89,7 @@ void walk(AnyModel& model, const Visit& visit, const VisitMap& visit_map) {
         visit(quantity.value, Role::general, [&] { return "quantities." + quantity.name + ".value"; });
 }
 
-/// The same of a model that stays as it is. What jumps share is visited once.
+/// The same for a constant model. Images shared by jumps are visited once.
 template <class Visit>
 void walk(const Model& model, const Visit& visit) {
     SharedImages shared;
@@ -127,7 +127,7 @@ StateChanges changes_of(const StateMap& map, std::span<const Expression> states,
                         std::shared_ptr<const std::vector<Expression>>& identity) {
     StateChanges changes;
     if (map.empty())
-        return changes; // the identity may be left empty
+        return changes; // an empty map is the identity
     const auto add = [&](std::size_t state, const Expression& image) {
         if (!(image == states[state]))
             changes.push_back({state, image});
@@ -144,7 +144,7 @@ StateChanges changes_of(const StateMap& map, std::span<const Expression> states,
 }
 
 void visit_expressions(Model& model, const std::function<void(Expression&)>& visit) {
-    // What maps share they share afterwards, too.
+    // Images that were shared between maps before the visit are shared afterwards.
     std::unordered_map<const std::vector<Expression>*, std::shared_ptr<const std::vector<Expression>>> visited;
     const auto visit_map = [&](StateMap& map, const auto&) {
         auto& shared = visited[map.shared().get()];

@@ -17,23 +17,23 @@ struct ModelExpression {
     bool in_parameters = false; ///< may contain parameters only
 };
 
-/// All expressions of a model, conditions included, in the order of the file. Those that jumps share come once, as the
-/// first one's.
+/// Returns all expressions of a model, conditions included, in the order of the file. An image shared by several jumps
+/// is listed once, for the first jump.
 std::vector<ModelExpression> model_expressions(const Model& model);
-/// The same without their paths, which are many times as long to make.
+/// Returns the same expressions without their paths, which take much longer to make.
 enum class ExpressionRole {
     general,       ///< may contain anything
     in_parameters, ///< may contain parameters only
 };
 std::vector<Expression> expressions_of(const Model& model, ExpressionRole role);
 
-/// What a jump changes: states with their images, by rising state.
-/// @param states symbols; @param identity the last map of which nothing changes, to be handed on from call to call
+/// Returns the states that a jump changes, with their images, by rising state.
+/// @param states symbols; @param identity caches the last shared map found to be the identity; pass it to each call
 using StateChanges = std::vector<StateMap::Change>;
 StateChanges changes_of(const StateMap& map, std::span<const Expression> states,
                         std::shared_ptr<const std::vector<Expression>>& identity);
 
-/// Visits every expression that a model holds, to be changed, empty ones too.
+/// Passes every expression of a model, empty ones included, to `visit` for modification.
 void visit_expressions(Model& model, const std::function<void(Expression&)>& visit);
 
 } // namespace graze

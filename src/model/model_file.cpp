@@ -46,7 +46,7 @@ public:
             read("parameters", &ModelReader::name_parameters) && read("states", &ModelReader::name_states) &&
             read("definitions", &ModelReader::name_definitions) && read("modes", &ModelReader::name_modes) &&
             mistakes_.attempt([&] { validate_names(model_, places_); });
-        if (!named) // all others refer to these names
+        if (!named) // everything else refers to these names
             mistakes_.throw_noted();
         make_scope();
         read("parameters", &ModelReader::read_parameters);
@@ -90,7 +90,7 @@ private:
     void name_definitions(const TomlEntry& group) { name_items(group, model_.definitions); }
     void name_modes(const TomlEntry& group) { name_items(group, model_.modes); }
 
-    /// Names come before all contents, which may refer to them in any order.
+    /// Names are read before all contents, which may refer to them in any order.
     template <typename Item>
     void name_items(const TomlEntry& group, std::vector<Item>& items) {
         for (const TomlEntry& entry : reader_.entries(reader_.table(group), group.path)) {
@@ -101,7 +101,7 @@ private:
         }
     }
 
-    /// A number that is written as an expression, such as 30*pi/180, depends on nothing and is there to be changed.
+    /// A number written as an expression, such as 30*pi/180, depends on no parameter and can be changed like a number.
     static void set_value(Parameter& parameter, const Expression& value) {
         if (value.is_number())
             parameter.value = value.node().value;
@@ -192,7 +192,7 @@ private:
                 if (event.function.empty())
                     fail_missing(entry, "function", "function");
             });
-            if (!good) // for what refers to it
+            if (!good) // a placeholder for items that refer to the event
                 event.function = model_.graph->number(1);
             model_.events.push_back(std::move(event));
         }

@@ -22,13 +22,13 @@ bool is_key_character(char c) {
            c == ' ' || c == '\t';
 }
 
-/// Walks over the text as far as strings, comments and keys can be told apart.
+/// Scans the text as far as needed to tell strings, comments and keys apart.
 class Guard {
 public:
     Guard(std::string_view text, const SourceText& source) : text_(text), source_(source) {}
 
     void run() {
-        if (text_.substr(0, 3) == "\xef\xbb\xbf") // the mark with which some editors begin a file
+        if (text_.substr(0, 3) == "\xef\xbb\xbf") // byte order mark
             at_ = 3;
         int parts = 1;
         while (at_ < text_.size()) {
@@ -72,7 +72,7 @@ private:
                std::string_view("\r\n\xbf").find(text_[before]) != std::string_view::npos;
     }
 
-    /// The name of a table, after `[` or `[[`, must begin like a key. Steps over what is before it.
+    /// Checks that the name of a table, after `[` or `[[`, begins like a key. Skips the characters before it.
     void check_header() {
         open_ += '[';
         skip_blanks();
@@ -99,7 +99,7 @@ private:
         open_.pop_back();
     }
 
-    /// Steps over the string that begins here. In the middle of a word the parser does not see a string at all.
+    /// Skips the string that begins here. The parser does not recognise a string in the middle of a word.
     void read_string() {
         const std::size_t begin = at_;
         const bool in_word =
@@ -141,7 +141,7 @@ private:
             at_ = std::min(at_ + 1, text_.size());
             return;
         }
-        at_ = next; // a backslash at the end of a line swallows the white space that follows
+        at_ = next; // a backslash at the end of a line removes the white space that follows
         if (at_ < text_.size() && !is_ascii(text_[at_]))
             fail("a line that continues another one begins with a character outside ASCII",
                  "move the backslash, for the line to begin with a plain letter");

@@ -21,13 +21,13 @@ void ModelParts::make_scope() {
         scope_.emplace(definition.name, model_.symbol(definition.name));
 }
 
-/// An error in the value of a string, which was parsed as if it were a file of its own, with its place in this file.
+/// Returns an error in the value of a string (parsed as if it were a file of its own) with its place in this file.
 InputError ModelParts::inside(const TomlEntry& entry, const std::string& text, const InputError& error) const {
     const std::size_t offset = SourceText(text, "").position(error.place());
     return {source_.inside_string(reader_.place(*entry.node), offset), error.problem(), error.remedy()};
 }
 
-/// Parses a string with `parse(text, place)`, and notes where it is.
+/// Parses a string with `parse(text, place)` and records its place.
 template <typename Parse>
 auto ModelParts::parse_string(const TomlEntry& entry, Parse parse) {
     const std::string text = reader_.string(entry);

@@ -16,39 +16,39 @@
 
 namespace graze {
 
-/// A model that is being read, and how the parts are read of which its tables are made: expressions, conditions,
-/// choices, names of other things. Each notes its place, for mistakes that show only when all has been read.
+/// A model that is being read, and readers of the parts of its tables: expressions, conditions, choices, names of other
+/// items. Each records the place of what it reads, for mistakes that only show after the whole file has been read.
 class ModelParts {
 protected:
     ModelParts(std::string_view text, const std::string& file)
         : source_(text, file), reader_(file), places_(file, &source_) {}
 
-    /// Lets expressions use the names of parameters, states and definitions.
+    /// Makes the names of parameters, states and definitions known to expressions.
     void make_scope();
 
-    /// A number or the text of an expression. One that is wrong is noted, and a number stands for it.
+    /// Reads a number or the text of an expression. A mistake is noted, and a placeholder number returned.
     Expression expression(const TomlEntry& entry);
-    /// A number, which must be finite.
+    /// Reads a finite number.
     double number(const TomlEntry& entry);
-    /// Those that are wrong are noted, and left out.
+    /// Reads conditions. Wrong ones are noted and left out.
     std::vector<Condition> conditions(const TomlEntry& entry);
-    /// The entries of a table, or the short form: a value alone, which stands for `{ key = value }`.
+    /// Returns the entries of a table, or of the short form: a single value that stands for `{ key = value }`.
     std::vector<TomlEntry> short_form(const TomlEntry& entry, const char* key,
                                       std::initializer_list<std::string_view> allowed) const;
-    /// A map of states; those that are not mentioned stay as they are.
+    /// Reads a map of states; states that are not mentioned are unchanged.
     StateMap state_map(const std::vector<TomlEntry>& entries);
-    /// The map in which all stay. Call when all states have their names.
+    /// Returns the identity map. To be called when all states have their names.
     const StateMap& identity();
 
-    /// Index of a string among the choices.
+    /// Returns the index of a string among the choices.
     std::size_t choice(const TomlEntry& entry, const std::vector<std::string>& choices) const;
-    /// Index of the item that a string names.
+    /// Returns the index of the item that a string names.
     template <typename Item>
     std::size_t index(const TomlEntry& entry, const std::vector<Item>& items, const char* kind) {
         places_.set(entry.path, reader_.place(*entry.node));
         return find(reader_.string(entry), reader_.place(*entry.node), items, kind);
     }
-    /// Index of the item that a key names.
+    /// Returns the index of the item that a key names.
     template <typename Item>
     std::size_t key_index(const TomlEntry& entry, const std::vector<Item>& items, const char* kind) {
         return find(entry.name, entry.place, items, kind);
@@ -63,7 +63,7 @@ protected:
     Mistakes mistakes_; ///< found so far
 
 private:
-    /// Places of the names of some items, which may get more of them but keep those that they have.
+    /// Indices of items by name. Items may be appended between calls; known ones keep their names.
     struct NamePlaces {
         std::size_t known = 0;
         std::unordered_map<std::string, std::size_t> places;
@@ -89,7 +89,7 @@ private:
 
     Scope scope_;
     StateMap identity_;
-    std::map<std::string, NamePlaces, std::less<>> name_places_; ///< of each kind of items
+    std::map<std::string, NamePlaces, std::less<>> name_places_; ///< for each kind of item
 };
 
 } // namespace graze

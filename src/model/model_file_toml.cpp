@@ -33,7 +33,7 @@ std::vector<TomlEntry> TomlReader::entries(const toml::table& table, const std::
         const std::string name(key.str());
         result.push_back({name, path.empty() ? name : path + "." + name, place(key.source()), &node});
     }
-    // The parser keeps tables sorted by key, but the order in a model means something.
+    // The parser sorts tables by key, but the order in a model file is significant.
     std::sort(result.begin(), result.end(), [](const TomlEntry& one, const TomlEntry& other) {
         return std::pair(one.place.line, one.place.column) < std::pair(other.place.line, other.place.column);
     });

@@ -12,7 +12,7 @@ bool continues_character(char byte) {
     return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
 }
 
-/// Length in the file and in the string's value (UTF-8) of the escape at `position`.
+/// Lengths of the escape at `position`, in the file and in the string's value (UTF-8).
 struct Escape {
     std::size_t length, value_length;
 };
@@ -29,7 +29,7 @@ Escape escape_at(std::string_view text, std::size_t position) {
         return {2 + digits, code < 0x80 ? 1U : code < 0x800 ? 2U : code < 0x10000 ? 3U : 4U};
     }
     if (kind == ' ' || kind == '\t' || kind == '\r' || kind == '\n') {
-        // A backslash at the end of a line swallows all white space after it.
+        // A backslash at the end of a line removes all white space after it.
         const std::size_t end = text.find_first_not_of(" \t\r\n", position + 1);
         return {(end == std::string_view::npos ? text.size() : end) - position, 0};
     }
@@ -39,7 +39,7 @@ Escape escape_at(std::string_view text, std::size_t position) {
 } // namespace
 
 SourceText::SourceText(std::string_view text, std::string file) : text_(text), file_(std::move(file)) {
-    line_starts_.push_back(text_.starts_with("\xef\xbb\xbf") ? 3 : 0); // the mark with which some editors begin
+    line_starts_.push_back(text_.starts_with("\xef\xbb\xbf") ? 3 : 0); // byte order mark
     for (std::size_t i = 0; i < text_.size(); ++i)
         if (text_[i] == '\n')
             line_starts_.push_back(i + 1);
@@ -83,7 +83,7 @@ Place SourceText::inside_string(const Place& begin, std::size_t offset) const {
     }
     for (std::size_t value = 0; at < text.size();) {
         const bool escaped = quote == '"' && text[at] == '\\';
-        const bool line_end = text.substr(at, 2) == "\r\n"; // read as one character
+        const bool line_end = text.substr(at, 2) == "\r\n"; // counts as one character
         const Escape piece = escaped ? escape_at(text, at) : Escape{line_end ? 2U : 1U, 1};
         if (value + piece.value_length > offset)
             break;

@@ -10,18 +10,18 @@
 
 namespace graze {
 
-/// The text of a model file, to find places in it. Columns count characters, not bytes.
+/// The text of a model file, for finding places in it. Columns count characters, not bytes.
 class SourceText {
 public:
     SourceText(std::string_view text, std::string file);
 
     const std::string& file() const { return file_; }
-    /// Index of the byte at this line and column.
+    /// Returns the index of the byte at this line and column.
     std::size_t position(const Place& place) const;
-    /// Its inverse.
+    /// Returns the place of the byte with this index.
     Place place(std::size_t position) const;
-    /// Place of one byte of the value of the string literal that begins (with its quote) at `begin`: escapes
-    /// and the lines of multi-line strings are followed.
+    /// Returns the place of one byte of the value of the string literal that begins (with its quote) at `begin`; takes
+    /// account of escapes and multi-line strings.
     Place inside_string(const Place& begin, std::size_t offset) const;
 
 private:
@@ -38,12 +38,12 @@ public:
     explicit Places(std::string file, const SourceText* source = nullptr) : file_(std::move(file)), source_(source) {}
 
     void set(const std::string& path, const Place& place) { origins_[path] = {place, ""}; }
-    /// Of a string, whose value is `text`.
+    /// Records the place of a string, whose value is `text`.
     void set_string(const std::string& path, const Place& place, std::string text);
 
-    /// Place of the part, or of the smallest known part that contains it, or just the file.
+    /// Returns the place of the part, or of the smallest known part that contains it, or just the file.
     Place of(std::string_view path) const;
-    /// Place of a name inside the expression at `path`.
+    /// Returns the place of a name inside the expression at `path`.
     Place of_name(std::string_view path, std::string_view name) const;
 
 private:

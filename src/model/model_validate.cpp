@@ -33,7 +33,7 @@ bool is_valid_label(std::string_view name) {
            std::all_of(name.begin(), name.end(), [](char c) { return is_name_character(c) || c == '-'; });
 }
 
-/// What each name of an expression stands for: parameter, state or definition.
+/// Maps each name used in expressions to the kind of its item: parameter, state or definition.
 class SymbolNames {
 public:
     explicit SymbolNames(const Places& places) : places_(places) {}
@@ -74,7 +74,7 @@ void check_labels(const std::vector<Item>& items, const char* kind, const std::s
     }
 }
 
-/// One check after the other of a model; each throws at the first thing wrong.
+/// Checks a model step by step; each check throws at the first mistake.
 class Validator {
 public:
     Validator(const Model& model, const Places& places) : model_(model), places_(places) {}
@@ -90,7 +90,7 @@ public:
         check_indices();
         check_expressions();
         check_circles();
-        Mistakes mistakes; // of things that do not depend on one another
+        Mistakes mistakes; // transitions and sections are checked independently
         std::set<std::pair<std::size_t, std::size_t>> served;
         for (std::size_t i = 0; i < model_.transitions.size(); ++i)
             mistakes.attempt([&] { check_transition(i, served); });
@@ -209,7 +209,8 @@ private:
             symbols.insert(state.index());
         for (const Definition& definition : model_.definitions)
             symbols.insert(model_.symbol(definition.name).index());
-        // Expressions share parts, so that all are searched at once; which one is to blame is found when it matters.
+        // Expressions share parts, so all are searched at once; the one to blame is only searched for if there is a
+        // mistake.
         const auto is_wrong = [](const std::vector<Expression>& expressions,
                                  const std::unordered_set<NodeIndex>& allowed) {
             const std::vector<Expression> found = symbols_of(expressions);
@@ -224,7 +225,7 @@ private:
                     fail_symbol(item, symbol.name());
     }
 
-    /// Says which expression is missing, or belongs to another graph.
+    /// Reports which expression is missing or belongs to another graph.
     void fail_expression() const {
         for (const ModelExpression& item : model_expressions(model_)) {
             if (item.expression.empty())
@@ -260,7 +261,7 @@ private:
                          "define one of them without the others");
     }
 
-    /// @param served modes and events of the transitions before it
+    /// @param served pairs (mode, event) of the earlier transitions
     void check_transition(std::size_t index, std::set<std::pair<std::size_t, std::size_t>>& served) const {
         const Transition& transition = model_.transitions[index];
         const std::string path = fmt::format("transitions.{}", index + 1);
@@ -274,7 +275,7 @@ private:
                  "give next = \"<mode>\", or \"end\"");
     }
 
-    /// @param watched events that the mode watches before it
+    /// @param watched events that precede this one in the mode's list
     void check_watched(const Mode& mode, std::size_t place, std::set<std::size_t>& watched,
                        const std::set<std::pair<std::size_t, std::size_t>>& served) const {
         const std::size_t index = mode.watched[place];
@@ -303,7 +304,7 @@ private:
                  "give the state a period, or use function = \"...\"");
     }
 
-    /// Values that the parameters, as they stand, give.
+    /// Checks the values at the present parameters.
     void check_values() const {
         for (const State& state : model_.states)
             if (state.period && state.drifting)
@@ -327,7 +328,7 @@ private:
         checked_initial_state(model_, places_);
     }
 
-    /// Says which of the expressions in parameters has no value.
+    /// Reports which of the expressions in parameters has no finite value.
     [[noreturn]] void fail_value(std::size_t index, double value) const {
         std::vector<ModelExpression> items = model_expressions(model_);
         std::erase_if(items, [](const ModelExpression& item) { return !item.in_parameters; });

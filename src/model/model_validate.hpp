@@ -9,14 +9,14 @@
 
 namespace graze {
 
-/// "did you mean 'x'?", or what there is when nothing is near.
+/// Returns "did you mean 'x'?", or the list of known names when none is near.
 std::string name_remedy(std::string_view name, const std::vector<std::string>& known);
 
 /// Checks the names of parameters, states and definitions. @throws InputError
 void validate_names(const Model& model, const Places& places);
-/// Model::validate, with places.
+/// Model::validate, with places in the model file.
 void validate_model(const Model& model, const Places& places);
-/// Model::initial_state, with places.
+/// Model::initial_state, with places in the model file.
 std::vector<double> checked_initial_state(const Model& model, const Places& places);
 
 } // namespace graze

@@ -17,18 +17,19 @@ std::string formula(const Expression& expression) {
     return text;
 }
 
-std::string way_of(const Model& model, const Transition& transition) {
+std::string transition_text(const Model& model, const Transition& transition) {
     const auto through = [&](std::size_t jump) { return jump == 0 ? std::string() : " / " + model.jumps[jump].name; };
-    std::vector<std::string> ways;
+    std::vector<std::string> alternatives;
     for (const Alternative& alternative : transition.next)
-        ways.push_back((alternative.mode ? model.modes[*alternative.mode].name : "end") +
-                       (alternative.when.empty() ? "" : fmt::format(" [{}]", alternative.when_text)));
-    std::string way = fmt::format("{}: {}{} -> {}", model.modes[transition.mode].name,
-                                  model.events[transition.event].name, through(transition.jump), fmt::join(ways, ", "));
+        alternatives.push_back((alternative.mode ? model.modes[*alternative.mode].name : "end") +
+                               (alternative.when.empty() ? "" : fmt::format(" [{}]", alternative.when_text)));
+    std::string text =
+        fmt::format("{}: {}{} -> {}", model.modes[transition.mode].name, model.events[transition.event].name,
+                    through(transition.jump), fmt::join(alternatives, ", "));
     if (transition.chatter)
-        way += fmt::format("; chatter{} -> {}", through(transition.chatter->jump),
-                           model.modes[transition.chatter->mode].name);
-    return way;
+        text += fmt::format("; chatter{} -> {}", through(transition.chatter->jump),
+                            model.modes[transition.chatter->mode].name);
+    return text;
 }
 
 std::string watched_by(const Model& model, const Mode& mode) {

@@ -7,15 +7,15 @@
 
 namespace graze {
 
-/// The text of an expression, cut off where it is long: definitions of families of models can be as long as a book.
+/// Returns the text of an expression, shortened if long: definitions of model families can fill pages.
 std::string formula(const Expression& expression);
-/// "free: stop / impact -> free".
-std::string way_of(const Model& model, const Transition& transition);
-/// "watches stop, end"; empty where nothing is watched.
+/// Returns for example "free: stop / impact -> free".
+std::string transition_text(const Model& model, const Transition& transition);
+/// Returns for example "watches stop, end"; empty when the mode watches no events.
 std::string watched_by(const Model& model, const Mode& mode);
-/// "theta = 0", or a function that is zero and the direction.
+/// Returns for example "theta = 0", or the function that is zero and the direction of crossing.
 std::string section_text(const Model& model, const Section& section);
-/// What becomes of the states that a symmetry changes: "x -> -x".
+/// Returns the images of the states that a symmetry changes, such as "x -> -x".
 std::vector<std::string> images_of(const Model& model, const Symmetry& symmetry);
 
 } // namespace graze

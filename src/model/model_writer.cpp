@@ -15,7 +15,7 @@ namespace graze {
 
 namespace {
 
-/// A TOML string; of several lines when the text has them.
+/// Returns a TOML string; a multi-line string when the text has several lines.
 std::string quoted(const std::string& text) {
     const bool long_form = text.find('\n') != std::string::npos;
     std::string result = long_form ? "\"\"\"\n" : "\"";
@@ -33,7 +33,7 @@ std::string quoted(const std::string& text) {
     return result + (long_form ? "\"\"\"" : "\"");
 }
 
-/// A number that reads back to the same double.
+/// Returns a number that reads back to the same double.
 std::string number_text(double value) {
     if (value == 0 && std::signbit(value))
         return "-0.0"; // "-0" would be an integer, which has no sign
@@ -44,7 +44,7 @@ std::string value_text(const Expression& expression) {
     return expression.is_number() ? number_text(expression.node().value) : quoted(to_string(expression));
 }
 
-/// Parts of an inline table; those with empty values are left out.
+/// Collects the parts of an inline table; parts with empty values are left out.
 class InlineTable {
 public:
     void add(const char* key, const std::string& written) { parts_.push_back(fmt::format("{} = {}", key, written)); }
@@ -98,7 +98,7 @@ private:
         if (!text.empty())
             line("{} = {}", key, quoted(text));
     }
-    /// The short form `key = value` when there is only a value.
+    /// Writes the short form `key = value` when there is only a value.
     void item(const std::string& key, const std::string& value, const InlineTable& table) {
         line("{} = {}", key, table.size() == 1 ? value : table.text());
     }
@@ -108,7 +108,7 @@ private:
         if (!model_.parameters.empty())
             line("\n[parameters]");
         for (const Parameter& parameter : model_.parameters) {
-            // A dependent parameter stays a string even when it is a number, for it to stay dependent.
+            // A dependent parameter is written as a string even if it is a number, so that it stays dependent.
             const std::string value = parameter.expression ? quoted(to_string(*parameter.expression))
                                                            : number_text(parameter.value.value_or(std::nan("")));
             InlineTable table;
@@ -165,7 +165,7 @@ private:
         }
     }
 
-    /// The entries of a map that change something.
+    /// Returns the entries of a map for the states that it changes.
     std::vector<std::string> changes(const StateMap& map) {
         std::vector<std::string> result;
         for (const StateMap::Change& change : changes_of(map, states_, identity_))
@@ -185,7 +185,7 @@ private:
         }
     }
 
-    /// The text that the user gave when it still says what `when` does, or else a new one.
+    /// Returns the user's text if it still has the meaning of `when`, otherwise a new text.
     std::string conditions_text(const Alternative& alternative) const {
         if (!alternative.when_text.empty()) {
             try {
@@ -196,7 +196,7 @@ private:
                 if (std::equal(read.begin(), read.end(), alternative.when.begin(), alternative.when.end(), same))
                     return alternative.when_text;
             } catch (const InputError&) {
-                // Words of a model that was built from C++, not conditions.
+                // The text of a model built from C++ may be a description instead of conditions.
             }
         }
         std::vector<std::string> parts;

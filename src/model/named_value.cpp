@@ -28,7 +28,7 @@ Scope scope_of(const Model& model) {
 
 constexpr std::string_view blanks = " \t\n";
 
-/// Whether the text is a number that is none, as programs print it.
+/// True for texts that programs print for NaN and infinity.
 bool is_not_a_finite_number(std::string_view text) {
     std::string word;
     for (const char c : trimmed(text, blanks))
@@ -42,7 +42,7 @@ bool is_not_a_finite_number(std::string_view text) {
 
 NamedValue named_value(const Model& model, const std::string& text, const Place& place) {
     const auto state = model.find_state(text), parameter = state ? std::nullopt : model.find_parameter(text);
-    // Tables ask for every state by its name: those need no copy of the model, in which others are taken apart.
+    // Tables ask for each state by name: this avoids the copy of the model that expressions need.
     if (state)
         return {text, model.states[*state].unit, model.states[*state].text, Graph::create()->symbol(text)};
     if (parameter && !model.parameters[*parameter].expression)

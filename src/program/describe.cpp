@@ -78,7 +78,7 @@ std::string describe(const Model& model, std::size_t width) {
     listing.heading(model.transitions.size(), "transition (mode: event / jump -> next mode)",
                     "transitions (mode: event / jump -> next mode)");
     for (const Transition& item : model.transitions)
-        listing.row({item.label, way_of(model, item)});
+        listing.row({item.label, transition_text(model, item)});
     listing.heading(model.sections.size(), "section", "sections");
     for (const Section& item : model.sections)
         listing.row({item.name, section_text(model, item), item.text});

@@ -171,9 +171,10 @@ void warn(const FitOfRecords& found, const Console& console) {
     const auto say = [&](const std::string& text) { console.err << "graze: warning: " << text << '\n'; };
     for (const FreeCombination& free : fit.free)
         say(fmt::format("readings do not tell {}", free.text));
-    for (const FitTwin& twin : fit.twins)
-        say(fmt::format("readings are met as well with {}: bound what is known, as by --free NAME=GUESS:LEAST:GREATEST",
-                        twin.text));
+    for (const AlternativeSolution& other : fit.alternatives)
+        say(fmt::format(
+            "the readings are fitted equally well by {}: bound what is known, as by --free NAME=GUESS:LEAST:GREATEST",
+            other.text));
     std::size_t misplaced = 0;
     for (const FittedRecord& record : fit.records)
         misplaced += record.misplaced;

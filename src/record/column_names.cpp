@@ -43,7 +43,7 @@ void require_utf8(const NameField& field, const Place& line) {
         const Character character = character_at(field.text, at);
         if (!character.valid)
             throw InputError(column_of(line, field.begin + at),
-                             fmt::format("'{}' is no text in UTF-8: another encoding has been used, as Latin-1",
+                             fmt::format("'{}' is not text in UTF-8: another encoding was used, such as Latin-1",
                                          printable_line(shortened(field.text, 100))),
                              "save the file as UTF-8, as by iconv -f latin1 -t utf-8, or write us and ohm for the "
                              "Greek letters");
@@ -51,10 +51,10 @@ void require_utf8(const NameField& field, const Place& line) {
     }
 }
 
-/// Whether letters of a line of names stand in brackets or quotes, where nothing separates columns.
+/// Tracks brackets and quotes along a line of names; within them nothing separates columns.
 class NameNesting {
 public:
-    /// A quote that is never closed is a letter.
+    /// A quote that is never closed counts as a letter.
     explicit NameNesting(std::string_view line) : has_quotes_(std::count(line.begin(), line.end(), '"') % 2 == 0) {}
     /// @return whether the letter, the next one of the line, may separate columns
     bool is_outside(char letter) {
@@ -109,7 +109,7 @@ std::vector<NameField> name_fields(std::string_view line, char separator) {
 
 namespace {
 
-/// Takes "t / s", "CH1 in V" and, in quotes, "Time, s" apart, where what stands behind is a unit.
+/// Splits "t / s", "CH1 in V" and, in quotes, "Time, s", if the last part is a unit.
 void split_unit_behind(std::string_view& text, std::string& unit) {
     for (const std::string_view between : {" / ", " in ", ", "}) {
         const std::size_t at = text.rfind(between);
@@ -139,12 +139,12 @@ Channel named_channel(const NameField& field, const Place& line) {
     channel.name = text;
     double number = 0;
     const char* const end = text.data() + text.size();
-    const bool is_number = std::from_chars(text.data(), end, number).ptr == end; // "nan" too
+    const bool is_number = std::from_chars(text.data(), end, number).ptr == end; // also "nan"
     require_utf8(field, line);
     if (text.empty() || is_number || text.size() > longest_channel_name || channel.unit.size() > longest_channel_name ||
         !is_plain_line(channel.name) || !is_plain_line(channel.unit))
         throw InputError(column_of(line, field.begin),
-                         fmt::format("'{}' is no name of a column", printable_line(shortened(field.text, 100))),
+                         fmt::format("'{}' is not a name of a column", printable_line(shortened(field.text, 100))),
                          "write names with their units, as in 't [s], V [V], q [mm]'");
     return channel;
 }
@@ -159,7 +159,7 @@ RecordHeader header_of(const std::vector<NameField>& fields, const Place& line) 
         const auto same = [&](const Channel& one) { return one.name == channel.name; };
         const Place at = column_of(line, field.begin);
         if (std::any_of(header.channels.begin(), header.channels.end(), same))
-            throw InputError(at, fmt::format("column '{}' is there twice", channel.name),
+            throw InputError(at, fmt::format("column '{}' occurs twice", channel.name),
                              "give each column a name of its own");
         if (header.channels.size() > most_columns)
             throw InputError(at, fmt::format("there are more than {} columns", most_columns),
@@ -173,9 +173,9 @@ RecordHeader header_of(const std::vector<NameField>& fields, const Place& line) 
 
 void require_closed_brackets(std::string_view line, const Place& place) {
     constexpr std::size_t none = std::string_view::npos;
-    std::size_t square = none, round = none; // where one was opened
+    std::size_t square = none, round = none; // index of the open bracket
     for (std::size_t i = 0; i < line.size(); ++i) {
-        if (line[i] == '[' && square != none) // within one there is no other
+        if (line[i] == '[' && square != none) // brackets are not nested
             break;
         if (line[i] == '[')
             square = i;
@@ -194,7 +194,7 @@ void require_closed_brackets(std::string_view line, const Place& place) {
 
 namespace {
 
-/// As they stand in a line of units.
+/// Units as instruments write them in a line of units.
 constexpr std::array<std::string_view, 40> symbols{
     "s",  "ms", "us",  "ns",   "\xc2\xb5s", "\xce\xbcs", "ps", "min", "h",   "V",   "mV",   "uV", "kV", "Vpp",
     "A",  "mA", "uA",  "nA",   "W",         "mW",        "Hz", "kHz", "MHz", "ohm", "kohm", "m",  "mm", "um",

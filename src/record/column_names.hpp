@@ -11,28 +11,31 @@ namespace graze {
 /// A column of a line of names.
 struct NameField {
     std::string_view text;
-    std::size_t begin = 0; ///< in the line
+    std::size_t begin = 0; ///< index in the line
 };
 
-/// The first of semicolon, comma, tab and blank that a line has outside of brackets and quotes; a comma where it has
-/// none.
+/// Returns the first of semicolon, comma, tab and blank that a line has outside brackets and quotes; a comma if it has
+/// none of them.
 char separator_of_names(std::string_view line);
-/// Fields of a line of names, without empty ones at its end. Units may stand behind a blank even where blanks separate.
+/// Splits a line of names, and drops empty fields at its end. A unit may follow its name after a blank even if blanks
+/// separate columns.
 std::vector<NameField> name_fields(std::string_view line, char separator);
-/// A name with its unit: in brackets, as in "t / s" or "CH1 in V", or in quotes, as in "Time, s". @param line where it
-/// stands. @throws InputError for what is no name
+/// Parses a name with its unit, which may be in brackets, or as in "t / s" or "CH1 in V", or in quotes, as in "Time,
+/// s". @param line place of the line. @throws InputError for an invalid name
 Channel named_channel(const NameField& field, const Place& line);
-/// The time and channels. @throws InputError for fewer than two columns, or a name that is there twice
+/// Makes a header of names: the time and the channels. @throws InputError for fewer than two columns, or repeated names
 RecordHeader header_of(const std::vector<NameField>& fields, const Place& line);
-/// Of a bracket that is never closed all that follows would be the unit. @throws InputError for one
+/// Refuses a bracket that is not closed: the rest of the line would be taken for the unit. @throws InputError
 void require_closed_brackets(std::string_view line, const Place& place);
-/// Of a record's time. @throws InputError for one that is none, as mS, which is a conductance
+/// Checks the unit of a record's time. @throws InputError for one that is not a time, such as mS, which is a
+/// conductance
 void require_unit_of_time(const RecordHeader& header, const std::string& path);
-/// Of a line that says in what times are, for which instruments write "S" as well.
+/// Returns the unit of time that a word names; instruments also write "S" for seconds.
 std::string unit_of_time_word(std::string_view word);
-/// "Second" is s and "Volts" V; other units stay as they are. Brackets around them go.
+/// Returns the unit that a word names: "Second" is s and "Volts" V; other units are returned unchanged, without
+/// brackets.
 std::string unit_of_word(std::string_view word);
-/// Whether it is a unit that instruments write in a line of its own, as "Second", "V" or "(ms)".
+/// Whether a word is a unit as instruments write them in a line of units, such as "Second", "V" or "(ms)".
 bool is_unit_word(std::string_view word);
 
 } // namespace graze

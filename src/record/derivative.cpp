@@ -22,23 +22,24 @@ namespace graze {
 namespace {
 
 constexpr std::size_t least_half_width = 4, most_half_width = 100'000;
-constexpr std::size_t fourth = 4, sixth = 6; // degrees of the slope's polynomial, and of the other
+// degrees of the polynomial of the derivative, and of the one that estimates its error
+constexpr std::size_t fourth = 4, sixth = 6;
 
 /// The derivative in the middle of a window.
 struct Slope {
     double value = 0;
-    double truncation = 0; ///< what the terms of fifth and sixth degree add
-    double squares = 0;    ///< that a polynomial of sixth degree leaves
+    double truncation = 0; ///< contribution of the terms of fifth and sixth degree
+    double squares = 0;    ///< sum of the squared residuals of the sixth-degree polynomial
     double noise = 0,
-           truncation_noise = 0; ///< standard errors of the value and the truncation, of samples with one of 1
+           truncation_noise = 0; ///< standard errors of value and truncation, for samples with a standard error of 1
 
-    /// Square of what the terms of fifth and sixth degree add, without what noise adds to it: of one window it may be
-    /// below zero. @param variance of a sample
+    /// Estimate of the squared truncation error, with the contribution of noise subtracted; it may be negative for a
+    /// single window. @param variance of a sample
     double beyond(double variance) const {
         return truncation * truncation - variance * truncation_noise * truncation_noise;
     }
-    /// @param usual what these terms usually add, squared: that of one window is as noisy as the slope itself, so that
-    ///        it is believed only where it is much larger
+    /// @param usual typical squared truncation error: the estimate of one window is as noisy as the derivative itself,
+    /// so it is used only if it is much larger
     double error(double variance, double usual) const {
         constexpr double significant = 9;
         const double own = truncation * truncation, own_noise = variance * truncation_noise * truncation_noise;
@@ -47,16 +48,16 @@ struct Slope {
     }
 };
 
-/// Of windows with the same times, counted from the middle one.
+/// Differentiates in windows that have the same times relative to their middle.
 class SlopeFilter {
 public:
-    /// @param places of the samples, the middle one at nought @param reach by which they are divided, of their size
+    /// @param places times of the samples relative to the middle one @param reach scale of these times
     SlopeFilter(std::vector<double> places, double reach)
         : places_(std::move(places)), reach_(reach), fit_(divided(places_, reach), sixth), rest_(places_.size()) {}
     const std::vector<double>& places() const { return places_; }
-    /// @param middle sample with as many others on each side
+    /// @param middle the middle sample, with equally many others on each side
     Slope at(const double* middle) {
-        // Less the middle, lest a constant cost digits.
+        // Subtract the middle sample, so that a large constant costs no digits.
         for (std::size_t i = 0; i < rest_.size(); ++i)
             rest_[i] = *(middle - rest_.size() / 2 + i) - *middle;
         double factors[sixth + 1];
@@ -85,7 +86,7 @@ private:
     std::vector<double> rest_;
 };
 
-/// Of some rows: looked at once, for windows of many lengths.
+/// Times of some rows, with their spacing and whether it is even: computed once for windows of many lengths.
 struct Clock {
     explicit Clock(const std::vector<double>& given)
         : times(&given), spacing(1 / sampling_frequency(given)), is_even(is_even_clock(given)) {}
@@ -94,11 +95,11 @@ struct Clock {
     bool is_even;
 };
 
-/// Slopes of samples with so many others on each side: at equal distances where the clock is even but for the rounding
-/// of times, and otherwise at the times that are told.
+/// Derivatives in windows of a given half width: of equidistant samples if the clock is even but for rounding,
+/// otherwise at the times as given.
 class SlopeWindows {
 public:
-    /// @param clock, values with `half` more rows on both sides of what is asked for; they must outlive this
+    /// @param clock, values must have `half` more rows on both sides of the requested ones, and outlive this object
     SlopeWindows(const Clock& clock, const std::vector<double>& values, std::size_t half)
         : clock_(&clock), values_(&values), half_(half) {}
     Slope at(std::size_t row) {
@@ -131,24 +132,24 @@ double freedom_of(std::size_t half) {
     return static_cast<double>(2 * half + 1 - (sixth + 1));
 }
 
-/// The variance that most windows have.
+/// The typical variance of the windows' residuals, by their median.
 double usual_variance(const std::vector<Slope>& slopes, double freedom) {
     std::vector<double> squares;
     for (const Slope& slope : slopes)
         squares.push_back(slope.squares);
-    // The median of chi squared (Wilson and Hilferty).
+    // Median of chi square (Wilson and Hilferty).
     const double share = std::pow(1 - 2 / (9 * freedom), 3);
     return median(std::move(squares)) / (freedom * share);
 }
 
-/// A jump beside makes the variance of a window large.
+/// Variance of a sample in a window: the typical one, unless a nearby jump makes its own far larger.
 double variance_at(const Slope& slope, double usual, double freedom) {
     constexpr double far = 10;
     const double own = slope.squares / freedom;
     return own > far * usual ? own : usual;
 }
 
-/// What terms beyond the fourth degree add to the slope, squared: the mean of all windows in which nothing jumps.
+/// Mean squared truncation error of all windows without a jump.
 double usual_beyond(const std::vector<Slope>& slopes, double usual, double freedom) {
     double sum = 0, count = 0;
     for (const Slope& slope : slopes)
@@ -172,12 +173,12 @@ std::size_t best_half_width(const std::vector<double>& times, const std::vector<
         for (std::size_t i = half; i + half < values.size(); i += step)
             slopes.push_back(windows.at(i));
         const double freedom = freedom_of(half), usual = usual_variance(slopes, freedom);
-        // Where more is left than noise, the window is too wide for any polynomial, whatever its terms say.
+        // If the residuals exceed the noise, the window is too wide for a polynomial, whatever its higher terms say.
         constexpr double more_than_noise = 1.5;
         if (best != 0 && usual > more_than_noise * noise)
             break;
         noise = best == 0 ? usual : std::min(noise, usual);
-        // Of the squares' mean: where the terms pass through nought they are as large elsewhere.
+        // Use the mean squared truncation error: in this window it may happen to vanish.
         Slope typical = slopes[slopes.size() / 2];
         typical.truncation = 0;
         const double error = typical.error(usual, usual_beyond(slopes, usual, freedom));
@@ -197,15 +198,16 @@ struct WithDerivative::State {
     RecordHeader header{};
     std::unique_ptr<SampleSource> beginning{};
     std::optional<SlidingSamples> window{};
-    std::size_t half = 0; ///< once something has been read
+    std::size_t half = 0; ///< known once something has been read
 };
 
 WithDerivative::WithDerivative(SampleSource& source, const DerivativeSettings& settings)
     : state_(std::make_unique<State>(State{&source, settings})) {
     require_index(settings.channel, source.header().channels.size(), "channel");
     if (settings.half_width != 0 && (settings.half_width < least_half_width || settings.half_width > most_half_width))
-        throw InputError(fmt::format("{} samples on each side are no width for a derivative", settings.half_width),
-                         "choose 4 or more, or 0 for the best");
+        throw InputError(
+            fmt::format("{} samples on each side are not a valid width for a derivative", settings.half_width),
+            "choose 4 or more, or 0 for the best");
     RecordHeader& header = state_->header = source.header();
     const Channel& channel = header.channels[settings.channel];
     const std::string name = settings.name.empty() ? channel.name + "_rate" : settings.name;
@@ -213,7 +215,8 @@ WithDerivative::WithDerivative(SampleSource& source, const DerivativeSettings& s
         channel.unit.empty() || header.time.unit.empty() ? "" : fmt::format("{}/{}", channel.unit, header.time.unit);
     for (const Channel& one : header.channels)
         if (one.name == name || one.name == name + "_error")
-            throw InputError(fmt::format("there is a channel '{}' already", one.name), "name the derivative otherwise");
+            throw InputError(fmt::format("there is a channel '{}' already", one.name),
+                             "give the derivative another name");
     header.channels.push_back({name, unit});
     header.channels.push_back({name + "_error", unit});
 }

@@ -11,7 +11,7 @@
 
 namespace graze {
 
-double stray_of(std::span<const double> times, double spacing) {
+double deviation_from_even(std::span<const double> times, double spacing) {
     double least = 0, most = 0;
     for (std::size_t i = 0; i < times.size(); ++i) {
         const double off = times[i] - times[0] - static_cast<double>(i) * spacing;
@@ -24,7 +24,7 @@ double stray_of(std::span<const double> times, double spacing) {
 double rounding_of(std::span<const double> times, double spacing) {
     constexpr double eps = std::numeric_limits<double>::epsilon();
     const double digits = 8 * eps * std::max(std::abs(times.front()), std::abs(times.back()));
-    constexpr int places = 8; // below the distance
+    constexpr int places = 8; // decimal places below the spacing
     const int first = static_cast<int>(std::ceil(std::log10(spacing)));
     for (int place = first; place > first - places; --place) {
         const double unit = std::pow(10.0, place);
@@ -39,15 +39,15 @@ double rounding_of(std::span<const double> times, double spacing) {
 
 bool is_even_clock(std::span<const double> times) {
     const double spacing = 1 / sampling_frequency(times);
-    return stray_of(times, spacing) <= rounding_of(times, spacing);
+    return deviation_from_even(times, spacing) <= rounding_of(times, spacing);
 }
 
 void require_even(std::span<const double> times, double spacing, double allowed) {
-    if (const double stray = stray_of(times, spacing); stray > allowed)
+    if (const double deviation = deviation_from_even(times, spacing); deviation > allowed)
         throw InputError(
-            fmt::format("the samples are not at equal distances of time: from {} to {} they are up to "
-                        "{:.3g} beside times that are {:.6g} apart",
-                        times.front(), times.back(), stray, spacing),
+            fmt::format("the samples are not equidistant in time: from {} to {} they are up to "
+                        "{:.3g} off times that are {:.6g} apart",
+                        times.front(), times.back(), deviation, spacing),
             "give a part of the record whose clock is even (--from, --to), or one that has been resampled");
 }
 

@@ -15,8 +15,8 @@ struct Peak {
     double value = 0, time = 0;
 };
 
-/// The top of the parabola through a sample and its neighbours. Where there is a jump, second differences around it are
-/// much larger than those beside it: then the sample itself is what is known.
+/// Maximum of the parabola through a sample and its neighbours. Next to a jump the second difference is much larger
+/// than the neighbouring ones: then the sample itself is returned.
 Peak peak_at(const std::vector<double>& times, const std::vector<double>& values, std::size_t i) {
     const Peak sample{values[i], times[i]};
     if (i < 2 || i + 2 >= values.size())
@@ -31,7 +31,7 @@ Peak peak_at(const std::vector<double>& times, const std::vector<double>& values
     if (here == 0 || std::abs(here) > much * std::min(std::abs(bend(i - 1)), std::abs(bend(i + 1))))
         return sample;
     const double left = (values[i] - values[i - 1]) / (times[i] - times[i - 1]);
-    // Newton's form about the two samples on the left: its slope vanishes there.
+    // The slope of Newton's form of the parabola vanishes there.
     const double time = 0.5 * (times[i - 1] + times[i]) - 0.5 * left / here;
     if (!(time > times[i - 1] && time < times[i + 1]))
         return sample;
@@ -44,7 +44,7 @@ Extremes extremes(const Period& period, std::size_t channel) {
     const Samples& samples = period.samples;
     require_index(channel, samples.values.size(), "channel");
     const std::vector<double>&times = samples.times, &values = samples.values[channel];
-    // Of the ends of the period, which lie between samples, to begin with.
+    // Start with the ends of the period, which lie between samples.
     const double first = interpolate(times, values, period.begin), last = interpolate(times, values, period.end);
     Extremes found{first, period.begin, first, period.begin};
     const auto take = [&](const Peak& peak) {
@@ -63,7 +63,7 @@ Extremes extremes(const Period& period, std::size_t channel) {
             continue;
         take({values[i], times[i]});
         if (i == 0 || i + 1 == times.size() ||
-            (values[i] - values[i - 1]) * (values[i + 1] - values[i]) > 0) // neither a peak nor a dip
+            (values[i] - values[i - 1]) * (values[i + 1] - values[i]) > 0) // not a local extremum
             continue;
         const Peak peak = peak_at(times, values, i);
         if (peak.time >= period.begin && peak.time <= period.end)

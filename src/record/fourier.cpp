@@ -12,7 +12,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// In place, of a power of two. @param sign of the exponent
+/// In-place transform of a power-of-two length. @param sign of the exponent
 void transform(std::vector<Complex>& values, int sign) {
     const std::size_t count = values.size();
     for (std::size_t i = 1, j = 0; i < count; ++i) {
@@ -31,7 +31,7 @@ void transform(std::vector<Complex>& values, int sign) {
             for (std::size_t i = 0; i < length / 2; ++i) {
                 const Complex even = values[begin + i], turn = turns[i * (count / length)],
                               other = values[begin + i + length / 2];
-                // Written out: the product of complex numbers looks for infinities.
+                // Written out, since std::complex multiplication checks for infinities.
                 const Complex odd(turn.real() * other.real() - turn.imag() * other.imag(),
                                   turn.real() * other.imag() + turn.imag() * other.real());
                 values[begin + i] = even + odd;
@@ -45,7 +45,7 @@ std::vector<Complex> half_transform(std::span<const double> samples) {
     const std::size_t count = samples.size();
     if (count == 0)
         return {};
-    // j k = (j^2 + k^2 - (k - j)^2)/2 makes a convolution of the sums.
+    // By j k = (j^2 + k^2 - (k - j)^2)/2 the sums are a convolution.
     std::vector<Complex> chirp(count);
     for (std::size_t j = 0; j < count; ++j) {
         const std::size_t square = j * j % (2 * count);

@@ -67,9 +67,9 @@ Harmonic fit_harmonic(std::span<const double> times, std::span<const double> val
     const Eigen::Vector3d solution = fitted.solution;
     const Eigen::Matrix3d triangle = fitted.triangle;
     const Eigen::Vector3d pivots = triangle.diagonal().cwiseAbs();
-    constexpr double too_small = 1e-6; // digits that are lost
+    constexpr double too_small = 1e-6; // below this, too many digits are lost
     if (!(pivots.minCoeff() > too_small * pivots.maxCoeff()))
-        throw InputError("the samples are too short a part of a period to tell its amplitude",
+        throw InputError("the samples cover too short a part of a period to determine its amplitude",
                          "record a period or more");
     const Eigen::Matrix3d inverse = triangle.triangularView<Eigen::Upper>().solve(Eigen::Matrix3d::Identity());
     Harmonic fit;
@@ -90,7 +90,7 @@ Harmonic fit_harmonic(std::span<const double> times, std::span<const double> val
 
 double fit_frequency(std::span<const double> times, std::span<const std::span<const double>> channels, double guess) {
     if (times.size() < 2 || channels.empty())
-        throw InputError("there is nothing to find a frequency of", "give samples of a channel");
+        throw InputError("there are no samples whose frequency could be found", "give samples of a channel");
     // Gauss-Newton in the frequency alone: the other unknowns are eliminated by projecting its column off theirs
     // (Golub and Pereyra, SIAM J. Numer. Anal. 10 (1973) 413; Kaufman's simplification).
     const double origin = 0.5 * (times.front() + times.back()), length = times.back() - times.front();
@@ -118,8 +118,8 @@ double fit_frequency(std::span<const double> times, std::span<const std::span<co
             }
         }
         if (!(denominator > 0))
-            throw InputError("the samples do not tell a frequency", "give a channel with an amplitude");
-        // No further than to where the phase at the ends would be lost.
+            throw InputError("the samples do not determine a frequency", "give a channel with an amplitude");
+        // Limit the step so that the phase at the ends is not lost.
         const double change = std::clamp(numerator / denominator, -1 / length, 1 / length);
         frequency += change;
         constexpr double enough = 4e-16;

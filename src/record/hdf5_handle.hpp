@@ -9,11 +9,11 @@
 
 namespace graze {
 
-/// Something of the HDF5 library that has to be closed.
+/// Owns an identifier of the HDF5 library, and closes it.
 class Hdf5Handle {
 public:
     Hdf5Handle() = default;
-    /// @throws InputError with this problem and remedy when the library has refused
+    /// @throws InputError with this problem and remedy when the identifier is invalid
     Hdf5Handle(hid_t id, herr_t (*close)(hid_t), const std::string& path, const std::string& problem,
                const std::string& remedy)
         : id_(id), close_(close) {

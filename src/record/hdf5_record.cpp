@@ -23,14 +23,14 @@ namespace graze {
 namespace {
 
 constexpr hsize_t rows_of_a_part = 16'384;
-constexpr hsize_t most_datasets = 1000; ///< the library takes some 200 KB for each that is open
+constexpr hsize_t most_datasets = 1000; ///< the library needs some 200 KB for each open one
 constexpr std::size_t longest_channel_name = 100;
-/// A chunk is unpacked as a whole: a small file may claim a huge one.
+/// Largest chunk that is accepted: chunks are unpacked as a whole, and a small file may claim a huge one.
 constexpr hsize_t largest_chunk = hsize_t{64} << 20;
-/// As many bytes of unpacked chunks are kept as make sure that none is unpacked for every part anew.
+/// Bytes of unpacked chunks that are cached at most, so that no chunk is unpacked again for every part.
 constexpr hsize_t largest_cache = hsize_t{96} << 20;
-constexpr hsize_t usual_cache = hsize_t{1} << 20; ///< bytes, of the library
-/// Numbers of a part; of many channels it has fewer rows.
+constexpr hsize_t usual_cache = hsize_t{1} << 20; ///< bytes, the library's default
+/// Largest count of numbers in a part; with many channels a part has fewer rows.
 constexpr hsize_t most_numbers_of_a_part = hsize_t{1} << 22;
 constexpr hsize_t fewest_rows_of_a_part = 512;
 constexpr std::size_t longest_number = 16; ///< bytes
@@ -41,13 +41,13 @@ constexpr const char* advice = "give one dataset of numbers for each channel, al
 struct Column {
     Channel channel;
     Hdf5Handle set;
-    hsize_t rows = 0, chunk = 0; ///< bytes of an unpacked chunk, 0: it is in one piece
+    hsize_t rows = 0, chunk = 0; ///< chunk: bytes of an unpacked chunk; 0: the dataset is not chunked
 };
 
 class Hdf5Record : public SampleSource {
 public:
     Hdf5Record(const std::string& path, const RecordLayout& layout) : path_(path) {
-        H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // failures are told by exceptions
+        H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // failures are reported by exceptions
         H5PLset_loading_state(0);                    // a file from a stranger runs no code
         open_file();
         const Hdf5Handle group = open_group(layout.group);
@@ -93,7 +93,7 @@ private:
             refuse(column, next_, read_problem, damaged);
         for (std::size_t row = 0; row < values.size(); ++row)
             if (!std::isfinite(values[row]))
-                refuse(column, next_ + row, "there is no finite number", "leave out rows of which a value is missing");
+                refuse(column, next_ + row, "it is not a finite number", "leave out rows with missing values");
     }
 
     void open_file() {
@@ -105,7 +105,7 @@ private:
         file_ = {H5Fopen(path_.c_str(), H5F_ACC_RDONLY, how.id()), H5Fclose, path_, problem, damaged};
     }
 
-    /// A group, once the caches of all that is in it together have room.
+    /// Opens a group, with caches small enough for all its datasets together.
     Hdf5Handle open_group(const std::string& name) {
         for (;;) {
             Hdf5Handle group(H5Gopen2(file_.id(), name.c_str(), H5P_DEFAULT), H5Gclose, path_,
@@ -156,7 +156,7 @@ private:
         }
     }
 
-    /// A dataset of numbers, if that is what the link leads to. Links to elsewhere are left alone.
+    /// Opens a dataset of numbers, if the link leads to one. Links to other files are ignored.
     std::optional<Column> column_at(hid_t group, hsize_t index) const {
         char name[longest_channel_name + 2];
         const ssize_t length =
@@ -164,7 +164,7 @@ private:
         H5L_info_t link{};
         if (length <= 0 || static_cast<std::size_t>(length) > longest_channel_name || !is_plain_line(name) ||
             H5Lget_info(group, name, &link, H5P_DEFAULT) < 0)
-            throw InputError(Place{path_, 0, 0}, "there is a name that cannot be one of a channel", advice);
+            throw InputError(Place{path_, 0, 0}, "there is a name that is not valid for a channel", advice);
         if (link.type != H5L_TYPE_HARD)
             return std::nullopt;
         Column column;
@@ -181,14 +181,14 @@ private:
             throw InputError(Place{path_, 0, 0}, problem + ": its numbers are too long", "write 64-bit floats");
         const Hdf5Handle space(H5Dget_space(column.set.id()), H5Sclose, path_, problem, advice);
         if (H5Sget_simple_extent_ndims(space.id()) != 1)
-            throw InputError(Place{path_, 0, 0}, fmt::format("dataset '{}' is no list of numbers", name), advice);
+            throw InputError(Place{path_, 0, 0}, fmt::format("dataset '{}' is not a list of numbers", name), advice);
         H5Sget_simple_extent_dims(space.id(), &column.rows, nullptr);
         column.chunk = plain_chunk(column.set.id(), H5Tget_size(type.id()), problem);
         column.channel.unit = unit_of(column.set.id());
         return column;
     }
 
-    /// What lies in other files, and chunks that do not fit, are refused. @return bytes of a chunk, 0: there are none
+    /// Refuses data in other files, and chunks that are too large. @return bytes of a chunk; 0: not chunked
     hsize_t plain_chunk(hid_t set, std::size_t number, const std::string& problem) const {
         const Hdf5Handle how(H5Dget_create_plist(set), H5Pclose, path_, problem, advice);
         const H5D_layout_t layout = H5Pget_layout(how.id());
@@ -204,27 +204,27 @@ private:
         return chunk * number;
     }
 
-    /// Room for a whole chunk of each channel: otherwise each part would unpack it anew.
+    /// Widens caches to a whole chunk of each channel: otherwise each part would unpack it again.
     void widen_caches(hid_t group) {
         hsize_t total = time_.chunk;
         for (const Column& column : columns_)
             total += column.chunk;
         if (total > largest_cache)
-            return; // slower, and within the limits of the process
+            return; // slower, but within the limits of the process
         const auto widen = [&](Column& column) {
             if (column.chunk <= cache_)
                 return;
             const std::string problem = fmt::format("dataset '{}' cannot be read", column.channel.name);
             const Hdf5Handle how(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose, path_, problem, advice);
             H5Pset_chunk_cache(how.id(), H5D_CHUNK_CACHE_NSLOTS_DEFAULT, column.chunk, H5D_CHUNK_CACHE_W0_DEFAULT);
-            column.set = {}; // as long as it is open its cache stays
+            column.set = {}; // the cache can only change by reopening
             column.set = {H5Dopen2(group, column.channel.name.c_str(), how.id()), H5Dclose, path_, problem, advice};
         };
         widen(time_);
         std::for_each(columns_.begin(), columns_.end(), widen);
     }
 
-    /// Empty where there is none that can be shown.
+    /// The unit of a dataset; empty if it has none that can be printed.
     std::string unit_of(hid_t set) const {
         if (H5Aexists(set, "units") <= 0)
             return "";
@@ -255,7 +255,7 @@ private:
     Column time_;
     std::vector<Column> columns_;
     hsize_t rows_ = 0, next_ = 0, links_ = 0;
-    hsize_t cache_ = usual_cache; ///< bytes of unpacked chunks of a channel
+    hsize_t cache_ = usual_cache; ///< bytes of the chunk cache of a channel
     double last_time_ = -std::numeric_limits<double>::infinity();
 };
 
@@ -276,7 +276,7 @@ bool is_hdf5(const std::string& path) {
 }
 
 std::unique_ptr<SampleSource> open_hdf5_record(const std::string& path, const RecordLayout& layout) {
-    // The library itself does not survive every damaged file (1.10 reads texts and compact data beyond their ends).
+    // The library crashes on some damaged files (1.10 reads strings and compact data beyond their ends).
     return std::make_unique<SeparateSource>(path, [&] { return std::make_unique<Hdf5Record>(path, layout); });
 }
 

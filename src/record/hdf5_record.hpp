@@ -7,10 +7,10 @@
 
 namespace graze {
 
-/// Whether a file begins as HDF5's do.
+/// Whether a file begins with the signature of HDF5.
 bool is_hdf5(const std::string& path);
 
-/// A record of datasets in a group of an HDF5 file.
+/// Opens a record whose channels are datasets in a group of an HDF5 file.
 std::unique_ptr<SampleSource> open_hdf5_record(const std::string& path, const RecordLayout& layout);
 
 } // namespace graze

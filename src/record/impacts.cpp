@@ -19,10 +19,10 @@ namespace graze {
 namespace {
 
 constexpr std::size_t least_window = 5, most_window = 100'000;
-constexpr std::size_t nearest_samples = 4; ///< impacts that are nearer to one another are one
+constexpr std::size_t nearest_samples = 4; ///< impacts closer than this are one
 constexpr std::size_t parabola = 2;
 
-/// Standard deviation of white noise on a smooth channel.
+/// Estimates the standard deviation of white noise on a smooth channel.
 double noise_of(const std::vector<double>& values) {
     std::vector<double> differences;
     for (std::size_t i = 3; i < values.size(); ++i)
@@ -38,14 +38,14 @@ double noise_of(const std::vector<double>& values) {
         still += difference == 0 ? 1 : 0;
         step = difference > 0 ? std::min(step, difference) : step;
     }
-    constexpr std::size_t often = 10; // one of so many
-    // Numbers of few digits stand still and then jump by one: that is noise, too.
+    constexpr std::size_t often = 10; // one of so many samples
+    // Numbers with few digits repeat and then jump by one step: that is rounding noise.
     const double digits = often * still > values.size() && std::isfinite(step) ? step / std::sqrt(12.0) : 0;
     return std::max({median(std::move(differences)) / (median_of_normal * std::sqrt(third_differences)), digits,
                      4 * std::numeric_limits<double>::epsilon() * largest});
 }
 
-/// Places of samples on one side of an impact, nearest first, from 0 to about 1.
+/// Distances of samples on one side from the impact, nearest first, scaled to 0 ... 1.
 std::vector<double> side(std::size_t count, std::size_t transition, double offset, double scale) {
     std::vector<double> places;
     for (std::size_t i = 0; i < count; ++i)
@@ -53,14 +53,14 @@ std::vector<double> side(std::size_t count, std::size_t transition, double offse
     return places;
 }
 
-/// A value continued to the impact from one side.
+/// A channel extrapolated to the impact from one side.
 struct Continued {
-    double value = 0, slope = 0; ///< slope in units of one sample's distance, away from the impact
-    double error = 0;            ///< of the value
+    double value = 0, slope = 0; ///< slope per sample, in the direction away from the impact
+    double error = 0;            ///< standard error of the value
 };
 
-/// A parabola, or a polynomial of higher degree where its next term stands out of the noise.
-/// @param samples of one side, nearest first. @param offset of the nearest from the impact, in samples
+/// Extrapolates by a parabola, or by a polynomial of higher degree if its next term is significant.
+/// @param samples of one side, nearest first. @param offset distance of the nearest one from the impact, in samples
 Continued continued(const std::vector<double>& samples, std::size_t transition, double offset, double noise) {
     constexpr std::size_t most = 5;
     const std::size_t known = std::min(most, samples.size() / 2), least = std::min(parabola, samples.size() / 3);
@@ -86,9 +86,9 @@ Continued continued(const std::vector<double>& samples, std::size_t transition, 
 struct ImpactFinder::State {
     ImpactSettings settings;
     SlidingSamples window;
-    LocalPolynomial fit; ///< of one side
+    LocalPolynomial fit; ///< for the samples of one side
     std::vector<double> left{}, right{};
-    double value_noise = 0; ///< of a continued value, for a noise of one
+    double value_noise = 0; ///< standard error of an extrapolated value, for noise of 1
 
     State(SampleSource& source, const ImpactSettings& given)
         : settings(given), window(source, 3 * (given.window + given.transition) + 1),
@@ -98,8 +98,8 @@ struct ImpactFinder::State {
             value_noise = std::hypot(value_noise, fit.at_zero(k));
     }
 
-    /// How far a jump between rows i and i + 1 stands out: its size over what could be there without one; 0: it does
-    /// not.
+    /// Significance of a jump between rows i and i + 1: its size relative to what noise and misfit can explain; 0: not
+    /// significant.
     double significance(const std::vector<double>& values, std::size_t i, double noise) {
         const std::size_t count = settings.window;
         left.resize(count);
@@ -117,7 +117,8 @@ struct ImpactFinder::State {
         const double squares = fit.squares_left(left.data(), before) + fit.squares_left(right.data(), after);
         const auto freedom = static_cast<double>(2 * count - 2 * (parabola + 1));
         const double misfit = std::max(0.0, squares / freedom - noise * noise);
-        // If a term of third degree makes the misfit, its continuation to the end is sqrt(7) times that on either side.
+        // If a term of third degree causes the misfit, its extrapolation to the end is sqrt(7) times that on either
+        // side.
         const double by_misfit = 2 * std::sqrt(7 * misfit);
         const double by_noise = settings.significance * noise * value_noise * std::numbers::sqrt2;
         const double size = std::abs(jump);
@@ -150,12 +151,12 @@ RecordedImpact ImpactFinder::State::impact_at(std::size_t i, std::size_t from, s
         return result;
     };
     RecordedImpact impact;
-    double offset = 0.5; // of the impact behind row i, in samples
+    double offset = 0.5; // time of the impact after row i, in samples
     impact.time_error = spacing / std::sqrt(12.0);
     if (settings.displacement) {
         const std::vector<double>& places = rows.values[*settings.displacement];
         const std::vector<double> first = rows_before(places), second = rows_after(places);
-        // Newton's method for the place at which both continuations are equal.
+        // Newton's method for the time at which both extrapolations are equal.
         constexpr int steps = 20;
         for (int step = 0; step < steps; ++step) {
             const Continued a = continued(first, settings.transition, offset, place_noise),
@@ -177,11 +178,11 @@ RecordedImpact ImpactFinder::State::impact_at(std::size_t i, std::size_t from, s
     impact.time = rows.times[i] + offset * spacing;
     impact.before = a.value;
     impact.after = b.value;
-    // The velocity changes within the error of the time, too.
+    // The error of the time adds to those of the velocities.
     const double late = impact.time_error / spacing;
     impact.before_error = std::hypot(a.error, a.slope * late);
     impact.after_error = std::hypot(b.error, b.slope * late);
-    impact.covariance = -(a.slope * late) * (b.slope * late); // slopes go away from the impact, to either side
+    impact.covariance = -(a.slope * late) * (b.slope * late); // slopes are in the direction away from the impact
     return impact;
 }
 
@@ -190,11 +191,11 @@ ImpactFinder::ImpactFinder(SampleSource& source, const ImpactSettings& settings)
     if (settings.displacement)
         require_index(*settings.displacement, source.header().channels.size(), "channel");
     if (settings.window < least_window || settings.window > most_window || settings.transition > most_window)
-        throw InputError(fmt::format("{} samples tell no velocities beside an impact", settings.window),
+        throw InputError(fmt::format("{} samples do not determine the velocities at an impact", settings.window),
                          "take 5 or more, and up to 100000");
     if (!(settings.significance > 0) || !std::isfinite(settings.significance) || !(settings.least_jump >= 0) ||
         !std::isfinite(settings.least_jump))
-        throw InputError("the least jump and its significance are no positive numbers", "give positive ones");
+        throw InputError("the least jump or its significance is not a positive number", "give positive ones");
     state_ = std::make_unique<State>(source, settings);
 }
 
@@ -210,7 +211,7 @@ bool ImpactFinder::next(std::vector<RecordedImpact>& impacts) {
     const double spacing = 1 / sampling_frequency(rows.times), noise = noise_of(values);
     const double place_noise = state.settings.displacement ? noise_of(rows.values[*state.settings.displacement]) : 0;
     const std::size_t reach = state.settings.window + state.settings.transition;
-    // Impacts beside the rows that are asked for are sought too, for they limit what tells of those among them.
+    // Impacts outside the requested rows are also looked for, as they limit the samples of those inside.
     std::vector<double> sizes(rows.rows(), 0.0);
     for (std::size_t i = reach; i + reach + 1 < rows.rows(); ++i)
         sizes[i] = state.significance(values, i, noise);

@@ -33,7 +33,7 @@ std::optional<double> number_of(std::string_view text, char decimal) {
 constexpr std::string_view end_of_heading = "***End_of_Header***";
 constexpr int most_heading_lines = 1000;
 
-/// What the lines of a heading of LabVIEW say, each behind its name.
+/// Lines of a LabVIEW heading: values by key.
 using LabviewHeading = std::map<std::string, std::vector<std::string>, std::less<>>;
 
 LabviewHeading labview_heading(TextLines& lines, char separator) {
@@ -67,7 +67,7 @@ std::string first_of(const LabviewHeading& heading, std::string_view key) {
                      "write the file with one column of times (X_Columns One)");
 }
 
-/// X0 or Delta_X, which are there for each channel.
+/// X0 or Delta_X, which must be equal for all channels.
 double common_number(const TextLines& lines, const LabviewHeading& heading, const char* key, std::size_t channels,
                      char decimal) {
     const auto found = heading.find(key);
@@ -85,7 +85,7 @@ double common_number(const TextLines& lines, const LabviewHeading& heading, cons
     return *common;
 }
 
-/// That of X0 and Delta_X or of a column of times: X_Unit_Label where it is there.
+/// Unit of X0 and Delta_X, or of a column of times: X_Unit_Label if present.
 std::string unit_of_times(const TextLines& lines, const LabviewHeading& heading, std::size_t channels) {
     constexpr const char* key = "X_Unit_Label";
     std::string unit = first_of(heading, "X_Dimension") == "Time" ? "s" : "";
@@ -139,7 +139,7 @@ TextTable labview_table(TextLines& lines) {
 
 namespace {
 
-constexpr std::size_t tektronix_columns = 3; // before the time
+constexpr std::size_t tektronix_columns = 3; // columns before the time
 
 } // namespace
 
@@ -179,8 +179,8 @@ bool has_time_in_names(std::string_view names) {
 
 namespace {
 
-/// A time such as "-5.0e-04s" or "3ms". @return seconds, which it is in without a unit; nothing where there is no
-/// number
+/// Parses a time such as "-5.0e-04s" or "3ms". @return seconds, which are assumed without a unit; nothing if there is
+/// no number
 std::optional<double> seconds_of(std::string_view text, const Place& place) {
     text = trimmed(text);
     double value = 0;
@@ -194,7 +194,7 @@ std::optional<double> seconds_of(std::string_view text, const Place& place) {
     try {
         return converted(value, physical_unit(unit), physical_unit("s"));
     } catch (const InputError&) {
-        throw InputError(place, fmt::format("'{}' is no time", printable_line(shortened(text, 100))),
+        throw InputError(place, fmt::format("'{}' is not a time", printable_line(shortened(text, 100))),
                          "write it in s, ms, us or ns, or pass over lines (--skip N) and say what the columns are "
                          "(--columns)");
     }
@@ -219,7 +219,7 @@ Channel rigol_channel(const NameField& field, const Place& place) {
     return channel;
 }
 
-/// CH1V,CH2V,t0 =-5e-04s, tInc = 1e-06,
+/// Parses a line of names such as CH1V,CH2V,t0 =-5e-04s, tInc = 1e-06,
 std::optional<TextTable> rigol_named_time(const KeptLine& names, const std::string& path) {
     std::vector<NameField> fields = name_fields(names.text, ',');
     const auto begins = [](const char* with) {

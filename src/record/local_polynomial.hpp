@@ -6,16 +6,16 @@
 
 namespace graze {
 
-/// Least-squares fits of polynomials to samples at fixed places, in an orthonormal basis: of white noise each
-/// coefficient has the standard deviation of a sample, independently of the others.
+/// Least-squares fits of polynomials to samples at fixed places, in an orthonormal basis: with white noise the
+/// coefficients are independent, each with the standard deviation of a sample.
 class LocalPolynomial {
 public:
-    /// @param places distinct, of the order of one; more of them than the degree
+    /// @param places distinct, of order one; more of them than the degree
     LocalPolynomial(std::span<const double> places, std::size_t degree);
 
     std::size_t degree() const { return at_zero_.size() - 1; }
     std::size_t places() const { return places_; }
-    /// Coefficient k of the basis. @param samples one at each place
+    /// Returns the coefficient of basis polynomial k. @param samples one at each place
     double coefficient(std::size_t k, const double* samples) const {
         const double* basis = basis_.data() + k * places_;
         double sum = 0;
@@ -23,7 +23,8 @@ public:
             sum += basis[i] * samples[i];
         return sum;
     }
-    /// Squares that are left of samples when the polynomial with these coefficients, as many as given, is taken away.
+    /// Returns the sum of squared residuals of the polynomial with the given coefficients (of the first basis
+    /// polynomials).
     double squares_left(const double* samples, std::span<const double> coefficients) const {
         double squares = 0;
         for (std::size_t i = 0; i < places_; ++i) {
@@ -34,17 +35,17 @@ public:
         }
         return squares;
     }
-    /// Value and slope at nought of polynomial k of the basis.
+    /// Value and slope at 0 of basis polynomial k.
     double at_zero(std::size_t k) const { return at_zero_[k]; }
     double slope_at_zero(std::size_t k) const { return slope_[k]; }
-    /// Coefficients of powers, from the lowest, of the polynomial that fits best.
+    /// Returns the best polynomial's coefficients of powers, from the lowest.
     std::vector<double> powers(const double* samples) const;
 
 private:
     std::size_t places_;
-    std::vector<double> basis_; ///< one after the other
+    std::vector<double> basis_; ///< values at the places, one polynomial after the other
     std::vector<double> at_zero_, slope_;
-    std::vector<double> inverse_; ///< powers of each, one after the other
+    std::vector<double> inverse_; ///< coefficients of powers of each basis polynomial
 };
 
 } // namespace graze

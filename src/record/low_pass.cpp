@@ -23,9 +23,9 @@ namespace {
 
 constexpr std::size_t longest_filter = 1'000'000;
 
-/// Factors of the middle sample and of those on one side of it.
+/// Weights of the middle sample and of those on one side; frequencies in units of the sampling frequency.
 std::vector<double> filter_of(double pass, double stop, double attenuation) {
-    // Kaiser's formulas for the window's shape and length.
+    // Kaiser's formulas for the shape and length of the window.
     double shape = 0;
     if (attenuation > 50)
         shape = 0.1102 * (attenuation - 8.7);
@@ -33,9 +33,9 @@ std::vector<double> filter_of(double pass, double stop, double attenuation) {
         shape = 0.5842 * std::pow(attenuation - 21, 0.4) + 0.07886 * (attenuation - 21);
     const double order = (attenuation - 7.95) / (2.285 * 2 * std::numbers::pi * (stop - pass));
     if (!(order < static_cast<double>(2 * longest_filter)))
-        throw InputError("the filter is too steep", "leave more room between what passes and what does not");
+        throw InputError("the filter is too steep", "widen the band between pass and stop");
     const auto half = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(order / 2)));
-    const double cutoff = pass + stop; // twice the middle, in parts of the sampling frequency
+    const double cutoff = pass + stop; // twice the middle of the transition band, in units of the sampling frequency
     std::vector<double> factors(half + 1);
     for (std::size_t i = 0; i <= half; ++i) {
         const double x = static_cast<double>(i) / static_cast<double>(half);
@@ -46,15 +46,15 @@ std::vector<double> filter_of(double pass, double stop, double attenuation) {
     }
     const double sum = factors[0] + 2 * std::accumulate(factors.begin() + 1, factors.end(), 0.0);
     for (double& factor : factors)
-        factor /= sum; // what is constant stays as it is
+        factor /= sum; // unit gain for constants
     return factors;
 }
 
-/// What passes and what does not are parts of the frequency of samples: within the length of the filter the clock must
-/// keep the distances for which it was made, but for the rounding of times.
+/// Bands are relative to the sampling frequency: within the filter's length the spacing must be the one for which it
+/// was designed, but for rounding of times.
 void require_spacing(std::span<const double> times, double spacing, std::size_t length) {
     const double rounding = rounding_of(times, spacing);
-    constexpr double share = 0.05, drift = 0.0025; // of a step, and half of by which frequencies may be off
+    constexpr double share = 0.05, drift = 0.0025; // of a step; half the allowed relative error of frequencies
     for (std::size_t first = 0; first + 1 < times.size(); first += std::max<std::size_t>(1, length / 2)) {
         const auto part = times.subspan(first, std::min(length, times.size() - first));
         require_even(part, spacing,
@@ -67,28 +67,28 @@ void require_spacing(std::span<const double> times, double spacing, std::size_t 
 struct LowPass::State {
     SampleSource* source;
     LowPassSettings settings;
-    double spacing = 0; ///< of the first samples, for which the factors are
+    double spacing = 0; ///< spacing of the first samples, for which the weights were computed
     std::vector<double> factors{};
     std::optional<SlidingSamples> window{};
     std::unique_ptr<SampleSource> beginning{};
-    std::size_t next = 0; ///< row of the source that is kept next
+    std::size_t next = 0; ///< next row of the source to keep
     bool any = false;
 };
 
 LowPass::LowPass(SampleSource& source, const LowPassSettings& settings)
     : state_(std::make_unique<State>(State{&source, settings})) {
     if (settings.every < 1)
-        throw InputError("of no samples none can be kept", "keep one of 2 or more");
+        throw InputError("decimation cannot keep one of 0 samples", "keep one of 2 or more");
     constexpr double least = 21, most = 300;
     if (!(settings.attenuation >= least && settings.attenuation <= most))
-        throw InputError(fmt::format("an attenuation of {} dB cannot be made", settings.attenuation),
+        throw InputError(fmt::format("an attenuation of {} dB is not possible", settings.attenuation),
                          "choose one from 21 to 300");
     if (!(settings.pass >= 0) || !(settings.stop >= 0) || !std::isfinite(settings.pass + settings.stop) ||
         (settings.stop > 0 && !(settings.stop > settings.pass)) || (settings.stop > 0 && settings.pass == 0))
         throw InputError(fmt::format("no filter passes all up to {} and nothing from {}", settings.pass, settings.stop),
                          "give two positive frequencies, the second above the first");
     if (settings.pass == 0 && settings.every == 1)
-        throw InputError("nothing says what the filter is to pass", "give a frequency");
+        throw InputError("the filter has no frequency to pass", "give a frequency");
 }
 
 LowPass::~LowPass() = default;
@@ -114,7 +114,7 @@ bool LowPass::read(Samples& samples) {
                             : state.settings.every > 1 ? highest
                                                        : std::min(highest, wider * pass);
         if (!(pass < stop) || stop > highest * (1 + 1e-9))
-            throw InputError(fmt::format("what is faster than {} cannot be seen in samples of which {} are taken by "
+            throw InputError(fmt::format("frequencies above {} cannot be resolved by a sampling frequency of {} by "
                                          "unit of time",
                                          highest, frequency / every),
                              "choose lower frequencies, or keep more samples");
@@ -142,7 +142,7 @@ bool LowPass::read(Samples& samples) {
     }
     if (samples.rows() == 0 && !state.any)
         throw InputError(fmt::format("the record is shorter than the filter, which needs {} samples", 2 * half + 1),
-                         "record longer, or leave more room between what passes and what does not");
+                         "record longer, or widen the band between pass and stop");
     state.any = true;
     return samples.rows() > 0;
 }

@@ -13,7 +13,7 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t margin = 3; ///< rows that are kept before and after a period
+constexpr std::size_t margin = 3; ///< rows kept before and after a period
 constexpr std::size_t longest_period = 4'000'000;
 
 } // namespace
@@ -72,13 +72,13 @@ double PeriodSplitter::locate(std::size_t below, std::size_t above) const {
             sum = sum * x + powers[k];
         return sum;
     };
-    // Between the two rows the samples change their sign; where the polynomial does not, a straight line does.
+    // The samples change their sign between the two rows. If the polynomial does not, use a straight line.
     double low = (buffer_.times[below] - middle) / scale, high = (buffer_.times[above] - middle) / scale;
     if (!(height(low) < 0 && height(high) > 0)) {
         const double fall = values[below] - settings_.level, rise = values[above] - settings_.level;
         return middle + scale * (low - fall / (rise - fall) * (high - low));
     }
-    constexpr int bits = 60; // more than a number has
+    constexpr int bits = 60; // more than a double has
     for (int i = 0; i < bits; ++i) {
         const double x = 0.5 * (low + high);
         (height(x) < 0 ? low : high) = x;
@@ -96,7 +96,7 @@ bool PeriodSplitter::next_crossing(Crossing& crossing) {
                 below_ = scanned_;
             } else if (armed_ && height > settings_.hysteresis) {
                 if (scanned_ + margin >= buffer_.rows() && read_more())
-                    break; // which has moved the rows: look at this one again
+                    break; // this has moved the rows: look at this one again
                 crossing.time = locate(below_, scanned_);
                 const auto after = std::upper_bound(buffer_.times.begin() + static_cast<std::ptrdiff_t>(below_),
                                                     buffer_.times.end(), crossing.time);
@@ -137,7 +137,7 @@ PeriodFit fit_period(std::span<const double> crossings) {
     const auto count = static_cast<double>(crossings.size());
     const double middle = 0.5 * (count - 1);
     const double first = crossings.front(), step = (crossings.back() - first) / (count - 1);
-    // Departures from the line through the first and the last are small, and lose no digits.
+    // Deviations from the line through the first and the last crossing are small, so that no digits are lost.
     double mean = 0, moment = 0;
     for (std::size_t i = 0; i < crossings.size(); ++i) {
         const auto k = static_cast<double>(i);

@@ -11,7 +11,7 @@ namespace graze {
 
 namespace {
 
-/// Passes samples on. Where there are none at all, whatever is made of them would be an empty answer.
+/// Passes samples on, and throws if there are none at all, since any result would be empty.
 class RequiredRows : public SampleSource {
 public:
     RequiredRows(SampleSource& source, bool by_options) : source_(&source), by_options_(by_options) {}

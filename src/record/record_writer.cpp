@@ -39,7 +39,7 @@ std::string titled(const Channel& channel) {
     return channel.unit.empty() ? channel.name : fmt::format("{} [{}]", channel.name, channel.unit);
 }
 
-/// A name that would be read back as another one, or as two.
+/// Refuses a name that would be read back as another one, or as two.
 void require_column(const Channel& channel) {
     const bool splits = channel.name.find_first_of(",;\t\n\r[]") != std::string::npos || channel.name.empty() ||
                         channel.name.find_first_of("#%") == 0 || trimmed(channel.name) != channel.name;
@@ -48,12 +48,12 @@ void require_column(const Channel& channel) {
                          "give it a name without commas, semicolons and brackets, or write HDF5 (.h5)");
 }
 
-/// A header that would not be read back.
+/// Refuses a header that could not be read back.
 void require_names_once(const RecordHeader& header) {
     std::set<std::string_view> names{header.time.name};
     for (const Channel& channel : header.channels)
         if (!names.insert(channel.name).second)
-            throw InputError(fmt::format("the name '{}' is that of two columns", channel.name),
+            throw InputError(fmt::format("two columns are named '{}'", channel.name),
                              "give each column a name of its own");
 }
 
@@ -102,8 +102,8 @@ private:
 class Hdf5Target : public RecordWriter::Target {
 public:
     Hdf5Target(const std::string& path, const RecordHeader& header) : path_(path) {
-        H5dont_atexit(); // what a full disk has not taken it would try to write once more at exit, and crash
-        H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // failures are told by exceptions
+        H5dont_atexit(); // otherwise data that a full disk refused is written again at exit, which crashes
+        H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // failures are reported by exceptions
         file_ = handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
         sets_.push_back(make(header.time));
         for (const Channel& channel : header.channels)
@@ -116,7 +116,7 @@ public:
         rows_ += samples.rows();
     }
     void close() override {
-        if (H5Fflush(file_.id(), H5F_SCOPE_GLOBAL) < 0) // while it can still be told
+        if (H5Fflush(file_.id(), H5F_SCOPE_GLOBAL) < 0) // while an error can still be reported
             refuse(path_);
         sets_.clear();
         file_ = Hdf5Handle();
@@ -124,7 +124,7 @@ public:
 
 private:
     static constexpr hsize_t chunk = 8192;
-    static constexpr unsigned quick = 1; ///< of deflate: measured numbers hardly pack any better by more
+    static constexpr unsigned quick = 1; ///< level of deflate: higher ones hardly pack measured numbers any better
 
     Hdf5Handle handle(hid_t id, herr_t (*closer)(hid_t)) const {
         return {id, closer, path_, "the record cannot be written", full};
@@ -137,7 +137,7 @@ private:
         const Hdf5Handle space = handle(H5Screate_simple(1, &none, &unlimited), H5Sclose);
         const Hdf5Handle how = handle(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
         H5Pset_chunk(how.id(), 1, &chunk);
-        H5Pset_obj_track_times(how.id(), false); // the same record is the same file, whenever it is written
+        H5Pset_obj_track_times(how.id(), false); // the same record gives the same file at any time
         H5Pset_shuffle(how.id());
         H5Pset_deflate(how.id(), quick);
         Hdf5Handle set = handle(H5Dcreate2(file_.id(), channel.name.c_str(), H5T_NATIVE_DOUBLE, space.id(), H5P_DEFAULT,
@@ -200,7 +200,7 @@ void RecordWriter::write(const Samples& samples) {
 void RecordWriter::close() {
     if (!target_)
         throw InputError("the record is closed already", "close it once");
-    const std::unique_ptr<Target> last = std::move(target_); // it cannot be closed a second time
+    const std::unique_ptr<Target> last = std::move(target_); // even on failure it cannot be closed again
     last->close();
 }
 

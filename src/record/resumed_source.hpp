@@ -6,7 +6,7 @@
 
 namespace graze {
 
-/// What was read of a source already, and then the rest.
+/// A source that first returns samples already read from another, and then the rest of it.
 class ResumedSource : public SampleSource {
 public:
     ResumedSource(SampleSource& source, Samples begun) : source_(&source), begun_(std::move(begun)) {}

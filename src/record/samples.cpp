@@ -32,8 +32,8 @@ std::size_t RecordHeader::channel(std::string_view name, std::string_view asked)
     if (name == time.name)
         throw InputError(
             Place{std::string(asked), 0, 0},
-            fmt::format("'{}' is the first column of the record, which is taken for the time and is no channel", name),
-            "put a column in front that numbers the rows, or has their times");
+            fmt::format("'{}' is the first column of the record, which is the time and not a channel", name),
+            "insert a first column with the times or numbers of the rows");
     const std::string nearest = nearest_name(std::string(name), names);
     throw InputError(Place{std::string(asked), 0, 0}, fmt::format("the record has no channel '{}'", name),
                      nearest.empty() ? fmt::format("its channels are: {}", name_list(names, name))
@@ -81,7 +81,7 @@ StoredSamples::StoredSamples(RecordHeader header, Samples samples, std::size_t p
     }
     if (std::adjacent_find(samples_.times.begin(), samples_.times.end(),
                            [](double one, double next) { return !(next > one); }) != samples_.times.end())
-        throw InputError("the times of a record do not rise", "give each row once, in the order of time");
+        throw InputError("the times of a record do not increase", "give each row once, in the order of time");
 }
 
 bool StoredSamples::read(Samples& samples) {

@@ -12,7 +12,7 @@ namespace graze {
 
 SectionPoint section(const Period& period, double phase) {
     if (!(phase >= 0 && phase <= 1))
-        throw InputError(fmt::format("the phase {} is no part of a period", phase), "give a number from 0 to 1");
+        throw InputError(fmt::format("the phase {} is not a part of a period", phase), "give a number from 0 to 1");
     SectionPoint point;
     point.period = period.number;
     point.phase = phase;

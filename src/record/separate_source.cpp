@@ -29,14 +29,14 @@ namespace graze {
 
 namespace {
 
-// What begins a message: a header, rows, the end, or an InputError.
+// First byte of a message: a header, rows, the end, or an InputError.
 constexpr char kind_header = 'H', kind_part = 'P', kind_end = 'E', kind_refusal = 'R';
-/// Beyond these the other process has lost its senses.
+/// Larger numbers mean that the other process is corrupted.
 constexpr std::uint64_t longest_text = std::uint64_t{1} << 20, most_channels = 100'000, most_rows = 10'000'000;
-constexpr int pipe_size = 1 << 20; ///< bytes: parts of a few channels, so that both processes work at once
+constexpr int pipe_size = 1 << 20; ///< bytes: a few parts fit, so that both processes work at once
 constexpr const char* damaged = "it is damaged, or has been cut off; make it again";
 
-/// Bytes of address space that this process has, 0 where the system does not say so.
+/// Bytes of address space of this process; 0 if unknown.
 std::size_t address_space() {
     unsigned long pages = 0;
     std::FILE* file = std::fopen("/proc/self/statm", "re");
@@ -47,7 +47,8 @@ std::size_t address_space() {
     return known ? pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) : 0;
 }
 
-/// The process that reads. Nothing here returns: it shares its memory's past, but nothing else, with the one that asks.
+/// The reading process. No function returns to the caller's code: this process is a copy that shares nothing with the
+/// caller but the pipe.
 class Reader {
 public:
     Reader(int pipe, const ReadingLimits& limits) : limits_(&limits) {
@@ -75,22 +76,22 @@ public:
         } catch (const std::exception& error) {
             refuse({}, fmt::format("it cannot be read ({})", error.what()), damaged);
         }
-        _exit(0); // nothing of the other process is closed or flushed
+        _exit(0); // no destructors or buffers of the copied process may run
     }
 
 private:
     static constexpr int pipe_here = 3, first_free = 4, most_files = 8;
 
-    /// No files of the other process, no signals that are meant for it, nothing printed.
+    /// Closes the caller's files, resets signals, and discards output.
     static void become_quiet(int pipe) {
         for (const int deadly : {SIGPROF, SIGPIPE, SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU, SIGXFSZ})
             std::signal(deadly, SIG_DFL);
         for (const int of_terminal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP})
-            std::signal(of_terminal, SIG_IGN); // it ends with its pipe
+            std::signal(of_terminal, SIG_IGN); // it ends when its pipe closes
         sigset_t none;
         sigemptyset(&none);
         sigprocmask(SIG_SETMASK, &none, nullptr);
-        constexpr int above = 16; // those that are taken first
+        constexpr int above = 16; // above the standard descriptors
         const int kept = fcntl(pipe, F_DUPFD, above), nothing = open("/dev/null", O_RDWR);
         for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
             if (nothing < 0 || (nothing != standard && dup2(nothing, standard) < 0))
@@ -120,7 +121,7 @@ private:
         restrict(RLIMIT_NOFILE, most_files);
     }
 
-    /// The clock of the work on one part begins; SIGPROF ends the process.
+    /// Starts the timer for one part; SIGPROF ends the process.
     void begin_work() const {
         const double whole = std::floor(limits_->work);
         itimerval timer{};
@@ -185,7 +186,7 @@ SeparateSource::SeparateSource(std::string path, const Make& make, const Reading
         for (const int end : ends)
             fcntl(end, F_SETFD, FD_CLOEXEC);
 #ifdef F_SETPIPE_SZ
-        fcntl(ends[1], F_SETPIPE_SZ, pipe_size); // what the system does not allow only takes longer
+        fcntl(ends[1], F_SETPIPE_SZ, pipe_size); // if refused, it is only slower
 #endif
         process_ = fork();
     }
@@ -250,7 +251,7 @@ bool SeparateSource::read(Samples& samples) {
     return true;
 }
 
-/// The next bytes of what the other process says.
+/// Receives the next bytes from the other process.
 void SeparateSource::fill(void* to, std::size_t size) {
     for (char* at = static_cast<char*>(to); size > 0;) {
         pollfd ready{pipe_, POLLIN, 0};
@@ -268,7 +269,7 @@ void SeparateSource::fill(void* to, std::size_t size) {
 }
 
 char SeparateSource::next_kind() {
-    if (process_ < 0) // it has been told why
+    if (process_ < 0) // the reason has been reported
         tell_nonsense();
     char kind = 0;
     fill(&kind, 1);
@@ -315,7 +316,7 @@ void SeparateSource::tell_nonsense() {
     tell_end(false);
 }
 
-/// @param at_once without waiting for what it does. @return how it ended
+/// Ends the other process. @param at_once kills it instead of waiting. @return its exit status
 int SeparateSource::end(bool at_once) {
     int status = 0;
     if (pipe_ >= 0)

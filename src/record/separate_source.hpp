@@ -11,26 +11,26 @@
 
 namespace graze {
 
-/// What a process that reads a file may take.
+/// Resources that the process that reads a file may use.
 struct ReadingLimits {
-    std::size_t memory = std::size_t{768} << 20; ///< bytes, besides what the process that asks has already
+    std::size_t memory = std::size_t{768} << 20; ///< bytes, in addition to those of the calling process
     double work = 2;                             ///< seconds of processor time for the header, and for each part
     double silence = 60;                         ///< seconds of waiting for the header, and for each part
 };
 
-/// A source that is made and read in a process of its own (fork), for libraries that a damaged file makes crash, hang
-/// or take all memory: what happens there is told here by an InputError. The process opens one file at most, writes
-/// none, and ends with this object. It reads ahead while parts are processed here.
+/// A source that is opened and read in a process of its own (fork), for libraries that crash, hang or exhaust memory on
+/// a damaged file: such a failure becomes an InputError here. The process opens one file at most, writes none, and ends
+/// with this object. It reads ahead while parts are processed here.
 class SeparateSource : public SampleSource {
 public:
     using Make = std::function<std::unique_ptr<SampleSource>()>;
 
     /// @param path of the file, for messages; @param make opens the source, in the other process
-    /// @throws InputError that `make` has thrown, or when the process has not survived it
+    /// @throws InputError that `make` has thrown, or when the process has died
     SeparateSource(std::string path, const Make& make, const ReadingLimits& limits = {});
     ~SeparateSource() override;
     const RecordHeader& header() const override { return header_; }
-    /// @throws InputError that the source has thrown, or when the process has not survived it
+    /// @throws InputError that the source has thrown, or when the process has died
     bool read(Samples& samples) override;
 
 private:
@@ -47,7 +47,7 @@ private:
     RecordHeader header_;
     pid_t process_ = -1;
     int pipe_ = -1;
-    bool complete_ = false; ///< the end was reached without a mistake
+    bool complete_ = false; ///< the end was reached without an error
 };
 
 } // namespace graze

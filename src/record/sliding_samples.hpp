@@ -7,14 +7,14 @@
 
 namespace graze {
 
-/// A source seen through a window that moves along it: rows `first` ... `last` - 1 of what is in it have so many rows
-/// before and behind them, and each row of the source is once among them but for those at its ends.
+/// A sliding window over a source: rows `first` ... `last` - 1 of the window have at least `margin` rows before and
+/// after them. Each row of the source, except those near its ends, is among them exactly once.
 class SlidingSamples {
 public:
     SlidingSamples(SampleSource& source, std::size_t margin) : source_(&source), margin_(margin), first_(margin) {
         samples_.clear(source.header().channels.size());
     }
-    /// Moves on. @return false when there are no more rows
+    /// Moves the window. @return false when there are no more rows
     bool next() {
         const std::size_t drop = last_ > 0 ? last_ - margin_ : 0;
         samples_.drop_front(drop);
@@ -32,7 +32,7 @@ public:
     const Samples& samples() const { return samples_; }
     std::size_t first() const { return first_; }
     std::size_t last() const { return last_; }
-    /// Rows of the source before the first in the window.
+    /// Number of source rows before the first row of the window.
     std::size_t dropped() const { return dropped_; }
 
 private:

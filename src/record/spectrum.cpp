@@ -16,7 +16,7 @@ namespace graze {
 
 namespace {
 
-/// For few samples, sums whose angles are exact.
+/// Direct sum with exact angles, for few samples.
 std::complex<double> direct_sum(std::span<const double> samples, double mean, std::size_t k) {
     std::complex<double> sum = 0;
     for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -70,12 +70,12 @@ Spectrum spectrum(std::span<const double> samples, double frequency) {
 
 double sampling_frequency(std::span<const double> times) {
     if (times.size() < 2)
-        throw InputError("there are too few samples to tell how often they were taken", "give two or more");
+        throw InputError("there are too few samples to determine the sampling frequency", "give two or more");
     const double spacing = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
     constexpr double most = 0.25; // times are often written with few digits
     for (std::size_t i = 1; i < times.size(); ++i)
         if (!(std::abs(times[i] - times[i - 1] - spacing) <= most * spacing))
-            throw InputError(fmt::format("the samples are not at equal distances of time: between {} and {} there are "
+            throw InputError(fmt::format("the samples are not equidistant in time: between {} and {} there are "
                                          "{} instead of {}",
                                          times[i - 1], times[i], times[i] - times[i - 1], spacing),
                              "give a part of the record without gaps");
@@ -87,7 +87,7 @@ Spectrum averaged_spectrum(SampleSource& source, std::size_t channel, std::size_
     constexpr std::size_t least = 8;
     if (part < least)
         throw InputError(fmt::format("{} samples are too few for a spectrum", part), "take 8 or more");
-    std::vector<double> window, piece; // once there are that many samples: a part may be any number
+    std::vector<double> window, piece; // sized only once there are that many samples, as `part` may be any number
     double weight = 0;
     Spectrum result;
     Samples buffer, more;

@@ -58,7 +58,7 @@ bool TextLines::next(std::string_view& line) {
     if (number_ == 1 && line.starts_with("\xef\xbb\xbf")) // mark of UTF-8
         line.remove_prefix(3);
     if (number_ == 1 && (line.starts_with("\xff\xfe") || line.starts_with("\xfe\xff"))) // marks of UTF-16
-        throw InputError(Place{path_, 1, 1}, "this is text of two bytes a letter (UTF-16)", "save it as UTF-8");
+        throw InputError(Place{path_, 1, 1}, "this text is in UTF-16", "save it as UTF-8");
     return true;
 }
 

@@ -9,17 +9,17 @@
 
 namespace graze {
 
-/// Lines of a text file of any length, one after the other, in bounded memory.
+/// Reads the lines of a text file of any length, in bounded memory.
 class TextLines {
 public:
-    /// @throws InputError when it cannot be opened, or is text of two bytes a letter
+    /// @throws InputError when the file cannot be opened, or is UTF-16
     explicit TextLines(const std::string& path);
-    /// The next line without its end, and without the mark of UTF-8 before the first one. @return false behind the last
+    /// Reads the next line, without its end and without the byte order mark of UTF-8. @return false after the last
     /// @throws InputError for lines of more than a MiB
     bool next(std::string_view& line);
-    /// Of the line that `next` has given, from 1 on.
+    /// Number of the line that `next` has returned, from 1 on.
     int number() const { return number_; }
-    /// Whether that one ends as a line does. The last one of a file that was cut off does not.
+    /// Whether that line has a line end. The last one of a file that was cut off has none.
     bool is_ended() const { return ended_; }
     const std::string& path() const { return path_; }
 
@@ -29,8 +29,8 @@ private:
     std::string path_;
     PlainFile file_;
     std::vector<char> buffer_;
-    std::size_t begin_ = 0, end_ = 0; ///< of what is in the buffer and has not been read
-    bool at_end_ = false;             ///< of the file
+    std::size_t begin_ = 0, end_ = 0; ///< unread part of the buffer
+    bool at_end_ = false;             ///< the end of the file was reached
     bool ended_ = true;
     int number_ = 0;
 };

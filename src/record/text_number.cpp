@@ -13,7 +13,7 @@ namespace graze {
 
 namespace {
 
-/// IEEE 488.2 and SCPI-99, section 7.2.1: infinity and "not a number".
+/// Codes of IEEE 488.2 and SCPI-99, section 7.2.1, for infinity and "not a number".
 bool is_code_of_missing(double value) {
     constexpr double infinity = 9.9e37, none = 9.91e37;
     return std::abs(value) == infinity || std::abs(value) == none;
@@ -57,7 +57,7 @@ const char* NumberReader::read_beginning(const char* at, const char* end, double
 FieldKind NumberReader::read(std::string_view field, bool may_have_comma, double& value) {
     const char* const end = field.data() + field.size();
     double read = 0;
-    if (field.empty()) // which may be nowhere: no pointer to it tells where a number ends
+    if (field.empty()) // its pointer may be null, so it cannot be parsed
         return FieldKind::missing;
     if (!may_have_comma || field.find(',') == std::string_view::npos) {
         if (read_beginning(field.data(), end, read) == end) {
@@ -76,7 +76,7 @@ FieldKind NumberReader::read(std::string_view field, bool may_have_comma, double
     if (decimal_ == '.' || field.size() > longest || field.find('.') != std::string_view::npos)
         return FieldKind::text;
     std::array<char, longest> copy{};
-    std::replace_copy(field.begin(), field.end(), copy.begin(), ',', '.'); // a second one ends the number
+    std::replace_copy(field.begin(), field.end(), copy.begin(), ',', '.'); // a second comma ends the number
     if (read_beginning(copy.data(), copy.data() + field.size(), read) != copy.data() + field.size())
         return FieldKind::text;
     decimal_ = ',';

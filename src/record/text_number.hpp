@@ -4,24 +4,24 @@
 
 namespace graze {
 
-/// What a field of a table holds.
+/// Kind of a table field.
 enum class FieldKind {
     number,
-    missing, ///< nothing, or what instruments write where there was no reading or one beyond their range
+    missing, ///< empty, or a code of instruments for a missing or overrange reading
     text,
 };
 
-/// Numbers of a table, all of which have the same decimal sign: a point or a comma.
+/// Reads numbers of a table, which must all have the same decimal sign: a point or a comma.
 class NumberReader {
 public:
-    /// @param decimal '.' or ',', or 0: the first number that has one tells
+    /// @param decimal '.' or ','; 0: the first number with a decimal sign decides
     explicit NumberReader(char decimal = 0) : decimal_(decimal) {}
 
-    /// A whole field without the blanks around it. A comma is a decimal one only in fields that others than commas
-    /// separate. @param value unchanged unless it is a number
+    /// Reads a field, which must have no blanks around it. A decimal comma is allowed only if commas do not separate
+    /// fields. @param value unchanged unless it is a number
     FieldKind read(std::string_view field, bool may_have_comma, double& value);
-    /// The beginning of a text that is a number with a decimal point, whatever the language of the system. What is too
-    /// small for a double is nought. @return behind it; null: none is there, or it is too large
+    /// Reads a number with a decimal point at the beginning of a text, independent of the locale. Underflow gives 0.
+    /// @return pointer after it; null if there is none, or it overflows
     static const char* read_beginning(const char* at, const char* end, double& value);
     char decimal() const { return decimal_; }
 
@@ -29,7 +29,7 @@ private:
     char decimal_;
 };
 
-/// Codes of instruments, as "NaN", "inf", "---", and 9.9E37 and 9.91E37 of SCPI, are `missing`.
+/// Whether a field is a word for a missing value, such as "NaN", "inf" or "---".
 bool is_word_of_missing(std::string_view field);
 
 } // namespace graze

@@ -28,7 +28,7 @@ const char* past_blanks(const char* at, const char* end) {
     return at;
 }
 
-/// Where a field ends: at the separator, or at the end of the line.
+/// End of a field: the separator, or the end of the line.
 const char* end_of_field(const char* at, const char* end, char separator) {
     if (separator != ' ') {
         const void* const found = std::memchr(at, separator, static_cast<std::size_t>(end - at));
@@ -56,9 +56,9 @@ void TextRecord::refuse(std::string_view line, const char* at, const std::string
 void TextRecord::refuse_field(std::string_view line, std::string_view field) const {
     const std::string text = printable_line(shortened(field, 100));
     if (table_.starts_again)
-        refuse(line, field.data(), fmt::format("'{}' is no number: here another heading begins", text),
+        refuse(line, field.data(), fmt::format("'{}' is not a number: another heading begins here", text),
                "give a file for each measurement");
-    // A number with something behind it: another separator, or another decimal sign.
+    // A number followed by something else: another separator, or another decimal sign.
     double value = 0;
     const char *const begin = field.data(), *const end = begin + field.size();
     const char* const read = NumberReader::read_beginning(begin, end, value);
@@ -71,16 +71,16 @@ void TextRecord::refuse_field(std::string_view line, std::string_view field) con
         refuse(line, begin, fmt::format("'{}' is a time of day or a date", text),
                "write times as numbers, as seconds from the first row on");
     if (field.size() > 2 && field.front() == '"' && field.back() == '"')
-        refuse(line, begin, fmt::format("'{}' stands in quotes", text), "write numbers without quotes");
+        refuse(line, begin, fmt::format("'{}' is in quotes", text), "write numbers without quotes");
     if (behind && numbers_.decimal() != ',')
-        refuse(line, behind, fmt::format("'{}' stands behind a number", printable_line(std::string_view(behind, 1))),
+        refuse(line, behind, fmt::format("'{}' follows a number", printable_line(std::string_view(behind, 1))),
                table_.separator == ' '
                    ? std::string("separate columns by blanks, as in the first line, and write decimal points")
                    : fmt::format("separate columns by '{}', as in the first line", table_.separator));
-    refuse(line, field.data(), fmt::format("'{}' is no finite number", text),
+    refuse(line, field.data(), fmt::format("'{}' is not a finite number", text),
            line_ == 1  ? "give names of columns, as in 't [s], V [V]', or numbers"
-           : rows_ > 0 ? "write numbers, and nothing where a value is missing; lines that are no rows are passed over "
-                         "where they begin with #"
+           : rows_ > 0 ? "write numbers, and nothing where a value is missing; other lines are skipped "
+                         "if they begin with #"
                        : "write numbers, and nothing where a value is missing; lines before the names of columns are "
                          "passed over by --skip N");
 }
@@ -108,8 +108,8 @@ void TextRecord::refuse_rest(std::string_view line, const char* at) const {
     if (table_.separator == ',' && row_fields(line, ',').size() == 2 * columns)
         refuse(line, line.data(), fmt::format("there are {} numbers instead of {}", 2 * columns, columns),
                "give one for each column; decimal commas need columns that semicolons or tabs separate");
-    refuse(line, at, fmt::format("there is more on this line than {} columns", columns),
-           "give a number for each column that the first line names");
+    refuse(line, at, fmt::format("this line has more than {} columns", columns),
+           "give one number for each column that the first line names");
 }
 
 bool TextRecord::read_row(std::string_view line) {
@@ -142,7 +142,7 @@ bool TextRecord::read_row(std::string_view line) {
 }
 
 void TextRecord::parse(std::string_view line, Samples& samples) {
-    if (!is_ended_) { // its last number may go on
+    if (!is_ended_) { // its last number may be incomplete
         cut_ = line_;
         return;
     }
@@ -170,7 +170,7 @@ void TextRecord::tell() {
         return;
     told_ = true;
     if (missing_ > 0)
-        remark_(fmt::format("{}: {} of {} rows are left out, of which a value is missing (the first in line {})",
+        remark_(fmt::format("{}: {} of {} rows are left out, as a value is missing (the first in line {})",
                             lines_.path(), missing_, rows_, first_missing_));
     if (cut_ > 0)
         remark_(fmt::format("{}: line {}, the last one, has no end and may have been cut off: it is left out",

@@ -12,7 +12,7 @@
 
 namespace graze {
 
-/// A record of lines of numbers.
+/// A record in a text file.
 class TextRecord : public SampleSource {
 public:
     TextRecord(const std::string& path, const RecordLayout& layout);
@@ -20,12 +20,12 @@ public:
     bool read(Samples& samples) override;
 
 private:
-    /// The next line that is neither empty nor a comment. @return false at the end of the file
+    /// Finds the next line that is neither empty nor a comment. @return false at the end of the file
     bool next_line(std::string_view& line);
     void parse(std::string_view line, Samples& samples);
-    /// Its numbers in `row_`. @return false if one is missing
+    /// Reads the numbers of a line into `row_`. @return false if one is missing
     bool read_row(std::string_view line);
-    /// Of what is left out, once, at the end.
+    /// Reports what was left out, once, at the end.
     void tell();
     [[noreturn]] void refuse(std::string_view line, const char* at, const std::string& problem,
                              const std::string& remedy) const;
@@ -36,13 +36,13 @@ private:
     TextTable table_;
     NumberReader numbers_;
     RecordRemark remark_;
-    std::size_t kept_ = 0; ///< of the table's first lines, how many were taken
+    std::size_t kept_ = 0; ///< number of the table's first lines that were used
     int line_ = 0;
     bool is_ended_ = true;
     double last_time_;
     std::vector<double> row_;
-    std::size_t rows_ = 0, missing_ = 0; ///< lines of numbers, and those of which one is missing
-    int first_missing_ = 0, cut_ = 0;    ///< numbers of lines; 0: none
+    std::size_t rows_ = 0, missing_ = 0; ///< rows, and rows with missing values
+    int first_missing_ = 0, cut_ = 0;    ///< line numbers; 0: none
     bool told_ = false;
 };
 

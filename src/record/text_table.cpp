@@ -29,11 +29,11 @@ bool is_comment(std::string_view line) {
     return text.empty() || text.front() == '#' || text.front() == '%';
 }
 
-/// Where a row begins with a number and holds nothing but numbers and missing ones.
+/// Result of reading a line as a row: a row begins with a number and has only numbers and missing values.
 struct RowLook {
     bool is_row = false;
-    std::size_t fields = 0;  ///< up to the last one that is not empty
-    std::size_t numbers = 0; ///< among them
+    std::size_t fields = 0;  ///< number of fields, up to the last one that is not empty
+    std::size_t numbers = 0; ///< numbers among them
 };
 
 RowLook look_at(std::string_view line, char separator) {
@@ -62,7 +62,7 @@ bool is_row(std::string_view line, std::size_t least) {
     });
 }
 
-/// Whether a line is a row, if only of one number, with as many fields as a row below it.
+/// Whether a line is a row, perhaps with a single number, that has as many fields as a row below it.
 bool is_row_like(std::string_view line, std::string_view row) {
     return std::any_of(std::begin(separators), std::end(separators), [&](char separator) {
         const std::size_t fields = row_fields(row, separator).size();
@@ -71,7 +71,7 @@ bool is_row_like(std::string_view line, std::string_view row) {
     });
 }
 
-/// Whether a row has a comma within a number, beside what separates columns.
+/// Whether a row has a comma within a number, besides another separator of columns.
 bool has_decimal_commas(std::string_view line) {
     const auto is_digit = [](char letter) { return letter >= '0' && letter <= '9'; };
     bool commas = false, others = false;
@@ -82,13 +82,13 @@ bool has_decimal_commas(std::string_view line) {
     return commas && others;
 }
 
-/// Of a row alone.
+/// Guesses the separator from a row alone.
 char separator_of_row(std::string_view line) {
     const char separator = separator_of_names(line);
     return separator == ',' && has_decimal_commas(line) ? ' ' : separator;
 }
 
-/// The one by which a line of names has as many columns as a row. @return 0 if there is none
+/// Finds the separator that gives a line of names as many columns as a row. @return 0 if there is none
 char common_separator(std::string_view names, std::string_view row) {
     for (const char separator : separators) {
         const std::size_t columns = name_fields(names, separator).size();
@@ -100,7 +100,7 @@ char common_separator(std::string_view names, std::string_view row) {
     return 0;
 }
 
-/// Finds where the rows begin.
+/// Finds the beginning of the rows.
 class TableSearch {
 public:
     TableSearch(TextLines& lines, const RecordLayout& layout) : lines_(&lines), layout_(&layout) {}
@@ -132,10 +132,10 @@ public:
                     return tektronix_table(*lines_, kept(line));
             }
             if (!names_.text.empty() || !layout_->columns.empty())
-                return told(line);
+                return from_layout(line);
             const std::size_t least = !heading_.empty() && has_time_in_names(heading_.back().text) ? 1 : 2;
             if (is_row(line, least))
-                return before(line);
+                return below_heading(line);
             heading_.push_back(kept(line));
         }
         return without_rows();
@@ -147,19 +147,19 @@ private:
 
     [[noreturn]] void fail_given(std::size_t given) const {
         throw InputError(Place{lines_->path(), 0, 0},
-                         fmt::format("the file has {} lines, and line {} is to be passed over or to tell names",
+                         fmt::format("the file has {} lines, and line {} is to be skipped or to name columns",
                                      lines_->number(), given),
-                         "say lines that it has");
+                         "give numbers of lines that exist");
     }
 
-    /// Names and units from lines or words that were given; this is the first row.
-    TextTable told(std::string_view line) {
+    /// Takes names and units from given lines or text; `line` is the first row.
+    TextTable from_layout(std::string_view line) {
         TextTable table;
         table.first.push_back(kept(line));
         if (!layout_->columns.empty()) {
             if (!is_row(line, 1))
                 throw InputError(place(lines_->number()), "the file has a header of its own",
-                                 "leave out what the columns are, or say how many lines are to be passed over (skip)");
+                                 "leave out the names of columns, or say how many lines to skip (skip)");
             table.header = parse_record_header(layout_->columns, Place{"columns", 0, 0});
             table.separator = separator_of_row(line);
             return table;
@@ -171,7 +171,7 @@ private:
         if (separator == 0)
             mismatch(names_, names, line);
         table.separator = separator;
-        table.header = named(names_, trimmed(names), units_.text.empty() ? nullptr : &units_, separator);
+        table.header = header_named(names_, trimmed(names), units_.text.empty() ? nullptr : &units_, separator);
         return table;
     }
 
@@ -184,16 +184,16 @@ private:
                          "the columns are (--columns)");
     }
 
-    /// This is the first row with two numbers. Those directly above it that have one, and are missing the others, are
-    /// rows too, and no names.
-    TextTable before(std::string_view line) {
+    /// Handles the first row with two numbers. Lines directly above it with one number and missing values are rows too,
+    /// not names.
+    TextTable below_heading(std::string_view line) {
         while (!heading_.empty() && is_row_like(heading_.back().text, line)) {
             rows_.insert(rows_.begin(), std::move(heading_.back()));
             heading_.pop_back();
         }
         rows_.push_back(kept(line));
         if (heading_.empty())
-            return plain(line);
+            return without_heading(line);
         if (auto table = rigol_table(heading_, lines_->path())) {
             table->first = rows_;
             return *std::move(table);
@@ -214,19 +214,20 @@ private:
             mismatch(heading_.back(), heading_.back().text, line);
         TextTable table;
         table.first = rows_;
-        if (separator == 0) { // what is wrong is told of the row
+        if (separator == 0) { // the error will be reported for the row
             require_closed_brackets(names->text, place(names->number));
             separator = separator_of_names(names->text);
         }
         table.separator = separator;
-        table.header = named(*names, names->text, units, separator);
+        table.header = header_named(*names, names->text, units, separator);
         if (heading_.size() > 1)
             take_units(table.header);
         return table;
     }
 
-    /// Names that are numbers, above units, are those of channels: 1, 2.
-    RecordHeader named(const KeptLine& line, std::string_view text, const KeptLine* units, char separator) const {
+    /// Makes the header of a line of names. Numbers above units (1, 2) are names of channels.
+    RecordHeader header_named(const KeptLine& line, std::string_view text, const KeptLine* units,
+                              char separator) const {
         if (!units)
             require_closed_brackets(text, place(line.number));
         std::vector<NameField> fields = name_fields(text, separator);
@@ -248,7 +249,7 @@ private:
         return header;
     }
 
-    /// Lines such as "Vertical Units,V" say them for channels that have none. LeCroy says none: times are in s.
+    /// Takes units of channels that have none from lines such as "Vertical Units,V". LeCroy gives none: times are in s.
     void take_units(RecordHeader& header) const {
         if (heading_.front().text.starts_with("LECROY") && header.time.unit.empty())
             header.time.unit = "s";
@@ -268,7 +269,7 @@ private:
         }
     }
 
-    /// A comment right above the rows with as many parts as they have may name the columns, which is not for certain.
+    /// Remedy that suggests a comment directly above the rows with as many parts as columns: it may name the columns.
     std::string remedy_of_comment(std::string_view row) const {
         std::string_view text = comment_.text;
         text.remove_prefix(std::min(text.find_first_not_of("#% \t"), text.size()));
@@ -277,8 +278,8 @@ private:
                    : fmt::format("; if the comment in line {0} does, by --names-line {0}", comment_.number);
     }
 
-    /// Rows alone.
-    TextTable plain(std::string_view line) {
+    /// Handles a file that has rows only.
+    TextTable without_heading(std::string_view line) {
         TextTable table;
         table.first = rows_;
         table.separator = separator_of_row(line);
@@ -286,14 +287,15 @@ private:
         const std::size_t columns = row_fields(trimmed(line), table.separator).size();
         if (columns != columns_of_dissertation)
             throw InputError(place(rows_.front().number),
-                             fmt::format("nothing says what the {} columns of the record are", columns),
-                             "begin the file with a line such as 't [s], V [V], q [mm]', or say it by --columns" +
+                             fmt::format("the {} columns of the record are not named", columns),
+                             "begin the file with a line such as 't [s], V [V], q [mm]', or name them by --columns" +
                                  remedy_of_comment(line));
         table.header = {{"t", "s"}, {{"V", ""}, {"I", ""}, {"q", ""}, {"v", ""}}};
         return table;
     }
 
-    /// The first line names the columns then, and the next one is told of as a row.
+    /// Handles a file in which no row was found: the first line names the columns, and the next one is reported as an
+    /// invalid row.
     TextTable without_rows() {
         if (heading_.empty())
             throw InputError(Place{lines_->path(), 0, 0}, "the record is empty",
@@ -305,7 +307,7 @@ private:
             NumberReader::read_beginning(text.data(), text.data() + text.size(), value) != nullptr;
         if (begins_with_number && row_fields(text, separator_of_row(text)).size() > 1) {
             rows_ = {heading_.front()};
-            return plain(heading_.front().text);
+            return without_heading(heading_.front().text);
         }
         table.separator = separator_of_names(text);
         table.header = parse_record_header(heading_.front().text, place(heading_.front().number));
@@ -316,9 +318,9 @@ private:
     TextLines* lines_;
     const RecordLayout* layout_;
     KeptLine names_, units_;
-    KeptLine comment_; ///< the last one above the first row
+    KeptLine comment_; ///< the last comment above the first row
     std::vector<KeptLine> heading_;
-    std::vector<KeptLine> rows_; ///< the first ones, where nothing has told where they begin
+    std::vector<KeptLine> rows_; ///< first rows, if the layout did not say where they begin
 };
 
 } // namespace

@@ -11,40 +11,40 @@
 
 namespace graze {
 
-/// A line that was read before it was known what it is.
+/// A line that was read before its meaning was known.
 struct KeptLine {
     std::string text;
     int number = 0;
     bool is_ended = true;
 };
 
-/// Times that a file does not write row by row: start + step * (the first column, or the number of the row from 0 on).
+/// Times that are not written in each row: start + step * (the first column, or the number of the row from 0 on).
 struct CountedTime {
     double start = 0, step = 1;
     bool by_column = false;
 };
 
-/// What is known of a table before its rows.
+/// Properties of a table that are known before its rows are read.
 struct TextTable {
     RecordHeader header;
-    char separator = ',';        ///< a blank stands for any number of blanks and tabs
-    char decimal = 0;            ///< sign of numbers; 0: not known yet
-    std::size_t passed_over = 0; ///< fields before those of the table in each row
-    bool has_comment = false;    ///< what stands behind the last column is none
+    char separator = ',';        ///< a blank means any number of blanks and tabs
+    char decimal = 0;            ///< decimal sign; 0: not known yet
+    std::size_t passed_over = 0; ///< leading fields of each row that are skipped
+    bool has_comment = false;    ///< text after the last column is a comment
     std::optional<CountedTime> time{};
-    std::vector<KeptLine> first{}; ///< rows that were read already
-    bool starts_again = false;     ///< a line of text behind the rows begins another table, which is told so
+    std::vector<KeptLine> first{}; ///< rows that have been read already
+    bool starts_again = false;     ///< text after the rows begins another table, which is refused with that reason
 
     std::size_t columns() const { return header.channels.size() + (time && !time->by_column ? 0 : 1); }
 };
 
-/// Fields of a row. Where blanks separate, several of them are one. @param separator as of a table
+/// Splits a row into fields. With blanks as separator, several of them count as one. @param separator as in TextTable
 std::vector<std::string_view> row_fields(std::string_view line, char separator);
 
-/// Finds the table of a text and what its columns are: behind a line of names, or of names and units, whatever stands
-/// before these, with the separator by which as many columns come out in the names as in the rows; or as the layout
-/// says; or as LabVIEW, Tektronix and Rigol write it.
-/// @throws InputError with place and remedy where nothing says what the columns are
+/// Finds the table of a text and its columns: by a line of names, or of names and units, after any other lines, with
+/// the separator that gives the names as many columns as the rows; or by the layout; or in the formats of LabVIEW,
+/// Tektronix and Rigol.
+/// @throws InputError with place and remedy if the columns are not named
 TextTable find_table(TextLines& lines, const RecordLayout& layout);
 
 } // namespace graze

@@ -52,7 +52,7 @@ Table model_table(const Model& model) {
         if (&item != &model.jumps.front())
             add_row(table, "jump", item.name, "", "", item.text);
     for (const Transition& item : model.transitions)
-        add_row(table, "transition", item.label, way_of(model, item), "", "");
+        add_row(table, "transition", item.label, transition_text(model, item), "", "");
     for (const Section& item : model.sections)
         add_row(table, "section", item.name, section_text(model, item), "", item.text);
     for (const Symmetry& item : model.symmetries) {

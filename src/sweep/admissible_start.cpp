@@ -9,7 +9,7 @@ namespace graze {
 namespace {
 
 constexpr std::size_t most_steps = 50;
-/// Of the size of a step, within which a state is on a surface.
+/// Distance from a surface, relative to the size of a step, at which a state counts as on it.
 constexpr double on_surface = 4 * std::numeric_limits<double>::epsilon();
 
 } // namespace
@@ -43,7 +43,7 @@ std::optional<std::vector<double>> nearest_admissible(const System& system, std:
                 moved = moved || std::abs(change) > on_surface * std::abs(inputs[i]);
                 inputs[i] += change;
             }
-            break; // others are looked at where this one is met
+            break; // the other barriers are examined in the next step
         }
         if (!moved)
             return std::vector<double>(inputs.begin(), inputs.begin() + static_cast<std::ptrdiff_t>(states));

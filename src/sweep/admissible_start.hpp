@@ -9,9 +9,9 @@
 
 namespace graze {
 
-/// The state nearest to one that lies behind barriers of its mode: on their surfaces, by Newton's method along their
-/// gradients. Clocks stay as they are.
-/// @return nothing where no state is found on the admissible side of all
+/// Returns the admissible state nearest to a state that violates barriers of its mode: a state on their surfaces, by
+/// Newton's method along their gradients. Clocks are unchanged.
+/// @return nothing if no state on the admissible side of all barriers is found
 std::optional<std::vector<double>> nearest_admissible(const System& system, std::span<const double> parameters,
                                                       std::span<const double> state, std::size_t mode);
 

@@ -12,15 +12,15 @@ namespace graze {
 
 namespace {
 
-constexpr double on_orbit = 1e-9;         ///< distance from an orbit at which a motion is on it
-constexpr double linear = 0.1;            ///< share by which the motion may differ from its linear part
-constexpr std::size_t fewest_periods = 4; ///< over which the distance is seen to shrink along a direction
+constexpr double on_orbit = 1e-9;         ///< distance from an orbit at which a motion counts as on it
+constexpr double linear = 0.1;            ///< relative deviation of the motion from its linear part that is allowed
+constexpr std::size_t fewest_periods = 4; ///< required for shrinking along a direction
 constexpr std::size_t most_periods = 8;
-constexpr std::size_t fewest_turning = 16; ///< and in a plane
+constexpr std::size_t fewest_turning = 16; ///< required for shrinking in a plane
 constexpr double half_as_fast = 0.5;
-constexpr double neutral = 1e-10; ///< by which a multiplier must be less than 1 to be known to be
+constexpr double neutral = 1e-10; ///< distance of a multiplier from 1 that is significant
 
-/// Deviations from the orbit, relative to the scales of the states, newest first, one period apart.
+/// The last deviations from the orbit, in units of the scales of the states, newest first, one period apart.
 class Deviations {
 public:
     Deviations(const OrbitFinder& orbit, const ReturnWatcher& motion, std::span<const double> periods,
@@ -47,7 +47,7 @@ public:
     std::size_t count() const { return count_; }
     auto operator[](std::size_t k) const { return vectors_.col(static_cast<Eigen::Index>(k)); }
     double size(std::size_t k) const { return (*this)[k].cwiseAbs().maxCoeff(); }
-    /// By how much the newest differs from what the orbit's linear part makes of the one before.
+    /// Returns the difference between the newest deviation and the linear image of the one before.
     double difference() const { return ((*this)[0] - foreseen_).cwiseAbs().maxCoeff(); }
 
 private:
@@ -56,12 +56,12 @@ private:
     Eigen::VectorXd foreseen_;
 };
 
-/// Whether the returns of an orbit of several lie so far apart that it is not one of fewer: about that, all motions
-/// within the errors of their computation may look like orbits of the longer period.
+/// Returns whether the returns of an orbit of several returns are so far apart that it is not one of fewer returns:
+/// near such an orbit, motions within the error of the computation may look like orbits of the longer period.
 bool is_resolved(const OrbitFinder& orbit, std::span<const double> periods, double tolerance) {
     if (orbit.period() == 1)
         return true;
-    // How far errors of the integration may have moved the orbit along its slowest direction.
+    // The possible displacement of the orbit along its slowest direction by errors of the integration.
     const double shift = 2 * tolerance / (1 - std::abs(orbit.multipliers().front()));
     const std::vector<double>& first = orbit.returns().front();
     std::vector<double> difference(first.size());
@@ -78,7 +78,7 @@ bool is_resolved(const OrbitFinder& orbit, std::span<const double> periods, doub
     return true;
 }
 
-/// Sizes of the deviations along the slowest direction or in its plane, newest first.
+/// Returns the sizes of the deviations along the slowest direction or in its plane, newest first.
 std::vector<double> slow_parts(const OrbitFinder& orbit, const Deviations& deviations) {
     const Eigen::VectorXcd& functional = orbit.leading_functional();
     std::vector<double> parts;
@@ -87,7 +87,7 @@ std::vector<double> slow_parts(const OrbitFinder& orbit, const Deviations& devia
     return parts;
 }
 
-/// Along a direction, on either side alone: at a flip the sides take turns, and need not be alike.
+/// Tests shrinking along a direction, separately on each side: near a flip the sides alternate and may differ.
 bool shrinks_along(const std::vector<double>& parts, double radius) {
     const std::size_t last = std::min(most_periods, (parts.size() - 1) / 2 * 2);
     if (last < fewest_periods)
@@ -99,8 +99,8 @@ bool shrinks_along(const std::vector<double>& parts, double radius) {
     return 1 - shrunk >= half_as_fast * (1 - radius);
 }
 
-/// In a plane, where what is of higher order lets the size vary within a turn.
-/// @param bent share of the deviation that is of higher order
+/// Tests shrinking in a plane, where higher-order terms modulate the size within a turn.
+/// @param bent relative size of the higher-order terms
 bool shrinks_turning(const std::vector<double>& parts, double radius, double bent) {
     const std::size_t half = parts.size() / 2;
     if (parts.size() < fewest_turning)
@@ -114,9 +114,9 @@ bool shrinks_turning(const std::vector<double>& parts, double radius, double ben
     return shrunk >= half_as_fast * (1 - std::pow(radius, periods)) && shrunk >= 2 * bent / periods;
 }
 
-/// Close to a bifurcation the distance shrinks by what is of higher order, long before the linear part tells. In the
-/// one direction (or plane) that is slow, the rate of shrinking goes from what is seen to what the multiplier says: it
-/// vanishes nowhere between, so nothing else lies there.
+/// Close to a bifurcation the distance first shrinks by higher-order terms, long before the linear part dominates. In
+/// the slow direction (or plane) the rate of shrinking changes from the observed one to that of the multiplier without
+/// vanishing in between, so there is no other invariant set between motion and orbit.
 bool shrinks_slowly(const OrbitFinder& orbit, const ReturnWatcher& motion, const Deviations& deviations,
                     double radius) {
     if (orbit.multipliers().empty() || deviations.count() <= fewest_periods)
@@ -184,7 +184,7 @@ Guess middle_of(const ReturnWatcher& motion, const SectionMap& map, std::size_t 
     std::vector<double> sum(states, 0.0), difference(states);
     for (std::size_t k = 0; k < count; ++k) {
         const double t = (static_cast<double>(k) + 0.5) / static_cast<double>(count);
-        const double weight = std::exp(-1 / (t * (1 - t))); // ends without weight
+        const double weight = std::exp(-1 / (t * (1 - t))); // zero weight at the ends
         subtract_states(motion.recent(k * period).state, newest, periods, difference);
         weights += weight;
         for (std::size_t i = 0; i < states; ++i)
@@ -198,7 +198,7 @@ Guess middle_of(const ReturnWatcher& motion, const SectionMap& map, std::size_t 
 
 namespace {
 
-/// Whether the distances from one period to the next become smaller all the time.
+/// Returns whether the distances from one period to the next decrease throughout.
 bool slows_down(ReturnWatcher& motion, std::size_t period) {
     const std::size_t count = std::min(most_periods, (motion.remembered() - 1) / period);
     double before = 0;
@@ -212,7 +212,7 @@ bool slows_down(ReturnWatcher& motion, std::size_t period) {
     return count >= fewest_periods;
 }
 
-/// Whether the motion keeps closer to this state in the newer half of its returns than in the older.
+/// Returns whether the motion is closer to this state in the newer half of its returns than in the older half.
 bool closes_in(ReturnWatcher& motion, const Guess& middle) {
     constexpr std::size_t fewest = 8;
     constexpr double shrinking = 0.98;
@@ -229,7 +229,7 @@ bool closes_in(ReturnWatcher& motion, const Guess& middle) {
 
 } // namespace
 
-bool creeps_towards(const OrbitFinder& orbit, ReturnWatcher& motion, std::span<const double> periods) {
+bool approaches_slowly(const OrbitFinder& orbit, ReturnWatcher& motion, std::span<const double> periods) {
     if (motion.remembered() <= orbit.period() || !slows_down(motion, orbit.period()))
         return false;
     const Deviations deviations(orbit, motion, periods, motion.scale());

@@ -1,4 +1,4 @@
-// Evidence behind a label: motions are followed for longer before they are called periodic or chaotic.
+// Evidence for labels: motions are followed for longer before they are labelled periodic or chaotic.
 
 #include "sweep/approach.hpp"
 #include "sweep/attractor_search.hpp"
@@ -12,14 +12,14 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t longest_stay = 20;  ///< in `cycles`, with an orbit
-constexpr std::size_t beside_orbits = 10; ///< times as long a motion must remain chaotic that may settle by chance
-constexpr double last_share = 0.25;       ///< of the returns of an exponent, in which neighbours must still part
-constexpr double part_still = 0.25;       ///< at least at this share of the rate over all
+constexpr std::size_t longest_stay = 20;  ///< longest test with one orbit, in `cycles`
+constexpr std::size_t beside_orbits = 10; ///< factor of the test for chaos if the motion may settle by chance
+constexpr double last_share = 0.25;       ///< last share of the returns in which neighbours must still separate
+constexpr double part_still = 0.25;       ///< at least at this share of the mean rate
 
 } // namespace
 
-/// The first half of the cycles counts as transient, unless the exponent is asked for over more.
+/// Half of the cycles counts as transient, unless the exponent is requested over more returns.
 std::size_t AttractorSearch::exponent_cycles() const {
     const AttractorOptions& options = setting_->options;
     return options.lyapunov_cycles == 0
@@ -27,7 +27,7 @@ std::size_t AttractorSearch::exponent_cycles() const {
                : std::min(options.cycles, std::max(options.lyapunov_cycles, options.cycles / 2));
 }
 
-/// The motion is close to a stable orbit: it has to stay there.
+/// The motion is close to a stable orbit: starts the test whether it stays there.
 bool AttractorSearch::begin_stay() {
     const System& compiled = setting_->simulation.system();
     const bool events = !finder_.contacts().empty() || !compiled.mode(finder_.mode()).watched.empty();
@@ -36,16 +36,16 @@ bool AttractorSearch::begin_stay() {
     return go_on_staying();
 }
 
-/// Whether the orbit that was found neither attracts nor repels: one of many side by side, or one in whose states there
-/// is one too many, such as the height of what is carried.
+/// Returns whether the orbit neither attracts nor repels: it belongs to a continuous family, or a state is redundant,
+/// such as the height of a body that is at rest on a moving table.
 bool AttractorSearch::is_neutral() const {
-    constexpr double neutral = 1e-6; ///< by which a multiplier may differ from 1 that is double
+    constexpr double neutral = 1e-6; ///< possible error of a double multiplier 1
     return !finder_.multipliers().empty() && std::abs(std::abs(finder_.multipliers().front()) - 1) <= neutral;
 }
 
-/// Whether the motion is, to within round-off, on such an orbit.
+/// Returns whether the motion is, to within round-off, on such an orbit.
 bool AttractorSearch::repeats_exactly() {
-    constexpr double round_off = 1e-10; ///< in units of the states' extents
+    constexpr double round_off = 1e-10; ///< relative to the extents of the states
     return is_neutral() && watcher_.distance(watcher_.recent(0).state, finder_.point()) <= round_off;
 }
 
@@ -59,7 +59,7 @@ OrbitStay::Verdict AttractorSearch::go_on_repeating() {
     return gone < long_enough * period ? OrbitStay::Verdict::staying : OrbitStay::Verdict::stayed;
 }
 
-/// The motion is on such an orbit. No multiplier says that it will stay: it has to repeat itself for long.
+/// The motion is on such an orbit. Since multipliers do not prove that it stays, it must repeat itself for a long time.
 bool AttractorSearch::begin_repeating() {
     repeating_ = staying_ = true;
     repeating_since_ = watcher_.returns();
@@ -67,7 +67,7 @@ bool AttractorSearch::begin_repeating() {
 }
 
 bool AttractorSearch::go_on_staying() {
-    const OrbitStay::Verdict verdict = repeating_ ? go_on_repeating() : stay_.look(finder_, watcher_, periods_);
+    const OrbitStay::Verdict verdict = repeating_ ? go_on_repeating() : stay_.judge(finder_, watcher_, periods_);
     if (verdict == OrbitStay::Verdict::stayed)
         return finish_periodic();
     const std::size_t most = longest_stay * setting_->options.cycles;
@@ -86,17 +86,17 @@ bool AttractorSearch::go_on_staying() {
     }
     note_passed_orbit();
     staying_ = repeating_ = guessed_ = false;
-    // Time for the exponent, if it was due in the meantime.
+    // Allow time for the exponent if it became due during the test.
     if (!exponent_.begun())
         limit_ = std::max(limit_, watcher_.returns() + exponent_cycles());
     if (finder_.period() < thresholds_.size())
-        thresholds_[finder_.period()] /= 3; // the next try begins closer to the orbit
+        thresholds_[finder_.period()] /= 3; // the next attempt starts closer to the orbit
     if (++tries_ > most_tries && finder_.period() < thresholds_.size())
         thresholds_[finder_.period()] = -1;
     return go_on();
 }
 
-/// An orbit was found that the motion does not settle on.
+/// Records an orbit that the motion does not settle on.
 void AttractorSearch::note_passed_orbit() {
     const auto& multipliers = finder_.multipliers();
     if (multipliers.empty() || std::abs(multipliers.front()) < 1)
@@ -107,12 +107,12 @@ std::size_t AttractorSearch::usual_chaos() const {
     return std::max(setting_->options.cycles, setting_->options.chaos_cycles);
 }
 
-/// Returns for which a motion must remain chaotic: more than usual where it has passed by a stable orbit, on which it
-/// may settle when it happens to come close enough; or where all neighbours became one, or may have, by contacts that
-/// accumulate, as when a ball comes to rest on its table. Where that happens again and again there is no chaos, however
-/// much they part in between: from there on the motion is the same each time.
+/// Returns the number of returns for which a motion must remain chaotic: more than usual if it has passed by a stable
+/// orbit, on which it may settle by chance; or if all neighbours have merged, or may have, at an accumulation of
+/// contacts, as when a ball comes to rest on its table. If this happens repeatedly there is no chaos, however much
+/// neighbours separate in between: the motion is the same after each such time.
 std::size_t AttractorSearch::chaos_needed() const {
-    return passed_period_ > 0 || forgotten_ > 0 || landing_unseen_ ? beside_orbits * usual_chaos() : usual_chaos();
+    return passed_period_ > 0 || collapses_ > 0 || landing_unseen_ ? beside_orbits * usual_chaos() : usual_chaos();
 }
 
 void AttractorSearch::keep_chaos() {
@@ -121,7 +121,7 @@ void AttractorSearch::keep_chaos() {
     chaos_ = Chaos{last.state, last.mode, recorder_.samples(), exponent_.value(), exponent_.error()};
 }
 
-/// The motion is what it was after `cycles`, whatever became of it later.
+/// Restores the state of the motion after `cycles`, whatever happened later.
 void AttractorSearch::return_to_chaos() {
     const bool chaotic = result_.label == Label::chaotic;
     if (!chaotic && (result_.label == Label::unsettled || result_.label == Label::failed))
@@ -145,8 +145,8 @@ void AttractorSearch::return_to_chaos() {
     result_.samples = std::move(chaos_->samples);
 }
 
-/// Many transients look chaotic until they suddenly settle: the motion is followed for longer. A stable orbit is looked
-/// for in its middle.
+/// Many transients look chaotic until they suddenly settle: follows the motion for longer. Also searches a stable orbit
+/// at the centre of the motion.
 std::optional<bool> AttractorSearch::confirm_chaos() {
     confirming_ = true;
     if (++chaotic_ == 1 && setting_->options.stay_in_transients)
@@ -159,12 +159,12 @@ std::optional<bool> AttractorSearch::confirm_chaos() {
     return try_next_guess();
 }
 
-/// What accumulations make of neighbours counts: that of one that comes without notice is lost, but not of others.
+/// Accumulations of contacts affect neighbours too: an unexpected one is lost for the exponent, the others are counted.
 void AttractorSearch::add_to_exponent() {
-    const bool lost = exponent_.follower() && of_motion_->broken(), stuck = watcher_.has_stuck(1);
+    const bool lost = exponent_.external_derivatives() && of_motion_->broken(), stuck = watcher_.has_stuck(1);
     landing_unseen_ = lost || (landing_unseen_ && !stuck);
     if (stuck && exponent_.vanishes(*main_)) {
-        ++forgotten_;
+        ++collapses_;
         grown_before_ = last_grown_;
         last_grown_ = exponent_.most_grown();
     } else if (!lost) {
@@ -174,21 +174,21 @@ void AttractorSearch::add_to_exponent() {
     if (!confirming_)
         return;
     chaotic_since_ = watcher_.returns();
-    if (forgets_all()) { // it may settle still
+    if (collapses_repeatedly()) { // it may still settle
         confirming_ = false;
         lengthen();
     }
-    limit_ = chaotic_since_ + (forgets_all() ? usual_chaos() : chaos_needed());
+    limit_ = chaotic_since_ + (collapses_repeatedly() ? usual_chaos() : chaos_needed());
 }
 
-/// Whether all that a motion does from one time that all neighbours are one to the next follows from there: round-off
-/// that has grown as they part would decide otherwise, and what repeats itself would do so by chance.
+/// Returns whether the motion between two collapses of all neighbours is determined: otherwise round-off, amplified as
+/// neighbours separate, would affect it, and repetitions would be by chance.
 bool AttractorSearch::follows_from_rest() const {
-    constexpr double most_grown = 25; ///< logarithm, of round-off to 1e-5 of the states' extents
-    return forgets_all() && std::max(last_grown_, grown_before_) < most_grown;
+    constexpr double most_grown = 25; ///< logarithm of the growth from round-off to 1e-5 of the extents
+    return collapses_repeatedly() && std::max(last_grown_, grown_before_) < most_grown;
 }
 
-/// A motion that was taken for chaotic has been followed for longer.
+/// A motion that was considered chaotic has been followed for longer.
 std::optional<bool> AttractorSearch::conclude_chaos() {
     exponent_.catch_up();
     if (exponent_.known() && exponent_.is_positive() &&
@@ -199,9 +199,9 @@ std::optional<bool> AttractorSearch::conclude_chaos() {
             return std::nullopt;
         }
         finish(Label::chaotic);
-        if (forgotten_ > 0)
-            result_.outcome.detail = fmt::format("chaotic for {} returns since contacts accumulated in such a way that "
-                                                 "all neighbours were one; if that comes again it is not",
+        if (collapses_ > 0)
+            result_.outcome.detail = fmt::format("chaotic for {} returns since neighbouring motions merged at an "
+                                                 "accumulation of contacts; if that happens again it is not chaos",
                                                  watcher_.returns() - chaotic_since_);
         else if (passed_period_ > 0)
             result_.outcome.detail = fmt::format("chaotic for {} returns; as it passes by a stable orbit of period {} "
@@ -209,7 +209,7 @@ std::optional<bool> AttractorSearch::conclude_chaos() {
                                                  result_.cycles, passed_period_);
         return false;
     }
-    // It has gone over into something else, of which an exponent has to tell anew.
+    // The motion has changed its behaviour: start a new exponent.
     confirming_ = false;
     start_exponent();
     lengthen();

@@ -1,4 +1,4 @@
-// Motions on invariant planes, such as that of equal states or where a state is zero: they are displaced from there.
+// Motions on invariant planes, such as that of equal states or of a zero state: they are displaced off the plane.
 
 #include "sweep/attractor_search.hpp"
 #include "sweep/invariant_plane.hpp"
@@ -10,11 +10,11 @@ namespace graze {
 
 namespace {
 
-constexpr double next_to_zero = 1e-9; ///< share of its scale, of a state that keeps its sign
+constexpr double next_to_zero = 1e-9; ///< relative size of a state that keeps its sign and counts as almost zero
 
 } // namespace
 
-/// States of which a motion has some that differ, other than clocks and what nothing ever changes.
+/// Returns the states that vary among the returns, except clocks and constant states.
 std::vector<std::size_t> AttractorSearch::states_of_plane() const {
     std::vector<std::size_t> states;
     const std::size_t mode = watcher_.recent(0).mode;
@@ -25,8 +25,8 @@ std::vector<std::size_t> AttractorSearch::states_of_plane() const {
     return states;
 }
 
-/// What deviations from a plane are measured by. A state that keeps its sign, and is next to nothing, is measured by
-/// the length over which its rate is linear or, where that has no end, by where it began.
+/// Returns the unit of deviations from a plane. For a state that keeps its sign and is almost zero, it is the length
+/// over which its rate is linear or, if that is unlimited, its initial value.
 double AttractorSearch::scale_beside_plane(std::size_t state) {
     const double usual = watcher_.scale()[state];
     if (!setting_->field.keeps_sign(state))
@@ -44,7 +44,7 @@ double AttractorSearch::scale_beside_plane(std::size_t state) {
     return length;
 }
 
-/// Share of a small distance, after it has grown for long, that lies beside the plane.
+/// Returns the share of a tangent vector, after long growth, that is normal to the plane.
 double AttractorSearch::share_beside(const Eigen::MatrixXd& normals, const std::vector<std::size_t>& states,
                                      const Eigen::VectorXd& scale) const {
     const Eigen::VectorXd all = exponent_.vector(*main_);
@@ -55,7 +55,7 @@ double AttractorSearch::share_beside(const Eigen::MatrixXd& normals, const std::
     return length > 0 ? (normals.transpose() * vector).norm() / length : 0;
 }
 
-/// Whether no event that is watched has been passed from one state to another.
+/// Returns whether no watched event lies between two states.
 bool AttractorSearch::same_sides(std::span<const double> before, std::span<const double> after, std::size_t mode) {
     FieldMap::Workspace workspace = setting_->field.workspace(parameters_);
     setting_->field.evaluate_events(workspace, mode, before);
@@ -67,8 +67,8 @@ bool AttractorSearch::same_sides(std::span<const double> before, std::span<const
     return true;
 }
 
-/// A motion whose neighbours part is no evidence of chaos while it lies on an invariant plane: they may leave the
-/// plane, and so would it. Once in a search, it is displaced from there.
+/// Separating neighbours are no evidence of chaos while the motion lies on an invariant plane: they may leave the
+/// plane, and the motion would too. Displaces the motion off the plane, once in a search.
 std::optional<bool> AttractorSearch::leave_plane() {
     if (plane_left_)
         return std::nullopt;
@@ -116,7 +116,7 @@ std::optional<bool> AttractorSearch::leave_plane() {
     return true;
 }
 
-/// The present state changed by this, or by its opposite: so that states keep their signs, and behind no barrier.
+/// Returns the present state changed by `change` or its opposite, such that signs are kept and no barrier is violated.
 std::optional<std::vector<double>> AttractorSearch::displaced_by(const std::vector<std::size_t>& states,
                                                                  const Eigen::VectorXd& change) {
     const std::span<const double> here = main_->state();

@@ -1,4 +1,4 @@
-// Motions that rest, will rest, or sit on something unstable.
+// Motions that are at rest, come to rest, or lie on an unstable orbit or equilibrium.
 
 #include "sweep/approach.hpp"
 #include "sweep/attractor_search.hpp"
@@ -11,14 +11,14 @@ namespace graze {
 namespace {
 
 constexpr std::size_t most_disturbances = 3;
-constexpr double share_left = 0.1; ///< of a displacement, within which a motion has not been displaced yet
-constexpr double neutral = 1e-10;  ///< by which a multiplier must exceed 1 to be known to
-constexpr double at_rest = 1e-8;   ///< distance between an orbit and an equilibrium that are the same
+constexpr double share_left = 0.1; ///< a motion within this share of the displacement has not been displaced yet
+constexpr double neutral = 1e-10;  ///< distance of a multiplier from 1 that is significant
+constexpr double at_rest = 1e-8;   ///< distance at which an orbit and an equilibrium count as the same
 
 } // namespace
 
-/// Whether the motion rests, or will, is seen from the field alone.
-/// @return what `proceed` returns, if anything was found
+/// Determines from the field alone whether the motion is at rest or will come to rest.
+/// @return what `proceed` returns, if it could be decided
 std::optional<bool> AttractorSearch::consider_rest(std::span<const double> state, std::size_t mode) {
     const auto equilibrium = equilibria_.find(state, mode, watcher_.widest());
     if (!equilibrium)
@@ -33,8 +33,8 @@ std::optional<bool> AttractorSearch::consider_rest(std::span<const double> state
     return equilibrium->is_unstable() ? leave_equilibrium(*equilibrium, distance) : std::nullopt;
 }
 
-/// Whether a motion about a stable equilibrium has come closer from return to return, at least half as fast as its
-/// linear part foretells. Weakly damped motions are linear to that degree only when next to nothing is left of them.
+/// Returns whether a motion about a stable equilibrium has come closer from return to return, at least half as fast as
+/// the linear part predicts. (Weakly damped motions become linear to within the damping only at tiny amplitudes.)
 bool AttractorSearch::comes_closer(const Equilibrium& equilibrium) {
     constexpr std::size_t fewest = 4;
     const std::size_t last = std::min<std::size_t>(watcher_.remembered(), 2 * fewest + 1);
@@ -53,14 +53,14 @@ bool AttractorSearch::comes_closer(const Equilibrium& equilibrium) {
     return std::log(distances.front() / distances.back()) <= 0.5 * equilibrium.growth() * time;
 }
 
-/// A motion that sits on an unstable equilibrium is displaced.
+/// Displaces a motion that lies on an unstable equilibrium.
 std::optional<bool> AttractorSearch::leave_equilibrium(const Equilibrium& equilibrium, double distance) {
     const double size = setting_->options.disturbance, usual = AttractorOptions{}.disturbance;
     const std::vector<double> state = equilibria_.displaced(equilibrium, size > 0 ? size : usual, main_->state());
     if (!(distance <= share_left * equilibria_.distance(equilibrium, state)))
         return std::nullopt;
     if (size == 0)
-        return finish_still();
+        return finish_undisturbed();
     if (disturbances_ >= most_disturbances)
         return std::nullopt;
     ++disturbances_;
@@ -71,7 +71,7 @@ std::optional<bool> AttractorSearch::leave_equilibrium(const Equilibrium& equili
 void AttractorSearch::displace(std::span<const double> state, std::size_t mode, double duration) {
     std::fill(thresholds_.begin(), thresholds_.end(), setting_->options.recurrence);
     watcher_.begin_anew();
-    forgotten_ = 0;
+    collapses_ = 0;
     landing_unseen_ = false;
     restart(state, mode, duration);
     if (exponent_.begun())
@@ -81,21 +81,21 @@ void AttractorSearch::displace(std::span<const double> state, std::size_t mode, 
     confirming_ = false;
 }
 
-/// The motion sits on something unstable, and is not to be displaced.
-bool AttractorSearch::finish_still() {
+/// The motion lies on an unstable orbit or equilibrium, and displacements are not allowed.
+bool AttractorSearch::finish_undisturbed() {
     finish(Label::unsettled);
     result_.outcome.detail = "the motion sits on an unstable orbit or equilibrium; allow a disturbance to displace it";
     return false;
 }
 
-/// An orbit on which nothing but clocks moves is an equilibrium: that one, if it is so.
+/// Returns the equilibrium that the orbit represents if nothing but clocks moves along it.
 std::optional<Equilibrium> AttractorSearch::equilibrium_of_orbit() {
     auto equilibrium = equilibria_.find(finder_.point(), finder_.mode(), watcher_.widest());
     if (equilibrium && finder_.contacts().empty() && equilibria_.distance(*equilibrium, finder_.point()) < at_rest)
         return equilibrium;
     if (!does_not_move())
         return std::nullopt;
-    // Motions come to it more slowly than any linear one.
+    // Motions approach it more slowly than any linear one.
     equilibrium.emplace();
     equilibrium->state.assign(finder_.point().begin(), finder_.point().end());
     equilibrium->mode = finder_.mode();
@@ -104,10 +104,10 @@ std::optional<Equilibrium> AttractorSearch::equilibrium_of_orbit() {
     return attracts ? equilibrium : std::nullopt;
 }
 
-/// Whether anything but clocks moves along the orbit that was found. What a clock carries along moves, too, though no
-/// derivative tells.
+/// Returns whether anything except clocks moves along the orbit. A state that is moved by a clock counts, even without
+/// a nonzero derivative.
 bool AttractorSearch::moves_along_orbit() {
-    constexpr double nothing = 1e-10; ///< relative to the states and what the motion has gone through
+    constexpr double nothing = 1e-10; ///< relative to the states and the extent of the motion
     for (std::size_t i = 0; i < periods_.size(); ++i)
         if (setting_->map.takes_part(i) && !equilibria_.is_clock(i, finder_.point(), finder_.mode()) &&
             !(finder_.extents()[i] <= nothing * std::max(watcher_.range(i), std::abs(finder_.point()[i]))))
@@ -115,13 +115,13 @@ bool AttractorSearch::moves_along_orbit() {
     return false;
 }
 
-/// Whether nothing happens along the orbit that was found, and nothing but clocks moves.
+/// Returns whether the orbit has no contacts and nothing but clocks moves.
 bool AttractorSearch::does_not_move() {
     return finder_.contacts().empty() && !moves_along_orbit();
 }
 
-/// Whether this state of the orbit that was found, along which nothing happens, lies beyond the surface of an event
-/// that the motion has still before it: something happens on the way.
+/// Returns whether this state of the orbit, along which there are no contacts, is beyond the surface of an event that
+/// the motion has still ahead: then there will be a contact on the way.
 bool AttractorSearch::is_behind_event(std::span<const double> state) {
     if (!finder_.contacts().empty())
         return false;
@@ -135,10 +135,10 @@ bool AttractorSearch::is_behind_event(std::span<const double> state) {
     return false;
 }
 
-/// Whether the orbit that was found is a point: Newton's method has gone to where modes meet and nothing moves in any
-/// of them. Motions about such a corner look alike on all scales, so that no return map has derivatives there.
+/// Returns whether the orbit is a point: Newton's method has converged to a corner where modes meet and nothing moves
+/// in any of them. Motions about such a corner look alike on all scales, so the return map has no derivative there.
 bool AttractorSearch::has_no_size() {
-    constexpr double nothing = 1e-10; ///< relative to what the motion has gone through
+    constexpr double nothing = 1e-10; ///< relative to the extent of the motion
     const std::vector<std::uint32_t>& contacts = finder_.contacts();
     const System& system = setting_->simulation.system();
     const auto jumps = [&](std::uint32_t code) { return system.transition(code / 2).jump != 0; };
@@ -158,7 +158,8 @@ bool AttractorSearch::has_no_size() {
     return any;
 }
 
-/// A motion about such a corner is at rest there when nothing is left of it, and less from return to return.
+/// Returns whether a motion about such a corner has come to rest: it has shrunk to almost nothing, from return to
+/// return.
 bool AttractorSearch::shrinks_to_a_corner() {
     constexpr double nothing = 1e-10;
     if (watcher_.remembered() < 3)
@@ -172,7 +173,7 @@ bool AttractorSearch::shrinks_to_a_corner() {
     return true;
 }
 
-/// What Newton's method has found is where the motion comes to rest in the end, and no orbit.
+/// The result of Newton's method is the place where the motion finally comes to rest, not an orbit.
 void AttractorSearch::finish_limit(std::string_view detail) {
     Equilibrium limit;
     limit.state.assign(finder_.point().begin(), finder_.point().end());
@@ -184,9 +185,9 @@ void AttractorSearch::finish_limit(std::string_view detail) {
     result_.outcome.detail = detail;
 }
 
-/// Whether nothing is left of the excursions into other modes that the orbit makes: Newton's method has followed them,
-/// as slips that a force only just sets going, to where they vanish. That they return to where they began, since they
-/// lead nowhere, is a double root: half of the way is left after each step, until round-off closes the orbit.
+/// Returns whether the orbit's excursions into other modes, such as slips that a force barely causes, have shrunk to
+/// nothing: Newton's method has followed them to their vanishing point. That point is a double root, so that each step
+/// covers half of the distance until round-off closes the orbit.
 bool AttractorSearch::vanishes_at_rest() {
     const std::vector<std::uint32_t>& contacts = finder_.contacts();
     const auto mode_before = [&](std::size_t k) {
@@ -198,9 +199,9 @@ bool AttractorSearch::vanishes_at_rest() {
     return !contacts.empty() && !moves_along_orbit() && is_neutral();
 }
 
-/// A motion that comes closer to such a place, by less with every period, does so for ever.
-bool AttractorSearch::creeps_to_rest() {
-    if (!creeps_towards(finder_, watcher_, periods_))
+/// A motion that approaches such a place by less with every period does so forever.
+bool AttractorSearch::approaches_rest_slowly() {
+    if (!approaches_slowly(finder_, watcher_, periods_))
         return false;
     finish_limit(
         "the motion creeps to rest: all that happens to it becomes less from return to return, and more slowly "
@@ -208,9 +209,9 @@ bool AttractorSearch::creeps_to_rest() {
     return true;
 }
 
-/// A state that keeps its sign is not taken to zero, from where nothing leads away, but to next to it: further points
-/// go on from there. Next to nothing is a share of the length over which the field there is linear or, if that has no
-/// end, of what the motion has gone through; from point to point it does not become less.
+/// Keeps states with constant sign away from zero, which no motion leaves, by a tiny value, since the next point of a
+/// sweep starts from there. It is a share of the length over which the field is linear or, if that is unlimited, of the
+/// extent of the motion; it does not decrease from point to point.
 void AttractorSearch::keep_signs(std::vector<double>& state) {
     constexpr double next_to_nothing = 1e-20;
     for (std::size_t i = 0; i < state.size(); ++i)
@@ -221,7 +222,7 @@ void AttractorSearch::keep_signs(std::vector<double>& state) {
         }
 }
 
-/// A motion on an unstable orbit would stay there until round-off has grown: it is displaced.
+/// A motion on an unstable orbit would stay there until round-off has grown: displaces it.
 std::optional<bool> AttractorSearch::leave_unstable_orbit(const Equilibrium* equilibrium) {
     const double size = setting_->options.disturbance, usual = AttractorOptions{}.disturbance;
     if (finder_.multipliers().empty() || !(std::abs(finder_.multipliers().front()) > 1 + neutral) ||
@@ -229,7 +230,7 @@ std::optional<bool> AttractorSearch::leave_unstable_orbit(const Equilibrium* equ
         watcher_.distance(watcher_.recent(0).state, finder_.point()) > (size > 0 ? size : usual))
         return std::nullopt;
     if (size == 0)
-        return finish_still();
+        return finish_undisturbed();
     ++disturbances_;
     const double duration = finder_.duration() / static_cast<double>(finder_.period());
     if (equilibrium) {

@@ -1,4 +1,4 @@
-// What is said of a point when it is known what it settles on.
+// Results of a search.
 
 #include "sweep/attractor_search.hpp"
 
@@ -13,7 +13,7 @@ namespace graze {
 
 namespace {
 
-/// Names of transitions, those that change nothing left out; a name and its repetitions are written once.
+/// Returns the labels of transitions, without those that change nothing; repetitions are written as powers.
 std::string signature_of(const Model& model, std::span<const std::uint32_t> contacts) {
     std::vector<std::pair<std::string, std::size_t>> parts;
     for (const std::uint32_t code : contacts) {
@@ -70,7 +70,7 @@ bool AttractorSearch::finish_equilibrium(const Equilibrium& equilibrium) {
     if (!equilibrium.driven && equilibrium.values.size() > 0)
         result_.lyapunov = equilibrium.growth();
     if (setting_->map.is_phase() && watcher_.remembered() > 1) {
-        // Returns go on, and say the same of it as of an orbit.
+        // Returns continue as those of an orbit of period 1.
         result_.period = 1;
         result_.duration = watcher_.recent(0).time - watcher_.recent(1).time;
         if (equilibrium.driven) {
@@ -97,18 +97,17 @@ bool AttractorSearch::finish(Label label) {
     result_.mode = main_->mode();
     result_.outcome = main_->outcome();
     if (label == Label::unbounded)
-        result_.outcome.detail.clear(); // that numbers end somewhere is no fault of the model
+        result_.outcome.detail.clear(); // the overflow is no fault of the model
     if (watcher_.stuck())
         result_.outcome.detail = "no return to the section came; choose another section";
     if (label != Label::periodic && label != Label::equilibrium)
         exponent_.catch_up();
-    if (forgets_all()) {
-        // The exponent is that of zero.
+    if (collapses_repeatedly()) {
+        // The exponent would be minus infinity.
         if (label == Label::unsettled && result_.outcome.detail.empty())
-            result_.outcome.detail = fmt::format("contacts have accumulated {} times in such a way that all neighbours "
-                                                 "were one behind: this is no chaos, but a "
-                                                 "period that could not be found, or a long transient",
-                                                 forgotten_);
+            result_.outcome.detail = fmt::format("neighbouring motions have merged at {} accumulations of contacts: "
+                                                 "this is not chaos, but a long period or a long transient",
+                                                 collapses_);
     } else if (exponent_.known()) {
         result_.lyapunov = exponent_.value();
         result_.lyapunov_error = exponent_.error();

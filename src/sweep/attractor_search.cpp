@@ -15,15 +15,15 @@ namespace graze {
 namespace {
 
 constexpr double forever = std::numeric_limits<double>::infinity();
-constexpr double soonest = 1e-3;      ///< share of the time of a return before which none can come
-constexpr double least_growth = 5;    ///< logarithm, of a small distance over all returns, that shows chaos
-constexpr double outward_share = 0.5; ///< of the growth of a small distance, that is due to the motion's own
-constexpr double much_growth = 20;    ///< logarithm, of the extent of the states, after which growth is looked at
+constexpr double soonest = 1e-3;      ///< earliest next return, as a share of the time of a return
+constexpr double least_growth = 5;    ///< logarithm of the growth of a small distance that indicates chaos
+constexpr double outward_share = 0.5; ///< share of the growth of a small distance due to growth of the motion
+constexpr double much_growth = 20;    ///< logarithm of the growth of the extents after which growth is examined
 constexpr std::size_t least_extension = 400;
-constexpr std::size_t most_chaotic = 3; ///< times that a motion is taken for chaotic, and followed for longer
-constexpr std::size_t returns_between_looks = 25;
-constexpr std::size_t extension = 4; ///< of the largest period, in the last part of a search
-constexpr double longest_step = 8;   ///< in periods of the section's clock: a passage ends a step anyway
+constexpr std::size_t most_chaotic = 3; ///< number of times that a motion is considered chaotic and followed for longer
+constexpr std::size_t returns_between_checks = 25;
+constexpr std::size_t extension = 4; ///< factor of the largest period in the last part of a search
+constexpr double longest_step = 8;   ///< in periods of the section's clock: passages end steps anyway
 
 std::optional<StepMaps> maps_of(const VariationalModes& modes) {
     return modes.suit() ? std::optional<StepMaps>(std::in_place, modes) : std::nullopt;
@@ -71,7 +71,7 @@ void AttractorSearch::begin(std::span<const double> parameters, std::span<const 
         if (setting_->map.takes_part(i))
             visited_.periods.push_back(periods_[i]);
     limit_ = setting_->options.cycles;
-    disturbances_ = tries_ = chaotic_ = passed_period_ = forgotten_ = 0;
+    disturbances_ = tries_ = chaotic_ = passed_period_ = collapses_ = 0;
     staying_ = repeating_ = plane_left_ = lengthened_ = landing_unseen_ = false;
     finding_ = confirming_ = centre_tried_ = limits_tried_ = guessed_ = near_stable_ = false;
     guesses_.clear();
@@ -95,7 +95,7 @@ bool AttractorSearch::proceed() {
     return goes_on;
 }
 
-/// What `proceed` does, but for what is said in the end of chaos that did not last.
+/// Implements `proceed`, except for the report at the end of a transient.
 bool AttractorSearch::advance() {
     if (!finding_)
         return settle();
@@ -106,7 +106,7 @@ bool AttractorSearch::advance() {
     return consider_orbit();
 }
 
-/// A step that spans many periods of a clock would only be cut at its first passage of the section.
+/// Limits steps that span many periods of a clock, since they would be cut at the first passage of the section.
 void AttractorSearch::limit_steps(std::span<const double> state, std::size_t mode) {
     if (!setting_->map.is_phase())
         return;
@@ -120,7 +120,7 @@ void AttractorSearch::limit_steps(std::span<const double> state, std::size_t mod
     finder_.limit_step(std::isfinite(longest) ? longest : 0);
 }
 
-/// The motion has stopped.
+/// Handles the end of the main trajectory.
 bool AttractorSearch::settle() {
     const Ending ending = main_->outcome().ending;
     if (ending != Ending::stopped && ending != Ending::terminal && growth_.outgrows_everything(watcher_))
@@ -133,17 +133,17 @@ bool AttractorSearch::settle() {
         return finish(label_of(ending));
     if (watcher_.escaped())
         return finish(Label::escaped);
-    if (watcher_.looking())
-        return look();
+    if (watcher_.paused())
+        return examine_without_return();
     if (watcher_.stuck())
         return finish(Label::unsettled);
     return examine_return();
 }
 
-/// Whether nothing happened in a time as long as all that has passed: the end of the range of numbers is no
-/// singularity.
+/// Returns whether almost nothing happened in a time as long as all before: then numbers have underflowed, and there is
+/// no singularity.
 bool AttractorSearch::hardly_moves() {
-    constexpr double hardly = 1e-6; ///< relative to what the motion has gone through
+    constexpr double hardly = 1e-6; ///< relative to the extent of the motion
     const std::span<const double> rates = equilibria_.rates(main_->state(), main_->mode());
     for (std::size_t i = 0; i < rates.size(); ++i)
         if (!(periods_[i] > 0) && setting_->map.takes_part(i) &&
@@ -152,8 +152,8 @@ bool AttractorSearch::hardly_moves() {
     return true;
 }
 
-/// No return has come for long: the motion may come to rest, or grow.
-bool AttractorSearch::look() {
+/// No return has come for long: tests whether the motion comes to rest or grows.
+bool AttractorSearch::examine_without_return() {
     if (const auto next = consider_rest(main_->state(), main_->mode()))
         return *next;
     if (growth_.since_start(watcher_) > much_growth && growth_.goes_on(watcher_, main_->state(), main_->mode()))
@@ -199,7 +199,7 @@ bool AttractorSearch::examine_return() {
     return find_orbit(last.state, n, watcher_.scale());
 }
 
-/// An orbit of this period is worth another try when the motion has come clearly closer.
+/// Requires the motion to come clearly closer before an orbit of this period is tried again.
 void AttractorSearch::ask_for_closer(std::size_t period) {
     thresholds_[period] =
         std::min(thresholds_[period], watcher_.distance(watcher_.recent(0).state, watcher_.recent(period).state) / 3);
@@ -216,18 +216,18 @@ bool AttractorSearch::find_orbit(std::span<const double> point, std::size_t peri
 void AttractorSearch::measure_growth(bool sticks) {
     exponent_.begin(parameters_, watcher_.scale(), main_->time(), sticks);
     exponent_.seed(*main_);
-    watcher_.follow(exponent_.follower());
+    watcher_.follow(exponent_.external_derivatives());
     growth_.mark(watcher_);
 }
 
 void AttractorSearch::start_exponent() {
-    measure_growth(watcher_.has_stuck(watcher_.remembered()) || forgotten_ > 0 || landing_unseen_);
+    measure_growth(watcher_.has_stuck(watcher_.remembered()) || collapses_ > 0 || landing_unseen_);
     std::fill(thresholds_.begin(), thresholds_.end(), setting_->options.recurrence);
 }
 
 bool AttractorSearch::go_on() {
     const std::size_t returns = watcher_.returns();
-    const bool look_again = lengthened_ && returns % returns_between_looks == 0 && !confirming_;
+    const bool look_again = lengthened_ && returns % returns_between_checks == 0 && !confirming_;
     if (returns >= limit_ || look_again)
         if (const auto next = conclude())
             return *next;
@@ -235,18 +235,18 @@ bool AttractorSearch::go_on() {
     if (before > 0 && !exponent_.begun() && returns + before >= setting_->options.cycles)
         start_exponent();
     const std::size_t seen = confirming_ ? limit_ : setting_->options.cycles;
-    const std::size_t next = exponent_.follower() && returns < seen ? seen : returns + 1;
+    const std::size_t next = exponent_.external_derivatives() && returns < seen ? seen : returns + 1;
     watcher_.stop_after(exponent_.begun() ? next : setting_->options.cycles - before);
     extend();
     return true;
 }
 
-/// An orbit may have been found near the last return.
+/// Examines the orbit that may have been found near the last return.
 bool AttractorSearch::consider_orbit() {
     const std::size_t n = watcher_.recurrent();
     const bool is_corner = finder_.found() && has_no_size(), vanishes = finder_.found() && vanishes_at_rest();
     if (is_corner || vanishes) {
-        if (is_corner ? shrinks_to_a_corner() : creeps_to_rest())
+        if (is_corner ? shrinks_to_a_corner() : approaches_rest_slowly())
             return false;
     } else if (finder_.found()) {
         const std::optional<Equilibrium> equilibrium = equilibrium_of_orbit();
@@ -265,7 +265,7 @@ bool AttractorSearch::consider_orbit() {
     if (const auto next = try_next_guess())
         return *next;
     guessed_ = false;
-    // Found once more by its multiples, an orbit that the motion has still to come to would use up all tries.
+    // The motion has not yet arrived at this orbit: finding it again by its multiples would use up all attempts.
     if (finder_.found() && is_neutral())
         for (std::size_t m = finder_.period(); m < std::min(thresholds_.size(), watcher_.remembered());
              m += finder_.period())
@@ -277,15 +277,15 @@ bool AttractorSearch::consider_orbit() {
     return go_on();
 }
 
-/// Starts the motion anew where it is, or close to that, without derivatives.
+/// Restarts the motion at a state, without derivatives.
 void AttractorSearch::restart(std::span<const double> state, std::size_t mode, double duration) {
     const double time = main_->time(), longest = setting_->options.longest_return;
     watcher_.start_leg(time, soonest * duration);
     main_->start(state, mode, time, longest > 0 ? time + longest : forever);
 }
 
-/// After all cycles, and every now and then in the time that is added to them.
-/// @return what `proceed` returns, if the point is done or something else is to be run
+/// Called after all cycles, and repeatedly in the extension after them.
+/// @return what `proceed` returns, if the point is done or another trajectory is to be run
 std::optional<bool> AttractorSearch::conclude() {
     if (confirming_)
         return conclude_chaos();
@@ -301,7 +301,7 @@ std::optional<bool> AttractorSearch::conclude() {
         if (fills_a_torus()) {
             if (centre_tried_)
                 return finish(Label::quasi_periodic);
-            // About a stable orbit, so close that nothing is seen to shrink, there is no torus.
+            // So close to a stable orbit that no shrinking is visible, there is no torus.
             centre_tried_ = true;
             guesses_ = {middle_of(watcher_, setting_->map, 1, periods_)};
             return try_next_guess();
@@ -321,8 +321,8 @@ std::optional<bool> AttractorSearch::conclude() {
     return std::nullopt;
 }
 
-/// Neighbours part: along with the motion, in which case that grows, or from it.
-/// @return what `proceed` returns, if the point is done or something else is to be run
+/// Neighbours separate: either with the motion, which then grows itself, or from it.
+/// @return what `proceed` returns, if the point is done or another trajectory is to be run
 std::optional<bool> AttractorSearch::consider_growth() {
     const double growth = exponent_.value() * exponent_.time_per_return();
     const double all = growth * static_cast<double>(exponent_.returns());
@@ -334,33 +334,33 @@ std::optional<bool> AttractorSearch::consider_growth() {
         return finish(Label::unbounded);
     if (linear && !outward)
         return leave_plane();
-    if (outward && !linear && watcher_.returns() < limit_) // to be averaged where the motion is going
+    if (outward && !linear && watcher_.returns() < limit_) // restart the average where the motion has arrived
         start_exponent();
-    if (linear || outward || !(all > least_growth) || chaotic_ >= most_chaotic || forgets_all())
+    if (linear || outward || !(all > least_growth) || chaotic_ >= most_chaotic || collapses_repeatedly())
         return std::nullopt;
     if (const auto next = leave_plane())
         return next;
     return confirm_chaos();
 }
 
-/// Looks for an orbit near the next of the states where it may be.
+/// Searches an orbit near the next of the possible limits.
 std::optional<bool> AttractorSearch::try_next_guess() {
     if (guesses_.empty())
         return std::nullopt;
     const Guess guess = guesses_.front();
     guesses_.erase(guesses_.begin());
     guessed_ = true;
-    // Where the motion creeps, its last returns extend through less than Newton's method has to go.
+    // The last returns of a slow motion extend over less than the distance to the orbit.
     std::vector<double> scale(watcher_.scale().begin(), watcher_.scale().end());
     for (std::size_t i = 0; i < scale.size(); ++i)
         scale[i] = periods_[i] > 0 ? scale[i] : std::max(scale[i], watcher_.range(i));
     return find_orbit(guess.state, guess.period, scale);
 }
 
-/// Averages agree, and the length of small distances varies between bounds.
+/// Returns whether averages converge and the length of small distances varies between bounds, as on a torus.
 bool AttractorSearch::fills_a_torus() {
-    constexpr double even = 1e-2;      ///< averages, as no chaotic motion has them
-    constexpr double very_even = 1e-4; ///< and these whatever becomes of neighbours
+    constexpr double even = 1e-2;      ///< differences of averages that exclude chaos
+    constexpr double very_even = 1e-4; ///< the same, whatever the separation of neighbours
     constexpr double most = 10;        ///< variation of the logarithm of a small distance
     if (near_stable_ || !(std::abs(exponent_.value()) <= exponent_.error()) ||
         !(exponent_.error() * exponent_.time() <= most))
@@ -369,7 +369,7 @@ bool AttractorSearch::fills_a_torus() {
     return difference < very_even || (difference < even && exponent_.is_bounded());
 }
 
-/// Whether the motion is worth being followed still longer.
+/// Returns whether it is worthwhile to follow the motion for longer.
 bool AttractorSearch::may_fill_a_torus() {
     constexpr std::size_t most_extensions = 4;
     constexpr double rather_even = 3;
@@ -379,7 +379,7 @@ bool AttractorSearch::may_fill_a_torus() {
            std::abs(exponent_.value()) <= exponent_.error() && unevenness(visited_, extents_of_visited()) < rather_even;
 }
 
-/// Slow transients and quasi-periodic motions are worth a longer look.
+/// Extends the search for slow transients and quasi-periodic motions.
 void AttractorSearch::lengthen() {
     limits_tried_ = false;
     lengthened_ = true;

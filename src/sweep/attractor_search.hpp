@@ -21,7 +21,8 @@
 
 namespace graze {
 
-/// Follows a motion until it is known what it settles on.
+/// Follows a motion until its long-term behaviour is known. Functions returning bool return false when the search is
+/// done.
 class AttractorSearch : public PointSearch {
 public:
     explicit AttractorSearch(std::shared_ptr<const AttractorSetting> setting);
@@ -32,10 +33,10 @@ public:
     PointResult& result() override { return result_; }
 
 private:
-    static constexpr std::size_t most_tries = 50; ///< of Newton's method
+    static constexpr std::size_t most_tries = 50; ///< attempts of Newton's method
     void limit_steps(std::span<const double> state, std::size_t mode);
     bool settle();
-    bool look();
+    bool examine_without_return();
     bool hardly_moves();
     bool does_not_move();
     void keep_signs(std::vector<double>& state);
@@ -68,7 +69,7 @@ private:
     bool shrinks_to_a_corner();
     bool moves_along_orbit();
     bool vanishes_at_rest();
-    bool creeps_to_rest();
+    bool approaches_rest_slowly();
     void finish_limit(std::string_view detail);
     bool is_neutral() const;
     bool repeats_exactly();
@@ -91,16 +92,16 @@ private:
     std::vector<double> extents_of_visited() const;
     bool finish_periodic();
     bool finish_equilibrium(const Equilibrium& equilibrium);
-    bool finish_still();
+    bool finish_undisturbed();
     bool finish(Label label);
     void start_exponent();
     void measure_growth(bool sticks);
     void add_to_exponent();
-    bool forgets_all() const { return forgotten_ > 1; }
+    bool collapses_repeatedly() const { return collapses_ > 1; }
     bool follows_from_rest() const;
 
     std::shared_ptr<const AttractorSetting> setting_;
-    std::optional<StepMaps> maps_; ///< for those that follow, where the model suits
+    std::optional<StepMaps> maps_; ///< shared by the derivatives below, if the model has few directions
     std::optional<MotionDerivatives> of_orbit_, of_motion_;
     ReturnWatcher watcher_;
     SampleRecorder recorder_;
@@ -110,7 +111,7 @@ private:
     GrowthWatch growth_;
     UnstableOrbits unstable_;
     std::optional<Trajectory> main_;
-    /// Of a motion when it was first taken for chaotic.
+    /// The motion when it was first labelled chaotic.
     struct Chaos {
         std::vector<double> state;
         std::size_t mode = 0;
@@ -119,27 +120,27 @@ private:
     };
     std::optional<Chaos> chaos_;
     OrbitStay stay_;
-    bool repeating_ = false;                   ///< whether that is one of many side by side
+    bool repeating_ = false;                   ///< the orbit belongs to a continuous family
     bool plane_left_ = false;                  ///< the motion was displaced from an invariant plane
-    bool staying_ = false;                     ///< whether the motion stays with the orbit that was found is being seen
-    bool lengthened_ = false;                  ///< after `cycles`
-    bool confirming_ = false;                  ///< that the motion remains chaotic
-    std::size_t chaotic_ = 0;                  ///< times that the motion was taken for chaotic
-    std::size_t chaotic_since_ = 0;            ///< returns, for the last time
-    std::size_t forgotten_ = 0;                ///< times that all neighbours have become one
-    double last_grown_ = 0, grown_before_ = 0; ///< logarithms of how much they had parted, the last two times
-    bool landing_unseen_ = false;              ///< whether they did when contacts last accumulated is not known
-    std::size_t passed_period_ = 0;            ///< of a stable orbit that the motion has passed by; 0: none was met
-    bool finding_ = false;                     ///< an orbit: the finder's trajectory is to be run
-    bool centre_tried_ = false;                ///< a stable orbit was looked for in the middle of what may be a torus
-    bool limits_tried_ = false;                ///< orbits were looked for where a slow motion may lead
-    bool guessed_ = false;                     ///< the orbit that is looked for is one of those
-    bool near_stable_ = false;                 ///< a stable orbit is too near for a torus
+    bool staying_ = false;                     ///< it is being tested whether the motion stays with the orbit found
+    bool lengthened_ = false;                  ///< the search has been extended beyond `cycles`
+    bool confirming_ = false;                  ///< it is being tested whether the motion remains chaotic
+    std::size_t chaotic_ = 0;                  ///< number of times that the motion was considered chaotic
+    std::size_t chaotic_since_ = 0;            ///< return at which this happened last
+    std::size_t collapses_ = 0;                ///< number of times that all neighbouring motions have merged into one
+    double last_grown_ = 0, grown_before_ = 0; ///< log separation of neighbours before the last two collapses
+    bool landing_unseen_ = false;   ///< it is unknown whether neighbours merged at the last accumulation of contacts
+    std::size_t passed_period_ = 0; ///< period of a stable orbit that the motion has passed by; 0: none
+    bool finding_ = false;          ///< an orbit is being searched: the finder's trajectory is to be run
+    bool centre_tried_ = false;     ///< a stable orbit was searched in the centre of a possible torus
+    bool limits_tried_ = false;     ///< orbits were searched at the possible limits of a slow motion
+    bool guessed_ = false;          ///< the orbit being searched is one of these
+    bool near_stable_ = false;      ///< a stable orbit is too close for a torus
     std::vector<Guess> guesses_;
     std::vector<double> parameters_, periods_, thresholds_;
-    VisitedStates visited_;           ///< in the time after `cycles`
-    double growth_seen_ = 0;          ///< logarithm of the extent, above which growth is looked at again
-    std::size_t repeating_since_ = 0; ///< returns
+    VisitedStates visited_;           ///< states at returns after `cycles`
+    double growth_seen_ = 0;          ///< logarithm of the extent above which growth is examined again
+    std::size_t repeating_since_ = 0; ///< return at which the test of exact repetition began
     std::size_t limit_ = 0, disturbances_ = 0, tries_ = 0;
     PointResult result_;
 };

@@ -13,7 +13,7 @@ namespace {
 std::vector<Probe> probes_of(const Model& model, const AttractorOptions& options,
                              const SampleRecorder::Layout& layout) {
     std::vector<Probe> probes = layout.probes();
-    // Last, since it ends trajectories: what happens at the same time is to be seen before.
+    // The section's probe is last, since it ends trajectories: simultaneous passages must be reported before.
     probes.push_back(section_probe(model, options.section));
     return probes;
 }

@@ -11,7 +11,7 @@
 
 namespace graze {
 
-/// What all searches of a run share.
+/// Data shared by all searches of a run.
 struct AttractorSetting {
     AttractorSetting(const System& system, const AttractorOptions& given, const std::vector<Sampling>& samplings,
                      const std::vector<Expression>& values, const SimulationOptions& simulation_options);
@@ -22,7 +22,7 @@ struct AttractorSetting {
     SectionMap map;
     FieldMap field;
     VariationalModes variational;
-    Function image; ///< of the first symmetry, in states and parameters
+    Function image; ///< image under the first symmetry, in states and parameters
     std::vector<std::size_t> image_modes;
 };
 

@@ -17,18 +17,18 @@ namespace graze {
 namespace {
 
 constexpr std::size_t most_iterations = 20;
-constexpr double furthest = 3;                ///< correction, relative to what the states have moved through
-constexpr double converged = 1e-14;           ///< corrections that are round-off
-constexpr double round_off = 1e-10;           ///< and those that may be, where the field is a small difference
-constexpr std::size_t phases = 16;            ///< of clocks, at which the field must vanish too
-constexpr double neutral = 1e-10;             ///< real part, relative to the largest eigenvalue, that may be zero
-constexpr double nearly = 0.1;                ///< share of what the linear part does that the rest may change
-constexpr double ill = 1e-7;                  ///< reciprocal condition of eigenvectors that are nearly parallel
-constexpr double largest_number = 1e150;      ///< beyond which squares leave the range of numbers
-constexpr double unbalanced = 1e3;            ///< ratio of scales, of rows to columns of the field, that are none
-constexpr double golden = 0.6180339887498949; ///< whose multiples fill the unit interval evenly
+constexpr double furthest = 3;           ///< largest correction, relative to the extent of the motion
+constexpr double converged = 1e-14;      ///< corrections that are round-off
+constexpr double round_off = 1e-10;      ///< the same where the field is a small difference
+constexpr std::size_t phases = 16;       ///< number of clock phases at which the field must vanish
+constexpr double neutral = 1e-10;        ///< relative real part that is indistinguishable from zero
+constexpr double nearly = 0.1;           ///< allowed nonlinear part relative to the linear part
+constexpr double ill = 1e-7;             ///< reciprocal condition number of nearly parallel eigenvectors
+constexpr double largest_number = 1e150; ///< beyond which squares leave the range of numbers
+constexpr double unbalanced = 1e3; ///< ratio of row and column sizes of the field above which scales are meaningless
+constexpr double golden = 0.6180339887498949; ///< golden ratio: its multiples fill the unit interval evenly
 
-/// Number k of a sequence between -1 and 1 that is the same for all.
+/// Returns element k of a fixed, evenly spread sequence in [-1, 1].
 double spread_number(std::size_t k) {
     const double x = golden * static_cast<double>(k + 1);
     return 2 * (x - std::floor(x)) - 1;
@@ -86,7 +86,7 @@ std::optional<Equilibrium> EquilibriumFinder::find(std::span<const double> state
     return result;
 }
 
-/// What each state does here. @return false where one moves steadily
+/// Classifies the states. @return false if one moves steadily
 bool EquilibriumFinder::classify(Equilibrium& equilibrium) {
     const std::size_t count = field_->states();
     field_->evaluate(workspace_, equilibrium.mode, equilibrium.state);
@@ -151,7 +151,7 @@ bool EquilibriumFinder::solve(Equilibrium& equilibrium, std::span<const double> 
             const std::size_t state = equilibrium.active[static_cast<std::size_t>(i)];
             const double was = equilibrium.state[state];
             equilibrium.state[state] -= correction[i] * equilibrium.scale[i];
-            // Converging to zero, steps leave the squares of what there was.
+            // In the convergence to zero, each step squares the value.
             const double left = equilibrium.state[state] * std::copysign(1, was);
             if (field_->keeps_sign(state) && !(left > converged * std::abs(was)))
                 equilibrium.state[state] = 0;
@@ -163,8 +163,8 @@ bool EquilibriumFinder::solve(Equilibrium& equilibrium, std::span<const double> 
     return size == 0;
 }
 
-/// A state that nothing moves but rounding, such as the velocity of a body at rest, has no scale of its own: what its
-/// rate and its influence on others say is one. Others keep theirs, or get a larger one.
+/// A state that is moved only by rounding, such as the velocity of a body at rest, has no scale of its own: its scale
+/// follows from its rate and its influence on other states. Other scales are kept or increased.
 void EquilibriumFinder::balance(Equilibrium& equilibrium, const std::vector<bool>& has_size) const {
     const auto size = equilibrium.scale.size();
     Eigen::MatrixXd& field = equilibrium.field;
@@ -186,7 +186,7 @@ void EquilibriumFinder::balance(Equilibrium& equilibrium, const std::vector<bool
         }
 }
 
-/// Clocks may disturb what rests at one of their phases only.
+/// A clock may disturb a state that is at rest at one of its phases only.
 bool EquilibriumFinder::rests_at_all_phases(Equilibrium& equilibrium) {
     if (clocks_.empty() || equilibrium.active.empty())
         return true;
@@ -237,7 +237,7 @@ bool EquilibriumFinder::find_basis(Equilibrium& equilibrium) const {
     equilibrium.leading_direction = equilibrium.basis.col(0).real();
     const Eigen::VectorXd singular = singular_values(equilibrium.basis);
     if (!(singular[size - 1] > ill * singular[0])) {
-        // Nearly parallel: a triangular basis, whose columns are shortened until what couples them is small.
+        // Nearly parallel eigenvectors: use a Schur basis, with columns shortened until the coupling is small.
         const auto schur = schur_form(equilibrium.field);
         if (!schur)
             return false;
@@ -268,7 +268,7 @@ double EquilibriumFinder::distance(const Equilibrium& equilibrium, std::span<con
     return (equilibrium.inverse * deviation(equilibrium, state)).norm();
 }
 
-/// What the field adds to its linear part, in the basis; less than round-off can make of it.
+/// Returns the nonlinear part of the field in the basis, less its possible round-off.
 double EquilibriumFinder::remainder(const Equilibrium& equilibrium, const Eigen::VectorXd& deviation) {
     constexpr double noise = 1e-13;
     std::vector<double> at = equilibrium.state;
@@ -313,7 +313,7 @@ bool EquilibriumFinder::events_are_away(const Equilibrium& equilibrium, double d
             if (!(std::abs(value) > 0 && change <= 0.5 * std::abs(value)) || (sides[w] != 0 && sides[w] != side))
                 return false;
             sides[w] = side;
-            // An event that the clock brings about may be short: phases looked at cannot exclude it.
+            // An event that the clock causes may be short: sampling phases cannot exclude it.
             for (const std::size_t clock : clocks_)
                 if (workspace_.event_gradients[w * count + clock] != 0)
                     return false;
@@ -359,7 +359,7 @@ bool EquilibriumFinder::is_linear_within(const Equilibrium& equilibrium, double 
 std::vector<double> EquilibriumFinder::displaced(const Equilibrium& equilibrium, double share,
                                                  std::span<const double> motion) {
     constexpr double shortest = 1e-30;
-    constexpr double visible = 1e-12; ///< relative to the state itself
+    constexpr double visible = 1e-12; ///< smallest displacement relative to the state
     const auto size = equilibrium.scale.size();
     const Eigen::VectorXd direction =
         equilibrium.leading_direction / equilibrium.leading_direction.cwiseAbs().maxCoeff();
@@ -367,9 +367,9 @@ std::vector<double> EquilibriumFinder::displaced(const Equilibrium& equilibrium,
     for (Eigen::Index i = 0; i < size; ++i)
         offset = std::max(offset, std::abs(equilibrium.state[equilibrium.active[static_cast<std::size_t>(i)]]) /
                                       equilibrium.scale[i]);
-    // How far the field is linear is its own measure of length, whatever the units.
+    // The length over which the field is linear is determined from the field itself, independent of units.
     const double first = std::max(shortest, 1e-8 * offset);
-    // Motions about a focus turn: to all directions of their plane.
+    // Motions about a focus rotate through all directions of their plane.
     std::vector<Eigen::VectorXd> directions{direction};
     if (const double turn = std::abs(equilibrium.values[0].imag()); turn > 0) {
         const Eigen::VectorXd across = (equilibrium.field * direction - equilibrium.growth() * direction) / turn;
@@ -378,7 +378,7 @@ std::vector<double> EquilibriumFinder::displaced(const Equilibrium& equilibrium,
     double length = first, reach = 0;
     for (const Eigen::VectorXd& one : directions)
         reach = std::max(reach, one.cwiseProduct(equilibrium.scale).cwiseAbs().maxCoeff());
-    const double longest = largest_number / reach; // however small what the motion has gone through
+    const double longest = largest_number / reach; // even if the extent of the motion is tiny
     const auto is_linear = [&](const Eigen::VectorXd& one) {
         const double linear = (equilibrium.inverse * (equilibrium.field * one)).norm() * length;
         return remainder(equilibrium, one * length) <= nearly * linear &&
@@ -393,7 +393,7 @@ std::vector<double> EquilibriumFinder::displaced(const Equilibrium& equilibrium,
         const std::size_t index = equilibrium.active[static_cast<std::size_t>(i)];
         return field_->keeps_sign(index) && state[index] == 0;
     };
-    // Numbers of animals begin to grow from above zero, or from wherever the motion is.
+    // Displace states that keep their signs, such as populations, to positive values or to the side of the motion.
     double side = 1, strongest = 0;
     for (Eigen::Index i = 0; i < size; ++i)
         if (is_on_edge(i) && std::abs(direction[i]) > strongest) {

@@ -8,17 +8,16 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t fewest = 10;   ///< motions that leave
-constexpr double in_19_of_20 = 1.96; ///< standard errors
-/// Of Kolmogorov's distribution: times at which motions leave that have a constant rate contradict it once in ten
-/// cases.
+constexpr std::size_t fewest = 10;   ///< fewest motions that leave
+constexpr double in_19_of_20 = 1.96; ///< 95 % of a normal distribution, in standard errors
+/// 90 % quantile of Kolmogorov's distribution: a constant rate is rejected by mistake in one of ten cases.
 constexpr double contradicts = 1.22;
-constexpr std::size_t parts = 40; ///< of the motions that leave, after which the law may begin to hold
+constexpr std::size_t parts = 40; ///< possible beginnings of the law, in equal shares of the motions that leave
 
-/// The motions that are still there after so many returns.
+/// The motions that are still there after a number of returns.
 class Remainder {
 public:
-    /// @param sorted by their returns
+    /// @param sorted by their numbers of returns
     Remainder(std::span<const Stay> sorted, std::size_t from) : from_(from) {
         for (const Stay& stay : sorted)
             if (stay.cycles > from)
@@ -31,9 +30,9 @@ public:
 
     std::size_t left() const { return left_; }
 
-    /// Whether motions leave in proportion to how many returns all of them make together.
+    /// Returns whether motions leave in proportion to the total number of returns that they make.
     bool leave_steadily() const {
-        double risk = 0, largest = 0; // up to the return before
+        double risk = 0, largest = 0; // up to the previous return
         std::size_t gone = 0, time = from_, before = 0;
         const auto compare = [&](double returns, std::size_t leaving) {
             largest = std::max(
@@ -53,7 +52,7 @@ public:
     }
 
     EscapeLaw law() const {
-        const double share = static_cast<double>(left_) / at_risk_; // that leaves from one return to the next
+        const double share = static_cast<double>(left_) / at_risk_; // share that leaves in each return
         EscapeLaw law;
         law.rate = -std::log1p(-share);
         law.error = in_19_of_20 * std::sqrt(share / (at_risk_ * (1 - share)));
@@ -65,7 +64,7 @@ public:
 
 private:
     std::size_t from_, left_ = 0;
-    double at_risk_ = 0; ///< returns of all motions together
+    double at_risk_ = 0; ///< total number of returns of all motions
     std::vector<Stay> stays_;
 };
 
@@ -89,7 +88,7 @@ std::optional<EscapeLaw> escape_law(std::span<const Stay> stays) {
         const Remainder remainder(sorted, from);
         if (remainder.left() < fewest)
             return std::nullopt;
-        // All at once are no law, but the time that it takes to see where motions are.
+        // If all leave at once there is no law: this is only the time in which escape is detected.
         if (remainder.leave_steadily() && remainder.law().rate < 20)
             return remainder.law();
     }

@@ -11,13 +11,13 @@ namespace {
 
 constexpr std::size_t batches = 10;
 constexpr std::size_t returns_to_settle = 10;
-constexpr double most_lost = 0.05;        ///< share of returns at which there may be no derivatives
-constexpr double student = 2.26;          ///< 95 % of Student's distribution of nine degrees of freedom
+constexpr double most_lost = 0.05;        ///< allowed share of returns without derivatives
+constexpr double student = 2.26;          ///< 95 % quantile of Student's distribution with nine degrees of freedom
 constexpr double clear_of_zero = 3;       ///< standard errors
-constexpr double integration_errors = 10; ///< of growth over a return, in tolerances
-/// Of a tangent vector that a sticking contact has made vanish.
+constexpr double integration_errors = 10; ///< error of the growth over a return, in tolerances
+/// Logarithm of the length of a tangent vector that has vanished at a sticking contact.
 constexpr double least_growth = -100;
-/// Lengths of the tangent vector, which grows and shrinks freely in between: far from where numbers end.
+/// Bounds of the tangent vector's length before it is rescaled: far from overflow and underflow.
 constexpr double shortest_tangent = 1e-100, longest_tangent = 1e100;
 
 } // namespace
@@ -37,7 +37,7 @@ void Exponent::begin(std::span<const double> parameters, std::span<const double>
     seeds_.assign(map_->states() + parameters.size(), 0);
     for (std::size_t i = 0; i < map_->states(); ++i)
         if (map_->takes_part(i))
-            seeds_[i] = scale_[i] / (1.0 + static_cast<double>(i)); // in no special direction
+            seeds_[i] = scale_[i] / (1.0 + static_cast<double>(i)); // a generic direction
 }
 
 void Exponent::seed(Trajectory& trajectory) {
@@ -52,7 +52,7 @@ void Exponent::seed(Trajectory& trajectory) {
     last_time_ = trajectory.time();
 }
 
-/// The vector is that of the seeds.
+/// Starts the vector at the seeds.
 void Exponent::seed_here() {
     length_ = 0;
     for (std::size_t i = 0; i < map_->states(); ++i)
@@ -79,7 +79,7 @@ void Exponent::add_return(Trajectory& trajectory) {
 }
 
 bool Exponent::vanishes(const Trajectory& trajectory) {
-    constexpr double round_off = 1e-11; ///< share of the vector's length at the last return
+    constexpr double round_off = 1e-11; ///< relative to the vector's length at the last return
     if (!carried_ || !trajectory.tangents_valid())
         return false;
     Eigen::MatrixXd tangent = carried(trajectory);
@@ -94,7 +94,7 @@ void Exponent::catch_up() {
         derivatives_->carry();
 }
 
-/// @return false where the vector has to be that of the seeds from now on
+/// @return false if the vector must be restarted from the seeds
 bool Exponent::add(const MotionDerivatives::Mark& here, Eigen::MatrixXd tangent, bool valid) {
     const double time = here.time - last_time_;
     last_time_ = here.time;
@@ -104,7 +104,7 @@ bool Exponent::add(const MotionDerivatives::Mark& here, Eigen::MatrixXd tangent,
     };
     const auto lose = [&] {
         ++lost_;
-        return anew(); // no derivatives here: this return does not count
+        return anew(); // no derivatives: this return is not counted
     };
     if (!valid || !map_->project(workspace_, here.mode, here.state, tangent))
         return lose();
@@ -114,7 +114,7 @@ bool Exponent::add(const MotionDerivatives::Mark& here, Eigen::MatrixXd tangent,
     const double growth = length > 0 ? std::max(std::log(length) - length_, least_growth) : least_growth;
     most_grown_ = std::max(most_grown_, grown_ += growth);
     if (to_settle_ > 0) {
-        --to_settle_; // the vector still turns towards the direction that grows most
+        --to_settle_; // the vector still turns towards the fastest growing direction
     } else {
         growth_.push_back(growth);
         times_.push_back(time);
@@ -122,7 +122,7 @@ bool Exponent::add(const MotionDerivatives::Mark& here, Eigen::MatrixXd tangent,
     length_ = std::log(length);
     if (length > shortest_tangent && length < longest_tangent)
         return true;
-    // Anew in the same direction or, if there is none left, in the first.
+    // Restart in the same direction or, if the vector has vanished, in the initial one.
     if (length > 0)
         aim(tangent / length);
     return anew();
@@ -136,14 +136,14 @@ double Exponent::length_of(const Eigen::MatrixXd& tangent) const {
     return std::sqrt(square);
 }
 
-/// Makes this direction that of the seeds.
+/// Sets the seeds to this direction.
 void Exponent::aim(const Eigen::MatrixXd& direction) {
     for (std::size_t i = 0; i < map_->states(); ++i)
         seeds_[i] = map_->takes_part(i) ? direction(static_cast<Eigen::Index>(i), 0) : 0;
 }
 
 bool Exponent::known() const {
-    // Returns are lost where neighbours part most: the others alone would say nothing.
+    // Returns without derivatives are those where neighbours separate most: the others alone would be biased.
     return begun_ && growth_.size() >= 2 * batches &&
            static_cast<double>(lost_) <= most_lost * static_cast<double>(growth_.size());
 }
@@ -206,19 +206,19 @@ double Exponent::variation(std::size_t first, std::size_t last) const {
 }
 
 bool Exponent::is_bounded() const {
-    constexpr double not_more = 1.3; ///< than over either half: the root of time would make it 1.4
+    constexpr double not_more = 1.3; ///< factor over either half; growth like the square root of time would give 1.4
     const std::size_t count = growth_.size(), half = count / 2;
     return variation() <= not_more * std::max(variation(0, half), variation(half, count));
 }
 
 double Exponent::error() const {
     const std::size_t count = growth_.size(), half = count / 2;
-    // What is random: the mean of ten batches has Student's distribution.
+    // Random error: the mean of ten batches has Student's distribution.
     const double random = student * standard_error();
-    // What converges like the inverse of time, since the vector's length varies between bounds.
+    // Error that decreases like 1/time, since the vector's length varies between bounds.
     const double time = std::accumulate(times_.begin(), times_.end(), 0.0);
     const double bounded = variation() / time;
-    // What converges more slowly, as where neighbours part in proportion to time.
+    // Error that decreases more slowly, for example where neighbours separate in proportion to time.
     const double drifting = std::abs(growth(0, half) - growth(half, count));
     const double integration =
         map_->simulation().options().tolerance * integration_errors * static_cast<double>(count) / time;

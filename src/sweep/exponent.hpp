@@ -10,50 +10,50 @@
 
 namespace graze {
 
-/// The largest Lyapunov exponent from the growth of one tangent vector, from return to return of a section (Benettin
-/// et al. 1980), saltation included.
+/// The largest Lyapunov exponent from the growth of one tangent vector from return to return of a section (Benettin et
+/// al. 1980), with saltation at contacts.
 class Exponent {
 public:
-    /// @param derivatives to follow the motion with; null: its trajectory is to carry the vector
+    /// @param derivatives that follow the motion; null: the trajectory itself propagates the vector
     Exponent(const SectionMap& map, MotionDerivatives* derivatives) : map_(&map), derivatives_(derivatives) {}
 
-    /// @param scale of each state, in which lengths are measured from now on
+    /// @param scale unit of each state for lengths of the vector
     /// @param sticks whether contacts are likely to accumulate
     void begin(std::span<const double> parameters, std::span<const double> scale, double time, bool sticks);
     bool begun() const { return begun_; }
-    /// Makes a trajectory carry the vector: after `begin`, and after the trajectory has been started anew. Or what
-    /// follows it begins here.
+    /// Starts the vector at the present state; to be called after `begin`, and after the trajectory has been restarted.
+    /// Either the trajectory propagates it, or the derivatives that follow the motion.
     void seed(Trajectory& trajectory);
-    /// What is to be told of all that happens to the motion; null if its trajectory carries the vector.
-    MotionDerivatives* follower() { return carried_ ? nullptr : derivatives_; }
-    /// Takes the growth since the last return from a trajectory that stopped at one, if that carries the vector.
+    /// Returns the derivatives that must observe the motion; null if its trajectory propagates the vector.
+    MotionDerivatives* external_derivatives() { return carried_ ? nullptr : derivatives_; }
+    /// Records the growth since the last return from a trajectory that stopped at one, if it propagates the vector.
     void add_return(Trajectory& trajectory);
-    /// Whether all that has happened since the last return has made the vector vanish, but for round-off: all
-    /// neighbours are one there. To be asked before `add_return`.
+    /// Returns whether the vector has vanished (up to round-off) since the last return: all neighbouring motions have
+    /// merged. To be called before `add_return`.
     bool vanishes(const Trajectory& trajectory);
-    /// Logarithm of the greatest length that the vector has had since it began, in units of that at the beginning.
+    /// Returns the logarithm of the greatest length of the vector since it began, relative to its initial length.
     double most_grown() const { return most_grown_; }
-    /// Takes the growth over all returns that have been seen of a motion that is followed.
+    /// Records the growth over all observed returns, if derivatives follow the motion.
     void catch_up();
 
     std::size_t returns() const { return growth_.size(); }
     bool known() const;
     double value() const; ///< per unit of time
-    /// Over this share of the returns, the last.
+    /// Returns the exponent over this share of the returns, the last ones.
     double value_over_last(double share) const;
-    /// Whether it is positive beyond its error and beyond what is random.
+    /// Returns whether the exponent is positive beyond its error and beyond random fluctuation.
     bool is_positive() const;
-    /// Within which it lies in 19 of 20 cases: by means over batches, and by what is systematic.
+    /// Returns the half width of the 95 % confidence interval: from means over batches, and from systematic errors.
     double error() const;
-    double standard_error() const; ///< by means over batches alone
-    /// Whether the vector's length varies between bounds, as on a torus: along a chaotic motion its variation grows
-    /// like the root of time.
+    double standard_error() const; ///< from means over batches only
+    /// Returns whether the length of the vector varies between bounds, as on a torus; along a chaotic motion its
+    /// variation grows like the square root of time.
     bool is_bounded() const;
-    /// By how much the logarithm of the vector's length departs from a steady growth.
+    /// Returns the deviation of the logarithm of the vector's length from steady growth.
     double variation() const { return variation(0, growth_.size()); }
-    /// The tangent vector where it has been carried to. @param trajectory which may carry it
+    /// Returns the tangent vector at its present place. @param trajectory the one that may propagate it
     Eigen::VectorXd vector(const Trajectory& trajectory) const;
-    double time() const; ///< over which it is averaged
+    double time() const; ///< time over which the exponent is averaged
     double time_per_return() const;
     void clear() { begun_ = false; }
 
@@ -74,7 +74,7 @@ private:
     double length_ = 0, last_time_ = 0, grown_ = 0, most_grown_ = 0;
     std::size_t to_settle_ = 0, lost_ = 0;
     bool begun_ = false;
-    bool carried_ = false; ///< by the trajectory
+    bool carried_ = false; ///< the vector is propagated by the trajectory
 };
 
 } // namespace graze

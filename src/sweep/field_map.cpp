@@ -9,14 +9,14 @@ namespace graze {
 
 namespace {
 
-/// Whether a transition leaves the motion as it is: no jump, and the same mode goes on.
+/// Returns whether a transition has no effect: no jump, and the same mode continues.
 bool changes_nothing(const Transition& transition) {
     return transition.jump == 0 &&
            std::all_of(transition.next.begin(), transition.next.end(),
                        [&](const Alternative& next) { return next.mode && *next.mode == transition.mode; });
 }
 
-/// Whether a state stays zero in all modes and jumps, as far as expressions simplify.
+/// Returns whether a state stays zero in all modes and jumps, as far as simplification shows.
 bool vanishes_with(Model& model, std::size_t state, const Expression& symbol) {
     if (model.states[state].period || model.states[state].drifting)
         return false;
@@ -30,7 +30,7 @@ bool vanishes_with(Model& model, std::size_t state, const Expression& symbol) {
            std::all_of(jumps.begin(), jumps.end(), [&](const Jump& jump) { return vanishes(jump.map[state]); });
 }
 
-/// Whether a state is the same in all modes and jumps.
+/// Returns whether a state is constant in all modes and jumps.
 bool never_changes(Model& model, std::size_t state, const Expression& symbol) {
     const std::vector<Jump>& jumps = model.jumps;
     return std::all_of(model.modes.begin(), model.modes.end(),
@@ -38,7 +38,7 @@ bool never_changes(Model& model, std::size_t state, const Expression& symbol) {
            std::all_of(jumps.begin(), jumps.end(), [&](const Jump& jump) { return jump.map[state] == symbol; });
 }
 
-/// States on whose rates no state acts. @param jacobian of the rates, row by row
+/// Returns whether each state is a clock: no state acts on its rate. @param jacobian of the rates, row by row
 std::vector<bool> clocks_among(const std::vector<Expression>& jacobian, std::size_t states) {
     std::vector<bool> clocks;
     for (std::size_t i = 0; i < states; ++i)
@@ -48,8 +48,8 @@ std::vector<bool> clocks_among(const std::vector<Expression>& jacobian, std::siz
     return clocks;
 }
 
-/// Whether rates are affine in all states but clocks and those that drift; of angles they may not depend at all, which
-/// would not be linear from one turn to the next.
+/// Returns whether rates are affine in all states except clocks and drifting states; they must not depend on angles,
+/// since the field would not be linear over several turns.
 bool is_affine(const Model& model, const std::vector<Expression>& jacobian, const std::vector<Expression>& states,
                const std::vector<bool>& clocks) {
     std::vector<Expression> entries, others;
@@ -71,7 +71,7 @@ bool is_affine(const Model& model, const std::vector<Expression>& jacobian, cons
     });
 }
 
-/// The kth of places that fill the unit interval evenly.
+/// Returns element k of a sequence that fills the unit interval evenly.
 double even_place(std::size_t k) {
     constexpr double golden = 0.6180339887498949;
     const double x = golden * static_cast<double>(k + 1);
@@ -139,7 +139,7 @@ void FieldMap::evaluate_events(Workspace& workspace, std::size_t mode, std::span
 
 bool FieldMap::is_affine_beyond(Workspace& workspace, std::size_t mode, std::span<const double> state,
                                 std::span<const double> extents, std::span<const double> periods) const {
-    // Second differences vanish, but for round-off of values that are up to a million times as large as the first.
+    // Second differences must vanish, except for round-off of values up to a million times larger than the first.
     constexpr double vanishing = 1e-8;
     const std::size_t count = states();
     std::vector<double> step(count), at(count);
@@ -192,7 +192,7 @@ bool FieldMap::keeps_sides(Workspace& workspace, std::size_t mode, std::span<con
             continue;
         if (!same_side(w))
             return false;
-        // The corner towards which the function falls, then the one opposite.
+        // Test the corner towards which the function falls, then the opposite one.
         for (const double sign : {-1.0, 1.0}) {
             for (std::size_t i = 0; i < count; ++i)
                 at[i] = middle[i] + (slopes[w * count + i] > 0 ? sign : -sign) * half[i];

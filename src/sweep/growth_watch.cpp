@@ -8,7 +8,7 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t parts = 3; ///< of the returns that are remembered, in each of which the motion is larger
+constexpr std::size_t parts = 3; ///< number of parts of the stored returns; the motion must be larger in each
 constexpr std::size_t fewest_returns = 6;
 
 } // namespace
@@ -51,7 +51,7 @@ bool GrowthWatch::outgrows_everything(const ReturnWatcher& motion) const {
 bool GrowthWatch::goes_on(const ReturnWatcher& motion) {
     if (motion.remembered() <= fewest_returns)
         return false;
-    // Where clocks are faster than what grows, single returns see a part of it only: they are taken together.
+    // If clocks are faster than the growth, single returns show only a part of the motion: several are combined.
     const std::size_t together = (motion.remembered() - 1) / parts;
     std::vector<double> newer;
     MotionPart newest, oldest;
@@ -88,10 +88,10 @@ bool GrowthWatch::is_linear(const ReturnWatcher& motion, std::size_t returns) co
     return field_->is_linear(motion.recent(0).mode) && motion.parts().quiet() >= returns;
 }
 
-/// Whether the field goes on as it is and no event is ahead, where the motion has grown from one part to another.
+/// Returns whether the field is affine beyond and no event is ahead of a motion that grew from one part to another.
 bool GrowthWatch::leads_outward(const ReturnWatcher& motion, const MotionPart& newest, const MotionPart& oldest) {
     const Return& last = motion.recent(0);
-    // Where growth is about a state, the values between which the motion is go on as they have done.
+    // If the motion grows about a state, extrapolate the growth on either side.
     std::vector<double> down(periods_.size()), up(periods_.size());
     for (std::size_t i = 0; i < up.size(); ++i) {
         down[i] = std::max(0.0, oldest.least[i] - newest.least[i]);
@@ -105,7 +105,8 @@ bool GrowthWatch::goes_on(const ReturnWatcher& motion, std::span<const double> s
     if (!field_->is_affine_beyond(workspace_, mode, state, motion.widest(), periods_))
         return false;
     field_->evaluate_rates(workspace_, mode, state);
-    // Along a direction that grows all states go away from where they were at the same rate; others may turn.
+    // In a growing direction all states move away from their earlier values at the same relative rate; others may
+    // rotate.
     constexpr double alike = 3, end = 0.1;
     double slowest = std::numeric_limits<double>::infinity(), fastest = 0;
     MotionPart box{{state.begin(), state.end()}, {state.begin(), state.end()}};
@@ -131,8 +132,8 @@ bool GrowthWatch::goes_on(const ReturnWatcher& motion, std::span<const double> s
     return meets_no_event(mode, box, down, up);
 }
 
-/// Whether no event is met where the motion goes, as far as numbers do.
-/// @param down and up, by how much the motion has grown on either side
+/// Returns whether no event is met in the direction of growth, up to the largest numbers.
+/// @param down, up growth of the motion on either side
 bool GrowthWatch::meets_no_event(std::size_t mode, const MotionPart& now, std::span<const double> down,
                                  std::span<const double> up) {
     double size = 0;

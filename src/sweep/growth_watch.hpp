@@ -8,33 +8,33 @@
 
 namespace graze {
 
-/// Tells motions that grow for ever from chaotic ones, whose neighbours part too.
+/// Distinguishes motions that grow forever from chaotic ones; in both, neighbouring motions separate.
 class GrowthWatch {
 public:
     GrowthWatch(const FieldMap& field, const SectionMap& map) : field_(&field), map_(&map) {}
 
     void begin(std::span<const double> parameters, std::span<const double> periods);
-    /// Takes the extent over the last return as that from which `outward` counts.
+    /// Sets the reference of `outward`: the extent over the last return.
     void mark(const ReturnWatcher& motion);
-    /// Logarithm of the growth of the motion's extent since the mark.
+    /// Returns the logarithm of the growth of the motion's extent since the mark.
     double outward(const ReturnWatcher& motion) const;
-    /// Logarithm of the growth from the extent at the beginning to the largest so far, of the state that has grown
+    /// Returns the logarithm of the growth from the initial extent to the largest so far, of the state that has grown
     /// most.
     double since_start(const ReturnWatcher& motion) const { return ratio(motion.widest(), motion.early()); }
-    /// Whether the motion has outgrown whatever a model may hold: by 60 decades, up to numbers as large. From next to
-    /// nothing, as many lead to an ordinary size.
+    /// Returns whether the motion has grown by 60 decades and to numbers as large, beyond any structure of a model.
+    /// (From a tiny start, 60 decades may lead to an ordinary size.)
     bool outgrows_everything(const ReturnWatcher& motion) const;
-    /// Whether the motion has become larger from return to return, without contacts, in a field that is the same on all
-    /// larger scales, where it will meet no event.
+    /// Returns whether the motion has grown from return to return, without contacts, in a field that is the same on all
+    /// larger scales and has no event ahead.
     bool goes_on(const ReturnWatcher& motion);
-    /// The same from one part of all returns to the next: of motions that are slow beside the section's clock, and
-    /// whose neighbours are known to part.
+    /// The same from one part of all returns to the next: for motions that are slow relative to the section's clock,
+    /// whose neighbours are known to separate.
     bool goes_on_slowly(const ReturnWatcher& motion);
-    /// Whether neighbours have obeyed a linear equation for so many returns, up to the last: in a field that is linear
-    /// but for clocks, and without contacts. They may part, but no such motion is chaotic: either it grows as they
-    /// part, or it lies on the plane along which nothing does.
+    /// Returns whether neighbouring motions have obeyed a linear equation for this number of returns up to the last:
+    /// the field is linear except for clocks, and there were no contacts. Even if they separate, such a motion is not
+    /// chaotic: either it grows itself, or it lies on an invariant plane without growth.
     bool is_linear(const ReturnWatcher& motion, std::size_t returns) const;
-    /// The same as `goes_on`, of a motion that is at this state and does not come back to the section.
+    /// The same as `goes_on`, for a motion at this state that does not return to the section.
     bool goes_on(const ReturnWatcher& motion, std::span<const double> state, std::size_t mode);
 
 private:

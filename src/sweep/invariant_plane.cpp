@@ -10,7 +10,7 @@ namespace graze {
 
 namespace {
 
-/// By which points may differ that lie on a plane: more than rounding makes of them, less than any disturbance.
+/// Allowed distance of points from a common plane: larger than rounding, smaller than any disturbance.
 constexpr double in_plane = 1e-9;
 
 } // namespace

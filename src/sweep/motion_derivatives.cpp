@@ -9,9 +9,9 @@ namespace graze {
 
 namespace {
 
-/// Of what has been seen, when it is carried along without being asked for.
+/// Number of recorded items after which derivatives are propagated without a request.
 constexpr std::size_t most_items = 8192;
-/// Share of a step that is none: a mark so close to its end is at its end.
+/// Relative distance from the end of a step within which a mark is at the end.
 constexpr double nothing = 1e-12;
 
 } // namespace
@@ -114,7 +114,7 @@ void MotionDerivatives::carry() {
         take(item);
     maps_->clear();
     items_.clear();
-    // Marks ahead belong to the step that is still to come.
+    // Marks ahead belong to the next step.
     std::vector<double> kept;
     for (Ahead& ahead : ahead_) {
         const std::span<const double> state = state_at(ahead.numbers);
@@ -155,7 +155,7 @@ void MotionDerivatives::pass_step(std::size_t number) {
     derivatives_.swap(next_);
 }
 
-/// A contact happens later by -dh / h'.
+/// The contact of a neighbouring motion happens later by -dh / h'.
 void MotionDerivatives::pass_contact(const Item& item) {
     const System& system = modes_->simulation().system();
     const std::span<double> before = std::span(fields_).first(states_), after = std::span(fields_).last(states_);
@@ -176,7 +176,7 @@ void MotionDerivatives::pass_contact(const Item& item) {
     const auto numbers = [](Matrix& matrix) {
         return std::span(matrix.data(), static_cast<std::size_t>(matrix.size()));
     };
-    // Parameters are the same for all neighbours.
+    // Neighbouring motions have the same parameters.
     pass_jump({shift_, before, after, jump, jacobian_, {}}, numbers(derivatives_), numbers(next_));
 }
 

@@ -12,60 +12,60 @@
 
 namespace graze {
 
-/// Derivatives of a motion by where it was, computed from its steps and contacts after they have been seen: those of
-/// the steps in lanes, those of contacts by the saltation formulas (as Tangents does along with the motion). They do
-/// not pass accumulations of contacts.
+/// Derivatives of a motion with respect to an earlier state, computed from recorded steps and contacts: steps in lanes,
+/// contacts by the saltation formulas (as Tangents does during the motion). They end at accumulations of contacts.
 ///
 /// Derivatives are those at fixed time, states x columns.
 class MotionDerivatives {
 public:
-    /// @param maps to compute with, also for others in turn
+    /// @param maps for the computation; may be shared with other objects in turn
     explicit MotionDerivatives(const VariationalModes& modes, StepMaps& maps);
 
     using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-    /// A place along the motion that was marked.
+    /// A marked place of the motion.
     struct Mark {
         double time = 0;
         std::size_t mode = 0;
         std::span<const double> state;
     };
-    /// Told of each mark, in their order, when derivatives have come to it; may set others.
+    /// Called for each mark, in order, when the derivatives have reached it; it may replace them by `set`.
     using AtMark = std::function<void(const Mark& mark)>;
 
-    /// @param scale of each state; @param derivatives at the beginning
+    /// @param scale unit of each state; @param derivatives initial value
     void begin(std::span<const double> parameters, std::span<const double> scale, Matrix derivatives,
                AtMark at_mark = {});
 
-    // What is seen, in this order. Nothing is computed before `carry`, unless it becomes much.
-    /// A mark within the step that comes next, or at its end.
+    // The following functions record the motion in order. Computation is deferred to `carry`, unless much has been
+    // recorded.
+    /// Sets a mark within the next step, or at its end.
     void mark_ahead(double time, std::size_t mode, std::span<const double> state);
     void step(const Step& step);
     void contact(const Contact& contact);
-    /// The motion met a surface without speed: derivatives do not exist from there on.
+    /// The motion met a surface at zero speed: derivatives do not exist from there on.
     void grazing();
-    /// A mark at the present place.
+    /// Sets a mark at the present place.
     void mark(double time, std::size_t mode, std::span<const double> state);
 
-    /// Carries derivatives along all that has been seen.
+    /// Propagates the derivatives along everything recorded.
     void carry();
-    /// Where they have been carried to.
+    /// Returns the propagated derivatives.
     const Matrix& derivatives() const { return derivatives_; }
     bool valid() const { return valid_; }
-    /// Whether contacts have accumulated: nothing is noted of what came behind.
+    /// True after an accumulation of contacts: nothing is recorded beyond it.
     bool broken() const { return broken_; }
-    /// Others instead, which are valid.
+    /// Replaces the derivatives; the new ones are valid.
     void set(Matrix derivatives);
 
 private:
     struct Item {
         enum class Kind { step, contact, grazing, mark } kind = Kind::step;
-        std::size_t mode = 0, mode_after = 0;  ///< there; before and after the contact
+        std::size_t mode = 0, mode_after = 0;  ///< mode; modes before and after the contact
         std::size_t event = 0, transition = 0; ///< of the contact
-        double rate = 0;                       ///< of the event's function before the contact
-        double time = 0;                       ///< of the mark; length of the step
-        std::size_t numbers = 0;               ///< where states are: of start or mark; before, then after the contact
-        std::size_t map = 0;                   ///< of the step, once it is known
+        double rate = 0;                       ///< rate of the event's function before the contact
+        double time = 0;                       ///< time of the mark; length of the step
+        std::size_t numbers = 0; ///< index of the state at the start or mark; of those before and after the contact
+        std::size_t map = 0;     ///< index of the step's map, once added
     };
     struct Ahead {
         double time;

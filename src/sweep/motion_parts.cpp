@@ -7,7 +7,7 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t most = 6; ///< parts, of which half are left when they double
+constexpr std::size_t most = 6; ///< largest number of parts; they are merged in pairs when there are more
 
 } // namespace
 

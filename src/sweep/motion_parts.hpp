@@ -6,7 +6,7 @@
 
 namespace graze {
 
-/// Between which values each state has been, and whether anything happened to the motion.
+/// The range of each state over a part of a motion, and whether there were contacts.
 struct MotionPart {
     std::vector<double> least, greatest;
     bool contacts = false;
@@ -16,16 +16,16 @@ struct MotionPart {
     double extent(std::size_t state) const { return greatest[state] - least[state]; }
 };
 
-/// All returns of a motion in a few parts of equal length, which double when they become too many: however slow the
-/// motion is beside the clock that says what a return is, parts are as long as what has been seen allows.
+/// All returns of a motion in a few parts of equal length; the length doubles when there are too many parts. However
+/// slow the motion is relative to the section's clock, parts are as long as the observation allows.
 class MotionParts {
 public:
     void clear();
     void add(const MotionPart& one);
-    /// Complete parts.
+    /// Returns the number of complete parts.
     std::size_t count() const { return parts_.size(); }
     const MotionPart& recent(std::size_t before) const { return parts_[parts_.size() - 1 - before]; }
-    /// Returns in a row, up to the last, in which nothing happened.
+    /// Returns the number of consecutive returns without contacts, up to the last.
     std::size_t quiet() const { return quiet_; }
 
 private:

@@ -11,24 +11,24 @@ namespace graze {
 namespace {
 
 constexpr std::size_t most_iterations = 10;
-/// Close to a bifurcation corrections shrink by a third or a half at first.
+/// Close to a bifurcation corrections shrink only by a third or a half at first.
 constexpr std::size_t most_shrinking = 40;
 constexpr double shrinking = 0.8;
-/// Relative to the extent of the states. Newton's method doubles the digits of the last correction.
+/// Relative to the extent of the states. Newton's method doubles the number of correct digits.
 constexpr double small_correction = 1e-9;
 constexpr double large_correction = 0.5;
-/// Multiplier of an orbit that motions leave before it matters whether they are on it, unless they are as close to it
-/// as this.
+/// Multiplier above which motions leave an orbit before it matters whether they are on it, unless they are within
+/// `sits`.
 constexpr double most_unstable = 2;
 constexpr double sits = 1e-6;
-/// How well a recorded orbit must close, and how different its returns are to be if they are different.
+/// How well a recorded orbit must close, and how much its returns must differ to count as different.
 constexpr double closed = 1e-8;
 constexpr double same = 1e-7;
-constexpr double resolution = 1e-7; ///< relative to the states themselves
-/// How well states must close that Newton's method does not move, such as a second clock: an orbit of this period is
-/// one of them all. More than rounding makes of them within a return.
+constexpr double resolution = 1e-7; ///< resolution of states, relative to their size
+/// How well states must close that Newton's method does not change, such as a second clock: the period must be one of
+/// all of them. Larger than the rounding within a return.
 constexpr double closed_exactly = 1e-10;
-/// Share of the time of a return before which none can come.
+/// Earliest next return, as a share of the time of a return.
 constexpr double soonest = 1e-3;
 
 } // namespace
@@ -61,7 +61,7 @@ void OrbitFinder::begin(std::span<const double> parameters, std::span<const doub
     seeds_.assign(states * stride, 0);
     for (std::size_t i = 0; i < states; ++i)
         seeds_[i * stride + i] = 1;
-    // Remembers as many returns as there are in the orbit.
+    // The watcher stores as many returns as the orbit has.
     watcher_ = ReturnWatcher(*map_, std::max<std::size_t>(period, 2), {});
     watcher_.allow_any_steps(true);
     guard_ = 3 * duration;
@@ -69,10 +69,10 @@ void OrbitFinder::begin(std::span<const double> parameters, std::span<const doub
     start_run(Stage::iterating);
 }
 
-/// Whether returns end on the section: where it is the surface of an event whose jump leads elsewhere, as one that sets
-/// a voltage back, they end there.
+/// Returns whether returns end on the section. If the section is the surface of an event whose jump leads off it, such
+/// as the reset of a voltage, they end there.
 bool OrbitFinder::is_on_section() {
-    constexpr double next_to = 1e-6; // relative to the extent of the states
+    constexpr double next_to = 1e-6; // distance relative to the extent of the states
     std::vector<double> settled = point_;
     map_->settle_on_section(workspace_, settled);
     for (std::size_t i = 0; i < settled.size(); ++i)
@@ -81,8 +81,8 @@ bool OrbitFinder::is_on_section() {
     return true;
 }
 
-/// Runs the orbit from the point, with derivatives. Those of the run in which it is recorded are the orbit's own: from
-/// where Newton's method made its last step, products of many factors are not theirs to many digits.
+/// Runs the orbit from the point, with derivatives. The orbit's derivatives are those of the recorded run: at the point
+/// before Newton's last step, products of many factors would differ in many digits.
 void OrbitFinder::start_run(Stage stage) {
     stage_ = stage;
     SampleRecorder* const recorder = stage == Stage::recording ? &recorder_ : nullptr;
@@ -103,7 +103,7 @@ void OrbitFinder::start_run(Stage stage) {
     watcher_.follow(derivatives_);
 }
 
-/// Derivatives of the motion that has arrived. @return false where there are none
+/// Computes the derivatives of the completed run. @return false if there are none
 bool OrbitFinder::find_tangents(Eigen::MatrixXd& tangents) {
     if (!carries()) {
         derivatives_->carry();
@@ -144,7 +144,7 @@ bool OrbitFinder::proceed() {
     return stage_ == Stage::iterating ? iterate() : record();
 }
 
-/// The return map's derivatives and what follows from them, at the point from which the motion has arrived.
+/// Computes the derivative of the return map and its spectrum at the start of the completed run.
 bool OrbitFinder::linearise() {
     Eigen::MatrixXd tangents;
     if (!find_tangents(tangents) || !map_->project(workspace_, mode_, watcher_.recent(0).state, tangents))
@@ -166,7 +166,7 @@ bool OrbitFinder::iterate() {
     const double size = correction.cwiseQuotient(scale_).cwiseAbs().maxCoeff();
     if (!std::isfinite(size) || size > large_correction || ++iterations_ > most_shrinking)
         return fail();
-    // Next to a bifurcation an orbit is known no better than this, but that it is one is.
+    // Next to a bifurcation an orbit is known no better than this, but its existence is.
     const bool closes = defect.cwiseQuotient(scale_).cwiseAbs().maxCoeff() < map_->simulation().options().tolerance;
     const bool stalls = iterations_ > most_iterations && size > shrinking * correction_;
     if (stalls && !closes)
@@ -176,7 +176,7 @@ bool OrbitFinder::iterate() {
         const double before = point_[i], change = correction[static_cast<Eigen::Index>(i)];
         if (change != 0)
             point_[i] = within_period(point_[i] + change, periods_[i]);
-        // No motion leads to the other side.
+        // No motion leads to the other side of zero.
         if (field_->keeps_sign(i) && !(point_[i] * before > 0))
             point_[i] = 0;
     }
@@ -202,7 +202,7 @@ bool OrbitFinder::record() {
     if (!(residual_ < closed) || !others_return(watcher_.recent(0).state))
         return fail();
     keep_orbit();
-    // States of which nothing is known but that they are the same.
+    // Returns whether two states are equal to within their errors.
     const auto indistinct = [&](std::span<const double> a, std::span<const double> b) {
         Eigen::VectorXd difference(scale_.size());
         subtract_states(a, b, periods_, {difference.data(), map_->states()});
@@ -228,8 +228,8 @@ bool OrbitFinder::record() {
     return true;
 }
 
-/// Whether the states that take part, but are not for Newton's method to move, are where they began. A phase that is
-/// not has another period: nothing repeats itself, however little the other states show of it.
+/// Returns whether the states that take part, but that Newton's method does not change, return to their values. A phase
+/// that does not return has another period: the motion is not periodic, even if the other states show little of it.
 bool OrbitFinder::others_return(std::span<const double> image) const {
     std::vector<double> difference(map_->states());
     subtract_states(image, point_, periods_, difference);
@@ -240,7 +240,7 @@ bool OrbitFinder::others_return(std::span<const double> image) const {
     return true;
 }
 
-/// What is known of the orbit that has just been run: its duration, contacts, returns and extents.
+/// Stores the properties of the orbit that has just been run: duration, contacts, returns and extents.
 void OrbitFinder::keep_orbit() {
     duration_ = watcher_.recent(0).time;
     contacts_ = watcher_.contacts(period_);
@@ -254,12 +254,12 @@ void OrbitFinder::keep_orbit() {
             greatest = std::max(greatest, watcher_.recent(k).greatest[i]);
         }
         extents_[i] = greatest - least;
-        // What comes back to exactly where it was, from wherever it starts, is at rest; or, if it moves, on one of many
-        // orbits side by side, as the height of a ball that loses nothing.
+        // A state that returns exactly, from any initial value, is constant; or, if it moves, the orbit belongs to a
+        // continuous family, such as that of a ball that loses no energy.
         if (map_->takes_part(i) && !(periods_[i] > 0) && !is_active(i) && extents_[i] > same * std::abs(point_[i]))
             ++neutral;
     }
-    // That of a single active state stands for a section's map that forgets everything, which this one does not.
+    // For a single active state the multiplier 0 means a superstable map; this map is not one.
     if (neutral > 0 && !map_->is_phase() && jacobian_.active.size() == 1)
         spectrum_.multipliers.clear();
     add_neutral_multipliers(spectrum_.multipliers, neutral);
@@ -267,7 +267,7 @@ void OrbitFinder::keep_orbit() {
         recorded_.push_back(watcher_.recent(k).state);
 }
 
-/// Runs the image under the symmetry to its first return, which is one of the orbit's if that is its own image.
+/// Runs the image under the symmetry to its first return, which is a return of the orbit if the orbit is symmetric.
 void OrbitFinder::start_comparison() {
     std::vector<double> image(map_->states());
     std::vector<double> inputs(point_), work(image_->workspace());

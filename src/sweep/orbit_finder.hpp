@@ -18,35 +18,35 @@
 
 namespace graze {
 
-/// A periodic orbit near a state, by Newton's method on the return map: a state machine that asks for its trajectory to
-/// be run. When it has converged the orbit is run once more: it is sampled, its least period found, and whether it is
+/// Finds a periodic orbit near a state by Newton's method on the return map: a state machine that provides a trajectory
+/// to be run. After convergence the orbit is run once more to sample it, find its least period, and test whether it is
 /// its own image under the symmetry.
 class OrbitFinder {
 public:
-    /// @param field tells which states keep their signs; @param derivatives to follow motions with; null: trajectories
-    ///        are to carry theirs
+    /// @param field tells which states keep their signs; @param derivatives that follow motions; null: trajectories
+    /// propagate their own
     OrbitFinder(const SectionMap& map, const FieldMap& field, const SampleRecorder::Layout& layout,
                 const Function& image, const std::vector<std::size_t>& image_modes, MotionDerivatives* derivatives);
 
-    /// @param point where all begins; @param period in returns; @param scale of each state; @param duration about that
-    ///        of the period; @param sticks whether contacts are likely to accumulate
+    /// @param point the starting point; @param period in returns; @param scale of each state; @param duration estimate
+    /// of the period in time; @param sticks whether contacts are likely to accumulate
     void begin(std::span<const double> parameters, std::span<const double> periods, std::span<const double> point,
                std::size_t mode, std::size_t period, std::span<const double> scale, double duration, bool sticks);
-    /// Longest step of its trajectories from the next `begin` on; 0: any.
+    /// Bounds the steps of its trajectories from the next `begin` on; 0: no bound.
     void limit_step(double longest) { longest_step_ = longest; }
     Trajectory& trajectory() { return *trajectory_; }
-    /// To be called when the trajectory has finished. @return false when done, one way or the other
+    /// To be called when the trajectory has finished. @return false when done, successful or not
     bool proceed();
 
     bool found() const { return stage_ == Stage::found; }
-    /// Whether it gave up because the orbit, about at `point`, is so unstable that motions soon leave it.
+    /// Returns whether the search ended because the orbit, about at `point`, is so unstable that motions soon leave it.
     bool clearly_unstable() const { return stage_ == Stage::failed && clearly_unstable_; }
     std::span<const double> point() const { return point_; }
     std::size_t mode() const { return mode_; }
     std::size_t period() const { return period_; }
     double duration() const { return duration_; }
     double residual() const { return residual_; }
-    std::span<const double> extents() const { return extents_; } ///< of each state, along the orbit
+    std::span<const double> extents() const { return extents_; } ///< range of each state along the orbit
     const Eigen::MatrixXd& jacobian() const { return jacobian_.matrix; }
     bool is_active(std::size_t state) const;
     const std::vector<std::complex<double>>& multipliers() const { return spectrum_.multipliers; }
@@ -55,8 +55,9 @@ public:
     const std::vector<std::uint32_t>& contacts() const { return contacts_; }
     std::optional<bool> symmetric() const { return symmetric_; }
     SampleSet& samples() { return recorder_.samples(); }
-    const std::vector<std::vector<double>>& returns() const { return recorded_; } ///< states at those of the orbit
-    std::size_t returns_run() const { return returns_; }                          ///< since `begin`
+    /// Returns the states at the returns of the orbit.
+    const std::vector<std::vector<double>>& returns() const { return recorded_; }
+    std::size_t returns_run() const { return returns_; } ///< since `begin`
 
 private:
     enum class Stage { iterating, recording, comparing, found, failed };
@@ -94,7 +95,7 @@ private:
     double duration_ = 0, residual_ = 0, guard_ = 0, correction_ = 0, longest_step_ = 0;
     Stage stage_ = Stage::failed;
     bool clearly_unstable_ = false, returns_to_section_ = true;
-    bool sticks_ = false; ///< contacts accumulate: trajectories have to carry their derivatives
+    bool sticks_ = false; ///< contacts accumulate: trajectories have to propagate their derivatives
 };
 
 } // namespace graze

@@ -11,9 +11,9 @@ namespace graze {
 
 namespace {
 
-constexpr double shrunk = 0.1;     ///< to which what turns has to shrink
-constexpr double settled = 1e-7;   ///< deviation from which nothing is expected to leave any more
-constexpr std::size_t as_long = 2; ///< as the longest time without a contact that came after all
+constexpr double shrunk = 0.1;     ///< factor to which rotating deviations must shrink
+constexpr double settled = 1e-7;   ///< deviation from which a motion is not expected to leave any more
+constexpr std::size_t as_long = 2; ///< factor of the longest time before an unexpected contact
 
 std::size_t returns_to_shrink(const OrbitFinder& orbit) {
     const double radius = turning_radius(orbit);
@@ -51,8 +51,8 @@ void OrbitStay::begin(const OrbitFinder& orbit, const ReturnWatcher& motion, std
         needed_ = std::max(needed_, as_long * before - now);
 }
 
-OrbitStay::Verdict OrbitStay::look(const OrbitFinder& orbit, const ReturnWatcher& motion,
-                                   std::span<const double> periods) const {
+OrbitStay::Verdict OrbitStay::judge(const OrbitFinder& orbit, const ReturnWatcher& motion,
+                                    std::span<const double> periods) const {
     const std::size_t gone = this->gone(motion);
     if (needed_ == 0)
         return Verdict::stayed;
@@ -65,7 +65,7 @@ OrbitStay::Verdict OrbitStay::look(const OrbitFinder& orbit, const ReturnWatcher
         return Verdict::stayed;
     if (gone < needed_)
         return Verdict::staying;
-    // Half of what the slowest direction would do at least.
+    // Half of the shrinking of the slowest direction is required.
     const double radius = orbit.multipliers().empty() ? 0 : std::abs(orbit.multipliers().front());
     const std::size_t turns = gone / orbit.period();
     const double foreseen = std::pow(radius, static_cast<double>(turns));

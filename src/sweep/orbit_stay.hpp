@@ -9,33 +9,33 @@
 
 namespace graze {
 
-/// Whether a motion that comes close to a stable orbit stays with it. To be close once is not enough: where deviations
-/// turn about the orbit while they shrink, a contact that the orbit does not have may follow many returns later, and a
-/// chaotic motion passes by orbits by chance. The motion is followed until what turns has shrunk to a tenth, so that it
-/// has shown itself in all directions from which it may leave; and twice as long as it has ever been without a contact
-/// that the orbit does not have.
+/// Tests whether a motion close to a stable orbit stays with it. Being close once is not enough: where deviations
+/// rotate about the orbit while they shrink, a contact that the orbit does not have may follow many returns later, and
+/// chaotic motions pass by orbits by chance. The motion is followed until the rotating deviations have shrunk to a
+/// tenth, so that it has passed all directions in which it could leave; and for twice the longest time it has been
+/// without a contact that the orbit lacks.
 class OrbitStay {
 public:
     enum class Verdict { staying, stayed, left };
 
-    /// The motion is where `approaches` said so, at a return.
-    /// @param events whether anything can happen to the motion
+    /// Starts the test, at a return at which `approaches` is true.
+    /// @param events whether the motion can have contacts at all
     void begin(const OrbitFinder& orbit, const ReturnWatcher& motion, std::span<const double> periods, bool events);
-    /// To be called at each return from the next on, or at once.
-    Verdict look(const OrbitFinder& orbit, const ReturnWatcher& motion, std::span<const double> periods) const;
-    /// Returns of which it begins, and that it takes.
+    /// To be called at each later return, or at once.
+    Verdict judge(const OrbitFinder& orbit, const ReturnWatcher& motion, std::span<const double> periods) const;
+    /// Returns the number of returns that the test takes.
     std::size_t needed() const { return needed_; }
-    /// Returns since it began.
+    /// Returns the number of returns since the test began.
     std::size_t gone(const ReturnWatcher& motion) const { return motion.returns() - first_; }
 
 private:
     std::size_t first_ = 0, needed_ = 0;
-    double size_ = 0;           ///< of the deviation at the beginning
-    std::vector<double> scale_; ///< of the states at the beginning: where all of a motion shrinks, its extents do too
+    double size_ = 0;           ///< size of the deviation at the beginning
+    std::vector<double> scale_; ///< of the states at the beginning (the extents of a shrinking motion shrink too)
 };
 
-/// Largest modulus of the multipliers, but of a leading one that is real: along that direction the motion comes closer
-/// and closer, and what it meets there it has met. 0 if there is no other.
+/// Returns the largest modulus of the multipliers except a real leading one: along its direction the motion approaches
+/// monotonically and meets nothing new. 0 if there is no other.
 double turning_radius(const OrbitFinder& orbit);
 
 } // namespace graze

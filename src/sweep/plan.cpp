@@ -27,7 +27,7 @@ namespace {
 
 using Sink = std::function<void(std::size_t, const PointStart&, PointResult&)>;
 
-/// What the threads share.
+/// Data shared by the threads.
 struct Execution {
     const Plan& plan;
     const SearchFactory& searches;
@@ -37,7 +37,7 @@ struct Execution {
 
     std::atomic<std::size_t> next_chain{0};
     std::atomic<bool> stopped{false};
-    std::mutex mutex{}; ///< of the sink and the error
+    std::mutex mutex{}; ///< protects the sink and the error
     std::exception_ptr error{};
 
     bool must_stop() {
@@ -47,24 +47,24 @@ struct Execution {
     }
 };
 
-/// One chain after another, point by point.
+/// Executes chains one after another, point by point.
 class Worker {
 public:
     explicit Worker(Execution& execution) : execution_(&execution), search_(execution.searches.make()) {}
 
-    /// The trajectory to run first; null if nothing is left to do.
+    /// Returns the trajectory to run first; null if there is nothing to do.
     Trajectory* begin() { return next_point(); }
-    /// The one to run after the last has finished.
+    /// Returns the trajectory to run after the last one has finished.
     Trajectory* go_on() {
         if (execution_->must_stop())
             return nullptr;
         if (search_->proceed())
             return &search_->trajectory();
         PointResult& result = search_->result();
-        if (was_refused(result) && begin_elsewhere())
+        if (was_refused(result) && try_another_start())
             return &search_->trajectory();
-        if (!elsewhere_.empty())
-            result.outcome.detail += (result.outcome.detail.empty() ? "" : "; ") + elsewhere_;
+        if (!start_note_.empty())
+            result.outcome.detail += (result.outcome.detail.empty() ? "" : "; ") + start_note_;
         carried_ = can_be_carried_on(result);
         if (execution_->plan.carry) {
             state_ = result.state;
@@ -81,18 +81,18 @@ public:
     }
 
 private:
-    /// Whether a state that was carried along, or should have been, violates a barrier where the point begins.
+    /// Returns whether a carried state violates a barrier at this point.
     bool was_refused(const PointResult& result) const {
         return execution_->plan.carry && index_ > 0 && result.outcome.ending == Ending::inadmissible &&
                result.time == 0;
     }
 
-    /// Tries the initial state in place of the one that was carried along, then the nearest that violates no barrier.
-    bool begin_elsewhere() {
+    /// Tries the point's own initial state instead of the carried one, then the nearest admissible state.
+    bool try_another_start() {
         if (attempt_ == Attempt::carried) {
             attempt_ = Attempt::initial;
             start_ = initial_;
-            elsewhere_ = "began anew at the initial state: the one carried from the point before violates a barrier";
+            start_note_ = "began anew at the initial state: the one carried from the point before violates a barrier";
         } else if (attempt_ == Attempt::initial) {
             attempt_ = Attempt::nearest;
             const bool from_carried = carried_;
@@ -103,9 +103,9 @@ private:
                 return false;
             start_.state = *nearest;
             start_.mode = from_carried ? mode_ : initial_.mode;
-            elsewhere_ = fmt::format("began anew at the admissible state nearest to the {} one, since that and the "
-                                     "initial one violate a barrier",
-                                     from_carried ? "carried" : "initial");
+            start_note_ = fmt::format("began anew at the admissible state nearest to the {} one, since that and the "
+                                      "initial one violate a barrier",
+                                      from_carried ? "carried" : "initial");
         } else {
             return false;
         }
@@ -133,7 +133,7 @@ private:
         if (execution_->must_stop())
             return nullptr;
         start_ = plan.start(chain_ * plan.chain_length + index_);
-        elsewhere_.clear();
+        start_note_.clear();
         attempt_ = Attempt::initial;
         if (plan.carry)
             initial_ = start_;
@@ -152,8 +152,8 @@ private:
     std::size_t chain_ = 0, index_ = 0, mode_ = 0;
     std::vector<double> state_;
     PointStart start_, initial_;
-    enum class Attempt { carried, initial, nearest } attempt_ = Attempt::initial; ///< where the point begins
-    std::string elsewhere_; ///< what is said of a point that does not begin where it should
+    enum class Attempt { carried, initial, nearest } attempt_ = Attempt::initial; ///< kind of the initial state
+    std::string start_note_; ///< note on a point that does not start where it should
 };
 
 void work(Execution& execution, std::size_t slots) {
@@ -180,7 +180,7 @@ void work(Execution& execution, std::size_t slots) {
 bool execute(const Plan& plan, const SearchFactory& searches, std::span<const ChainProgress> progress,
              const ExecutionOptions& options, const Sink& sink) {
     if (!plan.start || !sink)
-        throw InputError("a plan needs a start, and somebody who takes its results", "give both functions");
+        throw InputError("a plan needs a function for initial values and one for results", "give both functions");
     if (!progress.empty())
         require_size(progress.size(), plan.chains, "chains of progress");
     for (const ChainProgress& chain : progress)
@@ -195,7 +195,7 @@ bool execute(const Plan& plan, const SearchFactory& searches, std::span<const Ch
         return true;
     const auto jobs = std::min(static_cast<std::size_t>(std::max(options.jobs, 1)), chains);
     const auto lanes = static_cast<std::size_t>(lanes_of(LaneKind::ensemble, options.instruction_set));
-    // Two lanefuls keep lanes busy while modes differ; few chains are better spread over threads.
+    // Two trajectories per lane keep lanes busy while modes differ; few chains are better distributed over threads.
     const std::size_t slots = std::clamp<std::size_t>((chains + jobs - 1) / jobs, 1, 2 * lanes);
     {
         std::vector<std::jthread> threads;

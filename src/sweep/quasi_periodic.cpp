@@ -10,16 +10,16 @@ namespace graze {
 namespace {
 
 constexpr std::size_t fewest_returns = 200;
-constexpr double moves = 1e-3; ///< least extent at returns, relative to that of the motion
-/// Distance, relative to the extent at returns, at which a motion may have come back: then it is looked at again.
+constexpr double moves = 1e-3; ///< least extent at returns relative to that of the motion; smaller: at rest
+/// Distance from an earlier return, relative to the extent at returns, below which a recurrence is examined.
 constexpr double back = 1e-4;
-/// By which the distance from an earlier return shrinks if the motion approaches a long orbit.
+/// Factor by which the distance from an earlier return shrinks if the motion approaches a long orbit.
 constexpr double shrinking = 0.9;
-/// Distance, likewise, at which it has arrived there.
+/// Distance at which the motion has arrived at the orbit.
 constexpr double arrived = 1e-9;
-constexpr std::size_t fewest_back = 8; ///< returns that show a period longer than half of those that were seen
+constexpr std::size_t fewest_back = 8; ///< fewest returns that show a period longer than half of the observation
 
-/// Functions of the states whose averages are compared: of each, one number for each return.
+/// Returns functions of the states whose averages are compared: for each, one number for each return.
 std::vector<std::vector<double>> observables(const VisitedStates& visited, std::span<const double> extents,
                                              bool& moving) {
     const std::size_t states = visited.periods.size(), returns = visited.returns();
@@ -54,7 +54,7 @@ std::vector<std::vector<double>> observables(const VisitedStates& visited, std::
             coordinate[k] = (2 * value(k) - low - high) / (high - low);
         coordinates.push_back(std::move(coordinate));
     }
-    // Squares and products tell a spiral that comes closer from a closed curve.
+    // Squares and products distinguish a spiral that contracts from a closed curve.
     for (std::size_t i = 0; i < coordinates.size(); ++i)
         for (std::size_t j = i; j < std::min(coordinates.size(), i + 2); ++j) {
             std::vector<double> product(returns);
@@ -66,8 +66,8 @@ std::vector<std::vector<double>> observables(const VisitedStates& visited, std::
     return all;
 }
 
-/// Whether some state goes farther in one half of the returns than in the other, by so much that the motion grows or
-/// shrinks: the averages of one that grows at a constant rate are even, since all but its end is small.
+/// Returns whether the extent of a state differs between the halves of the returns by so much that the motion grows or
+/// shrinks: averages of exponential growth are even, since all values except the last ones are small.
 bool changes_size(const VisitedStates& visited) {
     constexpr double most = 3;
     const std::size_t states = visited.periods.size(), half = visited.returns() / 2;
@@ -89,7 +89,8 @@ bool changes_size(const VisitedStates& visited) {
     return false;
 }
 
-/// Averages along a quasi-periodic motion converge faster than any power of their length when its ends have no weight.
+/// Averages of quasi-periodic motions converge faster than any power of time if the weights vanish smoothly at the
+/// ends.
 double weighted_average(std::span<const double> values) {
     double sum = 0, weights = 0;
     for (std::size_t k = 0; k < values.size(); ++k) {
@@ -101,7 +102,7 @@ double weighted_average(std::span<const double> values) {
     return sum / weights;
 }
 
-/// Largest distance of two returns in any state, relative to its extent.
+/// Returns the largest distance of two returns in any state, relative to its extent.
 double distance(const VisitedStates& visited, std::span<const double> extents, std::size_t a, std::size_t b) {
     const std::size_t states = visited.periods.size();
     double largest = 0;
@@ -115,8 +116,8 @@ double distance(const VisitedStates& visited, std::span<const double> extents, s
     return largest;
 }
 
-/// Whether the motion has come back to where it was, or comes closer to that from one time to the next: its period is
-/// only too long to be tried.
+/// Returns whether the motion has returned to an earlier state, or comes closer to it each time: its period is only
+/// longer than those searched.
 bool comes_back(const VisitedStates& visited, std::span<const double> extents) {
     const std::size_t last = visited.returns() - 1;
     for (std::size_t lag = 1; lag <= last / 2; ++lag) {
@@ -131,7 +132,7 @@ bool comes_back(const VisitedStates& visited, std::span<const double> extents) {
         if (newer < arrived || newer < shrinking * older)
             return true;
     }
-    // Of periods beyond half of the returns fewer are seen: all of these must be where they were.
+    // Periods beyond half of the returns are observed only in part: all observed returns must agree.
     for (std::size_t lag = last / 2 + 1; lag + fewest_back <= last; ++lag) {
         double largest = 0;
         for (std::size_t k = lag; k <= last && largest < arrived; ++k)
@@ -142,8 +143,8 @@ bool comes_back(const VisitedStates& visited, std::span<const double> extents) {
     return false;
 }
 
-/// How far apart returns are that are closest to each other, at the same few returns' distance all along. Chaos in
-/// narrow bands has averages as even as these bands are narrow.
+/// Returns the smallest distance between returns with a common lag of few returns. Chaos in narrow bands has averages
+/// as even as these bands are narrow.
 double closest_lag(const VisitedStates& visited, std::span<const double> extents) {
     constexpr std::size_t most = 96;
     double closest = std::numeric_limits<double>::infinity();

@@ -10,22 +10,22 @@ namespace graze {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// Share of the time since the last return within which two things count as simultaneous.
+/// Share of the time since the last return within which two occurrences count as simultaneous.
 constexpr double simultaneous = 1e-10;
-/// Extents smaller than this share of the largest that a state ever had are noise.
+/// Extents below this share of the largest extent of a state are noise.
 constexpr double least_extent = 1e-6;
 /// Extents smaller than this share of a state's size are its round-off.
 constexpr double round_off = 1e-12;
-/// What rounding makes of a state within a return is no more than this share of its scale: less than by which orbits
-/// close.
+/// The effect of rounding on a state within a return is at most this share of its scale, less than the tolerance at
+/// which orbits close.
 constexpr double noise_share = 1e-10;
-/// Shares of the threshold of a recurrence: for one that needs no other evidence, and for the one before it.
+/// Shares of the threshold of a recurrence: for one that needs no further evidence, and for the one before it.
 constexpr double striking = 1e-3;
 constexpr double approaching = 30;
-/// Distance of a return that is where another was.
+/// Distance of a return that repeats an earlier one exactly.
 constexpr double exact = 1e-10;
-constexpr std::size_t most_steps = 100'000; ///< without a return
-constexpr std::size_t first_look = 64;      ///< steps without a return after which the motion may rest
+constexpr std::size_t most_steps = 100'000; ///< longest run without a return
+constexpr std::size_t first_check = 64;     ///< steps without a return after which the motion is first examined
 
 } // namespace
 
@@ -41,7 +41,7 @@ void ReturnWatcher::begin(std::span<const double> parameters, std::span<const do
     derivatives_ = nullptr;
     next_ = returns_ = last_stuck_ = 0;
     alike_.assign(ring_.size(), {});
-    escaped_ = stuck_ = looking_ = false;
+    escaped_ = stuck_ = paused_ = false;
     std::fill(widest_.begin(), widest_.end(), 0.0);
     std::fill(scale_.begin(), scale_.end(), 1.0);
     thresholds_ = nullptr;
@@ -56,7 +56,7 @@ void ReturnWatcher::start_leg(double time, double shortest) {
     shortest_ = shortest;
     pending_ = stop_ = false;
     recurrent_ = steps_ = 0;
-    next_look_ = first_look;
+    next_check_ = first_check;
     current_.contacts.clear();
     std::fill(least_.begin(), least_.end(), infinity);
     std::fill(greatest_.begin(), greatest_.end(), -infinity);
@@ -86,12 +86,12 @@ void ReturnWatcher::step(const Step& step) {
     for (const StateBounds& bounds : bounds_)
         escaped_ = escaped_ || !bounds.contain(step.state(bounds.state, step.length));
     stuck_ = ++steps_ > most_steps && !any_steps_;
-    looking_ = rest_ && steps_ >= next_look_;
-    if (looking_) {
-        next_look_ *= 2;
+    paused_ = rest_ && steps_ >= next_check_;
+    if (paused_) {
+        next_check_ *= 2;
         widen();
     }
-    stop_ = stop_ || escaped_ || stuck_ || looking_;
+    stop_ = stop_ || escaped_ || stuck_ || paused_;
 }
 
 void ReturnWatcher::contact(const Contact& contact) {
@@ -101,12 +101,12 @@ void ReturnWatcher::contact(const Contact& contact) {
         derivatives_->contact(contact);
     if (contact.kind == ContactKind::touch)
         return;
-    // The step behind it is told of when the return to which it leads is over already.
+    // The step after the contact is only reported when the return to which it leads is complete.
     include(contact.before);
     include(contact.after);
     current_.contacts.push_back(
         static_cast<std::uint32_t>(2 * contact.transition + (contact.kind == ContactKind::sticking ? 1 : 0)));
-    // Where the section is the surface of an event, a return is over when its jump is made.
+    // If the section is the surface of an event, a return is complete when its jump has been made.
     if (pending_) {
         pending_ = false;
         if (derivatives_)
@@ -155,8 +155,8 @@ void ReturnWatcher::arrive(double time, std::size_t mode, std::span<const double
     parts_.add(part(0));
     compare_contacts();
     steps_ = 0;
-    next_look_ = first_look;
-    looking_ = false;
+    next_check_ = first_check;
+    paused_ = false;
     if (recorder_)
         recorder_->mark();
     check_bounds(state);
@@ -191,7 +191,7 @@ void ReturnWatcher::widen() {
         lowest_[i] = std::min(lowest_[i], least_[i]);
         highest_[i] = std::max(highest_[i], greatest_[i]);
     }
-    if (early_.empty() && (returns_ > 0 || looking_))
+    if (early_.empty() && (returns_ > 0 || paused_))
         early_ = widest_;
 }
 
@@ -209,15 +209,15 @@ void ReturnWatcher::update_scale() {
             high = std::max(high, recent(k).greatest[i]);
         }
         const double extent = std::max(high - low, least_extent * widest_[i]);
-        // What does not move at all is measured by its size.
+        // A state that does not move at all is measured by its size.
         const double size = std::max(std::abs(high), std::abs(low));
         scale_[i] = extent > round_off * size ? extent : size > 0 ? size : 1;
-        // What nothing moves but the rounding of its rate has no extent of its own.
+        // A state that is moved only by the rounding of its rate has no extent of its own.
         scale_[i] = std::max(scale_[i], noise_[i] / noise_share);
     }
 }
 
-/// How far rounding may have moved each state since the last return.
+/// Estimates the displacement of each state by rounding since the last return.
 void ReturnWatcher::find_noise() {
     std::fill(noise_.begin(), noise_.end(), 0.0);
     const Return& last = recent(0);
@@ -248,7 +248,7 @@ std::size_t ReturnWatcher::find_recurrence() {
             continue;
         if (now <= striking * threshold)
             return n;
-        // Chaotic motions come back by chance, but not twice in a row and closer.
+        // Chaotic motions recur by chance, but not twice in a row and closer.
         if (remembered() <= 2 * n)
             continue;
         const double before = distance(recent(n).state, recent(2 * n).state);
@@ -258,7 +258,7 @@ std::size_t ReturnWatcher::find_recurrence() {
     return find_exact_recurrence();
 }
 
-/// Of a period that is longer than those that are looked for. The same must have happened in two periods.
+/// Finds an exact recurrence with a period longer than those searched. Two periods must have had the same contacts.
 std::size_t ReturnWatcher::find_exact_recurrence() {
     for (std::size_t n = std::max(largest_, returns_ - last_stuck_) + 1; last_stuck_ > 0 && n < remembered(); ++n)
         if (recent(n).mode == recent(0).mode && alike(n) >= n &&

@@ -15,30 +15,30 @@
 
 namespace graze {
 
-/// A passage of the section, with what happened since the one before.
+/// A passage of the section, with the contacts since the one before.
 struct Return {
     double time = 0;
     std::size_t mode = 0;
-    std::vector<double> state, least, greatest; ///< extent of the states since the return before
+    std::vector<double> state, least, greatest; ///< range of the states since the return before
     std::vector<std::uint32_t> contacts;        ///< 2 * transition, plus 1 where contacts accumulated
 };
 
-/// Follows a trajectory from return to return, and stops it where it is told to.
+/// Observes a trajectory from return to return, and stops it on request.
 class ReturnWatcher : public Observer {
 public:
-    /// @param kept how many of the last returns are remembered; @param bounds of states, may be empty
+    /// @param kept number of last returns that are stored; @param bounds of states, may be empty
     ReturnWatcher(const SectionMap& map, std::size_t kept, std::vector<StateBounds> bounds);
 
-    /// @param recorder also sees what happens; may be null
+    /// @param recorder receives all calls too; may be null
     void begin(std::span<const double> parameters, std::span<const double> periods, SampleRecorder* recorder);
-    /// A trajectory starts at this time: returns that come sooner than `shortest` are the start itself.
+    /// Starts a trajectory at this time: returns earlier than `shortest` are the start itself.
     void start_leg(double time, double shortest);
     void stop_after(std::size_t returns) { stop_after_ = returns; }
-    /// From now on these see what happens too, with marks at returns; null: none.
+    /// From now on `derivatives` observe the motion too, with marks at returns; null: none.
     void follow(MotionDerivatives* derivatives) { derivatives_ = derivatives; }
-    /// Whether to stop at returns that come this close to one of the last `largest` (in the measure of `scale`); or
-    /// that are where one before was, after contacts have accumulated: motions that have forgotten all they were repeat
-    /// themselves exactly, whatever their period. @param thresholds for each return that is remembered
+    /// Stops at returns that are close to one of the last `largest` returns (in units of `scale`); or that equal an
+    /// earlier return after an accumulation of contacts: motions that lose all memory there repeat themselves exactly,
+    /// whatever the period. @param thresholds allowed distance for each number of returns
     void watch_recurrence(std::vector<double>* thresholds, std::size_t largest) {
         thresholds_ = thresholds;
         largest_ = largest;
@@ -46,46 +46,46 @@ public:
 
     std::size_t returns() const { return returns_; }
     bool escaped() const { return escaped_; }
-    /// Whether it stopped because no return would come.
+    /// True if the trajectory was stopped because no return can be expected.
     bool stuck() const { return stuck_; }
-    /// However many steps a return may take: its time is bounded otherwise.
+    /// Allows any number of steps in a return: its time is bounded otherwise.
     void allow_any_steps(bool any) { any_steps_ = any; }
-    /// Whether to stop, every now and then, where no return comes.
+    /// Enables stops for examination while no return comes.
     void watch_rest(bool rest) { rest_ = rest; }
-    /// Whether it stopped to be looked at, since no return has come for long.
-    bool looking() const { return looking_; }
-    /// Largest extent of each state between any two returns so far.
+    /// True if it stopped for examination because no return has come for long.
+    bool paused() const { return paused_; }
+    /// Returns the largest extent of each state between two returns so far.
     std::span<const double> widest() const { return widest_; }
-    /// Extent of each state over all returns so far.
+    /// Returns the extent of each state over all returns so far.
     double range(std::size_t state) const { return highest_[state] - lowest_[state]; }
     double lowest(std::size_t state) const { return lowest_[state]; }
-    /// Extent of each state at the beginning: up to the second return, or until it was first looked at.
+    /// Returns the extent of each state at the beginning: up to the second return, or to the first examination.
     std::span<const double> early() const { return early_; }
-    /// What comes is a beginning: the motion has been displaced.
+    /// Marks a new beginning: the motion has been displaced.
     void begin_anew() { early_.clear(); }
-    /// All returns so far, in a few parts.
+    /// Returns all returns so far in a few parts.
     const MotionParts& parts() const { return parts_; }
-    /// Between which values the states were since the return before that one, that return included: in long steps it is
-    /// all that is known of what came between.
+    /// Returns the range of the states from one return (included) to the next: in long steps nothing else is known of
+    /// the motion in between.
     MotionPart part(std::size_t before) const;
-    /// Period at whose return it stopped; 0: none.
+    /// Returns the period of the recurrence at which it stopped; 0: none.
     std::size_t recurrent() const { return recurrent_; }
-    /// Whether that is longer than those that are looked for, of a motion that repeats itself exactly.
+    /// Returns whether that is an exact repetition with a period longer than those that are searched.
     bool recurs_exactly() const { return recurrent_ > largest_; }
-    /// The return `before` returns before the last.
+    /// Returns the return that is `before` returns before the last.
     const Return& recent(std::size_t before) const { return ring_[(next_ + ring_.size() - 1 - before) % ring_.size()]; }
     std::size_t remembered() const { return std::min(returns_, ring_.size()); }
-    /// Extent of each state over the last returns; never zero.
+    /// Returns the extent of each state over the last returns; never zero.
     std::span<const double> scale() const { return scale_; }
-    /// Distance of two states in that measure.
+    /// Returns the distance of two states in units of `scale`.
     double distance(std::span<const double> a, std::span<const double> b);
-    /// Whether contacts have accumulated within the last `count` returns.
+    /// Returns whether contacts have accumulated within the last `count` returns.
     bool has_stuck(std::size_t count) const;
-    /// How many returns in a row, up to the last, have had the contacts of the return one period before; and the most
-    /// before others came. @param period in returns, of those that are watched for recurrence
+    /// Returns the number of consecutive returns up to the last with the contacts of the return one period before; and
+    /// the largest such number before other contacts came. @param period in returns, at most `largest`
     std::size_t alike(std::size_t period) const { return alike_[period].now; }
     std::size_t longest_alike(std::size_t period) const { return alike_[period].longest; }
-    /// All contacts of the last `count` returns.
+    /// Returns all contacts of the last `count` returns.
     std::vector<std::uint32_t> contacts(std::size_t count) const;
 
     void step(const Step& step) override;
@@ -117,12 +117,12 @@ private:
     MotionParts parts_;
     Return current_;
     std::size_t next_ = 0, returns_ = 0, stop_after_ = 0, largest_ = 0, recurrent_ = 0;
-    std::size_t last_stuck_ = 0; ///< return at which contacts had accumulated, counted from 1
+    std::size_t last_stuck_ = 0; ///< last return with an accumulation of contacts, counted from 1
     std::vector<double>* thresholds_ = nullptr;
     double leg_start_ = 0, shortest_ = 0, pending_time_ = 0;
     bool any_steps_ = false;
-    bool pending_ = false, stop_ = false, escaped_ = false, stuck_ = false, looking_ = false, rest_ = false;
-    std::size_t steps_ = 0, next_look_ = 0; ///< since the last return
+    bool pending_ = false, stop_ = false, escaped_ = false, stuck_ = false, paused_ = false, rest_ = false;
+    std::size_t steps_ = 0, next_check_ = 0; ///< steps since the last return, and at the next examination
     struct Alike {
         std::size_t now = 0, longest = 0;
     };

@@ -13,15 +13,15 @@
 
 namespace graze {
 
-/// Takes the samples of a run along one motion.
+/// Records the samples of a run along one motion.
 class SampleRecorder {
 public:
-    /// What all recorders of a run share; immutable.
+    /// Data shared by all recorders of a run; immutable.
     class Layout {
     public:
         /// @throws InputError for sections that the model does not have
         Layout(const System& system, const std::vector<Sampling>& samplings, const std::vector<Expression>& values);
-        /// For samplings at sections and extrema, in their order.
+        /// Returns the probes for samplings at sections and extrema, in their order.
         const std::vector<Probe>& probes() const { return probes_; }
 
     private:
@@ -30,24 +30,24 @@ public:
         std::vector<std::size_t> sampling_of_probe_;
         std::vector<std::vector<std::size_t>> samplings_of_event_;
         std::vector<std::size_t> image_of_sampling_; ///< index in images_, or none
-        std::vector<Function> images_;               ///< of states and parameters
+        std::vector<Function> images_;               ///< images under symmetries, in states and parameters
         Function values_, periods_;
         std::size_t states_ = 0, parameters_ = 0;
     };
 
-    /// @param first_probe index in the simulation of the first of the layout's probes
+    /// @param first_probe index of the layout's first probe in the simulation
     SampleRecorder(const Layout& layout, std::size_t first_probe);
 
-    /// Forgets everything.
+    /// Clears the samples.
     void begin(std::span<const double> parameters);
     void set_origin(double time) { origin_ = time; }
     void passage(const Passage& passage);
     void contact(const Contact& contact);
-    /// A motion rests: every sampling but those of contacts has this one value.
+    /// Records a motion at rest: each sampling except contacts gets this one value.
     void rest(double time, std::span<const double> state);
-    /// A return to the section is over.
+    /// Marks the end of a return to the section.
     void mark();
-    /// Forgets samples older than the last returns.
+    /// Removes samples older than the last returns.
     void keep_last(std::size_t returns);
     SampleSet& samples() { return samples_; }
 
@@ -59,7 +59,7 @@ private:
     double origin_ = 0;
     std::vector<double> inputs_, image_, periods_, work_;
     SampleSet samples_;
-    std::deque<std::size_t> marks_; ///< samples at the ends of returns
+    std::deque<std::size_t> marks_; ///< number of samples at the ends of returns
 };
 
 } // namespace graze

@@ -15,7 +15,7 @@ namespace graze {
 
 namespace {
 
-constexpr double simultaneous_phase = 1e-10; ///< share of a period
+constexpr double simultaneous_phase = 1e-10; ///< relative to the period
 
 } // namespace
 
@@ -98,7 +98,7 @@ void SectionMap::add_round_off(Workspace& workspace, std::size_t mode, std::span
     const Function& rates = simulation_.system().mode(mode).rates;
     std::copy(state.begin(), state.end(), workspace.inputs.begin());
     std::fill(workspace.errors.begin(), workspace.errors.end(), 0.0);
-    // What round-off makes of a speed it makes of the position, too.
+    // Round-off of a speed causes the same of the position.
     for (int order = 0; order < 2; ++order) {
         rates.error_bounds(workspace.inputs, workspace.errors, workspace.field, workspace.work);
         for (std::size_t i = 0; i < states_; ++i) {
@@ -162,7 +162,7 @@ ReturnJacobian return_jacobian(const SectionMap& map, const Eigen::MatrixXd& tan
 
 namespace {
 
-/// Rows and columns of the active states, in units of their scales.
+/// Returns rows and columns of the active states, in units of their scales.
 Eigen::MatrixXd scaled_matrix(const ReturnJacobian& jacobian, const Eigen::VectorXd& scale) {
     const auto size = static_cast<Eigen::Index>(jacobian.active.size());
     Eigen::MatrixXd matrix(size, size);
@@ -189,8 +189,8 @@ Eigen::VectorXd newton_correction(const ReturnJacobian& jacobian, const Eigen::V
         const auto state = static_cast<Eigen::Index>(jacobian.active[static_cast<std::size_t>(i)]);
         right[i] = -defect[state] / scale[state];
     }
-    // What is left of entries that cancel is the error of derivatives: along directions in which all neighbours return,
-    // too, there is nothing to be corrected.
+    // Entries that cancel leave the error of derivatives: in directions in which all neighbours return too, nothing is
+    // to be corrected.
     constexpr double errors_of_derivatives = 1e-12;
     const double largest = matrix.colwise().norm().maxCoeff();
     const double usual = std::numeric_limits<double>::epsilon() * static_cast<double>(size);
@@ -220,8 +220,8 @@ std::optional<ReturnSpectrum> return_spectrum(const SectionMap& map, const Retur
         order[i] = static_cast<Eigen::Index>(i);
     std::stable_sort(order.begin(), order.end(),
                      [&](auto a, auto b) { return std::abs(values[a]) > std::abs(values[b]); });
-    // The flow's direction is projected out at a crossing section, which leaves one multiplier that is zero.
-    // Of a single state that one is all there is: the return map forgets everything, and what is left is round-off.
+    // At a crossing section, the projection along the flow adds one multiplier zero. If there is a single state, this
+    // is the only one: the return map is constant, and the value is round-off.
     const std::size_t count = map.is_phase() || order.size() == 1 ? order.size() : order.size() - 1;
     for (std::size_t i = 0; i < count; ++i)
         result.multipliers.push_back(!map.is_phase() && order.size() == 1 ? 0.0 : values[order[i]]);

@@ -14,15 +14,15 @@ namespace graze {
 
 namespace {
 
-/// Directions up to which all of them in lanes are cheaper than one or more that a trajectory carries.
+/// Number of directions up to which lanes are faster than a trajectory that propagates any of them.
 constexpr std::size_t most_directions = 6;
-/// Parts in which a step is followed. Where more are needed, derivatives run away from a motion that nothing is known
-/// of any more, as of what has died away to the smallest numbers.
+/// Largest number of parts of a step. If more are needed, derivatives diverge from a motion of which nothing is known,
+/// such as one that has decayed to the smallest numbers.
 constexpr std::size_t most_parts = 16384;
-/// Parts that have been followed, after which the memory of them is given back.
+/// Number of completed parts after which their memory is released.
 constexpr std::size_t most_done = 1024;
 
-/// Whether the rate of a state is the same whatever the states and the mode, and no jump changes it.
+/// Returns whether the rate of a state is constant in all modes, and no jump changes it.
 bool is_clock(const System& system, Model& model, std::size_t state) {
     Expression rate;
     for (const Mode& mode : model.modes) {
@@ -78,7 +78,7 @@ std::vector<VariationalModes::Mode> linearised(const System& system, const std::
 } // namespace
 
 VariationalModes::VariationalModes(const SectionMap& map) : simulation_(map.simulation()) {
-    // Models with many states are not to be differentiated for nothing.
+    // Models with many states are not differentiated needlessly.
     if (simulation_.system().states() > 2 * most_directions)
         return;
     directions_ = directions_of(map);
@@ -165,7 +165,7 @@ void StepMaps::compute() {
     }
 }
 
-/// States into lanes; those that are empty repeat the first.
+/// Loads states into lanes; empty lanes repeat the first.
 void StepMaps::load(std::span<const Part> parts) {
     for (std::size_t lane = 0; lane < lanes_; ++lane) {
         const Part& part = parts[lane < parts.size() ? lane : 0];
@@ -191,17 +191,17 @@ void StepMaps::compute(std::size_t mode, std::span<Part> parts) {
     here.columns.misfit(here.end_columns, allowance, times_, scale_, sums_, slopes_, worst_);
     for (std::size_t lane = 0; lane < parts.size(); ++lane) {
         Part& part = parts[lane];
-        if (!believe(part, worst_[lane])) {
+        if (!accept(part, worst_[lane])) {
             queues_[mode].push_back(part);
             continue;
         }
         apply(part, lane);
-        go_on_behind(mode, part, lane);
+        continue_after(mode, part, lane);
     }
 }
 
-/// What is left of a step behind a part of it comes last.
-void StepMaps::go_on_behind(std::size_t mode, const Part& part, std::size_t lane) {
+/// Appends the rest of a step after a part of it.
+void StepMaps::continue_after(std::size_t mode, const Part& part, std::size_t lane) {
     const double left = part.length - part.attempt;
     if (!(left > 0))
         return;
@@ -222,9 +222,9 @@ void StepMaps::go_on_behind(std::size_t mode, const Part& part, std::size_t lane
                              .accepted = false});
 }
 
-/// How far each part can be followed at once.
+/// Finds the length over which each part can be followed at once.
 void StepMaps::find_reaches(const ColumnSeries& columns, std::span<Part> parts) {
-    constexpr int rounds = 6; // sizes shrink with the step
+    constexpr int rounds = 6; // iterations, since sizes shrink with the step
     if (order_ < 3)
         return;
     const double root = 1.0 / (order_ - 1);
@@ -245,8 +245,8 @@ void StepMaps::find_reaches(const ColumnSeries& columns, std::span<Part> parts) 
     }
 }
 
-/// Whether a part is good enough; one that is not is to be halved.
-bool StepMaps::believe(Part& part, double misfit) const {
+/// Returns whether a part is accurate enough; otherwise it is to be halved.
+bool StepMaps::accept(Part& part, double misfit) const {
     if (misfit <= 1 || part.accepted)
         return true;
     if (part.halvings == 0)
@@ -263,7 +263,7 @@ bool StepMaps::believe(Part& part, double misfit) const {
     return false;
 }
 
-/// What the step has been followed for so far, and this part of it behind.
+/// Multiplies the map of the completed parts by that of this part.
 void StepMaps::apply(const Part& part, std::size_t lane) {
     double* map = &maps_[part.step * map_size_];
     if (part.before == 0) {

@@ -14,9 +14,9 @@ namespace {
 
 constexpr double forever = std::numeric_limits<double>::infinity();
 
-/// Steps, passages and contacts without any that brings the end nearer, after which no end is expected where no time is
-/// given: a step goes over a part of an oscillation, so that there have been a hundred thousand of the fastest at
-/// least. (Of a motion at rest one step goes on for ever, and only passages come.)
+/// Number of steps, passages and contacts without progress after which, without a time limit, no end is expected: a
+/// step covers a part of an oscillation, so these are at least a hundred thousand oscillations of the fastest kind. (A
+/// motion at rest makes a single step with endless passages.)
 constexpr std::size_t patience = 1'000'000;
 
 [[noreturn]] void refuse(const std::string& problem, const std::string& remedy) {
@@ -78,7 +78,7 @@ void TransientSearch::begin(std::span<const double> parameters, std::span<const 
     trajectory_->start(state, mode, 0, shown_ ? end_of(0) : options.skip_time > 0 ? options.skip_time : forever);
 }
 
-/// Time at which what is shown ends if it begins at `time`.
+/// Returns the time at which the sampled part ends if it begins at `time`.
 double TransientSearch::end_of(double time) const {
     return setting_->options.time > 0 ? time + setting_->options.time : forever;
 }
@@ -86,19 +86,18 @@ double TransientSearch::end_of(double time) const {
 void TransientSearch::step(const Step& step) {
     for (const StateBounds& bounds : setting_->options.bounds)
         escaped_ = escaped_ || !bounds.contain(step.state(bounds.state, step.length));
-    stop_ = stop_ || escaped_ || waits_in_vain();
+    stop_ = stop_ || escaped_ || has_stalled();
 }
 
-/// Counts what happens; whether what is counted by the run, where nothing but a count ends the leg, has not happened
-/// for too long.
-bool TransientSearch::waits_in_vain() {
+/// Counts an occurrence; returns whether a leg that is ended only by a count has had no progress for too long.
+bool TransientSearch::has_stalled() {
     ++waited_;
     const TransientOptions& options = setting_->options;
     return waited_ >= patience && !((shown_ ? options.time : options.skip_time) > 0);
 }
 
-/// Of a motion that was given up.
-Outcome TransientSearch::end_in_vain() const {
+/// Returns the outcome of a motion that was given up.
+Outcome TransientSearch::stalled_outcome() const {
     const TransientOptions& options = setting_->options;
     const bool by_contacts = shown_ && (options.contacts > 0 || options.greatest_speed > 0);
     const bool by_periods = (shown_ ? options.periods : options.skip_periods) > 0;
@@ -114,7 +113,7 @@ Outcome TransientSearch::end_in_vain() const {
 void TransientSearch::contact(const Contact& contact) {
     if (shown_)
         recorder_.contact(contact);
-    stop_ = stop_ || waits_in_vain();
+    stop_ = stop_ || has_stalled();
     if (!shown_ || contact.kind == ContactKind::touch || !setting_->counted[contact.event])
         return;
     ++contacts_;
@@ -129,7 +128,7 @@ void TransientSearch::contact(const Contact& contact) {
 void TransientSearch::passage(const Passage& passage) {
     if (shown_)
         recorder_.passage(passage);
-    stop_ = stop_ || waits_in_vain();
+    stop_ = stop_ || has_stalled();
     if (setting_->options.section.empty() || passage.probe + 1 != setting_->simulation.probes().size())
         return;
     ++periods_;
@@ -164,7 +163,7 @@ bool TransientSearch::proceed() {
     result_.time = trajectory_->time();
     result_.state.assign(trajectory_->state().begin(), trajectory_->state().end());
     result_.mode = trajectory_->mode();
-    result_.outcome = in_vain ? end_in_vain() : trajectory_->outcome();
+    result_.outcome = in_vain ? stalled_outcome() : trajectory_->outcome();
     result_.samples = std::move(recorder_.samples());
     return false;
 }

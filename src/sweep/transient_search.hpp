@@ -12,10 +12,10 @@
 
 namespace graze {
 
-/// Label of a motion that ended by itself, before anything was reached.
+/// Returns the label of a motion that ended by itself before the requested end.
 Label label_of(Ending ending);
 
-/// What all searches of a run share.
+/// Data shared by all searches of a run.
 struct TransientSetting {
     TransientSetting(const System& system, const TransientOptions& given, const std::vector<Sampling>& samplings,
                      const std::vector<Expression>& values, const SimulationOptions& simulation_options);
@@ -23,10 +23,10 @@ struct TransientSetting {
     TransientOptions options;
     SampleRecorder::Layout layout;
     Simulation simulation;
-    std::vector<bool> counted; ///< contacts at each event
+    std::vector<bool> counted; ///< whether contacts at each event are counted
 };
 
-/// Follows a motion for the time or count asked for.
+/// Follows a motion for a given time or count.
 class TransientSearch : public PointSearch, private Observer {
 public:
     explicit TransientSearch(std::shared_ptr<const TransientSetting> setting);
@@ -42,15 +42,15 @@ private:
     void passage(const Passage& passage) override;
     bool stop() override;
     double end_of(double time) const;
-    bool waits_in_vain();
-    Outcome end_in_vain() const;
+    bool has_stalled();
+    Outcome stalled_outcome() const;
 
     std::shared_ptr<const TransientSetting> setting_;
     SampleRecorder recorder_;
     std::optional<Trajectory> trajectory_;
     std::size_t periods_ = 0, contacts_ = 0, all_periods_ = 0;
-    std::size_t waited_ = 0; ///< steps since something brought the end nearer
-    bool shown_ = false;     ///< the time that is sampled has begun
+    std::size_t waited_ = 0; ///< steps since the last event that brought the end nearer
+    bool shown_ = false;     ///< the sampled part has begun
     bool reached_ = false, stop_ = false, escaped_ = false;
     PointResult result_;
 };

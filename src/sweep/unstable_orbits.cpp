@@ -7,8 +7,8 @@ namespace graze {
 
 namespace {
 
-/// Of the distance by which a motion comes back: closer to an unstable orbit, it comes back for the sake of that. A
-/// stable one that is not the same lies farther away, when the motion has come close enough to it.
+/// Factor of the distance at which a motion recurs: within this distance of an unstable orbit, the recurrence is
+/// explained by it. Another, stable orbit is farther away once the motion is close enough to it.
 constexpr double near = 3;
 
 } // namespace
@@ -19,7 +19,7 @@ void UnstableOrbits::add(const OrbitFinder& orbit, const ReturnWatcher& motion) 
         states_.insert(states_.end(), orbit.returns().begin(), orbit.returns().end());
     } else if (orbit.clearly_unstable()) {
         states_.emplace_back(orbit.point().begin(), orbit.point().end());
-        // The motion was about as close to it at its other returns.
+        // The motion was about as close to the orbit at its other returns.
         for (std::size_t k = 1; k < std::min(orbit.period(), motion.remembered()); ++k)
             states_.push_back(motion.recent(k).state);
     }

@@ -9,19 +9,19 @@
 
 namespace graze {
 
-/// Unstable orbits that were found near a motion. Chaotic ones pass by the same few again and again: Newton's method
-/// would only find these anew.
+/// Unstable orbits found near a motion. Chaotic motions pass by the same few orbits again and again, and Newton's
+/// method would find these again each time.
 class UnstableOrbits {
 public:
     void clear() { states_.clear(); }
-    /// Notes what the finder has met, if that is unstable, from returns of this motion on.
+    /// Adds the finder's orbit if it is unstable; the motion's returns belong to the same orbit.
     void add(const OrbitFinder& orbit, const ReturnWatcher& motion);
-    /// Whether a motion that comes back after so many returns does so because it passes by one of these orbits. Not
-    /// where it is within `least` of it: there it may stay.
+    /// Returns whether a recurrence of the motion is explained by its passing one of these orbits. False if the motion
+    /// is within `least` of the orbit: it may stay there.
     bool explain(ReturnWatcher& motion, std::size_t period, double least) const;
 
 private:
-    std::vector<std::vector<double>> states_; ///< at their returns
+    std::vector<std::vector<double>> states_; ///< states at the returns of the orbits
 };
 
 } // namespace graze

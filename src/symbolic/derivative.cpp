@@ -15,15 +15,15 @@ Expression one_minus_square(const Expression& x) {
     return 1 - square(x);
 }
 
-/// Sum in which an empty expression stands for an absent (zero) term.
+/// Returns the sum; an empty expression stands for zero.
 Expression sum(const Expression& a, const Expression& b) {
     if (a.empty())
         return b;
     return b.empty() ? a : a + b;
 }
 
-/// Derivative of base^exponent. A constant exponent brings no logarithm, so that powers of negative bases have
-/// derivatives too.
+/// Returns the derivative of base^exponent. For a constant exponent no logarithm appears, so that powers of negative
+/// bases have derivatives too.
 Expression derivative_of_power(const Expression& value, const Expression& base, const Expression& exponent,
                                const Expression& base_rate, const Expression& exponent_rate) {
     Expression result;

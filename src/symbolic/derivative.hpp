@@ -4,12 +4,12 @@
 
 namespace graze {
 
-/// d/da of an operation of one operand a, in terms of it and of the operation's value y.
-/// @throws std::invalid_argument for operations of two operands, or none
+/// Returns dy/da for an operation y of one operand a, in terms of a and y.
+/// @throws std::invalid_argument unless the operation has one operand
 Expression slope_of(Operation operation, const Expression& y, const Expression& a);
 
-/// Derivative of an operation from those of its operands, which are empty where they are zero (but not all).
-/// @param right of an operation of one operand, anything
+/// Returns the derivative of an operation, given those of its operands; an empty one stands for zero (not both may be).
+/// @param right ignored if the operation has one operand
 Expression derivative_of(Operation operation, const Expression& value, const Expression& left, const Expression& right,
                          const Expression& left_rate, const Expression& right_rate);
 

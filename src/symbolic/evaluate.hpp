@@ -8,8 +8,8 @@
 
 namespace graze {
 
-/// The value of one operation in double precision. Constants are folded and functions evaluated by this code
-/// alone, so that folding changes no result. Functions of one operand ignore the second.
+/// Returns the value of one operation in double precision. Constant folding and evaluation both use this function, so
+/// that folding changes no result. Functions of one operand ignore `right`.
 inline double evaluate_operation(Operation operation, double left, double right) {
     switch (operation) {
     case Operation::number:
@@ -36,10 +36,10 @@ inline double evaluate_operation(Operation operation, double left, double right)
     return std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Derivative of a function at a, where its value is y.
+/// Returns the derivative of a function at a, where its value is y.
 inline double function_slope(Operation function, double a, double y) {
 #define GRAZE_ROW(name, recurrence, slope) using std::name;
-    GRAZE_FUNCTIONS(GRAZE_ROW) // not those of expressions
+    GRAZE_FUNCTIONS(GRAZE_ROW) // functions of numbers, not those of Expression
 #undef GRAZE_ROW
     const auto square = [](double x) { return x * x; };
     const auto one_minus_square = [](double x) { return (1 - x) * (1 + x); };

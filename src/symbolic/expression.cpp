@@ -130,7 +130,7 @@ NodeIndex Graph::intern(Node node) {
     require_growing();
     if (nodes_.size() >= std::numeric_limits<NodeIndex>::max())
         throw std::length_error("an expression graph is full");
-    // What could be folded has been; constant operands that are left have no finite value.
+    // Constants have been folded wherever the result is finite, so constant operands mean that there is none.
     bool undefined = false;
     const auto is_number = [&](NodeIndex operand) { return nodes_[operand].operation == Operation::number; };
     if (arity(node.operation) == 1)

@@ -35,7 +35,7 @@ Function::Function(const SymbolIndex& inputs, std::size_t outputs, std::span<con
         places_.clear();
 }
 
-/// Slots: the inputs that are used, then one for each number and operation.
+/// Slots are numbered: first the inputs that are used, then one for each number and operation.
 void Function::compile(const SymbolIndex& inputs, std::span<const Expression> outputs) {
     const Subgraph part = subgraph_of(outputs);
     if (part.graph && !inputs.are_of(part.graph))
@@ -145,7 +145,7 @@ double constant_value(const Expression& expression) {
     for (const Subgraph::Item& item : part.items)
         if (part.node(item).operation == Operation::symbol)
             throw std::invalid_argument("'" + part.graph->symbol_name(part.node(item)) + "' has no value");
-    // Without symbols, whatever has a value has been folded to a number.
+    // Constant folding has turned every expression without symbols that has a value into a number.
     return expression.is_number() ? expression.node().value : std::numeric_limits<double>::quiet_NaN();
 }
 

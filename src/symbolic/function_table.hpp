@@ -2,8 +2,8 @@
 
 #include "graze/symbolic/expression.hpp"
 
-// All functions of one argument, in the order of Operation: row(name, recurrence, slope). What has to know every
-// function is made from this table: names, values, derivatives, kernels.
+// All functions of one argument, in the order of Operation: row(name, recurrence, slope). Everything that depends on
+// the list of functions is generated from this table: names, values, derivatives, kernels.
 //
 // name         of the function in expressions, in the C library, in Operation and in SeriesOperation
 // recurrence   how the coefficients of its series follow from those of its argument: an enumerator of Recurrence, see
@@ -12,7 +12,7 @@
 //              have operators, these functions, square(x), and one_minus_square(x). Ends of a domain are factors of
 //              their own, as in (1 - a)(1 + a), since 1 - a^2 cancels near them.
 //
-// Here are no functions: this is included by code for several instruction sets.
+// This file declares no functions, since it is included by code for several instruction sets.
 // clang-format off
 #define GRAZE_FUNCTIONS(row) \
     row(sqrt, own, 1 / (2 * y)) \

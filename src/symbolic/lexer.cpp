@@ -24,7 +24,7 @@ bool is_continuation_byte(char character) {
     return (static_cast<unsigned char>(character) & 0xc0) == 0x80;
 }
 
-/// Length of the well-formed UTF-8 character at the start of a text, 0 if there is none.
+/// Returns the length of the well-formed UTF-8 character at the start of a text, 0 if there is none.
 std::size_t character_length(std::string_view text) {
     const auto lead = static_cast<unsigned char>(text.front());
     if (lead < 0x20 || lead == 0x7f)
@@ -37,7 +37,7 @@ std::size_t character_length(std::string_view text) {
     return std::ranges::all_of(text.substr(1, length - 1), is_continuation_byte) ? length : 0;
 }
 
-/// What to type for a character that a word processor or a paper has in place of an operator.
+/// Returns what to type for a character that word processors and papers use in place of an operator.
 std::string_view plain_form(std::string_view character) {
     struct Form {
         std::string_view character, plain;

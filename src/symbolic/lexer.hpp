@@ -8,17 +8,17 @@
 
 namespace graze {
 
-/// A text and where it stands, for errors that point at one of its characters.
+/// A text and the place where it begins, for errors that point at one of its characters.
 struct Source {
     std::string_view text;
     Place begin;
 
-    /// Columns count characters, not bytes. What is not known of the beginning counts from 1.
+    /// Returns the place of a byte. Columns count characters, not bytes; an unknown line or column counts from 1.
     Place at(std::size_t offset) const;
     [[noreturn]] void fail(std::size_t offset, const std::string& problem, const std::string& remedy) const;
 };
 
-/// For a name directly behind a number, which may be meant as a factor, or as a unit, which expressions have none of.
+/// Returns the remedy for a name directly after a number: it may be meant as a factor, or as a unit (not supported).
 std::string remedy_behind_number(std::string_view number, std::string_view word);
 
 struct Token {
@@ -51,7 +51,7 @@ struct Token {
 bool is_name_start(char character);
 bool is_name_character(char character);
 
-/// Part of the user's text in quotes, cut if long.
+/// Returns a part of the user's text in quotes, shortened if long.
 std::string quoted(std::string_view text);
 
 /// Splits a text into tokens, one at a time.
@@ -59,7 +59,7 @@ class Lexer {
 public:
     explicit Lexer(const Source& source) : source_(source) {}
 
-    /// The next token; `end` again and again once the text is over. @throws InputError
+    /// Returns the next token; after the last one always `end`. @throws InputError
     Token next();
 
 private:

@@ -10,24 +10,24 @@ namespace graze {
 
 namespace {
 
-/// Of a product of coefficients, which is formed once.
+/// Returns the cost of forming a product of two coefficients, which is done once for all directions.
 std::size_t cost_of_product(bool one_varies, bool other_varies) {
     if (one_varies && other_varies)
         return Linearisation::varying_cost;
     return one_varies || other_varies ? Linearisation::constant_cost : 0;
 }
 
-/// Whether the derivatives of an operation by its operands vary, given which of these do.
-std::pair<bool, bool> derivatives_vary(Operation operation, bool left_moves, bool right_moves) {
+/// Returns whether the derivatives with respect to the left and right operand vary, given which operands vary.
+std::pair<bool, bool> derivatives_vary(Operation operation, bool left_varies, bool right_varies) {
     switch (operation) {
     case Operation::add:
     case Operation::subtract:
     case Operation::negate:
         return {false, false};
     case Operation::multiply:
-        return {right_moves, left_moves};
+        return {right_varies, left_varies};
     case Operation::divide:
-        return {right_moves, true};
+        return {right_varies, true};
     default:
         return {true, true};
     }
@@ -35,7 +35,7 @@ std::pair<bool, bool> derivatives_vary(Operation operation, bool left_moves, boo
 
 } // namespace
 
-LinearGraph::LinearGraph(const Subgraph& part, const std::vector<bool>& moves, std::size_t directions)
+LinearGraph::LinearGraph(const Subgraph& part, const std::vector<bool>& has_state, std::size_t directions)
     : cost_of_intermediate_(directions * Linearisation::intermediate_cost),
       cost_of_constant_(directions * Linearisation::constant_cost),
       cost_of_varying_(directions * Linearisation::varying_cost), nodes_(part.items.size()), part_(part) {
@@ -50,23 +50,23 @@ LinearGraph::LinearGraph(const Subgraph& part, const std::vector<bool>& moves, s
     fixed_.resize(vertices, true);
     varies_.reserve(2 * vertices);
     for (Vertex vertex = 0; vertex < nodes_; ++vertex)
-        if (moves[vertex] && arity(part.node(part.items[vertex]).operation) > 0) {
+        if (has_state[vertex] && arity(part.node(part.items[vertex]).operation) > 0) {
             fixed_[vertex] = false;
-            connect_operands(vertex, moves);
+            connect_operands(vertex, has_state);
         }
     for (std::size_t root = 0; root < part.roots.size(); ++root)
-        if (moves[part.roots[root]])
+        if (has_state[part.roots[root]])
             connect(part.roots[root], static_cast<Vertex>(nodes_ + root), false);
 }
 
-void LinearGraph::connect_operands(Vertex vertex, const std::vector<bool>& moves) {
+void LinearGraph::connect_operands(Vertex vertex, const std::vector<bool>& has_state) {
     const Subgraph::Item& item = part_.items[vertex];
     const Operation operation = part_.node(item).operation;
-    const bool right_moves = arity(operation) == 2 && moves[item.right];
-    const auto [left, right] = derivatives_vary(operation, moves[item.left], right_moves);
-    if (moves[item.left])
+    const bool right_varies = arity(operation) == 2 && has_state[item.right];
+    const auto [left, right] = derivatives_vary(operation, has_state[item.left], right_varies);
+    if (has_state[item.left])
         connect(item.left, vertex, left);
-    if (right_moves)
+    if (right_varies)
         connect(item.right, vertex, right);
 }
 
@@ -157,7 +157,7 @@ bool LinearGraph::reduce_once() {
 }
 
 void LinearGraph::reduce() {
-    // Products that have come to be elsewhere may make another round worth while, rarely a third.
+    // Eliminations may make others profitable: a second round is often useful, a third seldom.
     constexpr int most_rounds = 4;
     for (int round = 0; round < most_rounds && reduce_once(); ++round) {
     }
@@ -198,7 +198,7 @@ std::vector<LinearGraph::Group> LinearGraph::groups(std::vector<std::uint32_t>& 
 }
 
 std::size_t LinearGraph::plain_cost(Vertex function, std::size_t& work) {
-    std::priority_queue<Vertex> pending; // users before their operands
+    std::priority_queue<Vertex> pending; // largest first: users before their operands
     std::vector<Vertex> states;
     std::size_t cost = 0;
     pending.push(function);
@@ -225,7 +225,7 @@ std::size_t LinearGraph::plain_cost(Vertex function, std::size_t& work) {
 }
 
 bool LinearGraph::drop_useless() {
-    // Dearer than that, or that much work to tell, and there is no doubt about intermediates.
+    // A group whose elimination costs more than `doubt` times its own cost, or takes more work to evaluate, is kept.
     constexpr std::size_t doubt = 4, patience = 64;
     std::vector<std::uint32_t> group_of(operands_.size());
     const std::vector<Group> all = groups(group_of);

@@ -9,7 +9,7 @@ namespace graze {
 
 namespace {
 
-/// Derivatives of an operation by its operands, times a weight.
+/// Derivatives of an operation with respect to its left and right operand, times a weight.
 Expression to_left(Operation operation, const Expression& left, const Expression& right, const Expression& weight) {
     switch (operation) {
     case Operation::multiply:
@@ -127,19 +127,19 @@ void LinearRows::pass_on(Position position, const Expression& weight) {
         return;
     }
     const bool to_both = reaches_[item.left] && reaches_[item.right];
-    if (to_both && operation == Operation::divide) { // once is enough
+    if (to_both && operation == Operation::divide) { // the quotient weight / right is formed once
         const Expression share = weight / right;
         add(item.left, share);
         add(item.right, -(value * share));
         return;
     }
-    if (reaches_[item.left]) // what is not needed is not formed
+    if (reaches_[item.left]) // derivatives that are not needed are not formed
         add(item.left, to_left(operation, left, right, weight));
     if (reaches_[item.right])
         add(item.right, to_right(operation, value, left, right, weight));
 }
 
-/// A quotient by a power a / u^c changes with u by -c (a / u^c) / u: most of that the motion has already.
+/// A quotient a / u^c has the derivative -c (a / u^c) / u by u: it reuses the value of the quotient itself.
 std::optional<LinearRows::Divisor> LinearRows::power_below(const Subgraph::Item& item) const {
     if (part_.node(item).operation != Operation::divide || sources_[item.right] != none || !reaches_[item.right])
         return std::nullopt;
@@ -147,7 +147,8 @@ std::optional<LinearRows::Divisor> LinearRows::power_below(const Subgraph::Item&
     if (part_.node(right).operation != Operation::power)
         return std::nullopt;
     const Expression exponent = part_.expression(part_.items[right.right]);
-    if (!exponent.is_number() || !(exponent.node().value > 0)) // below zero it need not be singular where u is zero
+    if (!exponent.is_number() ||
+        !(exponent.node().value > 0)) // with a negative exponent the quotient may be regular at u = 0
         return std::nullopt;
     return Divisor{right.left, exponent};
 }
@@ -212,7 +213,7 @@ std::vector<LinearEntry> LinearRows::from_sources() {
     return entries;
 }
 
-/// From those of the operands, which are empty where they are zero.
+/// Returns the derivative of a node, given those of its operands; empty stands for zero.
 Expression LinearRows::rate_of(Position position) const {
     const Subgraph::Item& item = part_.items[position];
     const Operation operation = part_.node(item).operation;

@@ -12,21 +12,22 @@
 
 namespace graze {
 
-/// Which nodes of a subgraph have one of the first variables in them.
+/// Returns for each node of a subgraph whether it depends on one of the first `first` variables.
 std::vector<bool> nodes_with(const Subgraph& part, const SymbolIndex& variables, std::size_t first);
 
-/// Derivatives of functions, the roots of a subgraph, and of intermediates, nodes of it, by sources: variables, and
-/// intermediates that come before. Entries are in the order of Linearisation.
+/// Differentiates functions (the roots of a subgraph) and intermediates (nodes of it) with respect to sources: the
+/// variables, and the intermediates that come before. Entries are in the order of Linearisation.
 class LinearRows {
 public:
     /// @param intermediates positions in the subgraph, rising
     LinearRows(const Subgraph& part, const SymbolIndex& variables, std::span<const std::uint32_t> intermediates);
 
-    /// From each function down to its sources: a row takes the time of its size, however many sources it has.
+    /// Reverse mode, from each function to its sources: time proportional to the size of a row, for any number of
+    /// sources.
     std::vector<LinearEntry> from_functions();
-    /// From each source up to the function, as in transform.hpp: what rows have in common is shared.
+    /// Forward mode, from each source to the function, as in transform.hpp: rows share common parts.
     std::vector<LinearEntry> from_sources();
-    /// Nodes that this visits.
+    /// Returns the number of nodes that from_sources visits.
     std::size_t work_from_sources();
 
 private:
@@ -34,7 +35,7 @@ private:
     using Position = std::uint32_t;
 
     bool is_source(Position position, Position row) const { return sources_[position] != none && position != row; }
-    /// Position of what a row is of, and where its own node is if that is an intermediate, or nothing.
+    /// The node whose derivatives form a row; `own` is the same node for an intermediate, past the end for a function.
     struct Row {
         Position position, own;
     };
@@ -45,22 +46,23 @@ private:
     void add(Position position, const Expression& weight);
     void pass_on(Position position, const Expression& weight);
 
-    /// What a quotient divides by: a power of another node.
+    /// The divisor of a quotient, if it is a power of another node.
     struct Divisor {
         Position base;
         Expression exponent; ///< a number above zero
     };
     std::optional<Divisor> power_below(const Subgraph::Item& item) const;
 
-    /// Nodes between a row and its sources, these included, operands first.
+    /// Returns the nodes between a row and its sources, both included, operands first.
     std::vector<Position> nodes_of(const Row& row);
     Expression rate_of(Position position) const;
 
     const Subgraph& part_;
     std::vector<Position> intermediates_;
-    std::vector<bool> reaches_; ///< any variable
+    std::vector<bool> reaches_; ///< whether a node depends on any variable
     std::vector<std::size_t> sources_;
-    std::vector<Expression> weights_;       ///< derivatives of a row by nodes, or of nodes by a source
+    std::vector<Expression>
+        weights_; ///< derivatives of a row with respect to nodes, or of nodes with respect to a source
     std::priority_queue<Position> pending_; ///< nodes before their operands
     std::vector<bool> seen_;
 };

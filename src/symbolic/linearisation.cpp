@@ -13,8 +13,8 @@ namespace graze {
 
 namespace {
 
-/// Takes out intermediates that nothing is made of, or that do not change, as where derivatives have cancelled.
-void remove_idle(Linearisation& result) {
+/// Removes intermediates that are constant (their derivatives have cancelled) or that nothing depends on.
+void remove_unused_intermediates(Linearisation& result) {
     std::vector<bool> changes(result.intermediates), used(result.intermediates);
     const auto intermediate = [&](const LinearEntry& entry) { return entry.source - result.variables; };
     std::erase_if(result.entries, [&](const LinearEntry& entry) {
@@ -54,28 +54,28 @@ std::vector<Expression> coefficients_of(std::span<const LinearEntry> entries) {
 
 void mark_varying(std::vector<LinearEntry>& entries, const SymbolIndex& variables, std::size_t states) {
     const Subgraph part = subgraph_of(coefficients_of(entries));
-    const std::vector<bool> moves = nodes_with(part, variables, states);
+    const std::vector<bool> has_state = nodes_with(part, variables, states);
     for (std::size_t i = 0; i < entries.size(); ++i)
-        entries[i].varies = moves[part.roots[i]];
+        entries[i].varies = has_state[part.roots[i]];
 }
 
-/// Of an operation on series, given which of its operands move.
-std::size_t cost_of(Operation operation, bool left_moves, bool right_moves) {
+/// Returns the cost of an operation on series, given which operands vary.
+std::size_t cost_of(Operation operation, bool left_varies, bool right_varies) {
     switch (operation) {
     case Operation::add:
     case Operation::subtract:
     case Operation::negate:
         return Linearisation::constant_cost;
     case Operation::multiply:
-        return left_moves && right_moves ? Linearisation::varying_cost : Linearisation::constant_cost;
+        return left_varies && right_varies ? Linearisation::varying_cost : Linearisation::constant_cost;
     case Operation::divide:
-        return right_moves ? Linearisation::varying_cost : Linearisation::constant_cost;
+        return right_varies ? Linearisation::varying_cost : Linearisation::constant_cost;
     default:
         return Linearisation::varying_cost;
     }
 }
 
-/// Of directions in which no parameter changes, with what coefficients take besides functions.
+/// Returns the cost of directions in state space, including the operations for coefficients that `functions` lacks.
 std::size_t cost_in_states(Linearisation linear, const Subgraph& functions, const SymbolIndex& variables,
                            std::size_t states, std::size_t directions) {
     std::erase_if(linear.entries,
@@ -84,26 +84,26 @@ std::size_t cost_in_states(Linearisation linear, const Subgraph& functions, cons
     for (const Subgraph::Item& item : functions.items)
         known.insert(item.index);
     const Subgraph part = subgraph_of(coefficients_of(linear.entries));
-    const std::vector<bool> moves = nodes_with(part, variables, states);
+    const std::vector<bool> has_state = nodes_with(part, variables, states);
     std::size_t cost = directions * linear.cost();
     for (std::size_t position = 0; position < part.items.size(); ++position) {
         const Subgraph::Item& item = part.items[position];
         const Operation operation = part.node(item).operation;
-        if (moves[position] && arity(operation) > 0 && !known.contains(item.index))
-            cost += cost_of(operation, moves[item.left], arity(operation) == 2 && moves[item.right]);
+        if (has_state[position] && arity(operation) > 0 && !known.contains(item.index))
+            cost += cost_of(operation, has_state[item.left], arity(operation) == 2 && has_state[item.right]);
     }
     return cost;
 }
 
-/// Finds rows, and judges what they cost.
+/// Differentiates with given intermediates and computes the cost.
 class Lineariser {
 public:
     Lineariser(const Subgraph& part, const SymbolIndex& variables, std::size_t states, std::size_t directions)
         : part_(part), variables_(variables), states_(states), directions_(directions) {}
 
-    /// Rows are found from the sources up and from the functions down, and the cheaper ones taken. The first are those
-    /// of the sparse Jacobian where there are no intermediates, but take the time of rows times their sources.
-    Linearisation with(std::span<const std::uint32_t> intermediates) const {
+    /// Differentiates in both modes and returns the cheaper result. Without intermediates, forward mode gives the
+    /// entries of the sparse Jacobian, but takes time proportional to rows times their sources.
+    Linearisation best_rows(std::span<const std::uint32_t> intermediates) const {
         LinearRows rows(part_, variables_, intermediates);
         Linearisation down = of_entries(rows.from_functions(), intermediates.size());
         constexpr std::size_t enough = 200000, each = 32;
@@ -119,7 +119,7 @@ public:
 private:
     Linearisation of_entries(std::vector<LinearEntry> entries, std::size_t intermediates) const {
         Linearisation result{variables_.size(), part_.roots.size(), intermediates, std::move(entries)};
-        remove_idle(result);
+        remove_unused_intermediates(result);
         mark_varying(result.entries, variables_, states_);
         return result;
     }
@@ -157,11 +157,11 @@ Linearisation linearise(std::span<const Expression> functions, const SymbolIndex
     graph.reduce();
     const bool may_be_too_many = graph.drop_useless();
     const Lineariser lineariser(part, variables, states, directions);
-    result = lineariser.with(graph.remaining());
+    result = lineariser.best_rows(graph.remaining());
     if (result.intermediates == 0 || !may_be_too_many)
         return result;
-    // Derivatives that cancel are not foreseen, and leave fewer products where nothing is between them.
-    Linearisation plain = lineariser.with({});
+    // Cancelling derivatives are not foreseen by the graph; where they occur, the plain Jacobian may be cheaper.
+    Linearisation plain = lineariser.best_rows({});
     return lineariser.cost(plain) <= lineariser.cost(result) ? plain : result;
 }
 

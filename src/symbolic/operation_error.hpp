@@ -8,9 +8,9 @@
 
 namespace graze {
 
-/// How far the computed value of one operation may be from the true one, to first order: what uncertain operands do to
-/// it, and its own rounding. At the end of an operation's domain, where its slope has no bound, the change over the
-/// uncertainty itself is taken. Functions of one operand ignore the second.
+/// Bounds the distance of the computed value of one operation from the true one, to first order: the propagated errors
+/// of the operands plus its own rounding. At the end of an operation's domain, where the slope is unbounded, the square
+/// root of the error is used. Functions of one operand ignore the second.
 /// @param value the computed value
 inline double operation_error(Operation operation, double value, double left, double left_error, double right,
                               double right_error) {
@@ -59,7 +59,7 @@ inline double operation_error(Operation operation, double value, double left, do
         return std::sqrt(std::max(0.0, value * value - 1)) * left_error + left_error * left_error + rounding;
     case Operation::tanh:
         return std::max(0.0, 1 - value * value) * left_error + left_error * left_error + rounding;
-    default: // the square, where the slope is zero
+    default: // the square covers places where the slope is zero
         return std::abs(function_slope(operation, left, value)) * left_error + left_error * left_error + rounding;
     }
 }

@@ -17,7 +17,7 @@ namespace {
 
 using Kind = Token::Kind;
 
-/// How tightly operators bind; open parentheses bind nothing.
+/// How tightly operators bind; an open parenthesis has the least precedence.
 enum class Precedence { none, sum, minus, product, power };
 
 struct BinaryOperator {
@@ -42,19 +42,20 @@ std::optional<BinaryOperator> binary_operator(Kind kind) {
     }
 }
 
-/// Operator precedence parsing with explicit stacks. Two states alternate: an operand is due, or an operator.
+/// Operator-precedence parser with explicit stacks. It alternates between expecting an operand and expecting an
+/// operator.
 class Parser {
 public:
     Parser(Graph& graph, const Source& source, const Scope& scope)
         : graph_(graph), source_(source), scope_(scope), lexer_(source), token_(lexer_.next()) {}
 
-    /// Parses up to the end, a comparison or `and` outside parentheses, which is then the current token.
+    /// Parses up to the end, or up to a comparison or `and` outside parentheses, which is then the current token.
     Expression expression();
     const Token& token() const { return token_; }
     Token advance();
 
 private:
-    /// An operator, or an open parenthesis, that waits for what comes to its right.
+    /// An operator or open parenthesis whose right operand has not been read yet.
     struct Pending {
         enum class Kind { binary, negation, parenthesis, call } kind;
         Precedence precedence;
@@ -69,7 +70,7 @@ private:
     void take_name();
     void take_binary(BinaryOperator binary);
     void close_parenthesis();
-    /// Applies pending operators that bind tighter than what comes, or as tight if they are on its left.
+    /// Applies pending operators that bind tighter than the next one, or equally tight if left-associative.
     void reduce(Precedence next, bool right_associative);
     bool ends_expression() const { return token_.kind >= Kind::less; }
 
@@ -110,7 +111,7 @@ Expression Parser::expression() {
     return result;
 }
 
-/// Returns whether an operand is still due.
+/// Returns true when an operand is still expected.
 bool Parser::take_operand() {
     switch (token_.kind) {
     case Kind::number:
@@ -282,7 +283,7 @@ void Parser::refuse_end() const {
     if (token_.is_comparison() || token_.kind == Kind::conjunction)
         source_.fail(token_.offset, quoted(token_.text) + " stands inside parentheses",
                      "conditions are comparisons joined by 'and', without parentheses around them");
-    // A call is pending under the name of its function, and its parenthesis comes later.
+    // A pending call stores the token of the function's name; the parenthesis follows it.
     const std::size_t offset =
         opened.kind == Pending::Kind::call ? source_.text.find('(', opened.token.offset) : opened.token.offset;
     source_.fail(offset, "this '(' is never closed", "add the missing ')'");

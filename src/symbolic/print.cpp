@@ -13,7 +13,7 @@ namespace graze {
 
 namespace {
 
-/// How tightly a text holds together in the grammar of parse_expression, where -a*b is -(a*b).
+/// How tightly the parts of a text bind in the grammar of parse_expression, where -a*b is -(a*b).
 enum class Binding { sum, minus, product, power, atom };
 
 /// Texts longer than this are refused: sharing can make an expression exponentially longer than its graph.
@@ -38,7 +38,7 @@ public:
     }
 
 private:
-    /// A piece of text, or if that is empty a node that needs parentheses if it binds less than `least`.
+    /// A piece of text, or if that is empty a node, put in parentheses if it binds less tightly than `least`.
     struct Pending {
         NodeIndex index;
         Binding least;
@@ -123,7 +123,7 @@ private:
     std::string text_;
 };
 
-/// Number of characters, a little overestimated.
+/// Returns an upper estimate of the number of characters.
 double text_length(const Expression& expression) {
     const Subgraph part = subgraph_of(std::span(&expression, 1));
     std::vector<double> lengths(part.items.size());

@@ -11,8 +11,8 @@ namespace graze {
 
 namespace {
 
-/// Sums of constants are merged only where that is exact: in (x + 1e16) + 0.3 with x near -1e16 any rounding of
-/// the merged constant would be all that is left.
+/// Sums of constants are merged only if that is exact: in (x + 1e16) + 0.3 with x near -1e16, the rounding error of a
+/// merged constant would dominate the result.
 std::optional<double> exact_sum(double a, double b) {
     const double sum = a + b;
     const double b_share = sum - a;
@@ -144,7 +144,7 @@ NodeIndex Simplifier::sum(Signed left, Signed right) {
     return left.negative ? negated(magnitude) : magnitude;
 }
 
-/// The result may be negative: the caller puts a sign on it by `negated`, which undoes one.
+/// The result may be negative: the caller applies the sign by `negated`, which cancels a double negation.
 NodeIndex Simplifier::sum_with_constant(NodeIndex magnitude, double constant) {
     bool flipped = false; // the sum wanted is then -(magnitude + constant)
     while (constant != 0) {

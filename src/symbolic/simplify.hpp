@@ -4,7 +4,7 @@
 
 namespace graze {
 
-/// Builds nodes in their canonical form: one node for all the ways of writing the same thing that differ by
+/// Builds nodes in their canonical form: one node for all ways to write an expression that differ by
 /// no more than round-off (docs/expressions.md lists the rules). Applying the operation of a canonical node to
 /// its operands gives that node again, which is what lets printed text parse back to the same node.
 ///

@@ -6,7 +6,7 @@ namespace graze {
 
 namespace {
 
-/// Positions of nodes by their indices: a hash table with open addressing, since this is most of what compiling does.
+/// Maps node indices to positions: a hash table with open addressing, since lookups dominate the time of compiling.
 class NodePositions {
 public:
     static constexpr std::uint32_t none = 0xffffffff;
@@ -14,7 +14,7 @@ public:
     NodePositions() : slots_(16) {}
 
     std::uint32_t find(NodeIndex index) const { return slots_[slot_of(index)].position; }
-    /// @param index one that is not there yet
+    /// @param index not yet in the table
     void add(NodeIndex index, std::uint32_t position) {
         if (2 * ++used_ > slots_.size())
             grow();
@@ -26,10 +26,11 @@ private:
         NodeIndex index = 0;
         std::uint32_t position = none;
     };
-    /// Where an index is, or where it belongs. Half of the slots are free, so that there is always one.
+    /// Returns the slot of an index, or the free slot for it. At most half of the slots are used, so one is always
+    /// free.
     std::size_t slot_of(NodeIndex index) const {
         const std::size_t mask = slots_.size() - 1;
-        // Indices that follow one another, as they do, are spread by a multiple of the golden section.
+        // Indices are mostly consecutive: multiplication by the golden ratio spreads them (Fibonacci hashing).
         std::size_t at = (std::uint64_t{index} * 0x9e3779b97f4a7c15U) >> shift_;
         while (slots_[at].position != none && slots_[at].index != index)
             at = (at + 1) & mask;
@@ -46,7 +47,7 @@ private:
 
     std::vector<Slot> slots_;
     std::size_t used_ = 0;
-    int shift_ = 60; ///< of 64 bits, so many are left as there are slots for
+    int shift_ = 60; ///< 64 minus the number of bits of a slot's index
 };
 
 } // namespace

@@ -9,13 +9,13 @@
 
 namespace graze {
 
-/// The nodes on which some expressions depend, operands before the nodes that use them. Positions in this list
+/// All nodes on which the given expressions depend, operands before the nodes that use them. Positions in this list
 /// replace indices in the graph, so that work on a small expression of a large graph stays small.
 struct Subgraph {
     struct Item {
         NodeIndex index;         ///< in the graph
-        std::uint32_t left = 0;  ///< position of the first operand, if there is one
-        std::uint32_t right = 0; ///< position of the second operand, if there is one
+        std::uint32_t left = 0;  ///< position of the first operand, if any
+        std::uint32_t right = 0; ///< position of the second operand, if any
     };
     std::shared_ptr<Graph> graph; ///< empty when there are no expressions
     std::vector<Item> items;

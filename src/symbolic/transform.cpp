@@ -11,7 +11,7 @@ namespace graze {
 
 namespace {
 
-/// @throws std::invalid_argument unless it is a symbol of the graph of some expressions, if there are any
+/// @throws std::invalid_argument unless `symbol` is a symbol of this graph, if there is one
 void require_variable(const Expression& symbol, const std::shared_ptr<Graph>& graph) {
     if (symbol.empty() || !symbol.is_symbol())
         throw std::invalid_argument("derivatives are taken with respect to symbols only");
@@ -19,12 +19,12 @@ void require_variable(const Expression& symbol, const std::shared_ptr<Graph>& gr
         throw std::invalid_argument("the symbol belongs to another graph than the expressions");
 }
 
-/// Derivatives of the nodes of a subgraph, from those of its symbols. Those that are zero are empty.
+/// Computes derivatives of the nodes of a subgraph from those of its symbols. An empty expression stands for zero.
 class Derivatives {
 public:
     explicit Derivatives(const Subgraph& part) : part_(part), rates_(part.items.size()) {}
 
-    /// @param rate_of a symbol's: of its place in the subgraph; empty where it is zero
+    /// @param rate_of returns the derivative of the symbol at a position of the subgraph; empty if zero
     template <class RateOf>
     void find(const RateOf& rate_of) {
         for (std::size_t position = 0; position < rates_.size(); ++position) {
@@ -38,7 +38,7 @@ public:
                 rates_[position] = of_operation(item, operands);
         }
     }
-    /// Of an expression.
+    /// Returns the derivative of an expression.
     const Expression& of_root(std::size_t root) const { return rates_[part_.roots[root]]; }
 
 private:

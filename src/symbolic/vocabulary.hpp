@@ -19,12 +19,12 @@ std::optional<Operation> function_named(std::string_view name);
 /// @throws std::invalid_argument when the operation is not a function
 std::string_view function_name(Operation operation);
 
-/// What is wrong with a name that people write but that the language does not have, and what to do.
+/// What is wrong with a name that people write but that the language lacks, and what to write instead.
 struct Refusal {
     std::string problem;
     std::string remedy;
 };
-/// For non-analytic functions, functions with an equivalent, words of logic, and time.
+/// Returns a refusal for non-analytic functions, functions with an equivalent, words of logic, and time.
 std::optional<Refusal> refusal_of(std::string_view name);
 
 } // namespace graze

@@ -6,7 +6,7 @@
 
 namespace graze {
 
-/// Numbers aligned to cache lines, all 0 at first.
+/// An array of numbers aligned to cache lines, initially 0.
 class AlignedNumbers {
 public:
     explicit AlignedNumbers(std::size_t count)

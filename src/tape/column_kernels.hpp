@@ -7,10 +7,10 @@
 
 namespace graze::GRAZE_INSTRUCTION_SET {
 
-/// So many columns at once share each coefficient of A that is loaded, and hide the latency of additions.
+/// Columns computed together: they share each load of a coefficient of A and hide the latency of additions.
 inline constexpr std::size_t most_columns = 4;
 
-/// (k+1) w_{k+1} = sum over the row's entries and j <= k of a_j w_{k-j}, for some columns from one on.
+/// Computes (k+1) w_{k+1} = sum over the row's entries and j <= k of a_j w_{k-j} for `count` columns.
 template <class V, std::size_t count>
 GRAZE_INLINE void columns_from(const ColumnOperands& o, double* column, Order highest) {
     const std::size_t next_column = o.rows * o.size;
@@ -39,7 +39,7 @@ template <class V>
 void columns(const ColumnOperands& o, Order highest) {
     double* column = o.columns;
     for (std::size_t left = o.count; left > 0;) {
-        const std::size_t now = left <= most_columns ? left : most_columns - 1; // none is left alone
+        const std::size_t now = left <= most_columns ? left : most_columns - 1; // avoids a last group of one column
         if (now == 1)
             columns_from<V, 1>(o, column, highest);
         else if (now == 2)

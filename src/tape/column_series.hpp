@@ -11,20 +11,19 @@
 
 namespace graze {
 
-/// An entry of a matrix A along a flow that is not zero throughout.
+/// An entry of a matrix A along a flow that is not identically zero.
 struct MatrixEntry {
     std::size_t row = 0, column = 0;
-    std::size_t output = 0; ///< of the flow's tape, whose series it is
+    std::size_t output = 0; ///< index of the entry among the outputs of the flow's tape
 };
 
-/// Taylor coefficients of a matrix W with W' = A W along a flow, in the lanes of an ensemble: of the first variational
-/// equations where A is the field's Jacobian. The entries of A are outputs of the flow's jets. Each is computed once,
-/// however many columns there are, and products are summed in registers: all that columns touch, one order after
-/// another, is A and W.
+/// Taylor coefficients of a matrix W with W' = A W along a flow, in the lanes of an ensemble: the first variational
+/// equations if A is the Jacobian of the field. The entries of A are outputs of the flow's jets, computed once for all
+/// columns; products are summed in registers, so that the working set of an order is only A and W.
 class ColumnSeries {
 public:
-    /// @param jet an ensemble jet of this tape and instruction set, whose outputs are read whenever columns are
-    /// computed: it must stay where it is
+    /// @param jet an ensemble jet of this tape and instruction set, whose outputs are read by each computation: it must
+    /// outlive this object
     /// @param entries by rising row; @param rows of W, and so columns of A; @param columns of W
     /// @throws InputError for entries that are out of range or not in order
     ColumnSeries(const Jet& jet, const Tape& tape, std::span<const MatrixEntry> entries, std::size_t rows,
@@ -32,22 +31,23 @@ public:
     ColumnSeries(const ColumnSeries&) = delete; // terms point to each other
     ColumnSeries& operator=(const ColumnSeries&) = delete;
 
-    /// From where W is now, [(column * rows + row) * width + lane], once the jet has been computed.
+    /// Computes all coefficients from W at the start, [(column * rows + row) * width + lane], after the jet's
+    /// `compute`.
     void compute(std::span<const double> start) { compute(start, order_); }
-    /// Coefficients 0 and 1 alone, for which the jet need only have been begun.
+    /// Computes coefficients 0 and 1 only, for which the jet's `begin` is enough.
     void begin(std::span<const double> start) { compute(start, 1); }
-    /// The first lane of all entries, column by column.
+    /// Series of lane 0 of all entries, column by column.
     std::span<const Series> series() const { return series_; }
-    /// Sums of the series and of their derivatives, in each lane at its own time, laid out as the start.
+    /// Evaluates the series and their derivatives, in each lane at its own time; laid out as `start`.
     void evaluate(std::span<const double> times, std::span<double> values, std::span<double> slopes) const;
-    /// The largest share, of all columns, that the last two terms have at a length of time in the column's first three.
-    /// @param lengths [lane]; @param scales of the rows, in units of which the largest counts; @param worst [lane]
+    /// Returns per lane the largest ratio, over all columns, of the last two terms to the column's first three terms.
+    /// @param lengths [lane] step lengths; @param scales [row] units of the rows; @param worst [lane] the result
     void tails(std::span<const double> lengths, std::span<const double> scales, std::span<double> worst) const;
-    /// By how much slopes at ends of steps differ from what the equations say there, as far as a column's largest
-    /// differences, sizes and rates go (those of StepCheck::size_over), in units of what is allowed; infinity where
-    /// something is not finite.
-    /// @param end columns of another jet of the same tape, begun at the ends with `values`; @param values, slopes as
-    /// from `evaluate`; @param allowance the share of rates, and what is added to sizes
+    /// Returns per lane by how much the slopes at the ends of steps differ from the equations there, relative to the
+    /// allowance; infinity where a number is not finite. Each column is judged by its largest difference, size and rate
+    /// (as in StepCheck::size_over).
+    /// @param end columns of another jet of the same tape, after `begin` at the ends with `values`
+    /// @param values, slopes as from `evaluate`; @param allowance its tolerance of rates and its smallest size are used
     void misfit(const ColumnSeries& end, const EndAllowance& allowance, std::span<const double> lengths,
                 std::span<const double> scales, std::span<const double> values, std::span<const double> slopes,
                 std::span<double> worst) const;

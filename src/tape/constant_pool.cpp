@@ -8,7 +8,7 @@ namespace graze {
 
 namespace {
 
-/// Applies to each place in a tape where a constant is named.
+/// Calls `visit` for each reference to a constant in a tape.
 template <class Visit>
 void visit_constants(Tape& tape, Visit&& visit) {
     const auto visit_code = [&](std::vector<Instruction>& code) {
@@ -20,11 +20,11 @@ void visit_constants(Tape& tape, Visit&& visit) {
         }
     };
     visit_code(tape.code);
-    for (std::vector<Instruction>& code : tape.follower_code)
+    for (std::vector<Instruction>& code : tape.deferred_code)
         visit_code(code);
     for (Term& term : tape.terms)
         visit(term.coefficient);
-    for (auto* locations : {&tape.rates, &tape.outputs, &tape.followers})
+    for (auto* locations : {&tape.rates, &tape.outputs, &tape.deferred})
         for (Tape::Location& location : *locations)
             if (location.constant)
                 visit(location.index);

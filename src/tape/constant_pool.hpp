@@ -9,19 +9,19 @@
 
 namespace graze {
 
-/// The constants of a tape while it is compiled: parameters first, then literals and what is computed from them.
-/// Equal constants exist once; operations on literals are done at once.
+/// The constants of a tape during compilation: parameters first, then literals and results of operations on them. Equal
+/// constants exist once; operations on literals are evaluated immediately.
 class ConstantPool {
 public:
     explicit ConstantPool(std::uint32_t parameters);
 
     std::uint32_t literal(double value);
     std::uint32_t apply(Operation operation, std::uint32_t left, std::uint32_t right = 0);
-    /// The value, if it is a literal.
+    /// Returns the value if the constant is a literal.
     std::optional<double> value_of(std::uint32_t constant) const;
     bool is(std::uint32_t constant, double value) const { return value_of(constant) == value; }
 
-    /// Moves the constants that the tape uses into it, and renumbers them there.
+    /// Moves the constants that the tape uses into it, and renumbers the tape's references.
     void move_to(Tape& tape) const;
 
 private:

@@ -1,8 +1,8 @@
 #pragma once
 
-// Series that must be followed no farther than they are known, although nothing of that shows in states and outputs:
-// far from a steep place the terms of exp(-(30 x)^2) or 1/(x^2 + 1e-12) are lost beside a 1 that they are added to. To
-// be included only by the translation unit of an instruction set.
+// Step limits from intermediate series that the states and outputs do not show: far from a steep place, the terms of
+// exp(-(30 x)^2) or 1/(x^2 + 1e-12) are lost in a sum with 1. To be included only by the translation unit of an
+// instruction set.
 
 #include "tape/kernel_table.hpp"
 #include "tape/step_kernels.hpp"
@@ -14,15 +14,15 @@ inline double size_of(const Series& series, int k, int lane) {
     return __builtin_fabs(series.first[static_cast<std::size_t>(k) * series.stride + static_cast<std::size_t>(lane)]);
 }
 
-/// How far an argument may change from where it is. Where the function is constant to the last digit, up to where it
-/// begins to be seen; a function that is seen limits the step by its own coefficients.
+/// Returns how far an argument may change from its value at the start. Where the function is constant to the last
+/// digit, up to where it becomes visible; from there on the function's own coefficients limit the step.
 inline double allowed_change(const GuardedArgument& argument, int order, int lane) {
     constexpr double exponential_seen = 40, tangent_seen = 17, tangent_constant = 19, exponential_vanishes = -800;
     const double now = argument.series.first[lane], size = __builtin_fabs(now);
     const double usual = argument.absolute + size * argument.relative;
     switch (argument.kind) {
     case GuardKind::exponential:
-        // Zero, with series that are too large for numbers.
+        // The exponential is zero, but its argument's coefficients overflow.
         if (now < exponential_vanishes && !(size_of(argument.series, order, lane) < __builtin_inf()))
             return __builtin_inf();
         return greater(usual, -now - exponential_seen);
@@ -50,7 +50,7 @@ inline double guarded(const Guards& guards, int order, int lane, double step) {
                 change = (change + size_of(series, k, lane)) * step;
             if (!(change > allowed))
                 break;
-            // At least as much as the highest power asks for, so that a few sweeps are enough.
+            // The highest power alone would ask for the second factor at most, so that few iterations are needed.
             const double ratio = allowed / change;
             step *= change < 1e300 ? greater(0.99 * ::pow(ratio, 1.0 / order), 0.9 * ratio) : 0.1;
         }
@@ -62,7 +62,7 @@ inline double guarded(const Guards& guards, int order, int lane, double step) {
                                 integer_power(step, order - 1);
             double size =
                 size_of(series, 0, lane) + step * (size_of(series, 1, lane) + step * size_of(series, 2, lane));
-            if (size == 0) { // it has only begun to differ from zero
+            if (size == 0) { // the series starts from zero: use all terms
                 for (int k = order; k > 0; --k)
                     size = (size + size_of(series, k, lane)) * step;
             }
@@ -74,7 +74,7 @@ inline double guarded(const Guards& guards, int order, int lane, double step) {
     return step;
 }
 
-/// Shortens steps that are too long: first it is seen, for all lanes at once, that nearly none is.
+/// Shortens steps that are too long. A test of all lanes at once first excludes the usual case that none is.
 template <class V>
 void guard(const Guards& guards, int order, double* steps) {
     const V step = Numbers<V>::load(steps);
@@ -96,7 +96,7 @@ void guard(const Guards& guards, int order, double* steps) {
         for (std::size_t i = 0; i < guards.quotient_count; ++i) {
             const Series& series = guards.quotients[i];
             const V last = greater(at(series, order) * step, at(series, order - 1)) * power;
-            // Only the least that its size may be: `guarded` sees to the rest.
+            // A lower bound of the size is enough here: `guarded` decides.
             most = greater(most, last - at(series, 0) * largest_share.of[order - 1]);
         }
     }

@@ -37,7 +37,7 @@ const TangentKernels& tangent_kernels(std::size_t directions, [[maybe_unused]] I
 
 namespace {
 
-/// Logarithm of what is lost beside one.
+/// exp(-40) is lost in a sum with 1.
 constexpr double nothing = 40;
 
 class TapeJet final : public Jet {
@@ -57,13 +57,13 @@ public:
         require_index(index, outputs_.size(), "output");
         return outputs_[index];
     }
-    void follow(std::span<const std::uint32_t> groups) override;
-    void begin_followers(std::span<const std::uint32_t> groups) override;
-    const double* follower(std::size_t index) const override {
-        require_index(index, followers_.size(), "follower");
-        return followers_[index];
+    void compute_deferred(std::span<const std::uint32_t> groups) override;
+    void begin_deferred(std::span<const std::uint32_t> groups) override;
+    const double* deferred(std::size_t index) const override {
+        require_index(index, deferred_.size(), "deferred expression");
+        return deferred_[index];
     }
-    std::size_t followers() const override { return followers_.size(); }
+    std::size_t deferred_count() const override { return deferred_.size(); }
     std::span<const Series> series() const override { return series_; }
     void find_steps(double log_tolerance, std::span<const double> references, std::span<double> steps) const override {
         require_lanes(references);
@@ -121,7 +121,7 @@ private:
     void find_constants(const Tape& tape, const KernelTable& table);
     void compute_constants();
     template <class Run>
-    void run_followers(std::span<const std::uint32_t> groups, Run&& run);
+    void run_deferred(std::span<const std::uint32_t> groups, Run&& run);
     void set_states(std::span<const double> states);
     bool has_states(std::span<const double> states) const;
     void sort_series(const Tape& tape);
@@ -133,22 +133,22 @@ private:
     JetLayout layout_;
     AlignedNumbers memory_;
     std::vector<TermOperands> terms_;
-    std::vector<KernelProgram> programs_; ///< of states and outputs, then of each part of what follows
-    /// How far each has been computed: nothing, orders 0 and 1, or all, from the states and parameters that are there.
+    std::vector<KernelProgram> programs_; ///< for states and outputs, then for each part of `deferred_code`
+    /// What each program has computed from the present states and parameters: nothing, orders 0 and 1, or all orders.
     enum class Progress : unsigned char { none, begun, computed };
     std::vector<Progress> progress_;
     std::vector<KernelStep> constant_code_;
-    std::vector<Copy> constant_copies_; ///< to rates and outputs that are constants
-    std::vector<const double*> outputs_, followers_;
+    std::vector<Copy> constant_copies_; ///< values of constants to be copied to rates and outputs
+    std::vector<const double*> outputs_, deferred_;
     std::vector<Series> series_;           ///< states and outputs
-    std::vector<Series> followed_, lines_; ///< the same, sorted as steps want them
-    FollowedSeries to_follow_{};           ///< both
+    std::vector<Series> followed_, lines_; ///< the same, sorted for the choice of steps
+    FollowedSeries to_follow_{};           ///< refers to both
     std::vector<GuardedArgument> arguments_;
     std::vector<Series> quotients_;
-    Guards guards_{};                                        ///< all of them
+    Guards guards_{};                                        ///< refers to all guards
     std::vector<Series> compared_states_, compared_outputs_; ///< at ends of steps
-    std::vector<std::size_t> compared_indices_;              ///< of those states
-    EndComparison comparison_{};                             ///< the three
+    std::vector<std::size_t> compared_indices_;              ///< indices of those states
+    EndComparison comparison_{};                             ///< refers to these three
     std::vector<int> degrees_;                               ///< of states, at least 1
 };
 
@@ -162,10 +162,10 @@ TapeJet::TapeJet(const Tape& tape, int order, const KernelTable& table)
     for (const Term& term : tape.terms)
         terms_.push_back({register_at(term.series), memory_.data() + term.coefficient * layout_.number});
 
-    programs_.reserve(1 + tape.follower_code.size());
+    programs_.reserve(1 + tape.deferred_code.size());
     programs_.emplace_back(StepFinder(tape, table, layout_, memory_.data(), terms_), table, order,
                            KernelProgram::Sequence::by_order);
-    for (std::size_t part = 0; part < tape.follower_code.size(); ++part)
+    for (std::size_t part = 0; part < tape.deferred_code.size(); ++part)
         programs_.emplace_back(StepFinder(tape, part, table, layout_, memory_.data(), terms_), table, order,
                                KernelProgram::Sequence::by_instruction);
     progress_.assign(programs_.size(), Progress::none);
@@ -180,16 +180,16 @@ TapeJet::TapeJet(const Tape& tape, int order, const KernelTable& table)
         constant_copies_.push_back({memory_.data() + location.index * layout_.number, series});
         outputs_.push_back(series);
     }
-    for (const Tape::Location& location : tape.followers)
-        followers_.push_back(location.constant ? memory_.data() + location.index * layout_.number
-                                               : register_at(location.index));
+    for (const Tape::Location& location : tape.deferred)
+        deferred_.push_back(location.constant ? memory_.data() + location.index * layout_.number
+                                              : register_at(location.index));
     for (std::size_t i = 0; i < states_; ++i)
         series_.push_back({state(i), layout_.number});
     for (const double* output : outputs_)
         series_.push_back({output, layout_.number});
     const GuardingRegisters guards = guarding_registers(tape);
-    // Twice as far as to where the terms of an exponential or a sine are largest, and not so far that its last ones
-    // grow.
+    // The allowed change is about twice the change over which the terms of an exponential or a sine are largest, but
+    // not so large that the last terms grow.
     const double change = order < 6 ? 0.7 * order : 4;
     for (const auto& [index, guard, exponent] : guards.arguments) {
         const bool power = guard == GuardKind::power;
@@ -207,7 +207,8 @@ TapeJet::TapeJet(const Tape& tape, int order, const KernelTable& table)
     compute_constants();
 }
 
-/// Sorts out what need not be followed, for the series ends before the order, or not compared.
+/// Selects the series that limit steps (a polynomial below the order does not), and those to be compared at ends of
+/// steps.
 void TapeJet::sort_series(const Tape& tape) {
     const auto order = static_cast<std::uint32_t>(order_);
     const std::vector<bool> affine = affine_registers(tape);
@@ -224,7 +225,7 @@ void TapeJet::sort_series(const Tape& tape) {
         const Tape::Location& at = tape.outputs[j];
         const Series& series = series_[states_ + j];
         const std::uint32_t degree = at.constant ? 0 : tape.degrees[at.index];
-        if (at.constant || at.index >= tape.states) // states are there already
+        if (at.constant || at.index >= tape.states) // the states have been added already
             (degree <= 1 && order > 2 ? lines_ : followed_).push_back(series);
         if (degree > order && !affine[at.index])
             compared_outputs_.push_back(series);
@@ -279,7 +280,7 @@ void TapeJet::set_states(std::span<const double> states) {
         }
         return;
     }
-    constexpr std::size_t usual = 8; // known beforehand, it takes no call to copy them
+    constexpr std::size_t usual = 8; // a fixed number of lanes is copied without a function call
     for (const double* from = states.data(); from != states.data() + states.size(); from += layout_.number) {
         if (layout_.number == usual)
             std::copy_n(from, usual, to);
@@ -322,10 +323,10 @@ void TapeJet::begin(std::span<const double> states) {
     progress_.front() = Progress::begun;
 }
 
-/// Applies to each program that has something of some groups: what all need, what several share, and their own.
+/// Calls `run` for each program needed by some groups: that of group 0, the shared one, and that of each group.
 template <class Run>
-void TapeJet::run_followers(std::span<const std::uint32_t> groups, Run&& run) {
-    constexpr std::size_t first = 1, shared = 2; // among the programs; the others are two behind their groups
+void TapeJet::run_deferred(std::span<const std::uint32_t> groups, Run&& run) {
+    constexpr std::size_t first = 1, shared = 2; // indices of programs; group g has program g + 2
     if (programs_.size() == first)
         return;
     run(first);
@@ -337,10 +338,11 @@ void TapeJet::run_followers(std::span<const std::uint32_t> groups, Run&& run) {
     }
 }
 
-void TapeJet::begin_followers(std::span<const std::uint32_t> groups) {
+void TapeJet::begin_deferred(std::span<const std::uint32_t> groups) {
     if (progress_.front() == Progress::none)
-        throw std::logic_error("followers begin where a jet has begun");
-    run_followers(groups, [this](std::size_t program) {
+        throw std::logic_error(
+            "deferred expressions need coefficients 0 and 1 of the states: call begin or compute first");
+    run_deferred(groups, [this](std::size_t program) {
         if (progress_[program] == Progress::none) {
             programs_[program].begin();
             progress_[program] = Progress::begun;
@@ -348,11 +350,11 @@ void TapeJet::begin_followers(std::span<const std::uint32_t> groups) {
     });
 }
 
-void TapeJet::follow(std::span<const std::uint32_t> groups) {
+void TapeJet::compute_deferred(std::span<const std::uint32_t> groups) {
     if (progress_.front() != Progress::computed)
-        throw std::logic_error("followers follow what a jet has computed");
-    begin_followers(groups);
-    run_followers(groups, [this](std::size_t program) {
+        throw std::logic_error("deferred expressions need all coefficients of the states: call compute first");
+    begin_deferred(groups);
+    run_deferred(groups, [this](std::size_t program) {
         if (progress_[program] == Progress::begun) {
             programs_[program].go_on();
             progress_[program] = Progress::computed;
@@ -360,9 +362,9 @@ void TapeJet::follow(std::span<const std::uint32_t> groups) {
     });
 }
 
-/// Another jet of the same tape, kind and order.
+/// Checks that another jet has the same tape, kind and order.
 const TapeJet& TapeJet::of_same_tape(const Jet& other) const {
-    const auto& same = static_cast<const TapeJet&>(other); // there is no other kind
+    const auto& same = static_cast<const TapeJet&>(other); // the only derived class
     if (&same.table_ != &table_ || same.layout_.size != layout_.size || same.order_ != order_)
         throw std::invalid_argument("ends of steps can be compared only with a jet of the same tape");
     return same;

@@ -7,7 +7,7 @@ namespace graze {
 
 namespace {
 
-/// Where kernels do not jump but call each other, as without optimisation, this bounds the depth of the stack.
+/// Bounds the depth of the stack where kernels call each other instead of jumping, as without optimisation.
 constexpr std::size_t longest_chain = 64;
 
 bool same_operands(const KernelStep& one, const KernelStep& other) {
@@ -65,7 +65,7 @@ void KernelProgram::find_chains(const std::vector<Segment>& segments, const Kern
     for (const Segment& segment : segments)
         most += 2 * segment.steps.size() + 3;
     kernels_.reserve(most); // chains point to them
-    std::size_t length = 0; // of the present chain
+    std::size_t length = 0; // of the current chain
     for (const Segment& segment : segments) {
         const KernelOperands* operands = operands_.data() + segment.operands;
         if (!segment.begins && length > 0 && length + segment.steps.size() < longest_chain) {

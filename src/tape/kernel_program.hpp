@@ -8,31 +8,32 @@
 
 namespace graze {
 
-/// Kernels in the sequence in which they compute coefficients of all orders, as links of chains: each calls the next.
+/// A program: kernels in the order in which they compute coefficients of all orders, in chains where each calls the
+/// next.
 class KernelProgram {
 public:
     enum class Sequence { by_order, by_instruction };
-    /// @param order the highest; @param sequence by order where instructions go back into what they are made of
+    /// @param order the highest order; @param sequence by order where coefficients depend on each other (feedback)
     KernelProgram(const StepFinder& finder, const KernelTable& table, int order, Sequence sequence);
 
-    /// Coefficients 0 and 1 ...
+    /// Computes coefficients 0 and 1.
     void begin() const { run(std::span(chains_).first(beginning_)); }
-    /// ... and all others, after those.
+    /// Computes all higher coefficients, after `begin`.
     void go_on() const { run(std::span(chains_).subspan(beginning_)); }
 
 private:
-    /// The first of a chain of at most `longest_chain` kernels, behind which is one that only returns. It may go on
-    /// from one order to the next.
+    /// Entry of a chain of at most `longest_chain` kernels followed by one that only returns. A chain may continue from
+    /// one order to the next.
     struct Chain {
         const KernelLink* link;
         const KernelOperands* operands;
         Order order;
     };
-    /// Steps at one order, and where the operands are that they share with those of the order before.
+    /// The steps of one order; `operands` is the index of operands shared with the same steps of the order before.
     struct Segment {
         std::vector<KernelStep> steps;
         Order order;
-        bool begins; ///< a chain of its own
+        bool begins; ///< starts a new chain
         std::size_t operands = 0;
     };
     static void run(std::span<const Chain> chains) {
@@ -44,10 +45,10 @@ private:
     void find_operands(std::vector<Segment>& segments);
     void find_chains(const std::vector<Segment>& segments, const KernelTable& table);
 
-    std::vector<KernelLink> kernels_; // chains point to both, wherever the program itself is moved
+    std::vector<KernelLink> kernels_; // chains point to elements of both, also after a move of the program
     std::vector<KernelOperands> operands_;
     std::vector<Chain> chains_;
-    std::size_t beginning_ = 0; ///< chains of orders 0 and 1
+    std::size_t beginning_ = 0; ///< number of chains of orders 0 and 1
 };
 
 /// The end of a chain: only returns.

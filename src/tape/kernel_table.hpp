@@ -1,7 +1,7 @@
 #pragma once
 
-// What the translation units of the instruction sets offer to the rest: tables of kernels. Nothing here may contain
-// inline functions, since code compiled for a wide instruction set must not be what the linker keeps for all.
+// The interface of the translation units of instruction sets: tables of kernels. This header may not contain inline
+// functions: the linker could keep the copy compiled for a wide instruction set for all translation units.
 
 #include "graze/tape/jet.hpp"
 #include "graze/tape/series.hpp"
@@ -15,13 +15,13 @@ namespace graze {
 inline constexpr int operation_count = static_cast<int>(last_function) + 1;
 inline constexpr int series_operation_count = static_cast<int>(SeriesOperation::acos) + 1;
 
-/// One product of a linear combination.
+/// One term of a linear combination.
 struct TermOperands {
     const double* series;
     const double* coefficient;
 };
 
-/// Where a kernel finds its series. `third` is written to by the operations that keep a reciprocal.
+/// The series of a kernel. `third` is written by operations that store a reciprocal.
 struct KernelOperands {
     double* result;
     const double* left;
@@ -31,47 +31,47 @@ struct KernelOperands {
     const TermOperands* terms_end;
 };
 
-/// Of a coefficient; as wide as an address, to which it is added.
+/// Index of a coefficient; as wide as an address, to which it is added.
 using Order = std::ptrdiff_t;
 
 union KernelLink;
 /// Computes the coefficient of one order of one series (or of two, with the operands of both), and then calls the next
-/// kernel, `next->kernel`, with the next operands, as its last act: a jump, where compilers optimise. It costs half of
-/// a loop that calls one after another.
+/// kernel, `next->kernel`, with the next operands. This tail call compiles to a jump, which costs half of a loop that
+/// calls one kernel after another.
 using Kernel = void (*)(const KernelOperands* operands, const KernelLink* next, Order order);
 union KernelLink {
     Kernel kernel;
-    const KernelOperands* operands; ///< behind `KernelTable::next_order`
+    const KernelOperands* operands; ///< follows the link of `KernelTable::next_order`
 };
 
 enum class GuardKind : unsigned char { other, exponential, hyperbolic_tangent, power };
 
-/// The argument of a function without singularities, such as exp: how far it may change over a step is bounded.
+/// The argument of a function without singularities, such as exp, whose change over a step is bounded.
 struct GuardedArgument {
     Series series;
-    GuardKind kind;  ///< of its function
-    double absolute; ///< bound on its change ...
-    double relative; ///< ... and what each unit of its size adds: a high power follows that of the logarithm
-    double seen;     ///< size below which a power is nothing beside one
+    GuardKind kind;  ///< kind of its function
+    double absolute; ///< bound on its change is absolute + relative * size ...
+    double relative; ///< ... since a high power depends on the change of the logarithm
+    double seen;     ///< size below which a power is lost in a sum with 1
 };
 
-/// Intermediate series that say how far others may be followed, whatever their own share of the sums that they enter.
+/// Intermediate series that limit the step, whatever their share of the sums that contain them.
 struct Guards {
     const GuardedArgument* arguments;
     std::size_t argument_count;
-    const Series* quotients; ///< and roots, which have singularities: they must converge
+    const Series* quotients; ///< quotients and roots: have singularities, so their series must converge
     std::size_t quotient_count;
 };
 
-/// What steps are chosen from.
+/// The series from which steps are chosen.
 struct FollowedSeries {
-    const Series* series; ///< all of one stride
+    const Series* series; ///< all of the same stride
     std::size_t count;
-    const Series* lines; ///< of degree 1: they must only be finite
+    const Series* lines; ///< series of degree 1: only checked to be finite
     std::size_t line_count;
 };
 
-/// Series of a jet that may differ from the model at ends of steps.
+/// The series of a jet that are compared with the model at ends of steps.
 struct EndComparison {
     const Series* states;
     const std::size_t* state_indices;
@@ -80,73 +80,74 @@ struct EndComparison {
     std::size_t output_count;
     int order;
 };
-/// What they are compared with. Numbers are [state * width + lane].
+/// The values to compare. Layout [state * width + lane].
 struct EndValues {
-    const double *here, *there;    ///< memories of two jets of one tape, laid out alike
-    const double *values, *slopes; ///< of the polynomials of all states in the first
+    const double *here, *there;    ///< memories of two jets of one tape, with equal layout
+    const double *values, *slopes; ///< values and slopes of all states' polynomials, from the first jet
     const EndAllowance& allowance;
 };
 
-/// A product in a row of the first variational equations: a series of the motion, times one of what changes by it.
+/// A term in a row of the first variational equations: a series of the motion times the series of a source's change.
 struct TangentTerm {
-    std::ptrdiff_t series;     ///< from the jet's first number on; its coefficients are side by side
-    std::size_t source;        ///< where the other series is among those of the directions
-    int degree, source_degree; ///< above which coefficients are zero
+    std::ptrdiff_t series;     ///< offset in the jet's memory; its coefficients are contiguous
+    std::size_t source;        ///< offset of the source's series in the memory of the directions
+    int degree, source_degree; ///< coefficients above these degrees are zero
 };
-/// The row of a state's rate, or of an intermediate quantity that rows behind it are made of.
+/// The row of a state's rate, or of an intermediate quantity used by later rows.
 struct TangentRow {
-    std::size_t result; ///< where its series is
+    std::size_t result; ///< offset of its series
     bool is_rate;
-    /// In this sequence: coefficients that are constant; sources that are; others of which there are few products; all
-    /// others.
+    /// Terms in this order: constant coefficients; constant sources; other terms with few products (one factor is a
+    /// polynomial of low degree); terms with all products.
     const TangentTerm *fixed, *still, *few, *many, *end;
 };
-/// Series of changes that are polynomials known to be of a degree up to this are not computed further than that.
+/// Changes that are polynomials in time of at most this degree are computed only up to it.
 inline constexpr int low_degree = 4;
-/// Changes in some directions, in lanes: [row][order][lane].
+/// Changes in several directions (lanes): [row][order][lane].
 struct TangentOperands {
-    /// Those of intermediate quantities first. Rows before `lasting` and from `lasting_end` on are of low degree.
+    /// Rows of intermediate quantities come first. Rows before `lasting` and from `lasting_end` on are of low degree.
     const TangentRow *begin, *lasting, *lasting_end, *end;
     double* numbers;
 };
 
-/// The changes of the states alone, row after row in their sequence.
+/// The changes of the states, row after row.
 struct TangentStates {
     const double* numbers;
     std::size_t states, size;                   ///< numbers in a series
-    int count, order;                           ///< lanes that are in use
-    const std::size_t *followed, *followed_end; ///< those that are no polynomials of low degree
+    int count, order;                           ///< number of lanes in use; order of the series
+    const std::size_t *followed, *followed_end; ///< states whose changes are not polynomials of low degree
 };
-/// What these are compared with at the end of a step.
+/// The data at the end of a step, for comparison.
 struct TangentEnds {
-    const double* there;         ///< as `TangentStates::numbers`, begun there
+    const double* there;         ///< like `TangentStates::numbers`, with coefficients 0 and 1 at the end
     const double *sums, *slopes; ///< of the polynomials, [state * width + lane]
     double length, allowed, smallest;
 };
-/// What is done for directions, as many side by side as fit.
+/// Kernels for directions, as many side by side as fit into registers.
 struct TangentKernels {
     int width;
-    /// Coefficients of the intermediate quantities from 0 to below this order, and so of the states from 1 to it.
+    /// Computes coefficients 0 .. order - 1 of the intermediate quantities, and 1 .. order of the states.
     void (*compute)(const TangentOperands& operands, const double* jet, int order);
-    /// As that of KernelTable.
+    /// Like KernelTable::sums_and_slopes.
     void (*sums_and_slopes)(const Series* series, const int* degrees, std::size_t count, const double* times,
                             double* values, double* slopes);
-    /// The largest share that the last two terms have in their sizes, the latter at least as given.
-    /// @param floors [state * width + lane], or null
+    /// Returns the largest ratio of the last two terms to the size of a series.
+    /// @param floors [state * width + lane] lower bounds of the sizes, or null
     double (*tails)(const TangentStates& states, double step, const double* floors);
-    /// The first state, from one on, of which a slope differs by more than is allowed; their number if there is none.
+    /// Returns the first state, from `from` on, with a slope whose difference exceeds the allowance; or the number of
+    /// states.
     std::size_t (*misfit)(const TangentStates& states, const TangentEnds& ends, std::size_t from);
 };
-/// What is so small against anything a double can hold that nothing may be said of its relative accuracy.
+/// Numbers below this size have no meaningful relative accuracy in sums of derivatives.
 inline constexpr double smallest_derivative = 1e-200;
 
-/// An entry of a matrix A that is not zero throughout ...
+/// An entry of a matrix A that is not identically zero.
 struct ColumnTerm {
     const double* series;
-    std::ptrdiff_t degree; ///< above which its coefficients are 0
-    std::size_t row;       ///< of what it is multiplied by
+    std::ptrdiff_t degree; ///< its coefficients above this are 0
+    std::size_t row;       ///< row of W by which it is multiplied
 };
-/// ... all of them row by row, and the columns of a matrix W with W' = A W.
+/// All entries row by row, and the columns of a matrix W with W' = A W.
 struct ColumnOperands {
     const ColumnTerm* terms;
     const ColumnTerm* const* row_ends; ///< one past the last term of each row
@@ -154,56 +155,56 @@ struct ColumnOperands {
     std::size_t rows, count, size;     ///< rows and columns of W; numbers in a series
 };
 
-/// What the columns are judged by: [entry * width + lane], entries column by column; [lane]; [row].
+/// The data at the ends of steps, for comparison: [entry * width + lane], entries column by column; [lane]; [row].
 struct ColumnEnds {
-    const double* there;            ///< like `ColumnOperands::columns`, begun at the ends
-    const double *values, *slopes;  ///< of the polynomials at the ends
-    const double *lengths, *scales; ///< of the steps; of the rows
-    double allowed, smallest;       ///< share of sizes that differences may come to; what is added to sizes
+    const double* there;            ///< like `ColumnOperands::columns`, with coefficients 0 and 1 at the ends
+    const double *values, *slopes;  ///< values and slopes of the polynomials at the ends
+    const double *lengths, *scales; ///< step lengths; units of the rows
+    double allowed, smallest;       ///< tolerance relative to sizes; added to each size
 };
 
-/// Linear combinations of fewer terms than this have kernels of their own; row 0 is for all others.
+/// Linear combinations of fewer terms than this have specialised kernels; row 0 is for all others.
 inline constexpr int combination_kernels = 8;
 
 /// Kernels of linear combinations, by number of terms.
 struct CombinationKernels {
     Kernel combination[combination_kernels];       ///< for orders above 0
     Kernel combination_value[combination_kernels]; ///< at order 0, where the constant is added
-    /// All coefficients from 2 to the order that it is called with.
+    /// All coefficients from 2 to the given order.
     Kernel whole_combination[combination_kernels];
-    /// Coefficients of a state from a rate that is a linear combination which nothing else needs ...
+    /// Coefficients of a state whose rate is a linear combination that is used nowhere else.
     Kernel state_combination[combination_kernels];
-    Kernel state_combination_value[combination_kernels]; ///< ... for coefficient 1 of the state
+    Kernel state_combination_value[combination_kernels]; ///< the same for coefficient 1 of the state
 };
 
-/// So many numbers there have to be behind the last series.
+/// Number of doubles that must be readable after the last series.
 inline constexpr int read_behind = 8;
 
 struct KernelTable {
-    int width; ///< doubles for each number
+    int width; ///< number of lanes
     /// Row `linear_combination` is empty.
     Kernel series[series_operation_count][highest_order + 1];
-    /// Instead of those, where not null, at the last order of a series: nothing is done there for the next.
+    /// Used at the last order of a series where not null: they prepare nothing for the next order.
     Kernel closing[series_operation_count][highest_order + 1];
     CombinationKernels combinations;
     Kernel state;                    ///< coefficients of a state from those of its rate, which is a series
     Kernel multiply_linear;          ///< left operand of degree 1; orders above 0
     Kernel function_of_linear;       ///< y' = a' w, a of degree 1; orders above 0
     Kernel minus_function_of_linear; ///< y' = -a' w
-    /// Both at order 0; the cosine goes to `third` (the argument is in `left`).
+    /// Sine and cosine at order 0; the cosine goes to `third` (the argument is in `left`).
     Kernel sine_and_cosine;
-    /// All coefficients from 2 to the order that they are called with, of an argument of degree 1, found likewise.
+    /// All coefficients from 2 to the given order, for an argument of degree 1; operands as for `sine_and_cosine`.
     Kernel whole_sine_and_cosine, whole_hyperbolic_pair, whole_exponential;
-    /// All coefficients from 2 to the order of the product of two known series, and of one over one; only for one lane,
-    /// or null. They may read `read_behind` numbers behind them.
+    /// All coefficients from 2 to the given order of a product of two known series, and of a reciprocal; null if there
+    /// are several lanes. They may read `read_behind` numbers beyond the series.
     Kernel whole_product, whole_reciprocal;
-    /// Goes on with the next order and the operands found in the link that follows.
+    /// Continues with the next order and the operands in the following link.
     Kernel next_order;
-    // Of two steps, one after the other; null where there is no such kernel.
+    // Two steps in one; null where there is no such kernel.
     Kernel two_states;
-    /// An operation, and a multiple of its result.
+    /// An operation, followed by a multiple of its result.
     Kernel with_multiple[series_operation_count][highest_order + 1];
-    /// A linear combination of two terms, and its quotient by something.
+    /// A linear combination of two terms, followed by its quotient by a series.
     Kernel divide_combination[highest_order + 1];
     void (*literal)(double* result, double value);
     void (*sum)(const double* series, int order, const double* times, double* values);
@@ -215,20 +216,20 @@ struct KernelTable {
                   double* steps);
     /// Shortens steps that are too long for intermediate series: see `guard_kernels.hpp`.
     void (*guard)(const Guards& guards, int order, double* steps);
-    /// Coefficients 1 .. highest of the columns from coefficient 0. (Only for ensembles.)
+    /// Computes coefficients 1 .. highest of the columns from coefficient 0. (Ensembles only, as are the next two.)
     void (*columns)(const ColumnOperands& operands, Order highest);
-    /// The largest share, of all columns, that a column's last two terms have in its first three. (So are these two.)
+    /// Returns per lane the largest ratio, over all columns, of the last two terms to the column's first three.
     void (*column_tails)(const ColumnOperands& operands, Order highest, const double* lengths, const double* scales,
                          double* worst);
-    /// By how much columns' slopes differ from their rates at ends of steps, in units of what is allowed; infinity
-    /// where something is not finite.
+    /// Returns per lane by how much columns' slopes differ from their rates at ends of steps, relative to the
+    /// allowance; infinity where a number is not finite.
     void (*column_misfit)(const ColumnOperands& operands, const ColumnEnds& ends, double* worst);
-    Kernel constant[operation_count]; ///< on numbers; row `number` and `symbol` are empty
+    Kernel constant[operation_count]; ///< operations on constants; rows `number` and `symbol` are empty
 };
 
-/// That of an instruction set, which the processor must have.
+/// Returns the table of an instruction set, which the processor must support.
 const KernelTable& kernel_table(LaneKind kind, InstructionSet set);
-/// For so many directions, or the most that are worth computing together.
+/// Returns the kernels for this number of directions, or for the largest number that is worth computing together.
 const TangentKernels& tangent_kernels(std::size_t directions, InstructionSet set);
 
 namespace baseline {

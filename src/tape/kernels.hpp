@@ -4,9 +4,9 @@
 // for all kinds of lanes and all instruction sets. To be included only by the translation unit of an instruction
 // set. Loops over coefficients are unrolled, as templates on the order.
 //
-// What limits a jet of one lane is latency: each coefficient waits for those of the same order that it is made of.
-// Kernels are therefore written such that all that is known from lower orders is summed first, and a coefficient of
-// the same order needs one or two operations more.
+// A jet of one lane is limited by latency: each coefficient waits for coefficients of the same order. Kernels therefore
+// first sum everything that is known from lower orders; a coefficient of the same order then needs one or two more
+// operations.
 
 #include "tape/kernel_table.hpp"
 #include "tape/lane_numbers.hpp"
@@ -20,7 +20,7 @@ namespace graze::GRAZE_INSTRUCTION_SET {
 template <int... j>
 using Indices = std::integer_sequence<int, j...>;
 
-/// 1/k: multiplying is quicker than dividing.
+/// 1/k: a multiplication is faster than a division.
 struct Inverses {
     double of[highest_order + 1] = {};
     constexpr Inverses() {
@@ -51,7 +51,7 @@ GRAZE_INLINE V total(const V (&sums)[4]) {
 }
 
 #if defined(__FMA__)
-/// The same sum for one lane, with the partial sums side by side in a register: fewer loads, same bits.
+/// The same sum for one lane, with the partial sums in the lanes of a register: fewer loads, the same bits.
 template <int k, int terms>
 GRAZE_INLINE double convolution_by_four(const double* a, const double* b) {
     const auto term = [&](int j) __attribute__((always_inline)) {
@@ -93,8 +93,8 @@ GRAZE_INLINE V convolution(const double* a, const double* b) {
     return total<terms>(sums);
 }
 
-/// The convolutions of two orders at once: what limits lanes is how fast coefficients can be loaded, and this way each
-/// does for two products. (The same sums in the same sequence as those of `convolution`.)
+/// The convolutions of two orders at once. Ensembles are limited by loads, and this way each loaded coefficient serves
+/// two products. (The sums have the same order of terms as those of `convolution`.)
 template <class V, int k, int terms = k - 1>
 class TwoConvolutions {
 public:
@@ -121,13 +121,13 @@ private:
     }
 
     V first_[4], second_[4];
-    V b_; ///< the last one loaded
+    V b_; ///< the last b loaded
 };
 
 template <class V>
 inline constexpr bool has_pairs = std::is_same_v<V, Ensemble>;
-/// From this order on, the convolutions of an even and the next odd order are computed together. What is known of the
-/// odd one waits where its coefficient will be.
+/// From this order on, the convolutions of an even order and the next odd order are computed together. The part of the
+/// odd one is stored in the place of its coefficient until then.
 inline constexpr int first_pair = 4;
 template <class V, int k>
 inline constexpr bool starts_pair = has_pairs<V> && (k >= first_pair) && (k % 2 == 0);
@@ -154,7 +154,7 @@ GRAZE_INLINE V self_convolution(const double* a) {
     }
 }
 
-// Those that come in pairs have a second kernel at even orders, `closing`, for the last order of a series.
+// Operations with paired orders have a second kernel at even orders, `closing`, for the last order of a series.
 
 template <class V>
 struct Multiply {
@@ -217,8 +217,8 @@ struct Square {
     }
 };
 
-/// Coefficients of a quotient depend on one another: `convolution` of the quotient and its divisor, and what is known
-/// of that of the next order once `finish` has computed the coefficient of this one.
+/// Coefficients of a quotient depend on one another: computes the convolution of quotient and divisor, and the known
+/// part of that of the next order after `finish` has computed the coefficient of this one.
 template <class V, int k, bool closing, class Finish>
 GRAZE_INLINE V divide_by(const double* divisor, double* quotient, Finish finish) {
     if constexpr (ends_pair<V, k>) {
@@ -234,14 +234,14 @@ GRAZE_INLINE V divide_by(const double* divisor, double* quotient, Finish finish)
     }
 }
 
-/// q b = a; the reciprocal of b at order 0 is kept in `third`.
+/// q b = a; the reciprocal of b at order 0 is stored in `third`.
 template <class V>
 struct Divide {
     template <int k, bool closing = false>
     GRAZE_INLINE static V run(const KernelOperands& o, Order) {
         return run_of<k, closing>(o, at<V>(o.left, k));
     }
-    /// Given the coefficient of a.
+    /// @param a coefficient k of the dividend
     template <int k, bool closing = false>
     GRAZE_INLINE static V run_of(const KernelOperands& o, V a) {
         if constexpr (k == 0) {
@@ -283,7 +283,7 @@ struct Reciprocal {
     }
 };
 
-/// y y = a; 1/(2 y) at order 0 is kept in `third`.
+/// y y = a; 1/(2 y) at order 0 is stored in `third`.
 template <class V>
 struct SquareRoot {
     template <int k>
@@ -303,7 +303,7 @@ struct SquareRoot {
     }
 };
 
-/// a y' = c a' y; the reciprocal of a at order 0 is kept in `third`.
+/// a y' = c a' y; the reciprocal of a at order 0 is stored in `third`.
 template <class V>
 struct Power {
     template <int k>
@@ -334,7 +334,7 @@ struct Power {
     }
 };
 
-/// k y_k = sum of (j a_j) w_{k-j}, with the sign of the derivative; (j a_j) in `left`, w in `right`, a in `third`.
+/// k y_k = sum of (j a_j) w_{k-j}, with the sign of the derivative; (j a_j) is in `left`, w in `right`, a in `third`.
 template <class V, bool negative>
 struct FunctionByProduct {
     template <int k>
@@ -355,7 +355,7 @@ GRAZE_INLINE void function_of_linear(const KernelOperands& o, Order k) {
     put(o.result, k, at<V>(o.right, k - 1) * (at<V>(o.third, 1) * (negative ? -inverse.of[k] : inverse.of[k])));
 }
 
-/// All coefficients of two such functions that are each other's w.
+/// All coefficients of two such functions, each of which is the w of the other (sin and cos, sinh and cosh).
 template <class V, bool negative>
 GRAZE_INLINE void whole_pair(const KernelOperands& o, Order highest) {
     const V slope = at<V>(o.left, 1);
@@ -369,7 +369,7 @@ GRAZE_INLINE void whole_pair(const KernelOperands& o, Order highest) {
     }
 }
 
-/// And of one that is its own.
+/// All coefficients of such a function that is its own w (exp).
 template <class V>
 GRAZE_INLINE void whole_exponential(const KernelOperands& o, Order highest) {
     const V slope = at<V>(o.left, 1);
@@ -378,7 +378,7 @@ GRAZE_INLINE void whole_exponential(const KernelOperands& o, Order highest) {
         value = put(o.result, k, value * (slope * inverse.of[k]));
 }
 
-/// k y_k = (k y_k), found in `left`, with a sign.
+/// k y_k, found in `left`, divided by k, with a sign.
 template <class V, bool negative>
 struct FunctionByQuotient {
     template <int k>
@@ -400,7 +400,7 @@ GRAZE_INLINE void function_value(const KernelOperands& o, Order) {
     put(o.result, 0, evaluate<function>(at<V>(o.third, 0)));
 }
 
-/// Compilers make one call of the library of the two.
+/// Compilers combine the two into one call of the library.
 template <class V>
 GRAZE_INLINE void sine_and_cosine(const KernelOperands& o, Order) {
     const V a = at<V>(o.left, 0);
@@ -415,14 +415,14 @@ GRAZE_INLINE void multiply_linear(const KernelOperands& o, Order k) {
     put(o.result, k, multiply_add(at<V>(o.left, 0), at<V>(o.right, k), at<V>(o.left, 1) * at<V>(o.right, k - 1)));
 }
 
-/// Numbers at one order ...
+/// Numbers at one order.
 template <class V>
 struct OneOrder {
     GRAZE_INLINE static V zero() { return Numbers<V>::of(0); }
     GRAZE_INLINE static V coefficient(const double* from) { return at<V>(from, 0); }
     GRAZE_INLINE static V term(const double* series, Order k) { return at<V>(series, k); }
 };
-/// ... and those of one lane at as many orders as a register has room for.
+/// Numbers of one lane at as many consecutive orders as a register holds.
 struct ManyOrders {
     GRAZE_INLINE static Pack zero() { return splat(0); }
     GRAZE_INLINE static Pack coefficient(const double* from) { return splat(*from); }
@@ -433,8 +433,8 @@ struct ManyOrders {
     }
 };
 
-/// Sum of coefficient times series; the terms that are ready last come last.
-/// @tparam count of terms; 0: any
+/// Returns the sum of coefficient times series; terms that become ready last are added last.
+/// @tparam count number of terms; 0: any number
 template <class At, int count>
 GRAZE_INLINE auto combination(const KernelOperands& o, Order k) {
     const auto add = [k](const TermOperands& term, auto sum) __attribute__((always_inline)) {
@@ -501,7 +501,7 @@ GRAZE_INLINE void state(const KernelOperands& o, Order k) {
     put(o.result, k, at<V>(o.left, k - 1) * inverse.of[k]);
 }
 
-// Two steps that are often taken one after the other. Their operands stand side by side.
+// Two steps that often follow one another. Their operands are adjacent.
 
 template <class V>
 GRAZE_INLINE void two_states(const KernelOperands* operands, Order k) {
@@ -534,7 +534,7 @@ void literal(double* result, double value) {
     put(result, 0, Numbers<V>::of(value));
 }
 
-/// Arithmetic on numbers.
+/// Arithmetic on constants.
 template <class V, Operation operation>
 GRAZE_INLINE void constant(const KernelOperands& o, Order) {
     const V a = at<V>(o.left, 0);

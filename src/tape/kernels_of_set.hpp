@@ -13,10 +13,10 @@
 
 namespace graze::GRAZE_INSTRUCTION_SET {
 
-/// Goes on with what comes next.
+/// Calls the next kernel.
 GRAZE_INLINE void go_on(const KernelOperands* operands, const KernelLink* next, Order order) {
     ++next;
-    asm("" : "+r"(next)); // otherwise compilers keep two pointers, to save nothing
+    asm("" : "+r"(next)); // otherwise compilers keep two pointers for no benefit
     return next[-1].kernel(operands, next, order);
 }
 
@@ -84,7 +84,7 @@ constexpr void fill_with_multiple(KernelTable& table, SeriesOperation operation)
     fill_twos<WithMultiple<double, Family>>(table.with_multiple[static_cast<int>(operation)],
                                             std::make_integer_sequence<int, highest_order>{});
 }
-/// Only for a single lane: where there are more, each step has work enough for itself.
+/// Only for a single lane: with several lanes each step has enough work of its own to hide latency.
 constexpr void fill_twos(KernelTable& table) {
 #if defined(__FMA__)
     table.whole_product = &chained<&whole_product<>>;

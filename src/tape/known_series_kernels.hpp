@@ -1,24 +1,24 @@
 #pragma once
 
-// Products and reciprocals of series of one lane of which all coefficients are known: those of many orders side by
-// side. To be included only by the translation unit of an instruction set.
+// Products and reciprocals of known series of one lane, with many orders side by side in a register. To be included
+// only by the translation unit of an instruction set.
 
 #include "tape/kernels.hpp"
 
 #if defined(__FMA__)
 namespace graze::GRAZE_INSTRUCTION_SET {
 
-/// Numbers moved up by one lane, behind the last of those before them.
+/// Shifts lanes up by one; the free lane takes the last number of `before`.
 GRAZE_INLINE Pack moved_up(Pack before, Pack numbers) {
 #if defined(__AVX512F__)
-    // The mask leaves nothing out; without one g++ 12 warns of what is not initialised.
+    // The mask selects all lanes; without it g++ 12 warns of uninitialised values.
     return _mm512_castsi512_pd(
         _mm512_maskz_alignr_epi64(0xff, _mm512_castpd_si512(numbers), _mm512_castpd_si512(before), lanes - 1));
 #else
     return _mm256_blend_pd(_mm256_permute4x64_pd(numbers, 0x93), _mm256_permute4x64_pd(before, 0x93), 1);
 #endif
 }
-/// And down by one, before the first of those behind them.
+/// Shifts lanes down by one; the free lane takes the first number of `behind`.
 GRAZE_INLINE Pack moved_down(Pack numbers, Pack behind) {
 #if defined(__AVX512F__)
     return _mm512_castsi512_pd(
@@ -27,7 +27,7 @@ GRAZE_INLINE Pack moved_down(Pack numbers, Pack behind) {
     return _mm256_blend_pd(_mm256_permute4x64_pd(numbers, 0x39), _mm256_permute4x64_pd(behind, 0x39), 8);
 #endif
 }
-/// Stores the lanes from one on, up to another.
+/// Stores lanes first .. end - 1.
 GRAZE_INLINE void put_lanes(double* to, Pack numbers, Order first, Order end) {
 #if defined(__AVX512F__)
     _mm512_mask_storeu_pd(to, static_cast<__mmask8>((0xffU << first) & ~(~0U << end)), numbers);
@@ -40,9 +40,9 @@ GRAZE_INLINE void put_lanes(double* to, Pack numbers, Order first, Order end) {
 #endif
 }
 
-/// The product of two series of one lane of which all coefficients are known: those of all orders side by side, in so
-/// many packs. For each coefficient of one the other has been moved up by one order. (What is read behind the last
-/// coefficient comes to orders above it alone, which are left out.)
+/// Multiplies two known series of one lane, all orders side by side in `packs` registers. For each coefficient of one
+/// series, the other has been shifted up by one order. (Values read beyond the last coefficient affect only higher
+/// orders, which are not stored.)
 template <int packs>
 GRAZE_INLINE void product_in_packs(const KernelOperands& o, Order highest) {
     Pack moved[packs], sums[packs];
@@ -50,7 +50,8 @@ GRAZE_INLINE void product_in_packs(const KernelOperands& o, Order highest) {
         __builtin_memcpy(&moved[i], o.right + i * lanes, sizeof(Pack));
         sums[i] = splat(0);
     }
-    const auto add_block = [&]<int block>() __attribute__((always_inline)) { // packs before it are zero by now
+    const auto add_block = [&]<int block>()
+        __attribute__((always_inline)) { // packs before `block` have been shifted to zero
         const Order first = block * lanes, end = block + 1 < packs ? first + lanes : highest + 1;
         for (Order j = first; j < end; ++j) {
             const Pack factor = splat(o.left[j]);
@@ -71,8 +72,8 @@ GRAZE_INLINE void product_in_packs(const KernelOperands& o, Order highest) {
     }
 }
 
-/// One over such a series. Sums for all orders that are left are side by side, the next first: each coefficient is
-/// added to those behind it once it is found.
+/// Computes the reciprocal of a known series. The sums of all remaining orders are side by side, the next first: each
+/// new coefficient is immediately added to the sums of higher orders.
 template <int packs>
 GRAZE_INLINE void reciprocal_in_packs(const KernelOperands& o, Order highest) {
     Pack known[packs], sums[packs];
@@ -94,7 +95,7 @@ GRAZE_INLINE void reciprocal_in_packs(const KernelOperands& o, Order highest) {
     }
 }
 
-/// Both, with as many packs as it takes.
+/// Choose the number of packs that the order needs.
 template <int packs = 1>
 GRAZE_INLINE void whole_product(const KernelOperands& o, Order highest) {
     if constexpr (packs * lanes <= highest_order)

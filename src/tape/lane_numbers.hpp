@@ -1,8 +1,8 @@
 #pragma once
 
-// The numbers that kernels compute with. To be included only by the translation unit of one instruction set, which
-// defines GRAZE_INSTRUCTION_SET (the namespace, so that no two sets share a function) and GRAZE_LANES.
-// Arithmetic is the same operation by operation for both types: this makes lanes agree bit for bit.
+// The number types of kernels. To be included only by the translation unit of one instruction set, which defines
+// GRAZE_INSTRUCTION_SET (the namespace, so that no two sets share a function) and GRAZE_LANES. All types use the same
+// operations in the same order: this makes lanes agree bit for bit.
 
 #include "symbolic/function_table.hpp"
 
@@ -12,7 +12,7 @@
 #include <immintrin.h>
 #endif
 
-// Kernels are long because loops are unrolled; left alone, compilers would not inline what they are made of.
+// Kernels are long because loops are unrolled; without this attribute compilers would not inline their parts.
 #define GRAZE_INLINE [[gnu::always_inline]] inline
 
 namespace graze::GRAZE_INSTRUCTION_SET {
@@ -20,13 +20,13 @@ namespace graze::GRAZE_INSTRUCTION_SET {
 inline constexpr int lanes = GRAZE_LANES;
 typedef double Pack __attribute__((vector_size(8 * lanes)));
 
-/// Lanes that have nothing to do with each other.
+/// Several registers of independent lanes.
 template <int count>
 struct Packs {
     static constexpr int parts = count;
     Pack part[parts];
 };
-/// Independent trajectories. While one pack waits for what its operations need, processors work on the other.
+/// Independent trajectories. Two packs hide latency: the processor works on one while the other waits.
 using Ensemble = Packs<2>;
 GRAZE_INLINE double multiply_add(double a, double b, double c) {
 #if defined(__FMA__)
@@ -58,12 +58,12 @@ GRAZE_INLINE Pack splat(double value) {
 #endif
 }
 
-/// The sign bits cleared.
+/// Returns |a| by clearing the sign bits.
 GRAZE_INLINE Pack absolute(Pack a) {
     typedef long long Bits __attribute__((vector_size(8 * lanes)));
     return __builtin_bit_cast(Pack, __builtin_bit_cast(Bits, a) & 0x7fffffffffffffff);
 }
-/// Lanes in which not a <= b, as bits.
+/// Returns the lanes where not a <= b, as bits.
 GRAZE_INLINE unsigned lanes_above(Pack a, Pack b) {
 #if defined(__AVX512F__)
     return _mm512_cmp_pd_mask(a, b, _CMP_NLE_UQ);
@@ -159,7 +159,7 @@ struct Numbers<Packs<n>> {
     GRAZE_INLINE static Packs<n> of(double number) { return GRAZE_FOR_PARTS(Packs<n>, ((void)i, splat(number))); }
 };
 
-/// Coefficient of a series.
+/// Loads a coefficient of a series.
 template <class V>
 GRAZE_INLINE V at(const double* series, std::ptrdiff_t order) {
     return Numbers<V>::load(series + order * Numbers<V>::width);

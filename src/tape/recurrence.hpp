@@ -4,9 +4,9 @@
 
 namespace graze {
 
-/// How the coefficients of a function's series follow from those of its argument a.
+/// The recurrence for the coefficients of a function's series, given those of its argument a.
 enum class Recurrence {
-    own,            ///< in a way of its own
+    own,            ///< its own kernel
     product,        ///< y' = a' w
     minus_product,  ///< y' = -a' w
     quotient,       ///< y' = a' / w

@@ -9,7 +9,7 @@ namespace graze {
 
 namespace {
 
-/// Longer sums are cut, so that building them takes linear time.
+/// Longer sums are split, so that building them takes linear time.
 constexpr std::size_t most_terms = 64;
 /// Longer sums are computed before they are multiplied by a constant that is not a literal.
 constexpr std::size_t most_scaled_terms = 4;
@@ -106,7 +106,7 @@ LinearForm SeriesBuilder::multiply(LinearForm left, LinearForm right) {
                                     : series(multiply(reg_of(left), reg_of(right)));
 }
 
-/// Factors that are split off of one product after the other would leave the range of numbers, where products need not.
+/// Splitting large factors off one product after another could overflow where the products themselves do not.
 bool SeriesBuilder::is_moderate(std::uint32_t coefficient) const {
     const double size = std::abs(constants_.value_of(coefficient).value_or(1));
     return size == 0 || (size >= 0x1p-400 && size <= 0x1p400);
@@ -128,7 +128,7 @@ LinearForm SeriesBuilder::divide(LinearForm left, const LinearForm& right) {
     return scaled({coefficient, quotient});
 }
 
-/// Where reciprocals are preferred, that of a square is a square.
+/// Where reciprocals are preferred, the reciprocal of a square is the square of a reciprocal.
 std::uint32_t SeriesBuilder::reciprocal_of(std::uint32_t a) {
     const auto root = roots_.find(a);
     if (!prefers_reciprocals_ || is_known(SeriesOperation::reciprocal, a) || root == roots_.end())
@@ -150,7 +150,7 @@ LinearForm SeriesBuilder::power(LinearForm base, LinearForm exponent) {
         if (*value == 0)
             return constant(one_);
         if (std::trunc(*value) == *value)
-            // A factor that is split off would leave the range of numbers in a high power.
+            // A large factor that is split off could overflow in a high power.
             return integer_power(std::abs(*value) < 64 ? split(base) : Scaled{one_, reg_of(base)}, *value);
         if (std::trunc(2 * *value) == 2 * *value)
             return half_integer_power(reg_of(base), *value);
@@ -163,7 +163,8 @@ LinearForm SeriesBuilder::integer_power(Scaled base, double exponent) {
     std::uint32_t bit = 1;
     while (bit <= count / 2)
         bit *= 2;
-    // The reciprocal comes first: that of a power, near a pole of high order, loses digits with every coefficient.
+    // The reciprocal is taken first: near a pole of high order, the reciprocal of a power loses digits in each
+    // coefficient.
     const std::uint32_t factor = exponent < 0 ? emit(SeriesOperation::reciprocal, base.reg) : base.reg;
     std::uint32_t result = factor;
     for (bit /= 2; bit != 0; bit /= 2) {
@@ -274,7 +275,7 @@ std::uint32_t SeriesBuilder::multiply(std::uint32_t left, std::uint32_t right) {
         roots_.emplace(result, left);
         return result;
     }
-    // The kernel waits least for its right operand: let it be the one computed later.
+    // The kernel needs its right operand last: let it be the one computed later.
     return emit(SeriesOperation::multiply, std::min(left, right), std::max(left, right));
 }
 

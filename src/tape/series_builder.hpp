@@ -7,8 +7,8 @@
 
 namespace graze {
 
-/// What an expression is while a tape is compiled: a constant plus constants times registers, sorted by register.
-/// Sums are kept in this form as long as possible, so that one instruction computes a whole sum.
+/// An expression during compilation: a constant plus constants times registers, sorted by register. Sums are kept in
+/// this form as long as possible, so that one instruction computes a whole sum.
 struct LinearForm {
     std::uint32_t constant = 0;
     std::vector<Term> terms;
@@ -26,15 +26,15 @@ public:
     LinearForm series(std::uint32_t reg) const { return {zero_, {{reg, one_}}}; }
 
     LinearForm apply(Operation operation, LinearForm left, LinearForm right);
-    /// From now on quotients that are not known yet are products with reciprocals, of which many are the same.
+    /// From now on, new quotients are compiled as products with reciprocals, many of which are shared.
     void prefer_reciprocals() { prefers_reciprocals_ = true; }
 
-    /// The same form, but as at most one register, so that to use it many times costs no repetition.
+    /// Returns the same form with at most one register, so that using it several times repeats no work.
     LinearForm shared(LinearForm form);
-    /// Where the form is found, after the instruction that computes it, if one is needed.
+    /// Returns where the form is stored; emits the instruction that computes it if necessary.
     Tape::Location location(const LinearForm& form);
 
-    /// Hands over code, terms and the number of registers; constants are left to `constants`.
+    /// Moves code, terms and the number of registers to the tape; the constants are moved by `constants`.
     void move_to(Tape& tape);
     const ConstantPool& constants() const { return constants_; }
 
@@ -68,7 +68,7 @@ private:
     std::uint32_t one_and_square(std::uint32_t a, double sign);
 
     static Key key_of(SeriesOperation operation, std::uint32_t left, std::uint32_t right, std::uint32_t third);
-    /// Whether there is a register with this in it.
+    /// True when a register already holds the result of this instruction.
     bool is_known(SeriesOperation operation, std::uint32_t left, std::uint32_t right = 0) const {
         return known_.contains(key_of(operation, left, right, 0));
     }
@@ -80,8 +80,8 @@ private:
     std::uint32_t one_;
     std::vector<Instruction> code_;
     std::vector<Term> terms_;
-    std::map<Key, std::uint32_t> known_;           ///< registers by what is in them
-    std::map<std::uint32_t, std::uint32_t> roots_; ///< of registers that are squares
+    std::map<Key, std::uint32_t> known_;           ///< registers by the instruction that computes them
+    std::map<std::uint32_t, std::uint32_t> roots_; ///< for registers that are squares, the register that is squared
 };
 
 } // namespace graze

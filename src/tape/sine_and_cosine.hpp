@@ -1,21 +1,21 @@
 #pragma once
 
-// Sine and cosine of one number or of all lanes of a register, by the same operations: lanes agree bit for bit. To be
-// included only by the translation unit of an instruction set. Where products are not added without rounding, they are
-// the library's.
+// Sine and cosine of one number or of all lanes of a register by the same operations, so that lanes agree bit for bit.
+// To be included only by the translation unit of an instruction set. Without fused multiply-add the library's functions
+// are used instead.
 //
-// The argument is reduced by multiples of pi/2 in three parts, of which the first leaves no remainder (all is a
-// multiple of 2^-53, and less than one); what is beyond the first double of the result is kept. Then come the terms of
-// the series up to r^17 and r^18: what follows is below 1e-19 of the sum for |r| <= pi/4. What is added to the largest
-// term is small and known beyond its rounding, so that errors are below 0.7 units in the last place (a half is what
-// rounding takes).
+// The argument is reduced by multiples of pi/2 given in three parts. Subtracting the first part is exact (the result is
+// a multiple of 2^-53 and less than one); the part of the result beyond its first double is kept. The series are summed
+// up to r^17 and r^18: the remainder is below 1e-19 of the sum for |r| <= pi/4. All corrections to the largest term are
+// small and known beyond their rounding, so that errors are below 0.7 units in the last place (rounding alone takes
+// 0.5).
 
 #include "tape/lane_numbers.hpp"
 
 namespace graze::GRAZE_INSTRUCTION_SET {
 #if defined(__FMA__)
 
-/// Beyond, multiples are no longer small integers.
+/// Beyond this size, the multiples of pi/2 are no longer small integers.
 inline constexpr double largest_reduced = 0x1p20;
 
 template <class V>
@@ -29,7 +29,7 @@ struct BitsOf<double> {
     GRAZE_INLINE static double of(double value) { return value; }
 };
 
-/// Sum of c_i z^i.
+/// Returns the sum of c_i z^i.
 template <class V, int count>
 GRAZE_INLINE V terms_of(const double (&c)[count], V z) {
     V sum = BitsOf<V>::of(c[count - 1]);
@@ -54,10 +54,10 @@ GRAZE_INLINE void reduced_sine_and_cosine(V a, V& sine, V& cosine) {
     const V shifted = multiply_add(a, number(0x1.45f306dc9c883p-1), number(to_integer));
     const V less = to_integer - shifted; // minus that integer
     const V first = multiply_add(less, number(0x1.921fb54442d18p+0), a);
-    // Added to nothing, it cannot become part of the sums behind, which are to be those of rounded numbers.
+    // Adding zero rounds the product, and keeps compilers from fusing it into the following sums.
     const V product = multiply_add(less, number(0x1.1a62633145c07p-54), number(0));
     const V product_rest = multiply_add(less, number(0x1.1a62633145c07p-54), -product);
-    const V r = first + product, moved = r - first; // close to a multiple both may be of one size
+    const V r = first + product, moved = r - first; // close to a multiple of pi/2 both may be of equal size
     const V rest =
         ((first - (r - moved)) + (product - moved)) + multiply_add(less, number(-0x1.f1976b7ed8fbcp-110), product_rest);
     const V z = r * r, half = z * 0.5, z_rest = multiply_add(r, r, -z);

@@ -15,7 +15,7 @@ std::uint32_t reciprocals_in(const std::vector<Instruction>& code) {
     }));
 }
 
-/// How often each register is read by code.
+/// Counts how often the code reads each register.
 void add_uses(const Tape& tape, const std::vector<Instruction>& code, std::vector<std::uint32_t>& uses) {
     for (const Instruction& instruction : code)
         visit_operands(tape, instruction, [&](std::uint32_t reg) { ++uses[reg]; });
@@ -34,7 +34,7 @@ JetLayout::JetLayout(const Tape& tape, int highest, int width)
     registers = (tape.constants * number + 7) / 8 * 8;
     reciprocals = registers + tape.registers * series;
     std::size_t kept = reciprocals_in(tape.code);
-    for (const std::vector<Instruction>& code : tape.follower_code)
+    for (const std::vector<Instruction>& code : tape.deferred_code)
         kept += reciprocals_in(code);
     constant_outputs = reciprocals + kept * number;
     const auto is_constant = [](const Tape::Location& location) { return location.constant; };
@@ -49,20 +49,20 @@ StepFinder::StepFinder(const Tape& tape, const KernelTable& table, const JetLayo
     add_uses(tape.rates, uses);
     find_times(uses);
     add_uses(tape.outputs, uses);
-    add_uses(tape.followers, uses);
-    for (const std::vector<Instruction>& code : tape.follower_code)
+    add_uses(tape.deferred, uses);
+    for (const std::vector<Instruction>& code : tape.deferred_code)
         add_uses(tape, code, uses);
     find_private_rates(uses);
 }
 
 StepFinder::StepFinder(const Tape& tape, std::size_t part, const KernelTable& table, const JetLayout& layout,
                        double* memory, const std::vector<TermOperands>& terms)
-    : tape_(tape), code_(tape.follower_code[part]), has_states_(false), reciprocals_(reciprocals_in(tape.code)),
+    : tape_(tape), code_(tape.deferred_code[part]), has_states_(false), reciprocals_(reciprocals_in(tape.code)),
       table_(table), layout_(layout), memory_(memory), terms_(terms), combination_of_(tape.registers, none) {
     for (std::size_t before = 0; before < part; ++before)
-        reciprocals_ += reciprocals_in(tape.follower_code[before]);
+        reciprocals_ += reciprocals_in(tape.deferred_code[before]);
     std::vector<std::uint32_t> uses(tape.registers, 0);
-    for (const std::vector<Instruction>& code : tape.follower_code)
+    for (const std::vector<Instruction>& code : tape.deferred_code)
         add_uses(tape, code, uses);
     find_times(uses);
 }
@@ -105,7 +105,7 @@ void StepFinder::find_private_rates(const std::vector<std::uint32_t>& uses) {
 }
 
 void StepFinder::add_states(int order, std::vector<KernelStep>& steps) const {
-    std::vector<KernelStep> combinations; // after the others, which so stand side by side
+    std::vector<KernelStep> combinations; // added last, so that the other kernels are adjacent
     for (std::uint32_t i = 0; i < tape_.states; ++i) {
         const Tape::Location& rate = tape_.rates[i];
         if (rate.constant || static_cast<std::uint32_t>(order) > tape_.degrees[i])
@@ -160,8 +160,8 @@ void StepFinder::add_instructions(int order, std::size_t first, std::size_t behi
     }
 }
 
-/// One past the last instruction that has to be computed with the first, order by order: a function waits for one
-/// behind it, such as the sine for the cosine.
+/// Returns one past the last instruction that must be computed together with the first, order by order: a function may
+/// need a later one, as the sine needs the cosine.
 /// @param behind one past the instruction that computes each register
 std::size_t StepFinder::end_of_run(std::size_t first, const std::vector<std::size_t>& behind) const {
     std::size_t end = first + 1;
@@ -205,12 +205,12 @@ std::vector<StepFinder::Run> StepFinder::runs() const {
         }
         runs.push_back(std::move(run));
         for (; first < end; ++first)
-            static_cast<void>(operands_of(code_[first], reciprocals)); // counts what they keep
+            static_cast<void>(operands_of(code_[first], reciprocals)); // counts the stored reciprocals
     }
     return runs;
 }
 
-/// Of a function of an argument of degree 1, and the other if it is one of a pair.
+/// Returns the step of a function of an argument of degree 1, together with the other function if it is one of a pair.
 KernelStep StepFinder::whole_step(std::size_t i) const {
     const Instruction& one = code_[i];
     return {whole_kernel(i), {register_at(one.result), register_at(one.third), {}, register_at(one.right), {}, {}}};
@@ -244,7 +244,7 @@ Kernel StepFinder::whole_kernel(std::size_t i) const {
     };
     const bool is_function = one.operation == SeriesOperation::sin || one.operation == SeriesOperation::sinh ||
                              one.operation == SeriesOperation::exp;
-    if (!is_function || tape_.degrees[one.third] > 1) // of others the third operand is no register
+    if (!is_function || tape_.degrees[one.third] > 1) // for other operations `third` is not a register
         return nullptr;
     if (is_pair(SeriesOperation::sin, SeriesOperation::cos))
         return table_.whole_sine_and_cosine;
@@ -275,7 +275,7 @@ KernelOperands StepFinder::combination_operands(const Instruction& instruction) 
     KernelOperands operands{register_at(instruction.result),  {},
                             constant_at(instruction.third),   {},
                             terms_.data() + instruction.left, terms_.data() + instruction.right};
-    if (combination_row(instruction) == 1) { // a single term needs no list
+    if (combination_row(instruction) == 1) { // a single term is stored in the operands directly
         operands.left = register_at(tape_.terms[instruction.left].series);
         operands.third = constant_at(tape_.terms[instruction.left].coefficient);
     }

@@ -1,7 +1,7 @@
 #pragma once
 
-// How far series may be followed, for all lanes at once. To be included only by the translation unit of an instruction
-// set.
+// The largest step for which series may be used, for all lanes at once. To be included only by the translation unit of
+// an instruction set.
 
 #include "tape/smallest_size.hpp"
 #include "tape/sum_kernels.hpp"
@@ -20,17 +20,17 @@ GRAZE_INLINE Packs<n> where_zero(Packs<n> a, Packs<n> yes, Packs<n> no) {
     return GRAZE_FOR_PARTS(Packs<n>, a.part[i] == 0 ? yes.part[i] : no.part[i]);
 }
 
-/// Splits a positive number into an exponent of 2 and a factor from 1 to 2.
+/// Splits a positive number into a power of 2 and a factor from 1 to 2.
 template <class Real, class Integer>
 GRAZE_INLINE void split_exponent(Real a, Real& exponent, Real& factor) {
     const Integer bits = __builtin_bit_cast(Integer, a);
     factor = __builtin_bit_cast(Real, (bits & 0x000fffffffffffff) | 0x3ff0000000000000);
     exponent = __builtin_bit_cast(Real, (bits >> 52) | 0x4330000000000000) - (0x1p52 + 1023);
 }
-/// 2 to the power of the nearest integer, and what is left of the exponent.
+/// Returns 2 to the power of the nearest integer, and the remainder of the exponent.
 template <class Real, class Integer>
 GRAZE_INLINE void raise_integer(Real exponent, Real& power, Real& rest) {
-    const Real shifted = exponent + 0x1.8p52; // its last bits are the integer's
+    const Real shifted = exponent + 0x1.8p52; // its last bits hold the integer
     rest = exponent - (shifted - 0x1.8p52);
     power = __builtin_bit_cast(Real, (__builtin_bit_cast(Integer, shifted) + 1023) << 52);
 }
@@ -56,16 +56,16 @@ GRAZE_INLINE L number(double value) {
     return Numbers<L>::of(value);
 }
 
-/// constant + slope x
+/// Returns constant + slope x.
 template <class L>
 GRAZE_INLINE L line(double constant, double slope, L x) {
     return multiply_add(number<L>(slope), x, number<L>(constant));
 }
 
-// A step waits for the next two functions. Their terms are summed in pairs of pairs, each of which does not wait for
-// the others as in Horner's rule.
+// The next two functions are on the critical path of a step. Their terms are summed in pairs, which unlike Horner's
+// rule do not wait for each other.
 
-/// Base 2, of positive normal numbers, to 12 digits: with t = (a - r) / (a + r), ln(a / r) = 2 (t + t^3/3 + ...).
+/// Returns log2 of positive normal numbers to 12 digits: with t = (a - r) / (a + r), ln(a / r) = 2 (t + t^3/3 + ...).
 template <class L>
 GRAZE_INLINE L logarithm(L a) {
     constexpr double root = 1.4142135623730951, per_unit = 2.8853900817779268; // sqrt 2, 2 / ln 2
@@ -79,7 +79,7 @@ GRAZE_INLINE L logarithm(L a) {
     return exponent + multiply_add(sum * t, number<L>(per_unit), number<L>(0.5));
 }
 
-/// 2^a to 12 digits, for |a| < 1000.
+/// Returns 2^a to 12 digits, for |a| < 1000.
 template <class L>
 GRAZE_INLINE L power_of_two(L a) {
     constexpr double unit = 0.69314718055994531; // ln 2
@@ -103,10 +103,11 @@ GRAZE_INLINE L integer_power(L a, int exponent) {
     return power;
 }
 
-/// Of the last two terms to the two before. At the optimal step of a series with a finite radius it is 0.02.
+/// Largest ratio of the last two terms to the two before. It is 0.02 at the optimal step of a series with finite
+/// radius.
 inline constexpr double largest_growth = 0.5;
 
-/// Of the last terms of a quotient, in its size: at 0.7 of its radius of convergence.
+/// Largest ratio of the last terms of a quotient to its size: that at 0.7 of the radius of convergence.
 struct LargestShares {
     double of[highest_order + 1] = {};
     constexpr LargestShares() {
@@ -117,7 +118,7 @@ struct LargestShares {
 };
 inline constexpr LargestShares largest_share;
 
-/// Shortens the step of one lane until no terms grow at the end of the series.
+/// Shortens the step of one lane until the terms do not grow at the end of any series.
 inline double shortened(const Series* series, std::size_t count, std::size_t order, int lane, double step) {
     for (std::size_t i = 0; i < count; ++i) {
         const auto size_at = [&](std::size_t k) {
@@ -139,7 +140,7 @@ inline double shortened(const Series* series, std::size_t count, std::size_t ord
     return step;
 }
 
-/// Of a size, or what is there instead where it is zero.
+/// Returns the size, or `otherwise()` in lanes where it is zero.
 template <class Otherwise>
 GRAZE_INLINE double first_terms_or(double size, Otherwise&& otherwise) {
     return size == 0 ? otherwise() : size;
@@ -149,13 +150,13 @@ GRAZE_INLINE Packs<n> first_terms_or(Packs<n> size, Otherwise&& otherwise) {
     return where_zero(size, otherwise(), size);
 }
 
-/// Of two numbers in each lane.
+/// Returns the logarithms of two numbers in each lane.
 template <class L>
 GRAZE_INLINE void logarithms(L a, L b, L& of_a, L& of_b) {
     of_a = logarithm(a);
     of_b = logarithm(b);
 }
-/// One lane has room for both in a register.
+/// With a single lane, both fit into one register.
 GRAZE_INLINE void logarithms(double a, double b, double& of_a, double& of_b) {
     Packs<1> both = number<Packs<1>>(1);
     both.part[0][0] = a;
@@ -165,8 +166,8 @@ GRAZE_INLINE void logarithms(double a, double b, double& of_a, double& of_b) {
     of_b = result[1];
 }
 
-/// Logarithm of the step at which the last two terms are as large as allowed, from their largest shares: the least of
-/// both.
+/// Returns the logarithm of the largest step at which the last two terms are at most the tolerance, from their largest
+/// relative sizes.
 template <class L>
 GRAZE_INLINE L logarithm_of_step(L high, L low, double log_tolerance, int order) {
     L log_high, log_low;
@@ -176,10 +177,10 @@ GRAZE_INLINE L logarithm_of_step(L high, L low, double log_tolerance, int order)
     return lesser(where_zero(high, number<L>(1000), at_last), where_zero(low, number<L>(1000), at_before));
 }
 
-/// The largest step at which the last two terms of every series, relative to its size, are at most 2^log_tolerance, and
-/// smaller than those before them.
-/// @param references lengths over which sizes are taken
-/// @param steps infinity where the last two terms are all zero, NaN where something is not finite
+/// Finds the largest step at which the last two terms of each series, relative to its size, are at most 2^log_tolerance
+/// and smaller than those before them.
+/// @param references lengths of time at which the sizes are taken
+/// @param steps infinity where the last two terms are all zero, NaN where a coefficient is not finite
 template <class V>
 void steps(const FollowedSeries& followed, int order, double log_tolerance, const double* references, double* steps) {
     constexpr int width = Numbers<V>::width;
@@ -200,8 +201,8 @@ void steps(const FollowedSeries& followed, int order, double log_tolerance, cons
     for (std::size_t i = 0; i < count; ++i) {
         const V c0 = at(i, 0), c1 = at(i, 1), c2 = at(i, 2);
         const V last = absolute(at(i, n)), before = absolute(at(i, n - 1));
-        // Not finite as soon as one is not; a logarithm of a negative number has only a first coefficient that
-        // is not.
+        // The sum is not finite as soon as one coefficient is not. (For a logarithm of a negative number only the first
+        // coefficient is not finite.)
         sum = sum + (last + before) + (c0 + c1 + c2) * 0.0;
         const V first_terms = absolute(c0) + reference * (absolute(c1) + reference * absolute(c2));
         const V size = first_terms_or(
@@ -214,9 +215,9 @@ void steps(const FollowedSeries& followed, int order, double log_tolerance, cons
     }
     const V limit = logarithm_of_step(high, low, log_tolerance, order);
     const V step = power_of_two(greater(lesser(limit, number<V>(1000)), number<V>(-1000)));
-    // Where the last terms grow from one to the next, the terms left out are larger still, however small all of
-    // them are: so it is with exp(-100 x^2) far from its peak, over which a step must not lead. In pairs, since
-    // every other term of an even or odd function is zero.
+    // Where terms grow at the end of the series, the truncated terms are larger still, however small: for example
+    // exp(-100 x^2) far from its peak, over which a step must not lead. Pairs of terms are compared, since every other
+    // term of an even or odd function is zero.
     V growth = number<V>(0);
     for (std::size_t i = 0; i < count; ++i) {
         const V end = greater(absolute(at(i, n)) * step, absolute(at(i, n - 1))) * (step * step);

@@ -1,6 +1,6 @@
 #pragma once
 
-// What is asked of series once they are known, for all lanes at once. To be included only by the translation unit of an
+// Evaluation and bounds of known series, for all lanes at once. To be included only by the translation unit of an
 // instruction set.
 
 #include "tape/kernel_table.hpp"
@@ -30,7 +30,7 @@ GRAZE_INLINE Packs<n> lesser(Packs<n> a, Packs<n> b) {
     return GRAZE_FOR_PARTS(Packs<n>, b.part[i] < a.part[i] ? b.part[i] : a.part[i]);
 }
 
-/// Sum of the series at a time of its own in each lane, by Horner's rule.
+/// Evaluates a series by Horner's rule, in each lane at its own time.
 template <class V>
 void sum(const double* series, int order, const double* times, double* values) {
     const V time = Numbers<V>::load(times);
@@ -40,8 +40,8 @@ void sum(const double* series, int order, const double* times, double* values) {
     Numbers<V>::store(values, value);
 }
 
-/// The same of several series, and their derivatives there.
-/// @param degrees of each, at least 1; @param values, slopes [series * width + lane]
+/// Evaluates several series and their derivatives.
+/// @param degrees degree of each series, at least 1; @param values, slopes [series * width + lane]
 template <class V>
 void sums_and_slopes(const Series* series, const int* degrees, std::size_t count, const double* times, double* values,
                      double* slopes) {
@@ -62,8 +62,8 @@ void sums_and_slopes(const Series* series, const int* degrees, std::size_t count
     }
 }
 
-/// By how much ends of steps differ more than is allowed from what the model says there, the worst of all: slopes of
-/// states by h |slope - rate|, values of outputs by themselves. What is not finite is infinite.
+/// Returns the largest excess of the differences between polynomials and model at ends of steps over their allowance: h
+/// |slope - rate| for states, differences of values for outputs. Infinity where a number is not finite.
 template <class V>
 void disagreement(const EndComparison& comparison, const EndValues& ends, const double* lengths, double* worst) {
     constexpr int width = Numbers<V>::width;
@@ -108,9 +108,9 @@ void disagreement(const EndComparison& comparison, const EndValues& ends, const 
 
 /// With S_m = c_0 + ... + c_m h^m and x = s / h, summation by parts gives
 ///   p(s) = sum_{m<n} S_m (x^m - x^{m+1}) + S_n x^n,
-/// a convex combination: p is at least the least partial sum at h. Each term is uncertain by its share of the
-/// round-off: k u for the power, n u for the sums, 4 u for the coefficient itself; together at most by that share of
-/// them all.
+/// a convex combination: p is at least the least partial sum at h. The relative round-off of term k is k u for the
+/// power, n u for the sums, and 4 u for the coefficient itself; the total is bounded by that share of the sum of all
+/// sizes.
 template <class V>
 void bound(const double* series, int order, const double* lengths, double* least, double* sizes) {
     constexpr int width = Numbers<V>::width;

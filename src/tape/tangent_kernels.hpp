@@ -1,7 +1,7 @@
 #pragma once
 
-// The first variational equations along one motion, for several directions side by side or for one alone. What the
-// motion gives them are series without lanes. To be included only by the translation unit of an instruction set.
+// The first variational equations along one motion, for one direction or several side by side. The series of the motion
+// have no lanes. To be included only by the translation unit of an instruction set.
 
 #include "tape/kernels.hpp"
 #include "tape/sum_kernels.hpp"
@@ -19,8 +19,8 @@ GRAZE_INLINE unsigned lanes_above(Packs<n> a, Packs<n> b) {
     return bits;
 }
 
-/// A row's coefficient of order k, as a sum in parts that do not wait for each other. Orders share this code: that of
-/// each by itself, without loops, would drive what else a step does out of the processor's first cache.
+/// Sums a row's coefficient of order k in several parts that do not wait for each other. All orders share this code:
+/// unrolled code for each order would evict other code of the step from the instruction cache.
 template <class V>
 class TangentSum {
 public:
@@ -30,7 +30,7 @@ public:
     }
     GRAZE_INLINE void add(double a, V w) { add_to<0>(a, w); }
     GRAZE_INLINE void add_beside(double a, V w) { add_to<1>(a, w); }
-    /// Terms j = 0 .. k of a_j w_{k-j}.
+    /// Adds the terms a_j w_{k-j}, j = 0 .. k.
     GRAZE_INLINE void add_all(const double* a, const double* w, int k) {
         constexpr std::ptrdiff_t width = Numbers<V>::width;
         w += k * width;
@@ -50,7 +50,7 @@ public:
         if ((left & 1) != 0)
             add_to<2>(a[0], Numbers<V>::load(w));
     }
-    /// Of products of single coefficients alone.
+    /// Returns the total when only products of single coefficients have been added.
     GRAZE_INLINE V total_of_few() const { return parts_[0] + parts_[1]; }
     GRAZE_INLINE V total() const { return (parts_[0] + parts_[1]) + (parts_[2] + parts_[3]); }
 
@@ -62,14 +62,15 @@ private:
     V parts_[4];
 };
 
-/// The same of one direction, where terms are side by side.
+/// The same for one direction, where coefficients are contiguous.
 template <>
 class TangentSum<double> {
 public:
     GRAZE_INLINE void add(double a, double w) { sums_[0] = multiply_add(a, w, sums_[0]); }
     GRAZE_INLINE void add_beside(double a, double w) { sums_[1] = multiply_add(a, w, sums_[1]); }
     GRAZE_INLINE void add_all(const double* a, const double* w, int k) {
-        // The newest coefficient by itself: it is still on its way to memory, from where four cannot be read at once.
+        // The newest coefficient is added separately: it is still in the store buffer, from which a load of four would
+        // stall.
         sums_[0] = multiply_add(a[0], w[k], sums_[0]);
         int j = 1;
 #if defined(__FMA__)
@@ -97,7 +98,7 @@ public:
 
 private:
 #if defined(__FMA__)
-    /// @param w the last of the four first
+    /// @param w points to the last of the four
     GRAZE_INLINE void add_four(const double* a, const double* w) {
         four_ = _mm256_fmadd_pd(_mm256_loadu_pd(a), _mm256_permute4x64_pd(_mm256_loadu_pd(w), 0x1b), four_);
     }
@@ -106,7 +107,7 @@ private:
     double sums_[2] = {0, 0};
 };
 
-/// Coefficient k of an intermediate quantity, or k + 1 of a state.
+/// Computes coefficient k of an intermediate quantity, or k + 1 of a state.
 template <class V>
 GRAZE_INLINE void tangent_row(const TangentRow& row, double* numbers, const double* jet, int k) {
     TangentSum<V> sum;
@@ -150,7 +151,7 @@ void tangent_orders(const TangentOperands& o, const double* jet, int order) {
     }
 }
 
-/// Where a size is that of nothing, the share is not known this way.
+/// Returns the ratio, or 0 where the size is too small for it to be meaningful.
 GRAZE_INLINE double share_of(double last, double size) {
     return size > smallest_derivative ? last / size : 0;
 }
@@ -158,7 +159,7 @@ template <int n>
 GRAZE_INLINE Packs<n> share_of(Packs<n> last, Packs<n> size) {
     return GRAZE_FOR_PARTS(Packs<n>, size.part[i] > smallest_derivative ? last.part[i] / size.part[i] : splat(0));
 }
-/// Share of the last two terms in the sum of all, in lanes where the first three are zero.
+/// Returns the ratio of the last two terms to the sum of all sizes, in lanes where the first three terms are zero.
 template <class V>
 GRAZE_INLINE double share_of_all(const double* c, int order, double step, V last, V size) {
     constexpr int width = Numbers<V>::width;
@@ -192,7 +193,7 @@ double tangent_tails(const TangentStates& states, double step, const double* flo
             size = greater(size, Numbers<V>::load(floors + i * static_cast<std::size_t>(width)));
         const V last = greater(absolute(at<V>(c, order - 1)), absolute(at<V>(c, order)) * step) * power;
         worst = greater(worst, share_of(last, size));
-        if (lanes_above(last, size * 0x1p+1000) != 0) // where there is no size
+        if (lanes_above(last, size * 0x1p+1000) != 0) // where the size is zero
             worst_of_all = greater(worst_of_all, share_of_all(c, order, step, last, size));
     }
     double shares[width];

@@ -22,15 +22,15 @@ int sum_of(int a, int b) {
     return a == unbounded || b == unbounded ? unbounded : limited(a + b);
 }
 
-int degree_of(const Tape& tape, std::size_t follower) {
-    const Tape::Location& location = tape.followers[follower];
+int degree_of(const Tape& tape, std::size_t deferred) {
+    const Tape::Location& location = tape.deferred[deferred];
     if (location.constant)
         return 0;
     const std::uint32_t degree = tape.degrees[location.index];
     return degree == Tape::unbounded ? unbounded : static_cast<int>(degree);
 }
 
-/// What is not moved has no row.
+/// Marks parameters that no direction changes: they have no row.
 constexpr std::size_t no_row = std::numeric_limits<std::size_t>::max();
 
 std::size_t rows_of(const TangentEquations& equations, std::span<const char> moving) {
@@ -65,7 +65,7 @@ std::size_t TangentSeries::row_of_source(std::size_t source) const {
     return source < parameters_ ? parameter_rows_[source] : states_ + source - parameters_;
 }
 
-/// Degrees of the polynomials in time that changes of all sources are known to be: they only grow until nothing does.
+/// Returns the degrees in time of the changes of all sources, by iteration: degrees only grow, up to a fixed point.
 std::vector<int> TangentSeries::degrees_of_rows(const Tape& tape, const TangentEquations& equations) const {
     std::vector<int> degrees(states_ + intermediates_ + moving_.size(), 0);
     for (bool changed = true; changed;) {
@@ -73,13 +73,13 @@ std::vector<int> TangentSeries::degrees_of_rows(const Tape& tape, const TangentE
         for (const TangentEntry& entry : equations.entries) {
             require_index(entry.row, intermediates_ + states_, "row");
             require_index(entry.source, states_ + parameters_ + intermediates_, "source");
-            require_index(entry.follower, tape.followers.size(), "follower");
+            require_index(entry.deferred, tape.deferred.size(), "deferred expression");
             const std::size_t from = row_of_source(entry.source);
             if (from == no_row)
                 continue;
             const bool is_rate = entry.row >= intermediates_;
             const std::size_t to = is_rate ? entry.row - intermediates_ : states_ + entry.row;
-            const int product = sum_of(degree_of(tape, entry.follower), degrees[from]),
+            const int product = sum_of(degree_of(tape, entry.deferred), degrees[from]),
                       degree = is_rate ? sum_of(product, 1) : product;
             if (degree > degrees[to]) {
                 degrees[to] = degree;
@@ -90,7 +90,7 @@ std::vector<int> TangentSeries::degrees_of_rows(const Tape& tape, const TangentE
     return degrees;
 }
 
-/// Terms of a row, by what is computed for them.
+/// Sorts the terms of a row by the kind of product.
 TangentRow TangentSeries::row_of(std::size_t row, std::span<const TangentTerm> terms) {
     std::array<std::vector<TangentTerm>, 4> kinds;
     for (const TangentTerm& term : terms) {
@@ -118,19 +118,19 @@ TangentRow TangentSeries::row_of(std::size_t row, std::span<const TangentTerm> t
 
 void TangentSeries::find_rows(const Tape& tape, const TangentEquations& equations, const Jet& like) {
     const std::vector<int> degrees = degrees_of_rows(tape, equations);
-    terms_.reserve(equations.entries.size()); // rows point to them
+    terms_.reserve(equations.entries.size()); // rows point to elements
     auto entry = equations.entries.begin();
     for (std::size_t row = 0; row < intermediates_ + states_; ++row) {
         std::vector<TangentTerm> terms;
         for (; entry != equations.entries.end() && entry->row == row; ++entry)
             if (const std::size_t from = row_of_source(entry->source); from != no_row)
-                terms.push_back({like.follower(entry->follower) - like.state(0), from * size_,
-                                 degree_of(tape, entry->follower), degrees[from]});
+                terms.push_back({like.deferred(entry->deferred) - like.state(0), from * size_,
+                                 degree_of(tape, entry->deferred), degrees[from]});
         rows_.push_back(row_of(row, terms));
     }
     require_size(static_cast<std::size_t>(equations.entries.end() - entry), 0, "entries behind the last row");
-    // Intermediate quantities of low degree are made of nothing else, and come before the others. Rates do not wait for
-    // one another: those that are alike come together, so that branches are foreseen.
+    // Intermediate quantities of low degree depend only on others of low degree, and come before the rest. Rates do not
+    // depend on each other: rows of the same kind are adjacent, which helps branch prediction.
     const auto lasts = [&](const TangentRow& row) { return degrees[row.result / size_] == unbounded; };
     const auto rates = rows_.begin() + static_cast<std::ptrdiff_t>(intermediates_);
     const auto lasting = std::stable_partition(rows_.begin(), rates, std::not_fn(lasts));
@@ -155,7 +155,7 @@ void TangentSeries::load(std::span<const double> matrix, std::span<const double>
     require_index(count, width_ + 1, "number of directions");
     require_size(matrix.size(), states_ * directions, "derivatives");
     require_size(seeds.size(), parameters_ * directions, "directions of parameters");
-    const std::size_t filled = std::max(count, count_); // lanes behind are zero already
+    const std::size_t filled = std::max(count, count_); // higher lanes are zero already
     count_ = count;
     const auto load_row = [&](std::size_t to, const double* from) {
         double* numbers = numbers_.data() + to * size_;
@@ -204,7 +204,7 @@ double TangentSeries::tails(double step, std::span<const double> floors) const {
     if (!floors.empty())
         require_room(floors.size(), states_ * width_, "floors of changes");
     if (order_ < 2)
-        return 0; // nothing tells
+        return 0; // the order is too low for a test
     return kernels_.tails(in_use(), step, floors.empty() ? nullptr : floors.data());
 }
 

@@ -11,50 +11,50 @@
 
 namespace graze {
 
-/// Taylor coefficients of what changes along a motion in some directions: of the solutions of the first variational
-/// equations. The motion's series are computed once, by a single jet of which the equations' coefficients are
-/// followers; for each direction there are convolutions with these.
+/// Taylor coefficients of the changes of a motion in some directions: solutions of the first variational equations. The
+/// series of the motion are computed once, by a single jet whose deferred expressions are the coefficients of the
+/// equations; each direction is convolved with them.
 class TangentSeries {
 public:
-    /// @param tape of which the equations' coefficients are followers; @param like any single jet of it: coefficients
-    /// are found in others where they are in this one
-    /// @param moving of each parameter, whether any direction changes it
-    /// @param directions that there may be at once; more than one register holds are computed in several goes
+    /// @param tape with the equations' coefficients among its deferred expressions; @param like any single jet of the
+    /// tape; other jets must have the same layout
+    /// @param moving for each parameter, whether any direction changes it
+    /// @param directions the largest number at once; more directions than `width()` are computed in several passes
     /// @throws InputError for entries that are out of range or not in order
     TangentSeries(const Tape& tape, const TangentEquations& equations, const Jet& like, std::span<const char> moving,
                   std::size_t directions, InstructionSet set = best_instruction_set());
     TangentSeries(const TangentSeries&) = delete; // rows point to terms
     TangentSeries& operator=(const TangentSeries&) = delete;
 
-    /// Directions that are computed together.
+    /// Number of directions that are computed together.
     std::size_t width() const { return width_; }
     int order() const { return order_; }
 
-    /// Changes where the step begins, row by row. @param matrix states x directions; @param seeds parameters x
-    /// directions; @param first of the directions to be taken; @param count at most the width
+    /// Sets the changes at the beginning of the step. @param matrix states x directions; @param seeds parameters x
+    /// directions, both row by row; @param first first direction to take; @param count at most the width
     void load(std::span<const double> matrix, std::span<const double> seeds, std::size_t directions, std::size_t first,
               std::size_t count);
-    /// From numbers laid out as `evaluate` leaves them; parameters' changes are those of another.
+    /// Sets them from values laid out as by `evaluate`; the changes of parameters are copied from `parameters`.
     void load(std::span<const double> states, const TangentSeries& parameters);
-    /// All coefficients, once the jet's followers have been computed.
+    /// Computes all coefficients, after the jet's deferred expressions.
     void compute(const Jet& jet);
-    /// Coefficients 0 and 1 alone, for which followers need only have been begun.
+    /// Computes coefficients 0 and 1 only, for which the jet's `begin_deferred` is enough.
     void begin(const Jet& jet);
 
-    /// Coefficients of a state's changes: (order() + 1) * width() numbers, [k * width() + direction].
+    /// Returns the coefficients of the changes of a state: (order() + 1) * width() numbers, [k * width() + direction].
     const double* state(std::size_t index) const { return numbers_.data() + index * size_; }
-    /// Coefficients of what changes an entry's source, likewise.
+    /// Returns the coefficients of the changes of a source of entries, in the same layout.
     const double* source(std::size_t index) const;
-    /// Sums of the states' series, and of their derivatives with respect to time. @param values, slopes
-    /// [state * width() + direction]
+    /// Evaluates the states' series and their derivatives with respect to time. @param values, slopes [state * width()
+    /// + direction]
     void evaluate(double time, std::span<double> values, std::span<double> slopes);
-    /// The largest share that the last two terms of any state's changes have in their first three, or in floors where
-    /// these are larger. @param floors [state * width() + direction], or none
+    /// Returns the largest ratio, over all states and directions, of the last two terms to the first three, or to
+    /// `floors` where these are larger. @param floors [state * width() + direction], or empty
     double tails(double step, std::span<const double> floors) const;
-    /// The first state, from one on, of which the slope of a change at the end of a step is not the rate that `end`
-    /// has there: |h| |slope - rate| exceeds a share of the larger of both ends' sizes and |h| / 4 times the larger of
-    /// both rates. As many as there are states if there is none.
-    /// @param end begun there; @param values, slopes as from `evaluate`
+    /// Returns the first state, from `from` on, for which the slope of a change at the end of a step differs from the
+    /// rate that `end` has there: |h| |slope - rate| exceeds the allowance of the larger of both ends' sizes plus |h| /
+    /// 4 times the larger of both rates. Returns the number of states if there is none.
+    /// @param end series after `begin` at the end; @param values, slopes as from `evaluate`
     std::size_t find_misfit(const TangentSeries& end, const EndAllowance& allowance, double length,
                             std::span<const double> values, std::span<const double> slopes, std::size_t from) const;
 

@@ -18,16 +18,16 @@ std::vector<Expression> joined(std::span<const Expression> one, std::span<const 
     return all;
 }
 
-std::vector<Expression> values_of(std::span<const TapeFollower> followers) {
+std::vector<Expression> values_of(std::span<const DeferredExpression> deferred) {
     std::vector<Expression> values;
-    for (const TapeFollower& follower : followers)
-        values.push_back(follower.value);
+    for (const DeferredExpression& one : deferred)
+        values.push_back(one.value);
     return values;
 }
 
 using Symbols = std::unordered_map<NodeIndex, LinearForm>;
 
-/// Registers of the states and constants of the parameters.
+/// Returns the registers of the states and the constants of the parameters.
 Symbols symbols(SeriesBuilder& builder, std::span<const Expression> states, std::span<const Expression> parameters) {
     Symbols forms;
     std::uint32_t index = 0;
@@ -39,7 +39,7 @@ Symbols symbols(SeriesBuilder& builder, std::span<const Expression> states, std:
     return forms;
 }
 
-/// The forms of all expressions of a subgraph. A form that is used once is handed on, not copied.
+/// Returns the forms of all expressions of a subgraph. A form that is used only once is moved, not copied.
 std::vector<LinearForm> compile(SeriesBuilder& builder, const Subgraph& subgraph, const Symbols& symbols) {
     std::vector<std::uint32_t> uses(subgraph.items.size(), 0);
     for (const Subgraph::Item& item : subgraph.items) {
@@ -88,10 +88,10 @@ void check(const Subgraph& subgraph, std::span<const Expression> symbols) {
 
 Tape compile_tape(std::span<const Expression> states, std::span<const Expression> parameters,
                   std::span<const Expression> rates, std::span<const Expression> outputs,
-                  std::span<const TapeFollower> followers) {
+                  std::span<const DeferredExpression> deferred) {
     if (states.size() != rates.size())
         throw std::invalid_argument("there must be as many rates as states");
-    const Subgraph subgraph = subgraph_of(joined(rates, outputs)), behind = subgraph_of(values_of(followers));
+    const Subgraph subgraph = subgraph_of(joined(rates, outputs)), behind = subgraph_of(values_of(deferred));
     for (const Subgraph* part : {&subgraph, &behind}) {
         check(*part, states);
         check(*part, parameters);
@@ -113,19 +113,19 @@ Tape compile_tape(std::span<const Expression> states, std::span<const Expression
             tape.outputs.push_back(location);
         }
     }
-    // Compiled by themselves, they find registers in which something of theirs is already, and make no others of what
-    // rates and outputs need.
+    // Deferred expressions are compiled separately: they reuse existing registers, but do not change the code for rates
+    // and outputs.
     builder.prefer_reciprocals();
     const std::vector<LinearForm> more = compile(builder, behind, known);
     std::vector<std::uint32_t> groups;
-    for (std::size_t i = 0; i < followers.size(); ++i) {
-        tape.followers.push_back(builder.location(more[behind.roots[i]]));
-        groups.push_back(followers[i].group);
+    for (std::size_t i = 0; i < deferred.size(); ++i) {
+        tape.deferred.push_back(builder.location(more[behind.roots[i]]));
+        groups.push_back(deferred[i].group);
     }
     builder.move_to(tape);
     find_degrees(tape, rate_is_zero);
     remove_unneeded(tape);
-    set_followers_apart(tape, groups);
+    separate_deferred_code(tape, groups);
     builder.constants().move_to(tape);
     return tape;
 }

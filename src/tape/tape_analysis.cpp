@@ -52,7 +52,7 @@ std::uint32_t degree_of_state(const Tape& tape, std::uint32_t state, bool rate_i
 
 void find_degrees(Tape& tape, const std::vector<bool>& rate_is_zero) {
     tape.degrees.assign(tape.registers, 0);
-    // Degrees only grow, and not beyond unbounded, so that this ends.
+    // Degrees only grow, up to `unbounded`, so the iteration ends.
     for (bool changed = true; changed;) {
         changed = false;
         const auto set = [&](std::uint32_t reg, std::uint32_t degree) {
@@ -70,7 +70,7 @@ namespace {
 
 constexpr std::uint32_t none = 0xffffffff;
 
-/// The instruction that computes each register.
+/// Returns the instruction that computes each register.
 std::vector<std::uint32_t> definitions_of(const Tape& tape) {
     std::vector<std::uint32_t> definition(tape.registers, none);
     for (std::uint32_t i = 0; i < tape.code.size(); ++i)
@@ -78,8 +78,8 @@ std::vector<std::uint32_t> definitions_of(const Tape& tape) {
     return definition;
 }
 
-/// Visits registers, and those on which they depend as long as that is wanted.
-/// @param enter a register: whether to go on behind it
+/// Visits registers and their dependences.
+/// @param enter receives a register and returns whether to visit its dependences
 template <class Enter>
 void visit_dependences(const Tape& tape, const std::vector<std::uint32_t>& definition,
                        std::vector<std::uint32_t> pending, Enter&& enter) {
@@ -118,15 +118,15 @@ std::vector<bool> registers_behind(const Tape& tape, std::initializer_list<std::
 } // namespace
 
 std::vector<bool> needed_registers(const Tape& tape) {
-    return registers_behind(tape, {tape.rates, tape.outputs, tape.followers});
+    return registers_behind(tape, {tape.rates, tape.outputs, tape.deferred});
 }
 
-void set_followers_apart(Tape& tape, std::span<const std::uint32_t> groups) {
+void separate_deferred_code(Tape& tape, std::span<const std::uint32_t> groups) {
     if (groups.empty())
         return;
-    constexpr std::uint32_t value = 0xfffffffe; // of rates and outputs
+    constexpr std::uint32_t value = 0xfffffffe; // owner of registers needed for rates and outputs
     const std::uint32_t count = *std::max_element(groups.begin(), groups.end()) + 1;
-    constexpr std::uint32_t first = 0, shared = 1; // in `follower_code`; the others are one behind their groups
+    constexpr std::uint32_t first = 0, shared = 1; // indices in `deferred_code`; group g has index g + 1
     std::vector<std::uint32_t> owner(tape.registers, none);
     const std::vector<bool> of_value = registers_behind(tape, {tape.rates, tape.outputs});
     for (std::uint32_t reg = 0; reg < tape.registers; ++reg)
@@ -135,7 +135,7 @@ void set_followers_apart(Tape& tape, std::span<const std::uint32_t> groups) {
     const std::vector<std::uint32_t> definition = definitions_of(tape);
     std::vector<std::vector<Tape::Location>> ends(count);
     for (std::size_t i = 0; i < groups.size(); ++i)
-        ends[groups[i]].push_back(tape.followers[i]);
+        ends[groups[i]].push_back(tape.deferred[i]);
     for (std::uint32_t group = 0; group < count; ++group) {
         const std::uint32_t own = group == 0 ? first : 1 + group;
         visit_dependences(tape, definition, registers_at(ends[group]), [&](std::uint32_t reg) {
@@ -145,18 +145,17 @@ void set_followers_apart(Tape& tape, std::span<const std::uint32_t> groups) {
             return true;
         });
     }
-    tape.follower_code.resize(count + 1);
+    tape.deferred_code.resize(count + 1);
     std::vector<Instruction> code;
     for (const Instruction& instruction : tape.code)
-        (owner[instruction.result] == value ? code : tape.follower_code[owner[instruction.result]])
+        (owner[instruction.result] == value ? code : tape.deferred_code[owner[instruction.result]])
             .push_back(instruction);
     tape.code = std::move(code);
 }
 
 namespace {
 
-/// Powers high enough to be narrow peaks where their bases are not: their bases are guarded, each with its highest
-/// power.
+/// Adds high powers, which are narrow peaks where their bases are not: each base is guarded with its highest power.
 void add_powers(const Tape& tape, GuardingRegisters& guards) {
     constexpr double high = 64;
     std::vector<std::uint32_t> base(tape.registers);
@@ -196,7 +195,7 @@ GuardingRegisters guarding_registers(const Tape& tape) {
         switch (instruction.operation) {
         case SeriesOperation::sin:
         case SeriesOperation::cos:
-            // That of a phase is of size one itself and shows what it does.
+            // The sine of a phase is of size one itself, so its own series limits the step.
             if (argument_degree() > 1)
                 add(instruction.third, GuardKind::other);
             break;
@@ -266,7 +265,7 @@ void remove_unneeded(Tape& tape) {
             instruction.left = first;
             instruction.right = static_cast<std::uint32_t>(terms.size());
         } else {
-            // Operands that are not read become register 0.
+            // Operands that the operation does not read become register 0.
             instruction.left = number[instruction.left];
             if (instruction.operation != SeriesOperation::power_constant)
                 instruction.right = number[instruction.right];
@@ -274,7 +273,7 @@ void remove_unneeded(Tape& tape) {
         }
         code.push_back(instruction);
     }
-    for (auto* locations : {&tape.rates, &tape.outputs, &tape.followers})
+    for (auto* locations : {&tape.rates, &tape.outputs, &tape.deferred})
         for (Tape::Location& location : *locations)
             if (!location.constant)
                 location.index = number[location.index];

@@ -10,7 +10,7 @@
 
 namespace graze {
 
-/// Applies to each register that an instruction reads. Needs the tape's degrees.
+/// Calls `visit` for each register that an instruction reads. Needs the tape's degrees.
 template <class Visit>
 void visit_operands(const Tape& tape, const Instruction& instruction, Visit&& visit) {
     switch (instruction.operation) {
@@ -42,24 +42,23 @@ void visit_operands(const Tape& tape, const Instruction& instruction, Visit&& vi
     }
 }
 
-/// Fills in `degrees`: the smallest that are consistent with the rates. Degrees above 4 are not told from unbounded.
+/// Fills in `degrees`: the smallest that are consistent with the rates. Degrees above 4 count as unbounded.
 void find_degrees(Tape& tape, const std::vector<bool>& rate_is_zero);
 
-/// The registers that rates, outputs and followers depend on; states are always among them.
+/// Returns the registers on which rates, outputs and deferred expressions depend; states are always included.
 std::vector<bool> needed_registers(const Tape& tape);
 
-/// Registers that are states or sums of multiples of them, and constants: at the ends of steps these have the values
-/// that their polynomials have, whatever those of the states are worth.
+/// Returns the registers that are states, or constants plus multiples of states: at ends of steps their values agree
+/// with their polynomials, however accurate the states are.
 std::vector<bool> affine_registers(const Tape& tape);
 
-/// Registers whose series tell how far others may be followed, whatever their share of the sums that they enter:
-/// arguments of functions without singularities, bases of high powers, or quotients, roots and other functions that
-/// have some.
+/// Registers whose series limit the step, whatever their share of the sums that contain them: arguments of functions
+/// without singularities, bases of high powers, and quotients, roots and other functions with singularities.
 struct GuardingRegisters {
     struct Argument {
         std::uint32_t index;
         GuardKind kind;
-        double exponent = 1; ///< of a power
+        double exponent = 1; ///< exponent of a power
         bool operator==(const Argument&) const = default;
     };
     std::vector<Argument> arguments;
@@ -70,8 +69,8 @@ GuardingRegisters guarding_registers(const Tape& tape);
 /// Removes instructions that nothing needs and renumbers registers.
 void remove_unneeded(Tape& tape);
 
-/// Moves instructions that only followers need from `code` to `follower_code`.
-/// @param groups of the followers
-void set_followers_apart(Tape& tape, std::span<const std::uint32_t> groups);
+/// Moves instructions that only deferred expressions need from `code` to `deferred_code`.
+/// @param groups the group of each deferred expression
+void separate_deferred_code(Tape& tape, std::span<const std::uint32_t> groups);
 
 } // namespace graze

@@ -1,4 +1,4 @@
-// The start of an arc: on which side of each watched event's surface it begins, and what happens there at once.
+// The start of an arc: on which side of each watched event's surface it begins, and events that happen at once.
 
 #include "graze/trajectory/trajectory.hpp"
 
@@ -15,18 +15,18 @@ namespace graze {
 
 namespace {
 
-/// A jump that keeps the motion at the surface leaves the event function at round-off, which the sizes of the
-/// terms of the function and of the jump may magnify.
+/// A jump that keeps the motion on a surface leaves the event function at round-off, which the sizes of the terms of
+/// the function and of the jump may amplify.
 constexpr double served_roundoff = 1e-10;
 
-/// What a state is known to, relative to its own size, after the few operations that made it.
+/// Relative uncertainty of a state after the few operations of a jump.
 constexpr double state_roundoff = 16 * std::numeric_limits<double>::epsilon();
-/// No more than this share of the size of an event's function is ever put down to errors.
+/// At most this share of the size of an event's function is attributed to errors.
 constexpr double most_uncertain = 1e-3;
 
-/// What rests on a surface and is released when the force that presses it there reaches zero has a force at round-off
-/// left, of either sign, and perhaps a speed. They decide nothing if they are outgrown within these shares of a full
-/// step.
+/// When a motion that rests on a surface is released because the contact force reaches zero, a residual force of
+/// round-off size and of either sign remains, and perhaps a speed. They are ignored if they are outgrown within these
+/// shares of a full step.
 constexpr double instant_of_speed = 1e-13, instant_of_force = 1e-9;
 
 } // namespace
@@ -51,7 +51,7 @@ void Trajectory::begin_arc(double step) {
     together_.clear();
 }
 
-/// Decides on which side of a watched event's surface the arc begins. Returns false when something happens at
+/// Decides on which side of a watched event's surface the arc begins. Returns false when an event happens at
 /// once: a contact, sticking, or the end of the trajectory.
 bool Trajectory::classify(std::size_t w, double step) {
     const auto& mode = *compiled_mode_;
@@ -74,7 +74,7 @@ bool Trajectory::classify(std::size_t w, double step) {
         watch.side = c[0] > 0 ? 1 : -1;
         if (watch.side > 0 || definition.kind == EventKind::section)
             return true;
-        if (stuck_) { // released as soon as it sticks
+        if (stuck_) { // released at the moment of sticking
             make_contact(w, 0);
             return false;
         }
@@ -84,7 +84,7 @@ bool Trajectory::classify(std::size_t w, double step) {
     sizes.left_surface = true;
     const std::size_t leading = leading_coefficient(w, step, drifted);
     if (leading == 0)
-        return true; // moves along the surface: nothing to watch until it leaves
+        return true; // moves along the surface: no contact is possible until it leaves
     watch.side = c[leading] > 0 ? 1 : -1;
     watch.strip = static_cast<int>(leading);
     if (watch.side > 0)
@@ -118,17 +118,17 @@ bool Trajectory::is_due(std::size_t event) const {
     return std::find(together_.begin(), together_.end(), event) != together_.end();
 }
 
-/// How close to zero a watched event's function is on its surface at the start of an arc. Call after weigh_terms.
-/// @param size of its series; @param drifted that of it which is put down to a drift along the surface, or 0
+/// Returns how close to zero a watched event's function is on its surface at the start of an arc. Requires weigh_terms.
+/// @param size of its series; @param drifted receives the part that is attributed to a drift along the surface, or 0
 double Trajectory::surface_at_start(std::size_t w, double size, double& drifted) {
     const std::size_t event = compiled_mode_->watched[w];
     const double value = event_series(w)[0];
     double at_surface = roundoff * std::max(size, terms_[0]);
     if (event == served_ || is_due(event))
         at_surface = std::max(at_surface, served_roundoff * size + 2 * std::abs(surface_values_[event]));
-    else if (value > 0) // no contact put it there: as far from the surface as its own terms can tell
+    else if (value > 0) // not put there by a contact: only round-off of its own terms
         at_surface = roundoff * terms_[0];
-    if (value < -at_surface) { // beyond the surface, or only so far as nobody can tell
+    if (value < -at_surface) { // beyond the surface, or within the uncertainty
         at_surface = std::max(at_surface, uncertainty_at_start(w, size));
         if (value < -at_surface)
             at_surface = drifted = drift(event, std::max(size, terms_[0]));
@@ -136,8 +136,8 @@ double Trajectory::surface_at_start(std::size_t w, double size, double& drifted)
     return at_surface;
 }
 
-/// How far from zero a watched event's function may be at the start of an arc although the state is meant to be on its
-/// surface: what evaluating it rounds, and what the state itself is uncertain by, from the jump that made it.
+/// Returns how far from zero a watched event's function may be at the start of an arc whose state is meant to be on its
+/// surface: round-off of its evaluation, and the uncertainty of the state from the jump that made it.
 double Trajectory::uncertainty_at_start(std::size_t w, double size) {
     const System& compiled = simulation_.system();
     std::fill(uncertain_.begin(), uncertain_.end(), 0.0);
@@ -155,12 +155,12 @@ double Trajectory::uncertainty_at_start(std::size_t w, double size) {
         uncertain_[i] = std::max(state_roundoff * std::abs(state_[i]), jumped ? values_[i] : 0);
     std::copy(state_.begin(), state_.end(), inputs_.begin());
     compiled.mode(mode_).events.error_bounds(inputs_, uncertain_, values_, work_);
-    // An uncertainty of the size of the function itself would excuse anything.
+    // An uncertainty as large as the function itself would hide any violation.
     return std::isfinite(values_[w]) ? std::min(values_[w], most_uncertain * size) : 0;
 }
 
-/// A motion that was left on a surface and is carried along it by a mode that does not watch it, as something at rest
-/// on a table, is found on it again to within the error of the steps made since.
+/// Returns the distance by which a motion may have drifted from a surface while a mode that does not watch it moved it
+/// along, such as a body at rest on a table: the error of the steps made since.
 double Trajectory::drift(std::size_t event, double size) const {
     const Hold& hold = holds_[event];
     if (!hold.carried)
@@ -169,7 +169,7 @@ double Trajectory::drift(std::size_t event, double size) const {
     return std::min(steps * simulation_.options().tolerance, most_uncertain) * std::max(size, hold.size);
 }
 
-/// Remembers the surfaces on which the state is at s: that of a contact, and those that it shares.
+/// Records the surfaces on which the state lies at s: that of the contact, and those that coincide with it.
 void Trajectory::hold_surfaces(std::size_t watched, double s) {
     const auto& mode = *compiled_mode_;
     for (std::size_t w = 0; w < mode.watched.size(); ++w) {
@@ -180,9 +180,9 @@ void Trajectory::hold_surfaces(std::size_t watched, double s) {
     }
 }
 
-/// Whether a section's function, zero at the start of an arc, was falling through zero already before the contact with
-/// which the arc begins: then that was one fall, which is not served again. At the start of a trajectory a section
-/// that falls has been passed, too.
+/// Returns whether a section's function, zero at the start of an arc, was already falling through zero before the
+/// contact with which the arc begins: this fall has been handled with the contact. At the start of a trajectory a
+/// section that falls counts as passed, too.
 bool Trajectory::fell_before(std::size_t w, double at_surface) {
     if (served_ == no_event && !stuck_)
         return true;
@@ -198,11 +198,11 @@ bool Trajectory::fell_before(std::size_t w, double at_surface) {
     for (std::size_t i = 0; i < gradient.states.size(); ++i)
         if (const double slope = values_[i]; slope != 0)
             rate += slope * fields_[gradient.states[i]];
-    return was_on_surface && rate < 0; // or else the jump has put it there
+    return was_on_surface && rate < 0; // otherwise the jump has put it there
 }
 
-/// Sums, for each coefficient of a watched event function, the sizes of what the states contribute to it. What cancels
-/// there does not show in the coefficient but is what its round-off is measured by. Inputs must be those of the state.
+/// Sums, for each coefficient of a watched event function, the absolute contributions of the states: the scale of its
+/// round-off, which cancellation hides in the coefficient itself. Requires the inputs of the state.
 void Trajectory::weigh_terms(std::size_t w) {
     const System::CompiledGradient& gradient = compiled_mode_->gradients[w];
     values_.resize(gradient.states.size());
@@ -214,9 +214,9 @@ void Trajectory::weigh_terms(std::size_t w) {
                 terms_[k] += slope * std::abs(series_[gradient.states[i]][k]);
 }
 
-/// The first coefficient after the zeroth that round-off cannot explain, which decides the sign just after the start
-/// of an arc; 0 if there is none. Call after weigh_terms.
-/// @param drift how far the motion may have drifted from a surface along which it was carried
+/// Returns the first coefficient after the zeroth that exceeds round-off, which decides the sign just after the start
+/// of an arc; 0 if there is none. Requires weigh_terms.
+/// @param drift possible distance from a surface along which the motion was moved
 std::size_t Trajectory::leading_coefficient(std::size_t w, double step, double drift) {
     const auto c = event_series(w);
     const double noise = std::max(roundoff * series_size(c, step), drift);

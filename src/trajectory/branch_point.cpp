@@ -1,4 +1,4 @@
-// Roots and powers of what falls to zero, behind which series go on along the other branch.
+// Radicands that fall to zero: beyond a zero, Taylor series would continue on the other branch of a root or power.
 
 #include "graze/trajectory/trajectory.hpp"
 
@@ -14,24 +14,25 @@ namespace graze {
 
 namespace {
 
-/// What stands under a root falls by no more than this in one step, so that the polynomials of the states tell it
-/// relative to its own size, however close to zero it comes.
+/// A radicand falls at most to this share in one step, so that the polynomials of the states determine it relative to
+/// its own size, however close to zero it comes.
 constexpr double least_share = 1e-2;
-/// An arc that begins where something under a root is zero, as a Hertz contact does, has no series there. Share of the
-/// time scale of the motion that it is taken along its rates, at first and at most, and by what the two rules for that
-/// may differ, relative to the state or to how far it goes.
+/// An arc that starts where a radicand is zero, such as a Hertz contact, has no series there. It is advanced along its
+/// rates by these shares of the time scale of the motion, at first and at most; the last number is the allowed
+/// difference of the two integration rules, relative to the state or to its change.
 constexpr double first_leave = 1e-12, last_leave = 1e-9, leave_accuracy = 1e-15;
-/// How much larger what is under the root becomes than it was, since that was zero but for round-off.
+/// Factor by which the radicand must exceed its initial value, which is zero but for round-off.
 constexpr double clear_of_zero = 100;
-/// Where the motion has come as close to a zero as time can tell, it goes on to this share of what is left, as straight
-/// as a rate that stays finite makes it; the rates may grow by as much, and what stands under a root falls at least so.
+/// Where the motion is as close to a zero of a radicand as the resolution of time allows, it is extrapolated to this
+/// share of the remaining radicand. Extrapolation is valid if the rates grow at most by `most_growth` and the radicand
+/// falls at least by `least_fall`.
 constexpr double left_share = 1e-9, most_growth = 2, least_fall = 0.75;
-/// Shares of the size of a series by which its rate is off for certain: where that is found, and where it begins.
+/// Relative errors of a rate from its series: one that is detected, and one at which the error begins.
 constexpr double least_jump = 1e-6, certain_jump = 1e-12;
 
-/// In what time something under a root, to a positive power, falls to zero from a state along its rates, if that takes
-/// about as long as `radius`; negative if nothing does.
-/// @param inputs state and parameters; as they were afterwards
+/// Returns the time after which a radicand (with positive power) falls to zero along the rates of a state, if it is of
+/// the order of `radius`; negative if none does.
+/// @param inputs state and parameters; restored afterwards
 double time_to_zero(const Function& roots, std::span<double> inputs, std::span<const double> rates, double radius,
                     std::span<double> work) {
     std::vector<double> now(roots.outputs()), then(roots.outputs()), state(inputs.begin(), inputs.end());
@@ -48,8 +49,8 @@ double time_to_zero(const Function& roots, std::span<double> inputs, std::span<c
 
 } // namespace
 
-/// A state whose rate the series do not follow at s; the number of states if there is none.
-/// @param share of the size of the series that their rates may be off by
+/// Returns a state whose rate differs from its series at s; the number of states if there is none.
+/// @param share allowed difference relative to the size of the series
 std::size_t Trajectory::jumping_rate(double s, double share) {
     for (std::size_t i = 0; i < states_; ++i)
         inputs_[i] = evaluate_state(i, s);
@@ -65,8 +66,8 @@ std::size_t Trajectory::jumping_rate(double s, double share) {
     return states_;
 }
 
-/// Whether a rate differs from its series where the step begins as well, by nothing but round-off: of that a rate may
-/// consist altogether, as that of an antisymmetric mode of a beam at rest.
+/// Returns whether a rate differs from its series equally at the beginning of the step, by round-off: a rate may
+/// consist of round-off entirely, such as that of an antisymmetric mode of a beam at rest.
 bool Trajectory::is_roundoff(std::size_t state, double difference) {
     constexpr double most = 1e4;
     std::vector<double> rates(states_);
@@ -76,7 +77,7 @@ bool Trajectory::is_roundoff(std::size_t state, double difference) {
     return difference <= most * std::abs(rates[state] - evaluate_derivative(series(state), 0));
 }
 
-/// Whether something under a root is no longer a fair share at s of what it is at the start of the step.
+/// Returns whether any radicand at s is too small a share of its value at the start of the step.
 bool Trajectory::root_vanishes(double s) {
     const Function& roots = compiled_mode_->roots;
     values_.resize(2 * roots.outputs());
@@ -93,16 +94,16 @@ bool Trajectory::root_vanishes(double s) {
     return false;
 }
 
-/// Where what is under a root has a double zero, series lead through it onto the other branch of the root, with no sign
-/// of it but that the rates found behind are others. (x' = -sqrt(x) has the solution (1 - t/2)^2 only until t = 2.)
-/// Ends the step on the way there, before anything of what lies behind is seen. Where no way is left, returns the state
-/// whose rate jumps.
+/// Where a radicand has a double zero, series continue through it onto the other branch of the root; only the rates
+/// beyond reveal this. (x' = -sqrt(x) has the solution (1 - t/2)^2 only until t = 2.) Shortens the step to end before
+/// the zero, so that no event beyond it is seen. If there is no room for a step, returns the state whose rate jumps.
 std::size_t Trajectory::limit_to_branch(double& step) {
     if (!compiled_mode_->has_roots || !(step > 0))
         return states_;
     const double whole = step;
     const std::size_t jumping = jumping_rate(whole, std::max(least_jump, 1000 * simulation_.options().tolerance));
-    // High powers of what vanishes are flat there, and look harmless a good way behind: hence the look half way, too.
+    // High powers of a vanishing radicand are flat there and seem harmless far beyond the zero: hence the test at half
+    // way.
     if (jumping == states_ && !root_vanishes(whole) && !root_vanishes(0.5 * whole))
         return states_;
     constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -122,15 +123,14 @@ std::size_t Trajectory::limit_to_branch(double& step) {
 }
 
 void Trajectory::finish_at_branch(std::size_t state) {
-    finish(
-        Ending::undefined, time_,
-        fmt::format("the rate of state '{}' jumps {}: what stands under a root or a power reaches zero; end the mode "
-                    "by an event before it does",
-                    simulation_.model().states[state].name, where()));
+    finish(Ending::undefined, time_,
+           fmt::format("the rate of state '{}' jumps {}: the argument of a root or power reaches zero; end the mode "
+                       "by an event before it does",
+                       simulation_.model().states[state].name, where()));
 }
 
-/// The state that the motion reaches in so short a time, by the trapezoidal rule; false where that does not lead to
-/// where all roots are clear of zero, or the rule of the middle leads elsewhere.
+/// Computes the state after a short time by the trapezoidal rule. Returns false if any radicand is not clear of zero
+/// then, or the midpoint rule gives another result.
 bool Trajectory::can_leave_branch_by(double time, std::span<double> after) {
     const Function& roots = compiled_mode_->roots;
     std::vector<double> start(states_), end(states_), middle(states_), before(roots.outputs()), then(roots.outputs());
@@ -143,7 +143,7 @@ bool Trajectory::can_leave_branch_by(double time, std::span<double> after) {
     roots.evaluate(inputs_, before, work_);
     std::vector<double> known = start;
     for (double& rate : known)
-        rate = std::isfinite(rate) ? rate : 0; // the power of what round-off has made negative
+        rate = std::isfinite(rate) ? rate : 0; // a power of a radicand made negative by round-off
     rates_at(1, known, end);
     roots.evaluate(inputs_, then, work_);
     bool leaves = false;
@@ -152,7 +152,7 @@ bool Trajectory::can_leave_branch_by(double time, std::span<double> after) {
             continue;
         if (then[r] > clear_of_zero * std::abs(before[r]))
             leaves = true;
-        else if (!(before[r] > 0 && then[r] > 0.5 * before[r])) // otherwise it is not at zero
+        else if (!(before[r] > 0 && then[r] > 0.5 * before[r])) // the radicand is not at zero
             return false;
     }
     for (std::size_t i = 0; i < states_; ++i)
@@ -167,14 +167,14 @@ bool Trajectory::can_leave_branch_by(double time, std::span<double> after) {
     return leaves;
 }
 
-/// At the start of an arc, and only where its series do not exist, or for no time. @return whether the motion has left
-/// that place
+/// Called at the start of an arc whose series do not exist or allow no step. @return whether the motion has left the
+/// zero
 bool Trajectory::leave_branch() {
     if (!compiled_mode_->has_roots || !arc_start_)
         return false;
     std::vector<double> after(states_);
     double scale = largest_step_;
-    if (!(scale > 0)) { // the shortest time in which a state changes by as much as it is
+    if (!(scale > 0)) { // the shortest time in which a state changes by its own size
         std::copy(state_.begin(), state_.end(), inputs_.begin());
         compiled_mode_->rates.evaluate(inputs_, after, work_);
         for (std::size_t i = 0; i < states_; ++i) {
@@ -188,7 +188,7 @@ bool Trajectory::leave_branch() {
     double time = -1;
     for (double share = first_leave; time < 0 && share <= last_leave && share * scale < remaining; share *= 8)
         time = can_leave_branch_by(share * scale, after) ? share * scale : -1;
-    if (time < 0 && remaining <= last_leave * scale) { // the motion ends before it has left
+    if (time < 0 && remaining <= last_leave * scale) { // the trajectory ends before the motion has left
         std::copy(state_.begin(), state_.end(), inputs_.begin());
         compiled_mode_->rates.evaluate(inputs_, after, work_);
         bool finite = true;
@@ -206,10 +206,10 @@ bool Trajectory::leave_branch() {
     return true;
 }
 
-/// Steps have become too short for time. At a pole the solution ends; where what is under a root, or a power that is
-/// not whole, falls to zero the rates are finite, and only no numbers behind it.
+/// Called when steps have become too short for the resolution of time. At a pole the solution ends; where a radicand
+/// falls to zero the rates are finite, and only undefined beyond.
 void Trajectory::finish_singular() {
-    // Where a series has only a few terms its last ones are round-off, and their ratio is no radius.
+    // If a series has only a few terms, its last ones are round-off, and their ratio is not a radius of convergence.
     const double radius = std::min(step_size_.radius(series_.first(states_)), 16 * proposed_);
     std::vector<double> rates(states_), closer(states_), beyond(states_);
     std::copy(state_.begin(), state_.end(), inputs_.begin());
@@ -232,7 +232,7 @@ void Trajectory::finish_singular() {
         }
         if (finite && lost < states_) {
             finish(Ending::undefined, std::min(time_ + radius, end_time_),
-                   fmt::format("what stands under a root or a power in the rate of state '{}' reaches zero {}, and no "
+                   fmt::format("the argument of a root or power in the rate of state '{}' reaches zero {}, and no "
                                "rate is known beyond: make that zero an event, and what follows a mode",
                                simulation_.model().states[lost].name, where()));
             return;

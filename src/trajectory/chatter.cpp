@@ -1,4 +1,4 @@
-// Contacts that accumulate: how it is noticed, when and where they end, and the sticking that follows.
+// Accumulations of contacts (chatter): detection, time and state of the accumulation, and the sticking that follows.
 
 #include "graze/trajectory/trajectory.hpp"
 
@@ -15,7 +15,7 @@ namespace graze {
 
 namespace {
 
-/// Contacts in a row before an accumulation is looked for.
+/// Consecutive contacts required before an accumulation is considered.
 constexpr int fewest_contacts_of_chatter = 3;
 
 } // namespace
@@ -23,7 +23,7 @@ constexpr int fewest_contacts_of_chatter = 3;
 void Trajectory::remember_contact(std::size_t event, double rate) {
     ContactHistory& history = histories_[event];
     ++contacts_;
-    // Of a speed below round-off not even the sign may be right.
+    // A speed below round-off may even have the wrong sign.
     const bool slower = rate > history.rate || rate > 0;
     history.count = history.count > 0 && slower ? history.count + 1 : 1;
     history.interrupted = contacts_ != history.serial + 1;
@@ -35,10 +35,10 @@ void Trajectory::remember_contact(std::size_t event, double rate) {
     history.speed = 0;
 }
 
-/// Contacts at one barrier that follow each other ever faster come to an end in finite time (Budd and Dux 1994).
-/// With speed u and deceleration a after a contact, and speeds that fall by a factor r each, what remains takes
-/// 2u / (a (1 - r)); when other events come in between, the flights themselves tell it. It is taken at once when it
-/// is so short that all else is constant to within tolerance.
+/// Contacts at one barrier that follow each other ever faster accumulate in finite time (Budd and Dux 1994). With speed
+/// u and deceleration a after a contact, and speeds that fall by a factor r at each, the remaining time is 2u / (a (1 -
+/// r)); if other events happen in between, it is estimated from the flight times. The accumulation is completed at once
+/// when the remaining time is so short that everything else is constant to within tolerance.
 bool Trajectory::complete_chatter(std::size_t w, double step) {
     ContactHistory& history = histories_[compiled_mode_->watched[w]];
     const auto c = event_series(w);
@@ -61,13 +61,13 @@ bool Trajectory::complete_chatter(std::size_t w, double step) {
     const double change = std::abs(lengthening);
     const double neglected =
         history.interrupted ? change : 4 * (change * change + std::abs(c[4] / c[2]) * steady * steady);
-    // Lower flights would be made of the round-off of the states.
+    // Lower flights would consist of the round-off of the states.
     const double low = std::max(allowed * series_size(c, step), 16 * roundoff * terms_[0]);
     if (height > low || !(change < 0.01) || !(neglected * steady <= allowed * step) ||
         remaining > (end_time_ - time_) - time_low_ || (!history.interrupted && another_event_within(w, remaining)))
         return false;
-    // Where each contact changes the mode, as when it makes a frame slip that soon stops again, the accumulation is
-    // that of the transition by which the contacts are made.
+    // If each contact changes the mode, for example by making a frame slip that soon stops again, the accumulation is
+    // that of the transition made at the contacts.
     stick(w, history.transition, remaining, (deceleration - 3 * c[3] * remaining) * remaining - speed);
     return true;
 }
@@ -81,8 +81,8 @@ bool Trajectory::another_event_within(std::size_t w, double time) {
     return false;
 }
 
-/// Too many contacts at one time are the end of an accumulation that other rules did not see (as of a block that rocks
-/// from one edge to the other) if each was slower than the one before, and otherwise modes that go round in a circle.
+/// Too many contacts at one time: if each was slower than the one before, an accumulation that the other rules did not
+/// detect (such as that of a block rocking from edge to edge), otherwise an endless cycle of modes.
 void Trajectory::judge_stand_still() {
     const ContactHistory history = histories_[served_];
     hand_over_contact();
@@ -97,8 +97,8 @@ void Trajectory::judge_stand_still() {
                        contacts_now_, where()));
 }
 
-/// Ends an accumulation of contacts `remaining` after the present state: what the contacts still to come do to the
-/// event function's rate, `impulse` in all, they do to the state in the proportions of the last one.
+/// Completes an accumulation of contacts that ends `remaining` after the present state. The remaining contacts change
+/// the event function's rate by `impulse` in all; they change the state in the proportions of the last contact.
 void Trajectory::stick(std::size_t w, std::size_t index, double remaining, double impulse) {
     const std::size_t event = compiled_mode_->watched[w];
     const auto c = event_series(w);
@@ -117,7 +117,7 @@ void Trajectory::stick(std::size_t w, std::size_t index, double remaining, doubl
     come_to_rest(event, index, c[1]);
 }
 
-/// Makes the sticking that a transition declares, from `before_`.
+/// Makes the declared sticking transition, from `before_`.
 void Trajectory::come_to_rest(std::size_t event, std::size_t index, double rate) {
     const Transition& transition = simulation_.model().transitions[index];
     histories_[event] = {};
@@ -143,14 +143,14 @@ void Trajectory::come_to_rest(std::size_t event, std::size_t index, double rate)
     enter(transition.chatter->jump, transition.chatter->mode);
 }
 
-/// Derivatives of the state and time of accumulation: its time changes with the speed after the last contact.
+/// Derivatives of the state and time of accumulation, which depend on the speed after the last contact.
 void Trajectory::carry_tangents_to_rest(std::size_t w, double remaining, double per_impulse) {
     const auto c = event_series(w);
     row_.assign(tangents_->directions(), 0.0);
     if (!(remaining > 0))
         return;
-    // Derivatives are those at a fixed time, at which a neighbour is `lead` away from the surface that it left with a
-    // speed that has changed by `row_` and by the deceleration since.
+    // Derivatives are at a fixed time, at which a neighbouring trajectory is `lead` away from the surface, with a speed
+    // that differs by `row_` and by the deceleration since.
     std::vector<double> lead(row_.size()), curvature(row_.size());
     tangents_->coefficient(mode_, state_, w, 0, lead);
     tangents_->coefficient(mode_, state_, w, 2, curvature);
@@ -159,7 +159,7 @@ void Trajectory::carry_tangents_to_rest(std::size_t w, double remaining, double 
         lead[d] /= c[1];
         row_[d] -= 2 * c[2] * lead[d];
     }
-    // d(remaining)/d(speed), and the impulse a (remaining) - u that goes with it
+    // d(remaining)/d(speed), and the corresponding impulse a (remaining) - u
     const double per_speed = remaining / c[1];
     const double kicks = per_impulse * (-2 * c[2] * per_speed - 1);
     kick_.resize(states_);

@@ -1,4 +1,4 @@
-// Contacts: the transition that an event makes, and how it is announced.
+// Contacts: the transition made at an event, and the report to the observer.
 
 #include "graze/trajectory/trajectory.hpp"
 
@@ -42,7 +42,7 @@ void Trajectory::make_contact(std::size_t w, double s) {
     std::copy(before_.begin(), before_.end(), inputs_.begin());
     values_.resize(mode.events.outputs());
     mode.events.evaluate(inputs_, values_, work_);
-    // What is still due was on its surface when that was found. Jumps made since may have taken it away from there.
+    // Simultaneous events were on their surfaces when found. Jumps made since may have moved the state away from them.
     const bool first_at_this_time = served_ == no_event && !stuck_;
     std::erase(together_, event);
     for (std::size_t other = 0; other < mode.watched.size(); ++other)
@@ -58,7 +58,7 @@ void Trajectory::make_contact(std::size_t w, double s) {
     apply_transition(transition, rate);
 }
 
-/// Makes the transition's jump from `before_` and finds the next mode.
+/// Makes the transition's jump from `before_` and chooses the next mode.
 void Trajectory::apply_transition(std::size_t transition, double rate) {
     const Model& model = simulation_.model();
     const auto& compiled = simulation_.system().transition(transition);
@@ -103,8 +103,8 @@ std::optional<std::size_t> Trajectory::next_mode(std::size_t transition, bool& e
     return chosen->mode;
 }
 
-/// Goes on in a mode from `after_`, reached from `before_` by a jump whose time depends on the initial state as
-/// `row_` says.
+/// Continues in a mode from `after_`, reached from `before_` by a jump whose time depends on the initial state with the
+/// derivatives `row_`.
 void Trajectory::enter(std::size_t jump, std::size_t mode) {
     const System& compiled = simulation_.system();
     last_jump_ = jump;

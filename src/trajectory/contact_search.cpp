@@ -1,4 +1,4 @@
-// Which watched event happens first within a step, when exactly, and which come close without happening.
+// The first watched event within a step, its time, and events that come close without happening.
 
 #include "graze/trajectory/trajectory.hpp"
 
@@ -13,16 +13,16 @@ namespace graze {
 
 namespace {
 
-/// Share of a step behind a contact in which others are sought that may come before it, or at the same time, once the
-/// errors of polynomials have been removed.
+/// Share of a step after a contact in which events are searched that may be earlier, or simultaneous, once the errors
+/// of polynomials have been removed.
 constexpr double behind = 1e-4;
 
-/// Share of a flight that is never put down to round-off.
+/// Largest share of a flight that is attributed to round-off.
 constexpr double most_of_flight = 1e-6;
 
-/// How far round-off may have moved a root at s. Only what lies as close is simultaneous, which near the end of an
-/// accumulation is far less than the resolution of time.
-/// @param left_behind what the function was at the start of an arc that began on its surface
+/// Bounds the displacement of a root at s by round-off. Only roots this close are simultaneous; near the end of an
+/// accumulation this is far less than the resolution of time.
+/// @param left_behind value of the function at the start of an arc that began on its surface
 double root_uncertainty(std::span<const double> c, double s, double step, double left_behind) {
     constexpr double epsilon = std::numeric_limits<double>::epsilon();
     const double uncertain_value = 4 * epsilon * series_size(c, s), rate = std::abs(evaluate_derivative(c, s));
@@ -31,8 +31,7 @@ double root_uncertainty(std::span<const double> c, double s, double step, double
     return (uncertain_value < most * rate ? uncertain_value / rate : most) + by_start;
 }
 
-/// Where a function that falls reaches zero, if that lies behind a step by no more than `resolution`; negative
-/// otherwise.
+/// Returns the zero of a falling function if it lies after the step by at most `resolution`; negative otherwise.
 double zero_just_behind(std::span<const double> c, double step, double resolution) {
     const double value = evaluate_polynomial(c, step), rate = evaluate_derivative(c, step);
     return rate < 0 && value >= 0 && value <= -rate * resolution ? step - value / rate : -1;
@@ -40,13 +39,13 @@ double zero_just_behind(std::span<const double> c, double step, double resolutio
 
 } // namespace
 
-/// The watched event that happens first within `step`, which becomes the time until then. Roots are compared when they
-/// have been moved onto the surfaces themselves: those of surfaces that coincide then differ by round-off alone.
-std::size_t Trajectory::find_contact(double& step, const Outlook& outlook, std::size_t lane) {
+/// Returns the watched event that happens first within `step`, which is reduced to its time. Roots are compared after
+/// they have been moved onto the surfaces: for coinciding surfaces they then differ by round-off only.
+std::size_t Trajectory::find_contact(double& step, const StepPreview& preview, std::size_t lane) {
     const auto& mode = *compiled_mode_;
     const double whole = step;
-    const bool looked_ahead = whole == outlook.length(lane) && whole >= previous_step_;
-    double uncertain = 0; // of the first root
+    const bool looked_ahead = whole == preview.length(lane) && whole >= previous_step_;
+    double uncertain = 0; // uncertainty of the first root
     std::size_t first = no_event;
     together_.clear();
     for (std::size_t w = 0; w < mode.watched.size(); ++w) {
@@ -56,7 +55,7 @@ std::size_t Trajectory::find_contact(double& step, const Outlook& outlook, std::
         const std::size_t event = mode.watched[w];
         note_size(w);
         if (looked_ahead && first == no_event && watch.side > 0 && watch.strip == 0 &&
-            outlook.least(w, lane) > std::max(touch_distance(event, outlook.size(w, lane)), least_touch(event)))
+            preview.least(w, lane) > std::max(touch_distance(event, preview.size(w, lane)), least_touch(event)))
             continue;
         Root root{};
         if (!find_fall(w, first == no_event ? whole : std::min(whole, step + std::max(uncertain, behind * whole)),
@@ -85,9 +84,10 @@ std::size_t Trajectory::find_contact(double& step, const Outlook& outlook, std::
     if (first != no_event && step + uncertain >= whole)
         look_beyond(first, step, uncertain);
     if (first == no_event)
-        first = passed_with_period(whole, outlook, lane);
-    // What stands under a root is often what an event watches, as an indentation to the power 3/2: the contact ends
-    // where the series do. Steps go there, but not beyond: the last leaves a few of its lengths.
+        first = passed_with_period(whole, preview, lane);
+    // A radicand is often the event function itself, as an indentation to the power 3/2: the contact ends where the
+    // series do. Steps approach this point but do not pass it: the last one is followed by at most a few of its
+    // lengths.
     const bool at_branch = mode.has_roots && (branch_ahead_ < states_ || whole <= shortest_step());
     for (std::size_t w = 0; first == no_event && at_branch && w < mode.watched.size(); ++w)
         if (const double zero = zero_just_behind(event_series(w), whole, 16 * shortest_step());
@@ -100,8 +100,8 @@ std::size_t Trajectory::find_contact(double& step, const Outlook& outlook, std::
     return first;
 }
 
-/// A contact at the end of a step has those at its time which round-off has put just behind.
-/// @param first may become one that comes before in the order of the mode
+/// Adds the events that are simultaneous with a contact at the end of a step but that round-off has put just after it.
+/// @param first may become an event that precedes in the order of the mode
 void Trajectory::look_beyond(std::size_t& first, double step, double uncertain) {
     const auto& watched = compiled_mode_->watched;
     for (std::size_t w = 0; w < watched.size(); ++w) {
@@ -118,13 +118,13 @@ void Trajectory::look_beyond(std::size_t& first, double step, double uncertain) 
     }
 }
 
-/// A state that is set back where a step ends, at the end of its period, may have an event there that round-off has put
-/// just behind: the next step begins with the next period and would not see it.
-std::size_t Trajectory::passed_with_period(double step, const Outlook& outlook, std::size_t lane) {
-    constexpr double error = 16 * std::numeric_limits<double>::epsilon(); // of the state, in periods
+/// Finds an event at the end of a period, where a cyclic state is reset, that round-off has put just after the step:
+/// the next step begins with the next period and would not find it.
+std::size_t Trajectory::passed_with_period(double step, const StepPreview& preview, std::size_t lane) {
+    constexpr double error = 16 * std::numeric_limits<double>::epsilon(); // error of the state, in periods
     const auto& mode = *compiled_mode_;
     for (const std::size_t i : cyclic_states_) {
-        const double end = step == outlook.length(lane) ? outlook.state(i, lane) : evaluate_state(i, step);
+        const double end = step == preview.length(lane) ? preview.state(i, lane) : evaluate_state(i, step);
         if (end >= 0 && end < periods_[i])
             continue;
         for (std::size_t w = 0; w < mode.watched.size(); ++w) {
@@ -146,35 +146,34 @@ std::size_t Trajectory::passed_with_period(double step, const Outlook& outlook, 
     return no_event;
 }
 
-/// The series of a watched event, without the factors that are zero at the start of an arc (but for one).
+/// Returns the series of a watched event without the leading zero coefficients at the start of an arc (except one).
 std::span<const double> Trajectory::shifted_series(std::size_t w) {
     const auto c = event_series(w);
     return watches_[w].strip > 0 ? c.subspan(static_cast<std::size_t>(watches_[w].strip) - 1) : c;
 }
 
-/// Where a watched event's function first falls through zero within `length`. Notes the
-/// touches before.
+/// Finds where a watched event's function first falls through zero within `length`. Records the touches before.
 bool Trajectory::find_fall(std::size_t w, double length, Root& root) {
     const std::size_t event = compiled_mode_->watched[w];
     const Watch& watch = watches_[w];
     const auto c = shifted_series(w);
     const RootStart start = watch.strip > 0 ? RootStart::deflate : RootStart::as_is;
     if (start == RootStart::as_is && watch.side > 0 && c[0] <= 0) {
-        // It fell through zero in the round-off between two steps, or has touched zero there and rises again.
+        // It fell through zero within the round-off between two steps, or touched zero there and rises again.
         const double noise = roundoff * series_size(c, length);
         const std::size_t leading = -c[0] <= noise ? leading_index(c, length, noise) : 0;
         return leading == 0 || c[leading] < 0 ||
                roots_.first_falling(c.subspan(leading - 1), length, RootStart::deflate, root);
     }
     const RootFinder::Enclosure enclosure = RootFinder::enclosure(c, length, start);
-    // A deflated polynomial is a rate: its size is none of the function's.
+    // A deflated polynomial is a rate: use the size of the function itself.
     const double size = start == RootStart::as_is ? enclosure.size : series_size(event_series(w), length);
     const double touch = std::max({touch_distance(event, size), roundoff * size, least_touch(event)});
     if (watch.side > 0 && enclosure.least > (start == RootStart::as_is ? touch : 0)) {
         if (start == RootStart::as_is)
             return false;
-        // The function itself, as much larger as time goes on, may be as small as a touch for a short time; but while
-        // it rises it touches nothing.
+        // The function (the deflated one times the time) may be as small as a touch for a short time after the start;
+        // while it rises there is no touch.
         const double small = std::min(touch / enclosure.least, length);
         if (RootFinder::trend(c, small) > 0)
             return false;
@@ -186,7 +185,7 @@ bool Trajectory::find_fall(std::size_t w, double length, Root& root) {
     return found;
 }
 
-/// Of the minima that may be touches those that are: enclosures have overrated how large the function is.
+/// Keeps those minima that are touches: enclosures have overestimated the size of the function.
 void Trajectory::keep_touches(std::size_t w, std::span<const double> c) {
     const std::size_t event = compiled_mode_->watched[w];
     const bool barrier = simulation_.model().events[event].kind == EventKind::barrier;
@@ -203,8 +202,8 @@ void Trajectory::keep_touches(std::size_t w, std::span<const double> c) {
     }
 }
 
-/// Keeps account of the size of a watched event's function, from one step of an arc to the next: a maximum between them
-/// is where the polynomial of degree 5 has it that agrees with value, slope and curvature at both.
+/// Updates the size of a watched event's function between steps of an arc: the maximum between two steps is that of the
+/// quintic polynomial that agrees with value, slope and curvature at both.
 void Trajectory::note_size(std::size_t w) {
     EventSize& size = event_sizes_[compiled_mode_->watched[w]];
     const Series& c = series_[states_ + w];
@@ -235,24 +234,24 @@ void Trajectory::note_size(std::size_t w) {
     size.half_second = c[2];
 }
 
-/// How close to zero a minimum is a touch, of a function that is now of this size.
+/// Returns the largest minimum that counts as a touch, for the present size of the function.
 double Trajectory::touch_distance(std::size_t event, double size) const {
     const SimulationOptions& options = simulation_.options();
     return options.touch > 0 ? options.touch : 100 * options.tolerance * std::max(event_sizes_[event].largest, size);
 }
 
-/// What cannot be told from zero, because of what cancels in an event's function, is a touch in any case.
+/// Returns the minimum below which a touch is always reported: the round-off of the function's cancelling terms.
 double Trajectory::least_touch(std::size_t event) const {
     return 4 * std::numeric_limits<double>::epsilon() * event_sizes_[event].terms;
 }
 
-/// Whether a contact at s is one without speed, to within round-off: the motion would go no deeper beyond the surface
-/// than nobody can tell. Derivatives do not exist there.
+/// Returns whether a contact at s is at zero speed to within round-off: the motion would pass the surface by less than
+/// the uncertainty. Derivatives do not exist there.
 bool Trajectory::is_grazing(std::size_t w, double s, double rate) {
     const auto c = event_series(w);
     if (std::abs(rate) * previous_step_ <= roundoff * series_size(c, previous_step_))
         return true;
-    // A flight that leaves the surface and comes back is known relative to its own height.
+    // A flight that leaves the surface and returns is known relative to its own height.
     const EventSize& sizes = event_sizes_[compiled_mode_->watched[w]];
     const double noise = roundoff * std::max({sizes.of_arc, series_size(c, s), sizes.left_surface ? 0 : sizes.terms});
     double second = 0;
@@ -261,9 +260,9 @@ bool Trajectory::is_grazing(std::size_t w, double s, double rate) {
     return rate * rate <= 2 * std::abs(second) * noise;
 }
 
-/// Moves a root of the event polynomial onto the surface itself, from which the truncation of the polynomials of
-/// event and states may keep it by something like the tolerance. There may be many events with roots in one step: only
-/// the states on which this one depends are looked at.
+/// Moves a root of the event polynomial onto the surface itself: the truncation errors of the polynomials of event and
+/// states displace it by about the tolerance. Since many events may have roots in one step, only the states on which
+/// this event depends are evaluated.
 double Trajectory::on_surface(std::size_t w, double s) {
     const auto c = event_series(w);
     const Function& event = simulation_.system().event(compiled_mode_->watched[w]);
@@ -273,7 +272,7 @@ double Trajectory::on_surface(std::size_t w, double s) {
             inputs_[i] = evaluate_state(i, s);
         event.evaluate(inputs_, values_, work_);
         const double value = values_[0], rate = evaluate_derivative(c, s);
-        // Newton's method is safe only well away from the double root of a tangential contact.
+        // Newton's method is safe only far from the double root of a tangential contact.
         if (!(4 * std::abs(value * c[2]) < rate * rate))
             return s;
         s = std::max(0.0, s - value / rate);
@@ -281,7 +280,7 @@ double Trajectory::on_surface(std::size_t w, double s) {
     return s;
 }
 
-/// How far round-off within an event's function, as in exp(x) - 1, may move its root at s.
+/// Returns the displacement of a root at s by round-off inside an event's function, as in exp(x) - 1.
 double Trajectory::error_of_root(std::size_t w, double s) {
     const Function& event = simulation_.system().event(compiled_mode_->watched[w]);
     values_.resize(event.outputs());
@@ -299,13 +298,13 @@ void Trajectory::update_sides(double length) {
         Watch& watch = watches_[w];
         watch.strip = 0;
         if (watch.side > 0)
-            continue; // had it fallen, it would have been found; within round-off of zero the next step decides
+            continue; // a fall would have been found; within round-off of zero the next step decides
         const double value = evaluate_polynomial(event_series(w), length);
         const bool barrier = simulation_.model().events[mode.watched[w]].kind == EventKind::barrier;
         if (value > 0)
             watch.side = 1;
         else if (watch.side == 0 && std::abs(value) > roundoff * series_size(event_series(w), length))
-            watch.side = barrier ? 1 : -1; // left the surface it moved along: for a barrier, a contact at once
+            watch.side = barrier ? 1 : -1; // the motion has left the surface: for a barrier, a contact at once
     }
 }
 

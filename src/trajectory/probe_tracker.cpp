@@ -1,7 +1,7 @@
 #include "trajectory/probe_tracker.hpp"
 
 #include "flow/kept_sign.hpp"
-#include "flow/lone_crossing.hpp"
+#include "flow/single_crossing.hpp"
 #include "tape/smallest_size.hpp"
 #include "trajectory/series.hpp"
 
@@ -67,7 +67,7 @@ void ProbeTracker::locate(std::size_t index, double value) {
     }
 }
 
-/// Beginning on the section is not a passage of it, whichever way the phase goes.
+/// A start on the section is not a passage, in whichever direction the phase moves.
 void ProbeTracker::leave_section(std::size_t index, std::span<const double> c, double length) {
     const double period = periods_[simulation_.probes()[index].state];
     const std::size_t leading = leading_index(c, length, roundoff * period);
@@ -98,7 +98,7 @@ void ProbeTracker::shift(std::size_t state, double shift) {
 void ProbeTracker::relocate(std::size_t state, double before, double after) {
     const double period = periods_[state];
     const double turns = std::round((after - before) / period);
-    // A jump by whole periods moves the sections along: a passage that is due must be neither lost nor doubled.
+    // A jump by whole periods shifts the sections too: a pending passage must be neither lost nor repeated.
     if (std::abs(after - before - turns * period) <= 16 * roundoff * period)
         return shift(state, turns * period);
     for (const Phase& phase : phases_)
@@ -139,12 +139,12 @@ void ProbeTracker::sort_found() {
     const auto is_before = [](const Found& a, const Found& b) {
         return a.at < b.at || (a.at == b.at && a.probe < b.probe);
     };
-    if (!std::is_sorted(found_.begin(), found_.end(), is_before)) // sorting asks for memory
+    if (!std::is_sorted(found_.begin(), found_.end(), is_before)) // sorting allocates memory
         std::stable_sort(found_.begin(), found_.end(), is_before);
 }
 
-/// Where no value is near for sure, with more to spare than round-off and slack can take. Nearer, those of each probe
-/// decide.
+/// Finds an interval of the phase in which no probe's value is near, with a margin larger than round-off and slack.
+/// Outside it, each probe is tested.
 void ProbeTracker::find_bounds() {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     for (Phase& phase : phases_) {
@@ -179,7 +179,7 @@ void ProbeTracker::search_phases(const Phase& phase, const Step& step) {
             search_phase(probe, step, c, reach);
 }
 
-/// Most steps are left at a first glance.
+/// Most steps are excluded by a cheap test.
 void ProbeTracker::search_expression(std::size_t probe, const Step& step) {
     const Followed& followed = followed_[probe];
     const std::span<const double> c = without_gaps(step.observed[followed.index], work_.size());
@@ -190,7 +190,7 @@ void ProbeTracker::search_expression(std::size_t probe, const Step& step) {
         search_series(probe, crossing ? c : rate_of(c), step.length, clear);
 }
 
-/// Coefficients of the derivative; valid until those of another are asked for.
+/// Returns the coefficients of the derivative; valid until the next call.
 std::span<const double> ProbeTracker::rate_of(std::span<const double> c) {
     for (std::size_t k = 0; k + 1 < c.size(); ++k)
         work_[k] = static_cast<double>(k + 1) * c[k + 1];
@@ -219,8 +219,8 @@ void ProbeTracker::note(std::size_t probe, double at, int direction, bool at_con
         found_.push_back({probe, at, direction, at_contact});
 }
 
-/// A function on one side at the start of a step that was last known on the other has passed in between, unless an arc
-/// begins: what a jump does makes an extremum, but is no crossing by the motion.
+/// A function that starts a step on the other side than it was last known to be has crossed in between, except at the
+/// start of an arc: the effect of a jump may be an extremum, but is not a crossing by the motion.
 void ProbeTracker::begin_on(int side, std::size_t probe) {
     Tracked& tracked = tracked_[probe];
     if (tracked.side != 0 && side != tracked.side && (!arc_start_ || followed_[probe].kind == Probe::Kind::extremum))
@@ -228,9 +228,9 @@ void ProbeTracker::begin_on(int side, std::size_t probe) {
     tracked.side = side;
 }
 
-/// @param clear what a glance has shown
+/// @param clear the result of the cheap test
 void ProbeTracker::search_series(std::size_t probe, std::span<const double> c, double length, roots::ClearSign clear) {
-    // Nothing is known of the sign of what has died away like exp(-t); it is what it was.
+    // The sign of a function that has decayed, such as exp(-t), is unknown: it is taken to be unchanged.
     if (clear.size < smallest_size)
         return;
     if (clear.sign != 0)
@@ -243,15 +243,15 @@ void ProbeTracker::search_series(std::size_t probe, std::span<const double> c, d
             return search_from_zero(probe, c, length, noise);
     }
     begin_on(now, probe);
-    if (const auto lone = roots::lone_crossing(c, length)) {
-        if (lone->crosses)
-            note(probe, followed_[probe].wants(-now) ? lone->place(c, length) : unplaced, -now, false);
+    if (const auto single = roots::single_crossing(c, length)) {
+        if (single->crosses)
+            note(probe, followed_[probe].wants(-now) ? single->place(c, length) : unplaced, -now, false);
     } else if (!as_before || roots::kept_sign(c, length) != now) {
         note_crossings(probe, c, length, RootStart::as_is);
     }
 }
 
-/// A function that round-off cannot tell from zero where the step begins.
+/// Searches a function that is zero to within round-off at the beginning of the step.
 void ProbeTracker::search_from_zero(std::size_t probe, std::span<const double> c, double length, double noise) {
     const std::size_t leading = leading_index(c, length, noise);
     if (leading == 0)
@@ -267,18 +267,18 @@ void ProbeTracker::note_crossings(std::size_t probe, std::span<const double> c, 
     for (const Root& root : found_roots_) {
         const int direction = root.kind == RootKind::rising ? 1 : -1;
         if (direction == tracked_[probe].side)
-            continue; // leaves a zero that was already counted
+            continue; // moves away from a zero that was counted already
         note(probe, root.at, direction, false);
     }
 }
 
-/// Where a probe's lone crossing is within the step just searched.
+/// Returns the location of a probe's only crossing within the step just searched.
 double ProbeTracker::place(std::size_t probe, const Step& step) {
     const Followed& followed = followed_[probe];
     const std::span<const double> series = without_gaps(step.observed[followed.index], work_.size());
     const std::span<const double> c = followed.kind == Probe::Kind::crossing ? series : rate_of(series);
-    const auto lone = roots::lone_crossing(c, step.length);
-    return lone ? lone->place(c, step.length) : unplaced;
+    const auto single = roots::single_crossing(c, step.length);
+    return single ? single->place(c, step.length) : unplaced;
 }
 
 std::span<const double> ProbeTracker::gather(const Series& series, std::size_t size) {

@@ -12,20 +12,20 @@
 
 namespace graze {
 
-/// Follows the probes of a simulation from step to step and finds every passage exactly once. A crossing that
-/// round-off hides between two steps is found from the side on which its function was last known to be.
+/// Tracks the probes of a simulation from step to step and finds every passage exactly once. A crossing that round-off
+/// hides between two steps is found from the side on which the function was last known to be.
 class ProbeTracker {
 public:
     /// @param phase_values, periods at the parameters of this trajectory
     ProbeTracker(const Simulation& simulation, std::span<const double> phase_values, std::span<const double> periods);
 
-    /// Forgets everything: a trajectory begins.
+    /// Resets the tracker at the start of a trajectory.
     void start(std::span<const double> state);
-    /// A new arc: expressions may have jumped.
+    /// Marks a new arc, at whose start expressions may jump.
     void begin_arc() { arc_start_ = true; }
-    /// A cyclic state has been moved by `shift`.
+    /// Reports that a cyclic state has been shifted by `shift` (whole periods).
     void shift(std::size_t state, double shift);
-    /// A jump has set a cyclic state anew.
+    /// Reports that a jump has changed a cyclic state.
     void relocate(std::size_t state, double before, double after);
 
     struct Found {
@@ -34,14 +34,14 @@ public:
         int direction;
         bool at_contact;
     };
-    /// All passages in (0, length], in increasing order; valid until the next call.
+    /// Returns all passages in (0, length], in increasing order; valid until the next call.
     std::span<const Found> search(const Step& step);
-    /// The step just searched ends at s instead: what lies behind is forgotten and will be found again.
+    /// Shortens the step just searched to s: later passages are discarded and will be found again.
     void cut(const Step& step, double s);
 
 private:
-    /// How far a phase may go within a step: one that only rises goes nowhere down. A value may be passed that lies
-    /// behind it, if that is so between two steps and by round-off alone.
+    /// Bounds on the change of a phase within a step, up and down. `most` is the distance by which a value may already
+    /// have been passed between two steps, by round-off.
     struct Reach {
         double up = 0, down = 0, most = 0;
     };
@@ -50,8 +50,8 @@ private:
     struct Tracked {
         int side = 0;
         double lower = 0, upper = 0;             ///< next values of a phase, below and above
-        double lower_slack = 0, upper_slack = 0; ///< of a value just passed, until it is left behind
-        bool on_section = false;                 ///< begins at `lower`: the motion tells which way it leaves
+        double lower_slack = 0, upper_slack = 0; ///< tolerance at a value just passed, until the phase has left it
+        bool on_section = false;                 ///< starts at `lower`: the motion decides in which direction it leaves
         double beyond_upper(double phase) const { return phase - upper - upper_slack; }
         double beyond_lower(double phase) const { return phase - lower + lower_slack; }
         bool is_near(double phase, const Reach& reach) const {
@@ -59,30 +59,30 @@ private:
             return (above >= -reach.up && above <= reach.most) || (below <= reach.down && below >= -reach.most);
         }
     };
-    /// Something that a search has changed in what is known about a probe.
+    /// A change that a search has made to the state of a probe.
     struct Change {
         std::size_t probe;
         double at; ///< or `unplaced`
         int direction;
         Tracked before;
     };
-    /// Of a passage in the direction that nobody asks for: the only one of its probe within the step.
+    /// Time of a passage in an unwanted direction that is the only one of its probe within the step.
     static constexpr double unplaced = std::numeric_limits<double>::infinity();
-    /// What is asked of the simulation.
+    /// The relevant data of a probe.
     struct Followed {
         Probe::Kind kind;
         Direction wanted;
-        std::size_t index; ///< of a phase's state, or of what is observed
+        std::size_t index; ///< index of the phase's state, or of the observed expression
         bool wants(int direction) const {
             return wanted == Direction::both || (wanted == Direction::rising) == (direction > 0);
         }
     };
-    /// A cyclic state, with all that wait for its values.
+    /// A cyclic state and its phase probes.
     struct Phase {
         std::size_t state;
-        std::vector<std::size_t> sizes;  ///< of its series in each mode: the rate may be constant
+        std::vector<std::size_t> sizes;  ///< [mode] number of coefficients of its series (2 if its rate is constant)
         std::vector<std::size_t> probes; ///< rising
-        double low = 0, high = 0;        ///< none of them is near while it stays between
+        double low = 0, high = 0;        ///< no probe's value is near while the phase is between these
         bool is_line(std::size_t mode) const { return sizes[mode] <= 2; }
     };
     void find_bounds();
@@ -96,7 +96,7 @@ private:
     std::span<const double> rate_of(std::span<const double> c);
     double place(std::size_t probe, const Step& step);
     void search_phase(std::size_t probe, const Step& step, std::span<const double> c, const Reach& reach);
-    /// Coefficients of one lane, side by side; valid until the next ones are asked for.
+    /// Returns the coefficients of one lane, contiguous; valid until the next call.
     std::span<const double> without_gaps(const Series& series, std::size_t size) {
         return series.stride == 1 ? std::span<const double>(series.first, size) : gather(series, size);
     }
@@ -111,10 +111,10 @@ private:
     RootFinder roots_;
     std::vector<Followed> followed_;
     std::vector<Phase> phases_;
-    std::vector<std::size_t> expressions_; ///< probes that are none
-    bool bounds_known_ = false;            ///< of phases
+    std::vector<std::size_t> expressions_; ///< probes that are not phases
+    bool bounds_known_ = false;            ///< bounds of phases are up to date
     std::vector<Tracked> tracked_;
-    std::vector<Change> changes_; ///< of the step just searched
+    std::vector<Change> changes_; ///< changes of the step just searched
     std::vector<double> work_, gathered_;
     std::vector<Root> found_roots_;
     std::vector<Found> found_;

@@ -13,12 +13,12 @@ namespace graze {
 
 Relay::Relay(std::vector<Observer*> observers) : observers_(std::move(observers)) {
     if (std::find(observers_.begin(), observers_.end(), nullptr) != observers_.end())
-        throw InputError("one of the observers is none", "leave it out");
+        throw InputError("one of the observers is null", "leave it out");
 }
 
 ArcMinima::ArcMinima(Receiver receiver) : receiver_(std::move(receiver)) {
     if (!receiver_)
-        throw InputError("nobody receives the minima", "give a function");
+        throw InputError("there is no receiver of the minima", "give a function");
 }
 
 void Relay::step(const Step& step) {
@@ -71,16 +71,17 @@ Sampler::Sampler(double start, double spacing, std::size_t count, std::vector<do
     require_finite(start, "the time of the first sample");
     require_finite(periods_, "the period of a state");
     if (!(spacing > 0) || !std::isfinite(spacing))
-        throw InputError(fmt::format("the spacing {} of samples is no length of time", spacing), "give a positive one");
+        throw InputError(fmt::format("the spacing {} of samples is not a positive time", spacing),
+                         "give a positive one");
     if (!receiver_)
-        throw InputError("nobody receives the samples", "give a function");
+        throw InputError("there is no receiver of the samples", "give a function");
 }
 
 void Sampler::step(const Step& step) {
     require_size(periods_.size(), step.states.size(), "periods of states");
     for (; taken_ < count_; ++taken_) {
         const double time = next();
-        // Start and length have each lost what time does not resolve.
+        // Start and length of the step are both rounded.
         if (!(time <= step.start + step.length + 2 * std::numeric_limits<double>::epsilon() * std::abs(time)))
             return;
         const double s = std::clamp(time - step.start, 0.0, step.length);
@@ -92,7 +93,7 @@ void Sampler::step(const Step& step) {
 
 void Sampler::coarsen() {
     spacing_ *= 2;
-    taken_ = (taken_ + 1) / 2 - 1; // the present one is not counted yet
+    taken_ = (taken_ + 1) / 2 - 1; // the present sample has not been counted yet
 }
 
 void ArcMinima::step(const Step& step) {

@@ -1,4 +1,4 @@
-// What the observer is told of a step.
+// Reports of steps to the observer.
 
 #include "graze/trajectory/trajectory.hpp"
 
@@ -11,11 +11,11 @@
 
 namespace graze {
 
-/// Tells the observer what happens within the step. Returns true when the observer stops the trajectory at a
-/// passage: the step then ends there.
+/// Reports all that happens within the step. Returns true when the observer stops the trajectory at a passage: the step
+/// then ends there.
 bool Trajectory::make_step(double& length) {
     ++steps_;
-    // A step that time cannot tell from none is no progress: contacts must not go on for ever in it.
+    // A step that does not change the time is no progress: contacts must not repeat endlessly within it.
     if (length > 4 * std::numeric_limits<double>::epsilon() * std::abs(time_))
         contacts_now_ = 0;
     const std::size_t watched = compiled_mode_->watched.size();

@@ -14,14 +14,14 @@ bool run_until(Trajectory& trajectory, JetSet& jets, const std::function<bool()>
     if (!trajectory.tangents().empty())
         jets.add_tangents();
     jets.set_parameters(trajectory.parameters());
-    Outlook outlook(trajectory.simulation(), 1);
+    StepPreview preview(trajectory.simulation(), 1);
     while (!trajectory.finished()) {
         Jet& jet = jets.computed(trajectory.mode(), trajectory.state());
-        outlook.lengths()[0] = trajectory.previous_step();
-        outlook.find_steps(jet);
-        outlook.lengths()[0] = trajectory.propose(jet, outlook.length(0));
-        outlook.look(jet, jets.next(trajectory.mode()), trajectory.mode());
-        trajectory.advance(outlook);
+        preview.lengths()[0] = trajectory.previous_step();
+        preview.find_steps(jet);
+        preview.lengths()[0] = trajectory.propose(jet, preview.length(0));
+        preview.evaluate_ends(jet, jets.next(trajectory.mode()), trajectory.mode());
+        trajectory.advance(preview);
         if (stopped && stopped())
             break;
     }

@@ -6,7 +6,7 @@
 
 namespace graze {
 
-/// Sum of |c_k| h^k: the size of a polynomial over a step, against which round-off is measured.
+/// Returns sum of |c_k| h^k: the size of a polynomial over a step, relative to which round-off is measured.
 inline double series_size(std::span<const double> c, double h) {
     double size = 0;
     for (std::size_t k = c.size(); k-- > 0;)
@@ -14,11 +14,11 @@ inline double series_size(std::span<const double> c, double h) {
     return size;
 }
 
-/// Round-off of a series of that size: a value below it cannot be told from zero. An event function is a sum of
-/// a few dozen rounded terms that may be larger than itself, hence more than one epsilon.
+/// Relative round-off of a series: a value below this share of its size is indistinguishable from zero. An event
+/// function is a sum of a few dozen rounded terms that may be larger than itself, hence more than one epsilon.
 inline constexpr double roundoff = 64 * std::numeric_limits<double>::epsilon();
 
-/// Index, at least 1, of the first coefficient that decides the sign just after 0; 0 when none does.
+/// Returns the index, at least 1, of the first coefficient that decides the sign just after 0; 0 if none does.
 inline std::size_t leading_index(std::span<const double> c, double h, double noise) {
     double power = 1;
     for (std::size_t k = 1; k < c.size(); ++k) {
@@ -29,7 +29,7 @@ inline std::size_t leading_index(std::span<const double> c, double h, double noi
     return 0;
 }
 
-/// Sum of |c_k| h^k, k > 0: how far the polynomial may go from its value at 0.
+/// Returns sum of |c_k| h^k, k > 0: a bound on the distance of the polynomial from its value at 0.
 inline double size_beyond_start(std::span<const double> c, double h) {
     double rest = 0;
     for (std::size_t k = c.size(); k-- > 1;)

@@ -37,7 +37,7 @@ Simulation::Simulation(const System& system, std::vector<Probe> probes, const st
         if (!phase)
             all.push_back(probe.expression);
         else if (require_index(probe.state, system.states(), "state"); !system.model().states[probe.state].period)
-            throw InputError(fmt::format("probe '{}' waits for a phase, and state '{}' has no period", probe.name,
+            throw InputError(fmt::format("probe '{}' is a phase, but state '{}' has no period", probe.name,
                                          system.model().states[probe.state].name),
                              "choose a cyclic state, or locate a crossing");
     }

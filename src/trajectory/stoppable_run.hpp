@@ -6,7 +6,7 @@
 
 namespace graze {
 
-/// Drives one trajectory to its end, or until it is to be left as it is, which is asked after each step.
+/// Runs one trajectory to its end, or until `stopped` returns true, which is called after each step.
 /// @param stopped may be null
 /// @return whether the end was reached
 /// @throws std::invalid_argument for jets of another simulation, or of several lanes

@@ -10,8 +10,9 @@ namespace graze {
 
 namespace {
 
-/// The motion's own steps stay what they are. What derivatives leave over of one begins with the motion's series anew,
-/// so that they go on to its end where that is near: there it is seen whether they are right.
+/// The steps of the motion are unchanged. After a part of a step the motion's series must be computed again, so that
+/// derivatives are propagated to the end if this share is reached; the check at the end shows whether they are
+/// accurate.
 constexpr double whole_step = 0.9;
 
 } // namespace
@@ -56,7 +57,7 @@ void Tangents::set_back(std::size_t state, double periods) {
         matrix_[state * directions_ + d] -= periods * period_rates_[state * directions_ + d];
 }
 
-/// Begins a step at a state. @return the jet that is to be begun at its end
+/// Begins a step at a state. @return the jet to be begun at its end
 Jet& Tangents::begin(std::size_t mode, std::span<const double> state) {
     Jet *const given = std::exchange(jet_, nullptr), *const next = std::exchange(next_jet_, nullptr);
     if (given != nullptr) {
@@ -80,7 +81,7 @@ void Tangents::coefficient(std::size_t mode, std::span<const double> state, std:
 
 void Tangents::advance(std::size_t mode, std::span<const double> state, double s, std::size_t watched,
                        std::span<double> row) {
-    // In parts, where derivatives are faster than the states.
+    // In parts, if derivatives are faster than the states.
     for (int part = 0; part < TangentSteps::most_parts; ++part) {
         Jet& next = begin(mode, state);
         const double length = steps_.carry(next, s, next_);

@@ -10,9 +10,9 @@
 
 namespace graze {
 
-/// Derivatives of one trajectory in several directions (of initial state and parameters), carried along arcs by the
-/// first variational equations and through contacts by the saltation formulas (Aizerman and Gantmakher 1958; di
-/// Bernardo et al. 2008, section 2.5), with the field *before* the jump in the projection.
+/// Derivatives of one trajectory in several directions (of initial state and parameters): along arcs by the first
+/// variational equations, at contacts by the saltation formulas (Aizerman and Gantmakher 1958; di Bernardo et al. 2008,
+/// section 2.5), with the field *before* the jump in the projection.
 ///
 /// Matrices are row by row, [row * directions + direction]. They hold derivatives at fixed time.
 class Tangents {
@@ -26,28 +26,28 @@ public:
     bool valid() const { return valid_; }
     void invalidate() { valid_ = false; }
 
-    /// Jets on which the trajectory runs: the first has been computed at the present state, and has tangents. They are
-    /// used once for what comes next; without them the motion's series are computed again.
+    /// Provides the trajectory's jets: the first has tangents and has been computed at the present state. They are used
+    /// once, by the next call; without them the series of the motion are computed again.
     void use(Jet* jet, Jet* next) {
         jet_ = jet;
         next_jet_ = next;
     }
 
-    /// Derivatives of coefficient k (at most 2) of the function of a watched event at the start of the arc.
+    /// Computes derivatives of coefficient k (at most 2) of a watched event's function at the start of the arc.
     void coefficient(std::size_t mode, std::span<const double> state, std::size_t watched, std::size_t k,
                      std::span<double> row);
 
-    /// Moves along the arc that starts at `state`, by a time s.
-    /// @param row derivatives at its end of the function of an event that the mode watches, directions; may be empty
+    /// Propagates derivatives along the arc that starts at `state`, over a time s.
+    /// @param row receives the derivatives of a watched event's function at the end, by direction; may be empty
     void advance(std::size_t mode, std::span<const double> state, double s, std::size_t watched = 0,
                  std::span<double> row = {});
-    /// Passes a jump that comes `shift` (derivatives, directions) later than time says: at a contact, minus the
-    /// derivatives of the event function over its rate.
+    /// Propagates derivatives through a jump whose time changes by `shift`, one number for each direction: at a
+    /// contact, minus the derivatives of the event function over its rate.
     /// @param field_before, field_after rates of the states; @param jacobian values of the jump's entries
     void pass_jump(std::span<const double> shift, std::span<const double> field_before,
                    const System::CompiledJump& jump, std::span<const double> jacobian,
                    std::span<const double> field_after);
-    /// A cyclic state is set back by so many periods, which parameters may change.
+    /// Accounts for a shift of a cyclic state by whole periods, which may depend on parameters.
     void set_back(std::size_t state, double periods);
     /// Adds `column` times `row` to the matrix.
     void add_product(std::span<const double> column, std::span<const double> row);
@@ -61,10 +61,10 @@ private:
     std::size_t states_, directions_;
     TangentSteps steps_;
     std::vector<double> parameter_seeds_, matrix_, next_;
-    std::vector<double> period_rates_;         ///< derivatives of the states' periods; empty: no direction changes any
-    std::vector<double> here_;                 ///< state, within arcs that are followed in parts
-    Jet *jet_ = nullptr, *next_jet_ = nullptr; ///< those of the trajectory, while they are at its state
-    std::unique_ptr<ModeJets> jets_;           ///< of its own, where these are not to be had
+    std::vector<double> period_rates_; ///< derivatives of the states' periods; empty: no direction changes a period
+    std::vector<double> here_;         ///< state within an arc that is propagated in parts
+    Jet *jet_ = nullptr, *next_jet_ = nullptr; ///< the trajectory's jets, while they are at its state
+    std::unique_ptr<ModeJets> jets_;           ///< own jets, used without those of the trajectory
     bool valid_ = true;
 };
 

@@ -18,7 +18,7 @@ namespace graze {
 
 namespace {
 
-/// A step longer than the last one by more than this is looked at more closely.
+/// A step longer than the last one by more than this factor is checked at interior times too.
 constexpr double longest_leap = 2;
 
 } // namespace
@@ -27,7 +27,7 @@ Trajectory::Trajectory(const Simulation& simulation, std::span<const double> par
     : simulation_(simulation), observer_(&observer), parameters_(parameters.begin(), parameters.end()),
       step_size_(simulation.order(), simulation.options().tolerance),
       step_check_(simulation.system(), simulation.order(), simulation.options().tolerance),
-      late_states_(simulation.system()), roots_(simulation.order()), states_(simulation.system().states()),
+      dormant_states_(simulation.system()), roots_(simulation.order()), states_(simulation.system().states()),
       order_(simulation.order()), longest_allowed_(simulation.options().largest_step) {
     const System& compiled = simulation.system();
     require_size(parameters_.size(), compiled.parameters(), "independent parameters");
@@ -49,7 +49,7 @@ Trajectory::Trajectory(const Simulation& simulation, std::span<const double> par
     holds_.resize(histories_.size());
     uncertain_.resize(inputs_.size());
     step_check_.set_parameters(parameters_);
-    late_states_.set_parameters(parameters_);
+    dormant_states_.set_parameters(parameters_);
     periods_.resize(states_);
     compiled.periods().evaluate(parameters_, periods_, work_);
     for (std::size_t i = 0; i < states_; ++i)
@@ -93,7 +93,7 @@ void Trajectory::start(std::span<const double> state, std::size_t mode, double t
     end_time_ = end_time;
     previous_step_ = largest_step_ = believed_ = descent_start_ = 0;
     floored_ = false;
-    late_states_.begin();
+    dormant_states_.begin();
     arc_start_ = true;
     branch_ahead_ = states_;
     stuck_ = false;
@@ -124,7 +124,7 @@ void Trajectory::set_mode(std::size_t mode) {
 
 void Trajectory::limit_step(double longest) {
     if (!(longest >= 0))
-        throw InputError(fmt::format("the longest step {} is no length of time", longest), "give 0 for no bound");
+        throw InputError(fmt::format("the longest step {} is not a positive time", longest), "give 0 for no bound");
     const double largest = simulation_.options().largest_step;
     longest_allowed_ = longest > 0 && largest > 0 ? std::min(longest, largest) : std::max(longest, largest);
 }
@@ -144,7 +144,7 @@ void Trajectory::extend(double end_time) {
 void Trajectory::carry_tangents(std::span<const double> seeds, std::size_t directions) {
     require_started();
     const std::size_t inputs = states_ + parameters_.size();
-    // Divided, for the product could overflow.
+    // Divided, since the product could overflow.
     if (directions == 0 || seeds.size() % directions != 0 || seeds.size() / directions != inputs)
         throw InputError("the directions of derivatives do not fit the model",
                          fmt::format("give at least one, and {} numbers for each", inputs));
@@ -208,14 +208,14 @@ double Trajectory::propose(const Jet& jet, double step, std::size_t lane) {
     if (jet.order() != order_)
         throw std::invalid_argument("a trajectory needs the jets of its own simulation");
     find_series(jet, lane);
-    // Event functions and whatever else is observed must be as accurate as the states.
+    // Event functions and observed expressions must be as accurate as the states.
     step = limited_by_floors(step);
     const bool unlimited = !(previous_step_ > 0) || std::isinf(step);
     leap_ = !(step <= longest_leap * previous_step_) && !std::isnan(step) && !compiled_mode_->polynomial;
     if ((leap_ || unlimited) && !floored_)
         step = step_size_(series_, previous_step_);
     if (!floored_ && !compiled_mode_->has_roots)
-        step = late_states_.step(step_size_, mode_, series_, step, previous_step_);
+        step = dormant_states_.step(step_size_, mode_, series_, step, previous_step_);
     const double remaining = (end_time_ - time_) - time_low_;
     proposed_ = !std::isinf(step) ? step : std::isinf(remaining) ? 1.0 : std::max(remaining, 1.0);
     if (believed_ > 0)
@@ -229,12 +229,11 @@ double Trajectory::propose(const Jet& jet, double step, std::size_t lane) {
     return std::min(longest_allowed_ > 0 ? std::min(proposed_, longest_allowed_) : proposed_, std::max(remaining, 0.0));
 }
 
-/// Steps that shrink on and on lead to a singularity, or to a multiple zero of a state or event function, whose
-/// relative accuracy they are after. From when they have become far shorter, sizes are no longer let go below what they
-/// are.
+/// Steps that keep shrinking lead to a singularity, or to a multiple zero of a state or event function that they
+/// resolve relative to its size. Once they have become far shorter, present sizes are kept as floors.
 double Trajectory::limited_by_floors(double step) {
     constexpr double far_shorter = 1e-6;
-    // What falls to zero under a root ends there.
+    // A radicand that falls to zero has a definite end there.
     if (std::isnan(step) || compiled_mode_->has_roots)
         return step;
     if (arc_start_ || !(step < previous_step_)) {
@@ -251,15 +250,15 @@ double Trajectory::limited_by_floors(double step) {
     return floored_ ? step_size_.with_floors(series_, previous_step_, floors_) : step;
 }
 
-/// Sizes below which nothing need be known over this step; none for most.
+/// Returns the sizes below which series need not be resolved over this step; usually empty.
 std::span<const double> Trajectory::floors() const {
-    return floored_ ? std::span<const double>(floors_) : late_states_.floors();
+    return floored_ ? std::span<const double>(floors_) : dormant_states_.floors();
 }
 
-/// Shortens a step until polynomials and model agree at its end, and within as well if it is a leap. Returns false if
-/// they do so nowhere.
-bool Trajectory::check_step(double& step, const Outlook& outlook, std::size_t lane) {
-    const bool agrees = outlook.agrees(lane) && !leap_ && step == outlook.length(lane);
+/// Shortens a step until polynomials and model agree at its end, and at interior times after a leap. Returns false if
+/// there is no such step.
+bool Trajectory::check_step(double& step, const StepPreview& preview, std::size_t lane) {
+    const bool agrees = preview.agrees(lane) && !leap_ && step == preview.length(lane);
     const double longest = agrees ? step : step_check_.longest(mode_, series_, step, leap_, floors());
     if (longest == step) {
         if (believed_ > 0)
@@ -271,12 +270,12 @@ bool Trajectory::check_step(double& step, const Outlook& outlook, std::size_t la
     return step > shortest_step();
 }
 
-/// Below it, time hardly tells a step from none.
+/// Below this length a step hardly changes the time.
 double Trajectory::shortest_step() const {
     return 32 * std::numeric_limits<double>::epsilon() * std::max(time_ - start_time_, largest_step_);
 }
 
-void Trajectory::advance(const Outlook& outlook, std::size_t lane) {
+void Trajectory::advance(const StepPreview& preview, std::size_t lane) {
     require_started();
     if (finished())
         return;
@@ -294,19 +293,19 @@ void Trajectory::advance(const Outlook& outlook, std::size_t lane) {
     if (!long_enough) {
         announce_contact();
         if (double step = shortest_step(); compiled_mode_->has_roots && !arc_start_)
-            if (const std::size_t watched = find_contact(step, outlook, lane); watched != no_event)
+            if (const std::size_t watched = find_contact(step, preview, lane); watched != no_event)
                 return make_contact(watched, step);
         return branch_ahead_ < states_ ? finish_at_branch(branch_ahead_) : finish_singular();
     }
     if (tangents_) {
-        Jet* const jet = outlook.jet();
-        const bool usable = jet != nullptr && jet->width() == 1 && jet->followers() > 0;
-        tangents_->use(usable ? jet : nullptr, outlook.next());
+        Jet* const jet = preview.jet();
+        const bool usable = jet != nullptr && jet->width() == 1 && jet->deferred_count() > 0;
+        tangents_->use(usable ? jet : nullptr, preview.next());
     }
-    double step = outlook.length(lane);
+    double step = preview.length(lane);
     const std::size_t jumping = limit_to_branch(step);
     const double limited = step;
-    if (step > 0 && !check_step(step, outlook, lane)) {
+    if (step > 0 && !check_step(step, preview, lane)) {
         announce_contact();
         return finish_unresolved();
     }
@@ -325,13 +324,13 @@ void Trajectory::advance(const Outlook& outlook, std::size_t lane) {
         return finish(Ending::step_limit, time_,
                       fmt::format("{} steps were not enough; ask for a shorter time or raise the limit", steps_));
     bool last = step >= remaining;
-    std::size_t watched = step > 0 ? find_contact(step, outlook, lane) : no_event;
+    std::size_t watched = step > 0 ? find_contact(step, preview, lane) : no_event;
     const double contact_at = step;
     bool stopped = make_step(step);
     if (stopped && watched != no_event &&
         contact_at - step <= 64 * std::numeric_limits<double>::epsilon() * std::max(std::abs(time_), largest_step_)) {
-        // A contact at the very passage belongs to it: were it left for later, a clock that is set back at the end of
-        // its period would have passed it by.
+        // A contact at the same time as the passage belongs to this step: otherwise a clock that is reset at the end of
+        // its period would miss it.
         step = contact_at;
         stop_after_contact_ = true;
         stopped = false;
@@ -343,26 +342,26 @@ void Trajectory::advance(const Outlook& outlook, std::size_t lane) {
     if (watched != no_event) {
         make_contact(watched, step);
     } else {
-        move_along(step, last, outlook, lane);
+        move_along(step, last, preview, lane);
         if (jumping != states_ && step == limited && !stopped)
             return finish_at_branch(jumping);
     }
     if (!finished() && (stopped || observer_->stop()))
         finish(Ending::stopped, time_);
-    // An arc that begins exactly at the end still has its contact to announce: one more call does it.
+    // An arc that begins exactly at the end time still has its contact to report, in the next call.
     if (!finished() && !arc_start_ && time_ >= end_time_)
         finish(Ending::end_time, time_);
 }
 
-/// Goes to the end of a step within which nothing happens to the motion.
-/// @param last whether that is the end of the trajectory
-void Trajectory::move_along(double step, bool last, const Outlook& outlook, std::size_t lane) {
+/// Moves to the end of a step without events.
+/// @param last whether this is the end of the trajectory
+void Trajectory::move_along(double step, bool last, const StepPreview& preview, std::size_t lane) {
     update_sides(step);
     if (tangents_)
         tangents_->advance(mode_, state_, step);
-    if (step == outlook.length(lane))
+    if (step == preview.length(lane))
         for (std::size_t i = 0; i < states_; ++i)
-            state_[i] = outlook.state(i, lane);
+            state_[i] = preview.state(i, lane);
     else
         for (std::size_t i = 0; i < states_; ++i)
             state_[i] = evaluate_state(i, step);
@@ -375,7 +374,7 @@ void Trajectory::move_along(double step, bool last, const Outlook& outlook, std:
     wrap_cyclic_states(false);
 }
 
-/// Cyclic states of a copy of the state brought within their periods.
+/// Reduces the cyclic states of a copy of the state to their periods.
 void Trajectory::reduce_cyclic_states(std::span<double> state) const {
     for (std::size_t i = 0; i < states_; ++i)
         state[i] = within_period(state[i], periods_[i]);
@@ -391,7 +390,7 @@ void Trajectory::wrap_cyclic_states(bool snap) {
             if (tangents_)
                 tangents_->set_back(i, turns);
         }
-        // At a contact that belongs to the end of the period, what follows must see the beginning of the next.
+        // After a contact at the end of the period, the state must be at the beginning of the next period.
         if ((snap && period - state_[i] <= roundoff * period) || state_[i] >= period) {
             state_[i] = 0;
             probes_->shift(i, -period);
@@ -402,7 +401,7 @@ void Trajectory::wrap_cyclic_states(bool snap) {
 }
 
 void Trajectory::add_time(double step) {
-    // Knuth's two-sum keeps the part of each step that time_ alone would lose over many steps.
+    // Knuth's two-sum keeps the low-order part of the time, which would otherwise be lost over many steps.
     const double increment = step + time_low_;
     const double sum = time_ + increment;
     const double part = sum - time_;
@@ -422,8 +421,8 @@ std::string Trajectory::where() const {
 
 void Trajectory::finish_unresolved() {
     finish(Ending::undefined, time_,
-           fmt::format("no step could be found over which the rates are those that their series foretell {}: make what "
-                       "changes abruptly an event, or smooth it",
+           fmt::format("no step could be found at whose end the rates agree with their Taylor series {}: make "
+                       "abrupt changes events, or smooth them",
                        where()));
 }
 

@@ -56,17 +56,17 @@ TEST(Acquisition, RecordsAllLevelsAndLeavesTheOutputSafe) {
     double most = 0;
     for (const double value : samples.values[0])
         most = std::max(most, value);
-    EXPECT_NEAR(most, 4.8, 1e-2); // half of what is from peak to peak
+    EXPECT_NEAR(most, 4.8, 1e-2); // half of the peak-to-peak amplitude
 }
 
-TEST(Acquisition, GoesOnWithTheSameRecords) {
+TEST(Acquisition, ResumesWithTheSameRecords) {
     const TemporaryFolder folder;
     ScpiBench whole(testbed_bench());
     run_on(whole, experiment_text(), folder / "whole");
     ScpiBench bench(testbed_bench());
     std::size_t runs = 0, asked = 0;
     AcquisitionReport report;
-    do { // broken off at another place each time
+    do { // interrupted at a different point each time
         std::size_t now = 0;
         AcquisitionOptions options;
         options.interrupted = [&] { return ++now > asked; };
@@ -87,13 +87,13 @@ TEST(Acquisition, GoesOnWithTheSameRecords) {
     EXPECT_EQ(again.before, 6U);
 }
 
-/// Of HDF5 files, too: nothing in them tells when they were written.
-TEST(Acquisition, GoesOnWithTheSameRecordsInHdf5) {
+/// Likewise for HDF5 files, which must not contain the time of writing.
+TEST(Acquisition, ResumesWithTheSameRecordsInHdf5) {
     const TemporaryFolder folder;
     const std::string text = experiment_text("format = \"h5\"\n");
     ScpiBench whole(testbed_bench());
     EXPECT_EQ(run_on(whole, text, folder / "whole").ending, AcquisitionEnding::complete);
-    std::this_thread::sleep_for(std::chrono::milliseconds(1100)); // HDF5 knows times to the second
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100)); // HDF5 stores times to the second
     ScpiBench bench(testbed_bench());
     for (int runs = 0; runs < 3; ++runs) {
         std::size_t recorded = 0;
@@ -106,7 +106,7 @@ TEST(Acquisition, GoesOnWithTheSameRecordsInHdf5) {
     EXPECT_EQ(different_files(folder / "whole", folder / "parts"), std::vector<std::string>());
 }
 
-TEST(Acquisition, SetsNothingOfAForeignInstrument) {
+TEST(Acquisition, SendsNoSettingToAnotherInstrument) {
     const TemporaryFolder folder;
     ScpiBench bench(testbed_bench());
     const GeneratorOutput before = bench.generator().output();
@@ -122,7 +122,7 @@ TEST(Acquisition, SetsNothingOfAForeignInstrument) {
     EXPECT_EQ(bench.generator().output(), before);
 }
 
-TEST(Acquisition, WalksThroughAllAgainWhereTheBenchIsANewOne) {
+TEST(Acquisition, RepeatsEarlierLevelsOnANewBench) {
     const TemporaryFolder folder;
     ScpiBench whole(testbed_bench());
     run_on(whole, experiment_text(), folder / "whole");
@@ -148,7 +148,7 @@ TEST(Acquisition, DetectsAGeneratorThatGivesLess) {
     EXPECT_TRUE(report.safe);
 }
 
-TEST(Acquisition, NoticesAKnobThatIsTurned) {
+TEST(Acquisition, DetectsAnAmplitudeThatIsChangedAtThePanel) {
     const TemporaryFolder folder;
     ScpiBench bench(testbed_bench());
     AcquisitionOptions options;
@@ -164,7 +164,7 @@ TEST(Acquisition, NoticesAKnobThatIsTurned) {
     EXPECT_EQ(run_on(bench, experiment_text(), folder / "records").recorded, 5U);
 }
 
-TEST(Acquisition, IsSafeWhenAnExceptionPassesThrough) {
+TEST(Acquisition, MakesTheOutputSafeAfterAnException) {
     const TemporaryFolder folder;
     ScpiBench bench(testbed_bench());
     AcquisitionOptions options;
@@ -188,7 +188,7 @@ TEST(Acquisition, WaitsUntilSectionsRepeat) {
     EXPECT_EQ(report.unsettled, 0U);
     const std::string list = contents(folder / "records/manifest.txt");
     EXPECT_THAT(list, HasSubstr("a2000mV_up.csv"));
-    ScpiBench chaotic(settings); // where nothing repeats so closely
+    ScpiBench chaotic(settings); // whose sections never repeat within the tolerance
     std::string noisy = text;
     noisy.replace(noisy.find("v = 0.01"), 8, "v = 1e-6");
     noisy.replace(noisy.find("most = 20"), 9, "most = 2");
@@ -197,7 +197,7 @@ TEST(Acquisition, WaitsUntilSectionsRepeat) {
     EXPECT_THAT(contents(folder / "noisy/manifest.txt"), HasSubstr(",0,2,500,"));
 }
 
-TEST(Acquisition, AsksTheDeviceForItsChannelsBeforeAnythingIsSent) {
+TEST(Acquisition, ChecksTheChannelsOfTheDeviceBeforeAnythingIsSent) {
     const TemporaryFolder folder;
     ScpiBench bench(testbed_bench());
     std::string text = experiment_text();

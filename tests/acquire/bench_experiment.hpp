@@ -12,7 +12,7 @@
 
 namespace graze::testing {
 
-/// The testbed with noise and converters.
+/// Settings of a bench: the testbed with noise and converters.
 inline BenchSettings testbed_bench() {
     BenchSettings settings;
     settings.model = load_model("electromagnetic-testbed");
@@ -25,7 +25,7 @@ inline BenchSettings testbed_bench() {
     return settings;
 }
 
-/// Six levels, up and down.
+/// An experiment of six levels, up and down.
 inline std::string experiment_text(const std::string& more = "", const std::string& port = "none",
                                    const std::string& device = "tcp:127.0.0.1:1") {
     return "name = \"sweep\"\n[generator]\nport = \"" + port +
@@ -39,7 +39,7 @@ inline std::string experiment_text(const std::string& more = "", const std::stri
            more;
 }
 
-/// All files of a folder by their names.
+/// Contents of all files of a folder, by name.
 inline std::map<std::string, std::string> files_of(const std::string& folder) {
     std::map<std::string, std::string> result;
     for (const auto& entry : std::filesystem::directory_iterator(folder))
@@ -47,7 +47,7 @@ inline std::map<std::string, std::string> files_of(const std::string& folder) {
     return result;
 }
 
-/// The names of files that differ between two folders, or are in one alone.
+/// Names of files that differ between two folders, or exist in only one.
 inline std::vector<std::string> different_files(const std::string& one, const std::string& other) {
     const auto first = files_of(one), second = files_of(other);
     std::vector<std::string> names;

@@ -13,7 +13,7 @@ namespace {
 using testing::experiment_text;
 using ::testing::HasSubstr;
 
-/// The message for a text with a part of it replaced.
+/// The error message for a text of which a part is replaced.
 std::string message(const std::string& part, const std::string& by) {
     std::string text = experiment_text();
     const std::size_t at = text.find(part);
@@ -29,7 +29,7 @@ std::string message(const std::string& part, const std::string& by) {
 
 } // namespace
 
-TEST(Experiment, HasTheLevelsThatAreWritten) {
+TEST(Experiment, HasTheLevelsOfItsSweep) {
     const Experiment experiment = parse_experiment(experiment_text(), "e.toml");
     ASSERT_EQ(experiment.levels.size(), 6U);
     const double amplitudes[] = {9.4, 9.5, 9.6, 9.6, 9.5, 9.4};
@@ -46,7 +46,7 @@ TEST(Experiment, HasTheLevelsThatAreWritten) {
     EXPECT_EQ(experiment.record_name(experiment.levels[4]), "0005_f6100mHz_a9500mV_down.csv");
 }
 
-TEST(Experiment, StepsFrequenciesToo) {
+TEST(Experiment, MayStepTheFrequency) {
     std::string text = experiment_text();
     text.replace(text.find("frequency = 6.1"), 15, "frequency = { from = 6, to = 7, step = 0.5, back = true }");
     text.replace(text.find("amplitude = { from"), text.find("true }\n[settle]") - text.find("amplitude = { from") + 6,
@@ -58,11 +58,11 @@ TEST(Experiment, StepsFrequenciesToo) {
     EXPECT_EQ(experiment.levels[5].leg, 0U) << "one sweep";
 }
 
-TEST(Experiment, SaysWhereAndWhatIsWrong) {
+TEST(Experiment, ErrorsHavePlaceAndRemedy) {
     EXPECT_THAT(message("name = \"sweep\"", "name = \"../sweep\""), HasSubstr("e.toml:1:8: '../sweep' cannot be"));
     EXPECT_THAT(message("name = \"sweep\"", ""), HasSubstr("e.toml:1:1: the experiment has no name"));
     EXPECT_THAT(message("step = 0.1", "step = 0"), HasSubstr("e.toml:16:44: sweep.amplitude.step makes inf steps"));
-    EXPECT_THAT(message("step = 0.1", "step = 0.15"), HasSubstr("does not come to 9.6 by steps of 0.15"));
+    EXPECT_THAT(message("step = 0.1", "step = 0.15"), HasSubstr("do not reach 9.6 with a step of 0.15"));
     EXPECT_THAT(message("to = 9.6", "to = 10.1"),
                 HasSubstr("e.toml:16:13: the amplitude 10.1 is beyond the limits, 0 to "
                           "10; nothing has been sent"));
@@ -72,32 +72,34 @@ TEST(Experiment, SaysWhereAndWhatIsWrong) {
     EXPECT_THAT(message("safe = 0.1\n", ""), HasSubstr("limits has no safe"));
     EXPECT_THAT(message("[limits]", "[limit]"), HasSubstr("the experiment has no limits"));
     EXPECT_THAT(message("[settle]", "[settling]"), HasSubstr("e.toml:17:2: unknown key 'settling'; known: name"));
-    EXPECT_THAT(message("tcp:127.0.0.1:1", "tcp:here"), HasSubstr("'tcp:here' is no device of samples"));
+    EXPECT_THAT(message("tcp:127.0.0.1:1", "tcp:here"),
+                HasSubstr("'tcp:here' is not an address of a device that takes samples"));
     EXPECT_THAT(message("rate = 500", "rate = nan"), HasSubstr("samples.rate is nan"));
     EXPECT_THAT(message("rate = 500", "rate = \"fast\""), HasSubstr("samples.rate must be a number, not a string"));
     EXPECT_THAT(message("time = 1", "time = 0"), HasSubstr("a record would have 0 samples"));
-    EXPECT_THAT(message("time = 0.5", "most = 3"), HasSubstr("most says something about sections"));
+    EXPECT_THAT(message("time = 0.5", "most = 3"), HasSubstr("most applies to sections"));
     EXPECT_THAT(message("time = 0.5", "reference = \"V\"\nmost = 3"), HasSubstr("settle has no tolerance"));
     EXPECT_THAT(message("timeout = 0.2", "parity = \"maybe\""), HasSubstr("give one of none, odd, even"));
-    EXPECT_THAT(message("rate = 500", "rate = 500\nchannels = [\"V\", \"V\"]"), HasSubstr("'V' is there twice"));
+    EXPECT_THAT(message("rate = 500", "rate = 500\nchannels = [\"V\", \"V\"]"), HasSubstr("'V' occurs twice"));
     EXPECT_THAT(message("step = 0.1", "step = 1e-9"), HasSubstr("give one that makes from 1 to 9999"));
     EXPECT_THAT(message("[sweep]", "[sweep"), HasSubstr("docs/experiment.md shows how an experiment is written"));
-    EXPECT_THAT(message("\"33120A\"", "\" \""), HasSubstr("generator.identity is empty; give some text"));
+    EXPECT_THAT(message("\"33120A\"", "\" \""), HasSubstr("generator.identity is empty; give a text"));
     EXPECT_THAT(message("timeout = 0.2", "attempts = 1.5"),
                 HasSubstr("generator.attempts is 1.5; give a whole number from 1 to 100"));
     EXPECT_THAT(message("timeout = 0.2", "attempts = \"a\""), HasSubstr("must be a whole number, not a string"));
-    EXPECT_THAT(message("rate = 500", "rate = 500\nchannels = [\"V,I\"]"), HasSubstr("'V,I' is no name of a channel"));
+    EXPECT_THAT(message("rate = 500", "rate = 500\nchannels = [\"V,I\"]"), HasSubstr("'V,I' is not a name of a channel"));
     EXPECT_THAT(message("rate = 500", "rate = 500\npatience = 0.5"), HasSubstr("samples.patience is 0.5"));
     const std::string falling = message("frequency = [1, 20]", "frequency = [20, 1]");
     EXPECT_THAT(falling, HasSubstr("limits.frequency goes from 20 to 1; give the smaller one first"));
     EXPECT_EQ(std::count(falling.begin(), falling.end(), ';'), 1) << falling;
     for (const char* address : {"tcp:host:4711:5", "tcp::1", "tcp:host:0", "tcp:host:70000", "serial:", "tcp:[::1:1"})
-        EXPECT_THAT(message("tcp:127.0.0.1:1", address), HasSubstr("is no device of samples")) << address;
+        EXPECT_THAT(message("tcp:127.0.0.1:1", address), HasSubstr("is not an address of a device that takes samples"))
+            << address;
     EXPECT_THAT(message("\"none\"", "\"TCPIP0::host::INSTR\""), HasSubstr("give the port at which it takes SCPI"));
     EXPECT_THAT(message("timeout = 0.2", "timeout = 0.2\nload = \"high\""), HasSubstr("give one of infinite"));
 }
 
-TEST(Experiment, TellsAllMistakesAtOnce) {
+TEST(Experiment, ReportsAllErrorsAtOnce) {
     try {
         parse_experiment("name = \"x\"\n[generator]\nbaud = 1\n[samples]\nrate = 0\n", "e.toml");
         FAIL();
@@ -106,7 +108,7 @@ TEST(Experiment, TellsAllMistakesAtOnce) {
     }
 }
 
-TEST(Experiment, ReadsNothingThatItDoesNotUnderstand) {
+TEST(Experiment, RefusesUnknownKeys) {
     std::mt19937 random(5);
     const std::string whole = experiment_text();
     for (int i = 0; i < 3000; ++i) {

@@ -1,7 +1,7 @@
 #include "graze/acquire/generator_client.hpp"
 
+#include "acquire/arbitrary_generator.hpp"
 #include "acquire/scripted_line.hpp"
-#include "acquire/stranger_generator.hpp"
 #include "graze/base/input_error.hpp"
 #include "instrument/function_generator.hpp"
 
@@ -24,13 +24,13 @@ GeneratorOptions options() {
     return result;
 }
 
-/// A generator that answers as it should, but for some answers that a test has a hand in.
-struct Bent {
+/// A faultless generator, of which a test alters some answers.
+struct AlteredGenerator {
     FunctionGenerator generator{};
-    std::function<std::string(const std::string& line, std::string answer)> bend;
+    std::function<std::string(const std::string& line, std::string answer)> alter;
     ScriptedLine line{[this](const std::string& said) {
         std::string answer = generator.execute(said);
-        return bend ? bend(said, answer) : answer;
+        return alter ? alter(said, answer) : answer;
     }};
 };
 
@@ -44,18 +44,18 @@ AcquisitionEnding ending_of(const std::function<void()>& work, std::string& what
     return AcquisitionEnding::complete;
 }
 
-using testing::StrangerGenerator;
+using testing::ArbitraryGenerator;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-struct Stranger {
-    StrangerGenerator generator;
+struct Arbitrary {
+    ArbitraryGenerator generator;
     ScriptedLine line{[this](const std::string& said) { return generator.execute(said); }};
 };
 
-/// No more than the limits has left it, but for what it gave before it was told anything.
-void expect_within(const StrangerGenerator& generator, const GeneratorOptions& options, const std::string& what) {
-    constexpr double roundoff = 1e-3; // what it may tell beside what it was told
+/// Expects that the output never exceeded the limits, except in the generator's initial state.
+void expect_within(const ArbitraryGenerator& generator, const GeneratorOptions& options, const std::string& what) {
+    constexpr double roundoff = 1e-3; // rounding of what it reports
     EXPECT_LE(generator.greatest_peaks, std::max(options.limits.amplitude, generator.first_peaks) * (1 + roundoff))
         << what;
     EXPECT_LE(generator.greatest_offset, std::max(options.limits.offset, generator.first_offset) * (1 + roundoff))
@@ -64,33 +64,33 @@ void expect_within(const StrangerGenerator& generator, const GeneratorOptions& o
 
 } // namespace
 
-TEST(GeneratorClient, SetsAndAsks) {
-    Bent bent;
-    GeneratorClient client(bent.line, options());
+TEST(GeneratorClient, SetsValuesAndReadsThemBack) {
+    AlteredGenerator altered;
+    GeneratorClient client(altered.line, options());
     client.begin(6.1, 0.1, 0.2);
-    EXPECT_EQ(bent.generator.output(), (GeneratorOutput{6.1, 0.1, 0.2}));
+    EXPECT_EQ(altered.generator.output(), (GeneratorOutput{6.1, 0.1, 0.2}));
     EXPECT_EQ(client.set_amplitude(3.25), 3.25);
     EXPECT_EQ(client.set_frequency(7), 7);
     EXPECT_EQ(client.amplitude(), 3.25);
     std::string problem;
     EXPECT_TRUE(client.make_safe(0.1, problem));
-    EXPECT_EQ(bent.generator.output(), (GeneratorOutput{7, 0.1, 0}));
+    EXPECT_EQ(altered.generator.output(), (GeneratorOutput{7, 0.1, 0}));
 }
 
 TEST(GeneratorClient, SendsNothingBeyondItsLimits) {
-    Bent bent;
-    GeneratorClient client(bent.line, options());
+    AlteredGenerator altered;
+    GeneratorClient client(altered.line, options());
     client.begin(6, 1, 0);
-    bent.line.said.clear();
+    altered.line.said.clear();
     for (const double amplitude : {5.01, -1.0, std::numeric_limits<double>::quiet_NaN(), 1e300})
         EXPECT_THROW(client.set_amplitude(amplitude), InputError);
     for (const double frequency : {0.4, 51.0})
         EXPECT_THROW(client.set_frequency(frequency), InputError);
     EXPECT_THROW(client.begin(6, 1, 1.5), InputError);
-    EXPECT_TRUE(bent.line.said.empty());
+    EXPECT_TRUE(altered.line.said.empty());
 }
 
-TEST(GeneratorClient, TellsWhatIsWrongWithAnswers) {
+TEST(GeneratorClient, NamesTheFaultOfAnAnswer) {
     const std::vector<std::pair<std::string, AcquisitionEnding>> answers{
         {"", AcquisitionEnding::no_answer},
         {"rubbish", AcquisitionEnding::garbled},
@@ -102,12 +102,12 @@ TEST(GeneratorClient, TellsWhatIsWrongWithAnswers) {
         {"-2.500000E+00", AcquisitionEnding::clipped},
     };
     for (const auto& [text, ending] : answers) {
-        Bent bent;
+        AlteredGenerator altered;
         GeneratorOptions hasty = options();
         hasty.reopen = 0.02;
-        GeneratorClient client(bent.line, hasty);
+        GeneratorClient client(altered.line, hasty);
         client.begin(6, 1, 0);
-        bent.bend = [&, bad = text](const std::string& said, std::string answer) {
+        altered.alter = [&, bad = text](const std::string& said, std::string answer) {
             return said == "VOLT?" ? bad : answer;
         };
         std::string what;
@@ -116,21 +116,21 @@ TEST(GeneratorClient, TellsWhatIsWrongWithAnswers) {
         EXPECT_EQ(what.find('\x1b'), std::string::npos);
         std::string problem;
         EXPECT_FALSE(client.make_safe(0.1, problem)) << "for it cannot be told";
-        EXPECT_EQ(bent.generator.output().amplitude, 0.1) << "though it is";
+        EXPECT_EQ(altered.generator.output().amplitude, 0.1) << "though it is";
     }
 }
 
-TEST(GeneratorClient, TriesAgainWhatIsGarbledAndNotWhatIsRefused) {
-    Bent bent;
-    GeneratorClient client(bent.line, options());
+TEST(GeneratorClient, RepeatsGarbledSettingsButNotRefusedOnes) {
+    AlteredGenerator altered;
+    GeneratorClient client(altered.line, options());
     client.begin(6, 1, 0);
     int times = 0;
-    bent.bend = [&](const std::string& said, std::string answer) {
+    altered.alter = [&](const std::string& said, std::string answer) {
         return said == "SYST:ERR?" && ++times < 3 ? "-113,\"Undefined header\"" : answer;
     };
     EXPECT_EQ(client.set_amplitude(2.5), 2.5);
     EXPECT_EQ(times, 3);
-    bent.bend = [&](const std::string& said, std::string answer) {
+    altered.alter = [&](const std::string& said, std::string answer) {
         times += said == "SYST:ERR?" ? 1 : 0;
         return said == "SYST:ERR?" ? "-222,\"Data out of range\"" : answer;
     };
@@ -141,110 +141,111 @@ TEST(GeneratorClient, TriesAgainWhatIsGarbledAndNotWhatIsRefused) {
     EXPECT_THAT(what, HasSubstr("refuses an amplitude 2.6 V: -222,\"Data out of range\""));
 }
 
-TEST(GeneratorClient, LooksWhoIsThereBeforeItSetsAnything) {
-    Bent bent;
+TEST(GeneratorClient, IdentifiesTheInstrumentBeforeItSetsAnything) {
+    AlteredGenerator altered;
     GeneratorOptions other = options();
     other.identity = "AGILENT";
-    GeneratorClient client(bent.line, other);
+    GeneratorClient client(altered.line, other);
     std::string what;
     EXPECT_EQ(ending_of([&] { client.begin(6, 1, 0); }, what), AcquisitionEnding::foreign);
-    EXPECT_THAT(what, HasSubstr("there is 'HEWLETT-PACKARD,33120A"));
-    EXPECT_EQ(bent.generator.output(), GeneratorOutput());
-    EXPECT_FALSE(client.make_safe(0.1, what)); // which another process is asked for, too, that has not looked yet
-    EXPECT_THAT(what, HasSubstr("there is 'HEWLETT-PACKARD,33120A"));
-    for (const std::string& said : bent.line.said)
+    EXPECT_THAT(what, HasSubstr("the instrument on the line is 'HEWLETT-PACKARD,33120A"));
+    EXPECT_EQ(altered.generator.output(), GeneratorOutput());
+    // also when another process, which has not identified it yet, makes it safe
+    EXPECT_FALSE(client.make_safe(0.1, what));
+    EXPECT_THAT(what, HasSubstr("the instrument on the line is 'HEWLETT-PACKARD,33120A"));
+    for (const std::string& said : altered.line.said)
         EXPECT_TRUE(said == "*IDN?" || said == "SYST:REM") << said;
-    EXPECT_EQ(bent.line.said.front(), "*IDN?");
+    EXPECT_EQ(altered.line.said.front(), "*IDN?");
 }
 
-TEST(GeneratorClient, LooksAgainWhoIsThereAfterALineWasOpenedAgain) {
-    Bent bent;
+TEST(GeneratorClient, IdentifiesTheInstrumentAgainAfterReopeningTheLine) {
+    AlteredGenerator altered;
     GeneratorOptions hasty = options();
     hasty.identity = "33120A";
-    GeneratorClient client(bent.line, hasty);
+    GeneratorClient client(altered.line, hasty);
     client.begin(6, 1, 0);
-    bent.bend = [](const std::string& said, std::string answer) { return said == "*IDN?" ? "SUPPLY" : answer; };
-    bent.line.said.clear();
-    bent.line.lost = true;
+    altered.alter = [](const std::string& said, std::string answer) { return said == "*IDN?" ? "SUPPLY" : answer; };
+    altered.line.said.clear();
+    altered.line.lost = true;
     std::string problem;
     EXPECT_FALSE(client.make_safe(0.1, problem));
-    for (const std::string& said : bent.line.said)
+    for (const std::string& said : altered.line.said)
         EXPECT_TRUE(said == "*IDN?" || said == "SYST:REM") << said;
 }
 
-TEST(GeneratorClient, WantsAnAnswerWhoeverItIs) {
-    Bent bent;
-    bent.bend = [](const std::string& said, std::string answer) { return said == "*IDN?" ? " \n" : answer; };
-    GeneratorClient client(bent.line, options());
+TEST(GeneratorClient, RequiresAnAnswerToTheIdentityQuery) {
+    AlteredGenerator altered;
+    altered.alter = [](const std::string& said, std::string answer) { return said == "*IDN?" ? " \n" : answer; };
+    GeneratorClient client(altered.line, options());
     std::string what;
     EXPECT_EQ(ending_of([&] { client.begin(6, 1, 0); }, what), AcquisitionEnding::foreign);
 }
 
-TEST(GeneratorClient, IsInterruptedButForWhatMakesItSafe) {
-    Bent bent;
+TEST(GeneratorClient, CanBeInterruptedExceptWhileMakingSafe) {
+    AlteredGenerator altered;
     GeneratorOptions interrupted = options();
     bool now = false;
     interrupted.interrupted = [&] { return now; };
-    GeneratorClient client(bent.line, interrupted);
+    GeneratorClient client(altered.line, interrupted);
     client.begin(6, 1, 0);
     now = true;
     std::string what, problem;
     EXPECT_EQ(ending_of([&] { client.set_amplitude(2); }, what), AcquisitionEnding::interrupted);
     EXPECT_TRUE(client.make_safe(0.1, problem)) << problem;
-    EXPECT_EQ(bent.generator.output().amplitude, 0.1);
+    EXPECT_EQ(altered.generator.output().amplitude, 0.1);
 }
 
-TEST(GeneratorClient, OpensALostLineAgainToBecomeSafe) {
-    Bent bent;
-    GeneratorClient client(bent.line, options());
+TEST(GeneratorClient, ReopensALostLineToBecomeSafe) {
+    AlteredGenerator altered;
+    GeneratorClient client(altered.line, options());
     client.begin(6, 4, 0);
-    bent.line.lost = true;
+    altered.line.lost = true;
     std::string what, problem;
     EXPECT_EQ(ending_of([&] { client.set_amplitude(2); }, what), AcquisitionEnding::line_lost);
     EXPECT_TRUE(client.make_safe(0.1, problem)) << problem;
-    EXPECT_EQ(bent.generator.output().amplitude, 0.1);
-    bent.line.lost = true;
-    bent.line.mended_by_opening = false;
+    EXPECT_EQ(altered.generator.output().amplitude, 0.1);
+    altered.line.lost = true;
+    altered.line.mended_by_opening = false;
     EXPECT_FALSE(client.make_safe(0.1, problem));
     EXPECT_EQ(problem, "it is cut off");
 }
 
-/// In whatever state a generator stands, its output is as was asked for, or nothing.
-TEST(GeneratorClient, SendsVoltsAtTheOutputWhateverStateItStandsIn) {
+/// From any initial state the output is as requested, or off.
+TEST(GeneratorClient, GivesTheRequestedOutputFromAnyInitialState) {
     for (unsigned seed = 0; seed < 400; ++seed) {
         const double load = seed % 3 == 0 ? infinite : 50;
-        const unsigned habits = seed % 16; // of those that stick none
-        Stranger stranger{StrangerGenerator(seed, habits, load)};
+        const unsigned habits = seed % 16; // none of those that are stuck
+        Arbitrary arbitrary{ArbitraryGenerator(seed, habits, load)};
         GeneratorOptions given = options();
         given.limits.amplitude = 2;
         given.load = load;
-        GeneratorClient client(stranger.line, given);
+        GeneratorClient client(arbitrary.line, given);
         const std::string what = "seed " + std::to_string(seed);
         client.begin(6, 0.1, 0.3);
-        EXPECT_NEAR(stranger.generator.peaks(), 0.1, 1e-6) << what;
-        EXPECT_NEAR(stranger.generator.offset(), 0.3, 1e-6) << what;
-        EXPECT_TRUE(stranger.generator.is_on()) << what;
+        EXPECT_NEAR(arbitrary.generator.peaks(), 0.1, 1e-6) << what;
+        EXPECT_NEAR(arbitrary.generator.offset(), 0.3, 1e-6) << what;
+        EXPECT_TRUE(arbitrary.generator.is_on()) << what;
         client.set_amplitude(2);
-        EXPECT_NEAR(stranger.generator.peaks(), 2, 1e-6) << what;
+        EXPECT_NEAR(arbitrary.generator.peaks(), 2, 1e-6) << what;
         EXPECT_NEAR(client.amplitude(), 2, 1e-6) << what;
-        expect_within(stranger.generator, given, what);
+        expect_within(arbitrary.generator, given, what);
         std::string problem;
         EXPECT_TRUE(client.make_safe(0.1, problem)) << what;
-        EXPECT_NEAR(stranger.generator.peaks(), 0.1, 1e-6) << what;
-        EXPECT_EQ(stranger.generator.offset(), 0) << what;
+        EXPECT_NEAR(arbitrary.generator.peaks(), 0.1, 1e-6) << what;
+        EXPECT_EQ(arbitrary.generator.offset(), 0) << what;
     }
 }
 
-/// Where it does not take what makes numbers of volts mean something, no level leaves.
-TEST(GeneratorClient, SendsNoLevelToAGeneratorThatStaysAsItWas) {
+/// If unit, load, shape or modulation cannot be set, no level is sent.
+TEST(GeneratorClient, SendsNoLevelIfASettingIsStuck) {
     std::size_t refused = 0;
     for (unsigned seed = 0; seed < 160; ++seed) {
         const unsigned stuck = 16U << (seed % 4), habits = stuck | (seed % 2 == 0 ? 13U : 4U);
-        Stranger stranger{StrangerGenerator(seed, habits, 50)};
+        Arbitrary arbitrary{ArbitraryGenerator(seed, habits, 50)};
         GeneratorOptions given = options();
         given.limits.amplitude = 2;
         given.reopen = 0.02;
-        GeneratorClient client(stranger.line, given);
+        GeneratorClient client(arbitrary.line, given);
         std::string what, problem;
         const AcquisitionEnding ending = ending_of(
             [&] {
@@ -253,50 +254,50 @@ TEST(GeneratorClient, SendsNoLevelToAGeneratorThatStaysAsItWas) {
             },
             what);
         const bool safe = client.make_safe(0.1, problem);
-        expect_within(stranger.generator, given, what);
-        if (ending == AcquisitionEnding::complete) // it stood as it should
+        expect_within(arbitrary.generator, given, what);
+        if (ending == AcquisitionEnding::complete) // its initial state was right
             continue;
         ++refused;
         EXPECT_EQ(ending, AcquisitionEnding::clipped) << what;
         EXPECT_THAT(what, HasSubstr("no level is sent"));
         EXPECT_FALSE(safe);
-        EXPECT_TRUE(!stranger.generator.is_on() || (habits & StrangerGenerator::has_switch) == 0) << what;
+        EXPECT_TRUE(!arbitrary.generator.is_on() || (habits & ArbitraryGenerator::has_switch) == 0) << what;
     }
     EXPECT_GT(refused, 80U);
 }
 
-TEST(GeneratorClient, NoticesAUnitThatSomebodyHasChanged) {
+TEST(GeneratorClient, DetectsAUnitThatWasChangedAtThePanel) {
     for (const unsigned habits : {4U, 13U}) {
-        Stranger stranger{StrangerGenerator(5, habits, 50)};
+        Arbitrary arbitrary{ArbitraryGenerator(5, habits, 50)};
         GeneratorOptions given = options();
         given.limits.amplitude = 2;
-        GeneratorClient client(stranger.line, given);
+        GeneratorClient client(arbitrary.line, given);
         client.begin(6, 0.1, 0);
-        stranger.generator.turn_to_rms(); // 0.1 V of which are more
-        stranger.line.said.clear();
+        arbitrary.generator.turn_to_rms(); // 0.1 V rms is more than 0.1 V peak to peak
+        arbitrary.line.said.clear();
         std::string what;
         EXPECT_EQ(ending_of([&] { client.set_amplitude(2); }, what), AcquisitionEnding::clipped);
-        EXPECT_THAT(what, HasSubstr("stands at VOLT:UNIT VRMS instead of VPP: no level is sent"));
-        for (const std::string& said : stranger.line.said)
+        EXPECT_THAT(what, HasSubstr("has VOLT:UNIT VRMS instead of VPP: no level is sent"));
+        for (const std::string& said : arbitrary.line.said)
             EXPECT_TRUE(said.back() == '?' || said == "SYST:REM" || said == "*CLS") << said;
         EXPECT_TRUE(client.make_safe(0.1, what)) << what;
-        EXPECT_LE(stranger.generator.peaks(), 0.1 + 1e-6);
-        EXPECT_EQ(stranger.generator.is_on(), habits == 4U);
+        EXPECT_LE(arbitrary.generator.peaks(), 0.1 + 1e-6);
+        EXPECT_EQ(arbitrary.generator.is_on(), habits == 4U);
     }
 }
 
-/// A level whose first sending was lost is not sent again to a generator that was switched off and on meanwhile.
-TEST(GeneratorClient, LooksAtTheGeneratorBeforeALevelIsSentAgain) {
+/// A level that was lost on the line is not repeated to a generator that was switched off and on meanwhile.
+TEST(GeneratorClient, ChecksSettingsBeforeALevelIsSentAgain) {
     for (const bool twice : {false, true}) {
-        Stranger stranger{StrangerGenerator(5, 13U, 50)};
+        Arbitrary arbitrary{ArbitraryGenerator(5, 13U, 50)};
         bool lose = false;
         ScriptedLine line{[&](const std::string& said) {
             if (lose && said == "VOLT 2") {
                 lose = twice;
-                stranger.generator.turn_to_rms();
+                arbitrary.generator.turn_to_rms();
                 return std::string();
             }
-            return stranger.generator.execute(said);
+            return arbitrary.generator.execute(said);
         }};
         GeneratorOptions given = options();
         given.limits.amplitude = 2;
@@ -305,170 +306,170 @@ TEST(GeneratorClient, LooksAtTheGeneratorBeforeALevelIsSentAgain) {
         lose = true;
         std::string what;
         EXPECT_EQ(ending_of([&] { client.set_amplitude(2); }, what), AcquisitionEnding::clipped);
-        EXPECT_THAT(what, HasSubstr("stands at VOLT:UNIT VRMS instead of VPP: no level is sent"));
-        expect_within(stranger.generator, given, what);
+        EXPECT_THAT(what, HasSubstr("has VOLT:UNIT VRMS instead of VPP: no level is sent"));
+        expect_within(arbitrary.generator, given, what);
         EXPECT_EQ(std::count(line.said.begin(), line.said.end(), "VOLT 2"), 1);
     }
 }
 
-/// Whose amplitude is another one once its frequency was set: without its output switched on nothing leaves it.
-TEST(GeneratorClient, AsksForTheAmplitudeAgainAfterTheFrequency) {
+/// A generator that changes its amplitude when the frequency is set: nothing is output while it is switched off.
+TEST(GeneratorClient, ReadsTheAmplitudeAfterSettingTheFrequency) {
     for (const bool has_switch : {true, false}) {
-        const unsigned habits = StrangerGenerator::frequency_resets | (has_switch ? 13U : 4U);
-        Stranger stranger{StrangerGenerator(5, habits, 50)};
-        stranger.generator.limit = 5.001;
-        GeneratorClient client(stranger.line, options());
+        const unsigned habits = ArbitraryGenerator::frequency_resets | (has_switch ? 13U : 4U);
+        Arbitrary arbitrary{ArbitraryGenerator(5, habits, 50)};
+        arbitrary.generator.limit = 5.001;
+        GeneratorClient client(arbitrary.line, options());
         std::string what, problem;
         EXPECT_EQ(ending_of([&] { client.begin(6, 0.1, 0); }, what), AcquisitionEnding::clipped);
         EXPECT_THAT(what, HasSubstr("gives an amplitude of 10 V instead of 0.1 V"));
-        const auto& said = stranger.line.said;
+        const auto& said = arbitrary.line.said;
         EXPECT_EQ(std::count(said.begin(), said.end(), "OUTP ON"), 0);
         const auto set = std::find(said.begin(), said.end(), "FREQ 6");
         ASSERT_LT(set + 2, said.end());
         EXPECT_EQ(*(set + 1), "VOLT?");
-        EXPECT_EQ(stranger.generator.lines_beyond, has_switch ? 0U : 2U) << "FREQ and the question alone";
+        EXPECT_EQ(arbitrary.generator.lines_beyond, has_switch ? 0U : 2U) << "FREQ and the question alone";
         EXPECT_TRUE(client.make_safe(0.1, problem)) << problem;
-        EXPECT_LE(stranger.generator.peaks(), 0.1 + 1e-6);
+        EXPECT_LE(arbitrary.generator.peaks(), 0.1 + 1e-6);
     }
 }
 
-/// Whose offset or frequency is another one since its level was set: no record is waited for.
-TEST(GeneratorClient, AsksForAllElseAfterALevel) {
+/// A generator that changes offset or frequency when a level is set: it is detected before a record.
+TEST(GeneratorClient, ReadsAllOtherSettingsAfterALevel) {
     for (const bool of_offset : {true, false}) {
-        Stranger stranger{StrangerGenerator(5, 13U, 50)};
+        Arbitrary arbitrary{ArbitraryGenerator(5, 13U, 50)};
         ScriptedLine line{[&](const std::string& said) {
-            const std::string answer = stranger.generator.execute(said);
+            const std::string answer = arbitrary.generator.execute(said);
             if (!of_offset && said == "VOLT 2")
-                stranger.generator.execute("FREQ 9");
+                arbitrary.generator.execute("FREQ 9");
             return answer;
         }};
         GeneratorClient client(line, options());
         client.begin(6, 0.1, 0);
         if (of_offset)
-            stranger.generator.take(StrangerGenerator::amplitude_shifts);
+            arbitrary.generator.take(ArbitraryGenerator::amplitude_shifts);
         std::string what, problem;
         EXPECT_EQ(ending_of([&] { client.set_amplitude(2); }, what), AcquisitionEnding::clipped);
         EXPECT_THAT(what, HasSubstr(of_offset ? "gives an offset of 1 V instead of 0 V"
                                               : "gives a frequency of 9 Hz instead of 6 Hz"));
         EXPECT_TRUE(client.make_safe(0.1, problem)) << problem;
-        EXPECT_EQ(stranger.generator.offset(), 0);
-        EXPECT_NEAR(stranger.generator.peaks(), 0.1, 1e-6);
+        EXPECT_EQ(arbitrary.generator.offset(), 0);
+        EXPECT_NEAR(arbitrary.generator.peaks(), 0.1, 1e-6);
     }
 }
 
-/// Whose switch lets out what was set at another time: nothing but the question stands between the switch and its end.
-TEST(GeneratorClient, SwitchesOffAtOnceWhatTheSwitchItselfHasChanged) {
-    Stranger stranger{StrangerGenerator(5, StrangerGenerator::switch_recalls | 13U, 50)};
-    stranger.generator.limit = 5.001;
-    GeneratorClient client(stranger.line, options());
+/// A generator that recalls another level when it is switched on: a single question separates the two switchings.
+TEST(GeneratorClient, SwitchesOffALevelThatTheSwitchHasChanged) {
+    Arbitrary arbitrary{ArbitraryGenerator(5, ArbitraryGenerator::switch_recalls | 13U, 50)};
+    arbitrary.generator.limit = 5.001;
+    GeneratorClient client(arbitrary.line, options());
     std::string what, problem;
     EXPECT_EQ(ending_of([&] { client.begin(6, 0.1, 0); }, what), AcquisitionEnding::clipped);
     EXPECT_THAT(what, HasSubstr("gives an amplitude of 7 V instead of 0.1 V; so it was since OUTP ON"));
-    const auto& said = stranger.line.said;
+    const auto& said = arbitrary.line.said;
     const auto on = std::find(said.begin(), said.end(), "OUTP ON");
     ASSERT_LT(on + 2, said.end());
     EXPECT_EQ(*(on - 1), "VOLT?");
     EXPECT_EQ(*(on + 1), "VOLT?");
     EXPECT_EQ(*(on + 2), "OUTP OFF");
     EXPECT_EQ(std::count(said.begin(), said.end(), "OUTP ON"), 1);
-    EXPECT_EQ(stranger.generator.lines_beyond, 2U);
-    EXPECT_FALSE(stranger.generator.is_on());
+    EXPECT_EQ(arbitrary.generator.lines_beyond, 2U);
+    EXPECT_FALSE(arbitrary.generator.is_on());
     EXPECT_TRUE(client.make_safe(0.1, problem)) << problem;
-    EXPECT_FALSE(stranger.generator.is_on());
+    EXPECT_FALSE(arbitrary.generator.is_on());
 }
 
-/// A unit that changes with the switch makes 0.1 V more, though the number is the same.
-TEST(GeneratorClient, AsksForTheUnitAgainWhenTheOutputIsOn) {
-    Stranger stranger{StrangerGenerator(5, 13U, 50)};
+/// If the unit changes with the switch, 0.1 V is more, though the number is the same.
+TEST(GeneratorClient, ReadsTheUnitAfterSwitchingOn) {
+    Arbitrary arbitrary{ArbitraryGenerator(5, 13U, 50)};
     ScriptedLine line{[&](const std::string& said) {
-        const std::string answer = stranger.generator.execute(said);
+        const std::string answer = arbitrary.generator.execute(said);
         if (said == "OUTP ON")
-            stranger.generator.turn_to_rms();
+            arbitrary.generator.turn_to_rms();
         return answer;
     }};
     GeneratorClient client(line, options());
     std::string what;
     EXPECT_EQ(ending_of([&] { client.begin(6, 0.1, 0); }, what), AcquisitionEnding::clipped);
-    EXPECT_THAT(what, HasSubstr("stands at VOLT:UNIT VRMS instead of VPP"));
-    EXPECT_FALSE(stranger.generator.is_on());
+    EXPECT_THAT(what, HasSubstr("has VOLT:UNIT VRMS instead of VPP"));
+    EXPECT_FALSE(arbitrary.generator.is_on());
 }
 
-TEST(GeneratorClient, SilencesAnOutputWhoseFrequencyHasChangedItsAmplitude) {
+TEST(GeneratorClient, SilencesAnOutputWhoseAmplitudeChangesWithItsFrequency) {
     for (const bool has_switch : {true, false}) {
-        Stranger stranger{StrangerGenerator(5, has_switch ? 13U : 4U, 50)};
-        GeneratorClient client(stranger.line, options());
+        Arbitrary arbitrary{ArbitraryGenerator(5, has_switch ? 13U : 4U, 50)};
+        GeneratorClient client(arbitrary.line, options());
         client.begin(6, 0.1, 0);
         client.set_amplitude(4);
         client.set_frequency(7);
-        stranger.generator.take(StrangerGenerator::frequency_resets);
-        stranger.generator.limit = 5.001;
+        arbitrary.generator.take(ArbitraryGenerator::frequency_resets);
+        arbitrary.generator.limit = 5.001;
         std::string what;
         EXPECT_EQ(ending_of([&] { client.set_frequency(8); }, what), AcquisitionEnding::clipped);
         EXPECT_THAT(what, HasSubstr("gives an amplitude of 10 V instead of 4 V since its frequency was set"));
-        EXPECT_EQ(stranger.generator.lines_beyond, 2U);
-        EXPECT_LE(stranger.generator.peaks(), 0.1 + 1e-6);
+        EXPECT_EQ(arbitrary.generator.lines_beyond, 2U);
+        EXPECT_LE(arbitrary.generator.peaks(), 0.1 + 1e-6);
         EXPECT_TRUE(client.make_safe(0.1, what)) << what;
-        EXPECT_LE(stranger.generator.peaks(), 0.1 + 1e-6);
+        EXPECT_LE(arbitrary.generator.peaks(), 0.1 + 1e-6);
     }
 }
 
-TEST(GeneratorClient, SwitchesOnAgainWhereOnlyALetterOfAnAnswerWasLost) {
-    Stranger stranger{StrangerGenerator(5, 13U, 50)};
+TEST(GeneratorClient, SwitchesOnAgainAfterAGarbledAnswer) {
+    Arbitrary arbitrary{ArbitraryGenerator(5, 13U, 50)};
     int asked = 0, times = 0;
     ScriptedLine line{[&](const std::string& said) {
         asked = said == "OUTP ON" ? 1 : asked;
-        std::string answer = stranger.generator.execute(said);
+        std::string answer = arbitrary.generator.execute(said);
         return said == "VOLT?" && asked == 1 && ++times == 1 ? "1.000000e01" : answer;
     }};
     GeneratorClient client(line, options());
     client.begin(6, 0.1, 0);
-    EXPECT_TRUE(stranger.generator.is_on());
+    EXPECT_TRUE(arbitrary.generator.is_on());
     EXPECT_EQ(client.set_amplitude(2), 2);
     EXPECT_EQ(std::count(line.said.begin(), line.said.end(), "OUTP ON"), 2);
 }
 
-/// One whose unit cannot be chosen cannot be made safe, but its switch can be believed.
-TEST(GeneratorClient, TellsThatTheOutputIsSwitchedOffWhereItCannotBeMadeSafe) {
+/// A generator whose unit is stuck cannot be made safe, but its switch works.
+TEST(GeneratorClient, SwitchesOffAnOutputThatCannotBeMadeSafe) {
     for (const unsigned seed : {1U, 3U, 8U, 9U}) {
         for (const bool has_switch : {true, false}) {
-            const unsigned habits = StrangerGenerator::modulation_is_stuck | StrangerGenerator::unit_is_stuck |
-                                    StrangerGenerator::shape_is_stuck | (has_switch ? 13U : 4U);
-            Stranger stranger{StrangerGenerator(seed, habits, 50)};
+            const unsigned habits = ArbitraryGenerator::modulation_is_stuck | ArbitraryGenerator::unit_is_stuck |
+                                    ArbitraryGenerator::shape_is_stuck | (has_switch ? 13U : 4U);
+            Arbitrary arbitrary{ArbitraryGenerator(seed, habits, 50)};
             GeneratorOptions hasty = options();
             hasty.reopen = 0.02;
-            GeneratorClient client(stranger.line, hasty);
+            GeneratorClient client(arbitrary.line, hasty);
             std::string problem;
             if (client.make_safe(0.1, problem))
-                continue; // it stood as it should
+                continue; // its initial state was right
             EXPECT_EQ(client.is_switched_off(), has_switch) << seed;
         }
     }
-    Stranger stranger{StrangerGenerator(5, 13U, 50)};
-    GeneratorClient unknown(stranger.line, options());
+    Arbitrary arbitrary{ArbitraryGenerator(5, 13U, 50)};
+    GeneratorClient unknown(arbitrary.line, options());
     EXPECT_FALSE(unknown.is_switched_off());
-    EXPECT_TRUE(stranger.line.said.empty()) << "nobody knows who is there";
+    EXPECT_TRUE(arbitrary.line.said.empty()) << "nobody knows who is there";
 }
 
-TEST(GeneratorClient, NamesTheQuestionThatIsNotAnswered) {
-    Bent bent;
-    bent.bend = [](const std::string& said, std::string answer) { return said == "FUNC:SHAP?" ? "" : answer; };
-    GeneratorClient client(bent.line, options());
+TEST(GeneratorClient, NamesTheUnansweredQuestion) {
+    AlteredGenerator altered;
+    altered.alter = [](const std::string& said, std::string answer) { return said == "FUNC:SHAP?" ? "" : answer; };
+    GeneratorClient client(altered.line, options());
     std::string what;
     EXPECT_EQ(ending_of([&] { client.begin(6, 1, 0); }, what), AcquisitionEnding::no_answer);
     EXPECT_THAT(what, HasSubstr("the generator has not answered FUNC:SHAP? for 0.01 s"));
 }
 
-/// Each answer comes when the next question has been sent: none of them says how the generator stands.
-TEST(GeneratorClient, DoesNotTakeLateAnswersForOtherSettings) {
-    Bent bent;
+/// Each answer arrives after the next question: none of them shows the present settings.
+TEST(GeneratorClient, DoesNotAcceptLateAnswers) {
+    AlteredGenerator altered;
     bool late = false;
     std::string held;
-    bent.bend = [&](const std::string&, std::string answer) {
+    altered.alter = [&](const std::string&, std::string answer) {
         if (late && !answer.empty())
             std::swap(held, answer);
         return answer;
     };
-    GeneratorClient client(bent.line, options());
+    GeneratorClient client(altered.line, options());
     client.begin(6, 1, 0);
     late = true;
     std::string what;
@@ -477,14 +478,15 @@ TEST(GeneratorClient, DoesNotTakeLateAnswersForOtherSettings) {
     EXPECT_FALSE(client.is_switched_off());
 }
 
-TEST(GeneratorClient, MakesAPlainSineOfTheBenchsGeneratorToo) {
-    Bent bent;
-    bent.generator = FunctionGenerator({.left_as = "VOLT:UNIT VRMS;:VOLT 1;:FUNC:SHAP SQU;:OUTP:LOAD INF;:AM:STAT ON"});
-    GeneratorClient client(bent.line, options());
+TEST(GeneratorClient, MakesAPlainSineOfTheBenchGenerator) {
+    AlteredGenerator altered;
+    altered.generator =
+        FunctionGenerator({.left_as = "VOLT:UNIT VRMS;:VOLT 1;:FUNC:SHAP SQU;:OUTP:LOAD INF;:AM:STAT ON"});
+    GeneratorClient client(altered.line, options());
     client.begin(6, 0.1, 0.2);
     client.set_amplitude(2);
-    EXPECT_EQ(bent.generator.output(), (GeneratorOutput{6, 2, 0.2}));
-    EXPECT_EQ(bent.generator.execute("VOLT:UNIT?;:FUNC:SHAP?;:AM:STAT?"), "VPP;SIN;0");
+    EXPECT_EQ(altered.generator.output(), (GeneratorOutput{6, 2, 0.2}));
+    EXPECT_EQ(altered.generator.execute("VOLT:UNIT?;:FUNC:SHAP?;:AM:STAT?"), "VPP;SIN;0");
 }
 
 } // namespace graze

@@ -13,7 +13,7 @@ void expect_address(const InstrumentAddress& address, bool is_tcp, const std::st
 
 } // namespace
 
-TEST(InstrumentAddress, IsReadFromNamesOfVisa) {
+TEST(InstrumentAddress, IsReadFromVisaNames) {
     for (const char* name : {"ASRL/dev/ttyUSB0::INSTR", "ASRL/dev/ttyUSB0::instr", "asrl/dev/ttyUSB0::INSTR"})
         expect_address(generator_address(name, {}), false, "/dev/ttyUSB0", 0);
     for (const char* name : {"TCPIP0::192.168.1.5::5025::SOCKET", "TCPIP::192.168.1.5::5025::SOCKET",
@@ -24,7 +24,7 @@ TEST(InstrumentAddress, IsReadFromNamesOfVisa) {
     expect_address(device_address("TCPIP0::[fe80::1]::5025::SOCKET", {}), true, "fe80::1", 5025);
 }
 
-TEST(InstrumentAddress, IsReadFromOwnForms) {
+TEST(InstrumentAddress, IsReadFromTcpAndSerialForms) {
     expect_address(generator_address("/dev/ttyUSB0", {}), false, "/dev/ttyUSB0", 0);
     expect_address(generator_address("tcp:localhost:5025", {}), true, "localhost", 5025);
     expect_address(device_address("tcp:[::1]:4711", {}), true, "::1", 4711);
@@ -32,7 +32,7 @@ TEST(InstrumentAddress, IsReadFromOwnForms) {
     EXPECT_THROW(device_address("/dev/ttyS1", {}), InputError);
 }
 
-TEST(InstrumentAddress, IsRefusedWhereItCannotBeUsed) {
+TEST(InstrumentAddress, IsRefusedIfItCannotBeUsed) {
     for (const char* name :
          {"TCPIP0::192.168.1.5::INSTR", "TCPIP0::192.168.1.5::hislip0::INSTR", "TCPIP0::192.168.1.5::0::SOCKET",
           "TCPIP0::192.168.1.5::70000::SOCKET", "TCPIP0::::5025::SOCKET", "TCPIPx::a::5025::SOCKET", "ASRL3::INSTR",

@@ -16,7 +16,7 @@ using testing::TemporaryFolder;
 
 const RecordHeader header{{"t", "s"}, {{"x", ""}}};
 
-/// Writes a record, up to where it would count.
+/// Writes a record without committing it.
 void write(RecordFolder& records, const Level& level) {
     const auto writer = records.begin(level, header);
     writer->write({{0, 1}, {{2, static_cast<double>(level.number)}}});
@@ -42,13 +42,13 @@ std::string message(const std::string& path, const Experiment& experiment) {
 
 } // namespace
 
-TEST(RecordFolder, KnowsWhatItHas) {
+TEST(RecordFolder, ListsCommittedRecords) {
     const TemporaryFolder folder;
     const Experiment experiment = parse_experiment(experiment_text(), "e.toml");
     {
         RecordFolder records(folder / "a/b", experiment, 0);
         commit(records, experiment.levels[0]);
-        write(records, experiment.levels[1]); // which never counts
+        write(records, experiment.levels[1]); // it is never committed
     }
     RecordFolder records(folder / "a/b", experiment, 0);
     EXPECT_TRUE(records.has(experiment.levels[0]));
@@ -58,7 +58,7 @@ TEST(RecordFolder, KnowsWhatItHas) {
     EXPECT_EQ(records.entries().at(1).bytes, 17U);
 }
 
-TEST(RecordFolder, GivesARecordItsNameThatTheListHasAlready) {
+TEST(RecordFolder, RenamesACompleteRecordThatIsListed) {
     const TemporaryFolder folder;
     const Experiment experiment = parse_experiment(experiment_text(), "e.toml");
     const std::string name = experiment.record_name(experiment.levels[0]);
@@ -67,19 +67,20 @@ TEST(RecordFolder, GivesARecordItsNameThatTheListHasAlready) {
         commit(records, experiment.levels[0]);
         commit(records, experiment.levels[1]);
     }
-    // As it is when the power goes between the two.
+    // The state after a power failure between list and rename.
     std::filesystem::rename(folder / ("r/" + name), folder / ("r/.part." + name));
     { EXPECT_TRUE(RecordFolder(folder / "r", experiment, 0).has(experiment.levels[0])); }
     EXPECT_EQ(contents(folder / ("r/" + name)), "t [s], x\n0,2\n1,1\n");
-    // One that was cut short does not count.
+    // A truncated record is dropped.
     std::filesystem::resize_file(folder / ("r/" + name), 5);
     EXPECT_THAT(message(folder / "r", experiment), "");
     { EXPECT_FALSE(RecordFolder(folder / "r", experiment, 0).has(experiment.levels[0])); }
     EXPECT_THAT(contents(folder / "r/manifest.txt"), HasSubstr("\n2,0002"));
 }
 
-/// A copy of the process, which holds the lock, does what is left when the process is killed between list and name.
-TEST(RecordFolder, IsFinishedByACopyOfItsProcess) {
+/// A copy of the process, which also holds the lock, completes the rename when the process is killed after writing the
+/// list.
+TEST(RecordFolder, CanBeFinishedByACopyOfItsProcess) {
     const TemporaryFolder folder;
     const Experiment experiment = parse_experiment(experiment_text(), "e.toml");
     const std::string name = experiment.record_name(experiment.levels[0]);
@@ -117,7 +118,7 @@ TEST(RecordFolder, BelongsToOneExperimentAndOneProcess) {
     EXPECT_NE(records.identity(), RecordFolder(folder / "third", experiment, 0).identity());
 }
 
-TEST(RecordFolder, FollowsNoLinksAndReplacesNothing) {
+TEST(RecordFolder, FollowsNoLinksAndReplacesNoFiles) {
     const TemporaryFolder folder;
     const Experiment experiment = parse_experiment(experiment_text(), "e.toml");
     std::ofstream(folder / "mine") << "mine";
@@ -133,14 +134,14 @@ TEST(RecordFolder, FollowsNoLinksAndReplacesNothing) {
     EXPECT_EQ(contents(records.path_of(experiment.levels[1])), "somebody's");
 }
 
-TEST(RecordFolder, RefusesAListThatIsNone) {
+TEST(RecordFolder, RefusesAnInvalidList) {
     const TemporaryFolder folder;
     const Experiment experiment = parse_experiment(experiment_text(), "e.toml");
     { RecordFolder records(folder / "r", experiment, 0); }
     for (const char* line :
          {"x", "1,../../x,1,1,1,1,1,1,1,1", "99,0099_f6100mHz_a9400mV_up.csv,1,1,1,1,1,1,1,1", ",,,,,,,,,"}) {
         std::ofstream(folder / "r/manifest.txt") << "heading\n" << line << "\n";
-        EXPECT_THAT(message(folder / "r", experiment), HasSubstr("manifest.txt:2:1: this is no line of a list"))
+        EXPECT_THAT(message(folder / "r", experiment), HasSubstr("manifest.txt:2:1: this is not a line of a list"))
             << line;
     }
     EXPECT_THAT(message("/dev/null/x", experiment), HasSubstr("it cannot be opened as a folder"));

@@ -13,7 +13,7 @@ namespace {
 using ::testing::HasSubstr;
 using testing::ScriptedLine;
 
-/// A device of three rows, with an answer that a test replaces.
+/// A device of three rows; a test replaces one of its answers.
 ScriptedLine device_with(const std::string& question, const std::string& answer) {
     return ScriptedLine([=](const std::string& said) -> std::string {
         if (said == question)
@@ -47,26 +47,26 @@ TEST(SampleDevice, ReadsRows) {
     EXPECT_EQ(samples.values, (std::vector<std::vector<double>>{{1, 2, -0.03}}));
 }
 
-TEST(SampleDevice, RefusesWhatIsNoneOfIt) {
+TEST(SampleDevice, RefusesAnswersThatViolateTheProtocol) {
     const std::vector<std::vector<std::string>> cases{
         {"CHANNELS", "", "has not answered for 0.02 s"},
-        {"CHANNELS", "t", "in the place of the names of its channels"},
+        {"CHANNELS", "t", "instead of the names of its channels"},
         {"CHANNELS", "ERROR no board", "says: no board"},
-        {"CHANNELS", "t [s]; x, y [V]", "in the place of the names of its channels, separated by commas"},
+        {"CHANNELS", "t [s]; x, y [V]", "instead of the names of its channels, separated by commas"},
         {"RATE 10", "OK 11", "takes 11 samples in a second instead of 10"},
-        {"RATE 10", "OK ten", "says 'OK ten' in the place of 'OK' and its rate"},
+        {"RATE 10", "OK ten", "says 'OK ten' instead of 'OK' and its rate"},
         {"RATE 10", "OK nan", "takes nan samples"},
         {"READ 3", "0,1\n0.1,2", "has not answered"},
         {"READ 3", "0,1\n0.1,2\nEND 2", "ends with 'END 2' after 2 of 3 samples"},
-        {"READ 3", "0,1\n0.1,2\n0.2,3\n0.3,4\nEND 4", "says '0.3,4' in the place of the end"},
+        {"READ 3", "0,1\n0.1,2\n0.2,3\n0.3,4\nEND 4", "says '0.3,4' instead of the end"},
         {"READ 3", "0,1\n0.1,2\n0.2,3\nEND 2", "ends with 'END 2' after 3 of 3 samples"},
-        {"READ 3", "0,1\n0.1\n0.2,3\nEND 3", "says '0.1' in the place of a row"},
+        {"READ 3", "0,1\n0.1\n0.2,3\nEND 3", "says '0.1' instead of a row"},
         {"READ 3", "0,1\n0.1,2,3\n0.2,3\nEND 3", "a row of as many numbers as it has channels"},
         {"READ 3", "0,1\n0,2\n0.2,3\nEND 3", "gives the time 0 after 0"},
         {"READ 3", "0,1\n0.2,2\n0.4,3\nEND 3", "gives the time 0.2 to its sample at 0.1"},
         {"READ 3", "10,1\n10.1,2\n10.2,3\nEND 3", "gives the time 10 to its sample at 0"},
         {"READ 3", "0,1\n0.1,inf\n0.2,3\nEND 3", "a row of numbers"},
-        {"READ 3", "0,1\n0.1,\x1b[2J\n0.2,3\nEND 3", "says '0.1,\\u001b[2J' in the place of"},
+        {"READ 3", "0,1\n0.1,\x1b[2J\n0.2,3\nEND 3", "says '0.1,\\u001b[2J' instead of"},
         {"READ 3", "0,1\nERROR overflow", "says: overflow"},
     };
     for (const std::vector<std::string>& one : cases) {
@@ -80,14 +80,14 @@ TEST(SampleDevice, RefusesWhatIsNoneOfIt) {
     }
 }
 
-/// Each row is there in time, and they take for ever.
-TEST(SampleDevice, HasNoPatienceWithoutEnd) {
+/// Each row arrives in time, but all of them never end.
+TEST(SampleDevice, RefusesSamplesThatTakeTooLongInAll) {
     ScriptedLine line([&](const std::string& said) {
         if (said == "READ 3")
             std::this_thread::sleep_for(std::chrono::milliseconds(50));
         return said == "READ 3" ? "0,1\n0.1,2\n0.2,3\nEND 3" : said == "CHANNELS" ? "t [s], x [V]" : "OK 10";
     });
-    TextSampleDevice device(line, 0.02, {}, 1e-12); // 20 ms for all of them
+    TextSampleDevice device(line, 0.02, {}, 1e-12); // 20 ms for all rows
     device.set_rate(10);
     device.begin(3);
     try {
@@ -95,11 +95,11 @@ TEST(SampleDevice, HasNoPatienceWithoutEnd) {
         device.read(part);
         FAIL() << "it was waited for";
     } catch (const InstrumentError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("has given 1 of 3 samples, which last 0.3 s, in 1e-12 times that time"));
+        EXPECT_THAT(error.what(), HasSubstr("has sent only 1 of 3 samples, which last 0.3 s, in 1e-12 times that time"));
     }
 }
 
-TEST(SampleDevice, PassesOverWhatSomebodyElseHasBegun) {
+TEST(SampleDevice, StopsAnAcquisitionOfAnotherClient) {
     bool stopped = false;
     ScriptedLine line([&](const std::string& said) -> std::string {
         if (said == "STOP" && !stopped) {
@@ -112,7 +112,7 @@ TEST(SampleDevice, PassesOverWhatSomebodyElseHasBegun) {
     EXPECT_EQ(device.header().channels.at(0).name, "x");
 }
 
-TEST(SampleDevice, KnowsWhetherItCanReturn) {
+TEST(SampleDevice, ReportsWhetherItCanReturnToAMark) {
     ScriptedLine simulated = device_with("RETURN 7", "OK"), hardware = device_with("RETURN 7", "ERROR what?");
     EXPECT_TRUE(TextSampleDevice(simulated, 0.02, {}).return_to(7));
     EXPECT_FALSE(TextSampleDevice(hardware, 0.02, {}).return_to(7));

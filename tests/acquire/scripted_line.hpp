@@ -11,7 +11,7 @@
 
 namespace graze::testing {
 
-/// A line at whose end is what a test wants: each line that is said is answered by the lines of a text.
+/// A simulated line: a function of the test gives the answers to each sent line.
 class ScriptedLine : public InstrumentLine {
 public:
     using Answer = std::function<std::string(const std::string& said)>;

@@ -29,7 +29,7 @@ using ::testing::HasSubstr;
 using testing::TemporaryFolder;
 using testing::testbed_bench;
 
-/// The far end of a serial line, which says what a test wants.
+/// The far end of a serial line, controlled by a test.
 class FarEnd {
 public:
     FarEnd() : master_(posix_openpt(O_RDWR | O_NOCTTY)) {
@@ -65,7 +65,7 @@ private:
     int master_;
 };
 
-/// The generator of a bench that another thread takes samples of.
+/// The generator of a bench whose samples another thread takes.
 class SharedGenerator : public BenchGeneratorLine {
 public:
     SharedGenerator(ScpiBench& bench, std::mutex& one) : BenchGeneratorLine(bench), one_(&one) {}
@@ -78,7 +78,7 @@ private:
     std::mutex* one_;
 };
 
-/// A device of samples at the end of a serial line: that of a bench, in a thread of its own.
+/// The sample device of a bench at the end of a serial line, in a thread of its own.
 class SerialDevice {
 public:
     SerialDevice(ScpiBench& bench, std::mutex& one) : one_(&one), protocol_(bench) {
@@ -115,7 +115,7 @@ private:
         }
         if (text_.empty())
             text_ = protocol_.next(SampleProtocol::rows_at_once);
-        const ssize_t sent = ::write(end_.descriptor(), text_.data(), text_.size()); // as much as there is room for
+        const ssize_t sent = ::write(end_.descriptor(), text_.data(), text_.size()); // as much as fits
         text_.erase(0, static_cast<std::size_t>(std::max<ssize_t>(sent, 0)));
     }
 
@@ -127,7 +127,7 @@ private:
     std::thread thread_;
 };
 
-/// A bench that serves in a thread of its own.
+/// A bench service in a thread of its own.
 class Served {
 public:
     explicit Served(const BenchSettings& bench = testbed_bench(), ServiceSettings service = {}) : bench_(bench) {
@@ -146,7 +146,7 @@ public:
         service_.reset();
     }
     std::string port() const { return folder_ / "generator"; }
-    GeneratorOutput output() { // of a bench that serves no more
+    GeneratorOutput output() { // output of a bench whose service has ended
         end();
         return bench_.generator().output();
     }
@@ -171,7 +171,7 @@ private:
 
 } // namespace
 
-TEST(SerialLine, IsSetAsItIsAskedFor) {
+TEST(SerialLine, HasTheRequestedSettings) {
     FarEnd far;
     {
         const auto line = open_serial_line(far.settings);
@@ -191,7 +191,7 @@ TEST(SerialLine, IsSetAsItIsAskedFor) {
     EXPECT_EQ(set.c_iflag & IXON, 0U);
 }
 
-TEST(SerialLine, CutsWhatComesIntoLines) {
+TEST(SerialLine, SplitsInputIntoLines) {
     FarEnd far;
     const auto line = open_serial_line(far.settings);
     line->send("VOLT?");
@@ -209,7 +209,7 @@ TEST(SerialLine, CutsWhatComesIntoLines) {
     EXPECT_EQ(line->receive(1), "fresh");
 }
 
-TEST(SerialLine, TellsWhenItIsCutOff) {
+TEST(SerialLine, ReportsALostConnection) {
     FarEnd far;
     const auto line = open_serial_line(far.settings);
     far.hang_up();
@@ -230,7 +230,7 @@ TEST(SerialLine, TellsWhenItIsCutOff) {
     EXPECT_EQ(ending([&] { open_tcp_line("127.0.0.1", 1, 1); }), AcquisitionEnding::line_lost);
 }
 
-TEST(SerialLine, BearsLinesWithoutEndAndOnesThatNobodyReads) {
+TEST(SerialLine, LimitsLongLinesAndUnreadInput) {
     FarEnd far;
     far.settings.flow = FlowControl::none;
     const auto line = open_serial_line(far.settings);
@@ -248,11 +248,11 @@ TEST(SerialLine, BearsLinesWithoutEndAndOnesThatNobodyReads) {
         EXPECT_THAT(error.what(), HasSubstr("a line of more than 65536 bytes"));
     }
     stop = true;
-    line->discard(); // so that the thread can go on
+    line->discard(); // lets the thread continue
     endless.join();
 }
 
-TEST(Acquisition, OverAPseudoTerminalIsTheSameAsInTheProcess) {
+TEST(Acquisition, GivesTheSameRecordsOverAPseudoTerminal) {
     const TemporaryFolder folder;
     Served one, other;
     EXPECT_EQ(one.run(folder / "one").ending, AcquisitionEnding::complete);
@@ -268,7 +268,7 @@ TEST(Acquisition, OverAPseudoTerminalIsTheSameAsInTheProcess) {
     EXPECT_EQ(one.output(), (GeneratorOutput{6.1, 0.1, 0}));
 }
 
-/// Samples come over a serial line, too, some sixty thousand letters a record; and the records are the same.
+/// Samples over a serial line, some sixty thousand characters a record, give the same records.
 TEST(Acquisition, TakesSamplesOverASerialLine) {
     const TemporaryFolder folder;
     const Experiment experiment = parse_experiment(experiment_text(), "sweep.toml");
@@ -290,7 +290,7 @@ TEST(Acquisition, TakesSamplesOverASerialLine) {
     EXPECT_EQ(different_files(folder / "direct", folder / "serial"), std::vector<std::string>());
 }
 
-TEST(Acquisition, GoesWithTheClockToo) {
+TEST(Acquisition, RunsAtTheSpeedOfTheClock) {
     const TemporaryFolder folder;
     ServiceSettings fast;
     fast.speed = 40;
@@ -309,7 +309,7 @@ TEST(Acquisition, GoesWithTheClockToo) {
     }
 }
 
-TEST(Acquisition, BearsALineThatLosesLetters) {
+TEST(Acquisition, CompletesOnALineThatLosesCharacters) {
     const TemporaryFolder folder;
     Served clean;
     EXPECT_EQ(clean.run(folder / "clean").ending, AcquisitionEnding::complete);
@@ -322,7 +322,7 @@ TEST(Acquisition, BearsALineThatLosesLetters) {
     EXPECT_EQ(different_files(folder / "clean", folder / "lossy"), std::vector<std::string>());
 }
 
-TEST(Acquisition, IsSafeAfterALineThatBreaks) {
+TEST(Acquisition, MakesTheOutputSafeAfterALineBreaks) {
     const TemporaryFolder folder;
     ServiceSettings breaking;
     breaking.lines = 30;
@@ -337,7 +337,7 @@ TEST(Acquisition, IsSafeAfterALineThatBreaks) {
     EXPECT_EQ(served.output().amplitude, 0.1);
 }
 
-TEST(Acquisition, SaysWhenItCannotReachTheGeneratorAnyMore) {
+TEST(Acquisition, ReportsAGeneratorThatIsOutOfReach) {
     const TemporaryFolder folder;
     ServiceSettings breaking;
     breaking.lines = 30;
@@ -351,7 +351,7 @@ TEST(Acquisition, SaysWhenItCannotReachTheGeneratorAnyMore) {
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(3));
 }
 
-TEST(Acquisition, IsSafeAfterSamplesThatBreakOff) {
+TEST(Acquisition, MakesTheOutputSafeAfterSamplesStop) {
     const TemporaryFolder folder;
     ServiceSettings breaking;
     breaking.rows = 1600;

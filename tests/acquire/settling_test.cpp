@@ -28,7 +28,7 @@ TEST(RepeatWatch, FindsTheShortestPeriod) {
     EXPECT_EQ(period_of([](int i) { return std::exp(-0.5 * i); }, 17), 1U); // exp(-7)(e^0.5 - 1) < 1e-3
 }
 
-TEST(RepeatWatch, TakesNoNumbersThatAreNone) {
+TEST(RepeatWatch, RefusesInvalidNumbers) {
     EXPECT_THROW(period_of([](int) { return std::nan(""); }, 20), InputError);
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-/// Rows and columns of every shape, full and of lower rank, with entries between -1 and 1.
+/// Matrices of full and of lower rank, with entries between -1 and 1.
 std::vector<Eigen::MatrixXd> matrices(Eigen::Index rows, Eigen::Index columns) {
     std::vector<Eigen::MatrixXd> result;
     for (int k = 1; k < 6; ++k)
@@ -23,7 +23,7 @@ std::vector<Eigen::MatrixXd> matrices(Eigen::Index rows, Eigen::Index columns) {
     return result;
 }
 
-/// One column more than rows; of its singular values the last is as given, and the others are between 1 and 2.
+/// A matrix with one column more than rows: its last singular value is `last`, the others are between 1 and 2.
 Eigen::MatrixXd nearly_singular(Eigen::Index rows, double last) {
     const auto bent = [](Eigen::Index size) {
         return orthogonal_factors(
@@ -39,7 +39,7 @@ Eigen::MatrixXd nearly_singular(Eigen::Index rows, double last) {
     return bent(rows) * values.asDiagonal() * bent(rows + 1).topRows(rows);
 }
 
-TEST(Decompositions, singular_values_put_the_matrix_together_again) {
+TEST(Decompositions, FactorsMultiplyToTheMatrix) {
     for (const auto& [rows, columns] : {std::pair{4, 4}, {6, 3}, {3, 6}, {1, 1}})
         for (const Eigen::MatrixXd& matrix : matrices(rows, columns)) {
             const SingularValues thin = singular_values(matrix, SingularVectors::thin);
@@ -62,20 +62,20 @@ TEST(Decompositions, singular_values_put_the_matrix_together_again) {
     EXPECT_EQ(singular_values(Eigen::MatrixXd::Zero(2, 2), SingularVectors::none).rank(1e-9), 0);
 }
 
-TEST(Decompositions, what_is_nearly_null_is_as_small_as_singular_values_say) {
+TEST(Decompositions, NearlyNullVectorsAreAsSmallAsSingularValuesSay) {
     for (const Eigen::Index rows : {1, 4, 40})
         for (const double distance : {0.0, 1e-6}) {
             const Eigen::MatrixXd matrix = nearly_singular(rows, distance);
             const NearlyNull near = nearly_null(matrix);
             EXPECT_LE((near.right.transpose() * near.right - Eigen::Matrix2d::Identity()).norm(), 50 * eps);
             EXPECT_NEAR(near.left.norm(), 1, 10 * eps);
-            // Pivots may be larger than singular values, but hardly are.
+            // Pivots may be larger than singular values, but seldom are.
             EXPECT_LE((matrix * near.right).norm(), 10 * distance + 200 * eps);
             EXPECT_LE((near.left.transpose() * matrix).norm(), 10 * distance + 200 * eps);
         }
 }
 
-TEST(Decompositions, null_vectors_are_taken_to_zero) {
+TEST(Decompositions, NullVectorsAreMappedToZero) {
     for (Eigen::MatrixXd matrix : matrices(4, 4)) {
         matrix.row(3) = matrix.row(0) - matrix.row(1);
         const Eigen::MatrixXcd turned = matrix * std::complex<double>(0.6, 0.8);
@@ -88,7 +88,7 @@ TEST(Decompositions, null_vectors_are_taken_to_zero) {
     }
 }
 
-TEST(Decompositions, eigenvalues_are_zeros_of_the_characteristic_polynomial) {
+TEST(Decompositions, EigenvaluesAreZerosOfTheCharacteristicPolynomial) {
     for (const Eigen::MatrixXd& matrix : matrices(2, 2)) {
         const std::complex<double> half = matrix.trace() / 2, root = std::sqrt(half * half - matrix.determinant());
         const auto found = eigensystem(matrix);
@@ -96,7 +96,7 @@ TEST(Decompositions, eigenvalues_are_zeros_of_the_characteristic_polynomial) {
         EXPECT_LE((found->values - *eigenvalues(matrix)).norm(), 50 * eps);
         for (const std::complex<double> known : {half + root, half - root})
             EXPECT_LE((found->values.array() - known).abs().minCoeff(), 1e-7)
-                << "square roots of round-off, where equal";
+                << "double eigenvalues have errors of the order of the square root of round-off";
         EXPECT_LE((matrix * found->vectors - found->vectors * found->values.asDiagonal()).norm(), 50 * eps);
         // The same numbers as solutions of a shifted problem: det(a - mu b) with a = A B and the eigenvalues of A.
         const Eigen::Matrix2d other{{2, 1}, {0.5, 3}};
@@ -108,7 +108,7 @@ TEST(Decompositions, eigenvalues_are_zeros_of_the_characteristic_polynomial) {
     }
 }
 
-TEST(Decompositions, eigenvalues_of_symmetric_matrices_rise_and_are_squares_of_singular_values) {
+TEST(Decompositions, SymmetricEigenvaluesRiseAndAreSquaresOfSingularValues) {
     for (const Eigen::MatrixXd& matrix : matrices(6, 3)) {
         const auto found = symmetric_eigenvalues(matrix.transpose() * matrix);
         ASSERT_TRUE(found);
@@ -117,7 +117,7 @@ TEST(Decompositions, eigenvalues_of_symmetric_matrices_rise_and_are_squares_of_s
     }
 }
 
-TEST(Decompositions, generalized_eigenvalues_may_be_infinite) {
+TEST(Decompositions, GeneralizedEigenvaluesMayBeInfinite) {
     const Eigen::Matrix2d a{{3, 0}, {0, 1}}, b{{1, 0}, {0, 0}};
     const auto found = generalized_eigenvalues(a, b);
     ASSERT_TRUE(found);
@@ -126,7 +126,29 @@ TEST(Decompositions, generalized_eigenvalues_may_be_infinite) {
     EXPECT_EQ(found->denominators[1 - finite], 0);
 }
 
-TEST(Decompositions, schur_and_orthogonal_factors_put_the_matrix_together_again) {
+TEST(Decompositions, GeneralizedEigenvaluesMakeTheirPencilSingular) {
+    const auto some = matrices(6, 6);
+    for (std::size_t k = 0; k + 1 < some.size(); ++k) {
+        const Eigen::MatrixXd &a = some[k], &b = some[k + 1];
+        const auto found = generalized_eigenvalues(a, b);
+        ASSERT_TRUE(found);
+        std::complex<double> numerators = 1;
+        double denominators = 1;
+        for (Eigen::Index i = 0; i < a.rows(); ++i) {
+            const std::complex<double> top = found->numerators[i];
+            const double bottom = found->denominators[i];
+            const Eigen::VectorXd sizes = singular_values(bottom * a.cast<std::complex<double>>() - top * b);
+            EXPECT_LE(sizes[5], 200 * eps * sizes[0]) << "number " << i << " of pencil " << k;
+            numerators *= top;
+            denominators *= bottom;
+        }
+        // Their product is that of the determinants.
+        EXPECT_LE(std::abs(numerators * b.determinant() - denominators * a.determinant()),
+                  1e4 * eps * std::abs(denominators * a.determinant()));
+    }
+}
+
+TEST(Decompositions, SchurAndOrthogonalFactorsMultiplyToTheMatrix) {
     for (const Eigen::MatrixXd& matrix : matrices(5, 5)) {
         const auto schur = schur_form(matrix);
         ASSERT_TRUE(schur);
@@ -146,7 +168,7 @@ TEST(Decompositions, schur_and_orthogonal_factors_put_the_matrix_together_again)
         }
 }
 
-TEST(Decompositions, complements_are_orthonormal_and_orthogonal) {
+TEST(Decompositions, OrthogonalComplementsAreOrthonormal) {
     for (const Eigen::Index size : {1, 2, 5}) {
         const Eigen::VectorXd vector = matrices(size, 1).front();
         const Eigen::MatrixXd found = orthogonal_complement(vector);
@@ -156,7 +178,7 @@ TEST(Decompositions, complements_are_orthonormal_and_orthogonal) {
     }
 }
 
-TEST(Decompositions, what_does_not_converge_has_none) {
+TEST(Decompositions, MatricesWithNaNHaveNoEigenvalues) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_FALSE(eigenvalues(Eigen::Matrix2d::Constant(nan)));
     EXPECT_FALSE(eigensystem(Eigen::Matrix2d::Constant(nan)));

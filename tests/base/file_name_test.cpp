@@ -8,7 +8,7 @@
 namespace graze {
 namespace {
 
-TEST(FileName, LeadsNowhere) {
+TEST(FileName, IsSafeInPathsAndCommands) {
     for (const char* name : {"a", "fig-5-14d", "a.b", "A_1", "0"})
         EXPECT_TRUE(is_file_name(name)) << name;
     for (const std::string& name :

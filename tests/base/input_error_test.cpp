@@ -22,7 +22,7 @@ TEST(InputError, SaysPlaceProblemAndRemedyOnOneLine) {
     EXPECT_EQ(error.remedy(), "did you mean 'b'?");
 }
 
-TEST(InputError, NeedsNeitherPlaceNorRemedy) {
+TEST(InputError, WorksWithoutPlaceOrRemedy) {
     EXPECT_STREQ(InputError("no such state", "").what(), "no such state");
     EXPECT_STREQ(InputError("no such state", "see the model").what(), "no such state; see the model");
 }

@@ -5,7 +5,7 @@
 namespace graze {
 namespace {
 
-TEST(LetterCase, changes_letters_of_ascii_alone) {
+TEST(LetterCase, ChangesOnlyAsciiLetters) {
     EXPECT_EQ(in_small_letters("Outp:LOAD? 9.9E+37"), "outp:load? 9.9e+37");
     EXPECT_EQ(in_capitals("vpp, 5 \xc2\xb5s"), "VPP, 5 \xc2\xb5S");
     EXPECT_EQ(in_small_letters("\xc3\x84"

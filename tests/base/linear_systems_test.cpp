@@ -10,14 +10,14 @@ namespace {
 
 constexpr double round_off = 1000 * std::numeric_limits<double>::epsilon();
 
-/// Well conditioned where it is square.
+/// A matrix that is well conditioned where it is square.
 Eigen::MatrixXd wave_matrix(Eigen::Index rows, Eigen::Index columns) {
     return Eigen::MatrixXd::NullaryExpr(rows, columns, [](Eigen::Index i, Eigen::Index j) {
         return std::sin(static_cast<double>((i + 1) * (j + 2)) * 1.3) + (i == j ? 4 : 0);
     });
 }
 
-TEST(LinearSystems, regular_ones_are_solved_from_both_sides) {
+TEST(LinearSystems, RegularMatricesAreSolvedFromBothSides) {
     const Eigen::MatrixXd matrix = wave_matrix(5, 5), sides = wave_matrix(5, 2);
     const Eigen::VectorXd side = sides.col(0);
     const PartialLU<double> partial(matrix);
@@ -35,7 +35,7 @@ TEST(LinearSystems, regular_ones_are_solved_from_both_sides) {
     EXPECT_EQ(determinant(Eigen::MatrixXd()), 1);
 }
 
-TEST(LinearSystems, singular_ones_are_known) {
+TEST(LinearSystems, SingularMatricesAreRecognised) {
     Eigen::MatrixXd matrix = wave_matrix(4, 4);
     EXPECT_TRUE(FullLU<double>(matrix).is_invertible());
     EXPECT_GT(FullLU<double>(matrix).reciprocal_condition(), 1e-3);
@@ -48,7 +48,7 @@ TEST(LinearSystems, singular_ones_are_known) {
     EXPECT_NEAR(FullLU<double>(nearly).reciprocal_condition(), 1e-9, 1e-20);
 }
 
-TEST(LinearSystems, least_squares_leave_what_is_orthogonal) {
+TEST(LinearSystems, LeastSquaresResidualsAreOrthogonalToTheColumns) {
     const Eigen::MatrixXd matrix = wave_matrix(7, 3);
     const Eigen::VectorXd side = wave_matrix(7, 1);
     const PivotedQR pivoted(matrix);
@@ -67,13 +67,13 @@ TEST(LinearSystems, least_squares_leave_what_is_orthogonal) {
     EXPECT_LE((triangle - least.triangle).norm(), round_off * triangle.norm());
 }
 
-TEST(LinearSystems, of_many_solutions_the_shortest_is_found) {
+TEST(LinearSystems, ShortestSolutionLiesInTheRowSpace) {
     const Eigen::MatrixXd wide = wave_matrix(2, 4);
     const Eigen::VectorXd side = Eigen::Vector2d(1, -2), solution = shortest_solution(wide, side);
     EXPECT_LE((wide * solution - side).norm(), round_off);
-    // It is made of rows alone.
+    // The shortest solution is a combination of the rows.
     EXPECT_LE((wide.transpose() * PivotedQR(wide.transpose()).solve(solution) - solution).norm(), round_off);
-    // What a threshold lets count as nothing is not inverted.
+    // Singular values below the threshold are not inverted.
     const Eigen::Matrix2d small{{1, 0}, {0, 1e-6}};
     EXPECT_NEAR(shortest_solution(small, Eigen::Vector2d(1, 1))[1], 1e6, 1);
     EXPECT_EQ(shortest_solution(small, Eigen::Vector2d(1, 1), 1e-3)[1], 0);

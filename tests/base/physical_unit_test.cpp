@@ -29,12 +29,12 @@ TEST(PhysicalUnit, ConvertsWithOneRounding) {
     EXPECT_EQ(physical_unit(""), PhysicalUnit());
 }
 
-TEST(PhysicalUnit, MinutesHoursAndWords) {
+TEST(PhysicalUnit, ReadsMinutesHoursAndWords) {
     EXPECT_EQ(in(3, "min", "s"), 180);
     EXPECT_EQ(in(1.5, "h", "min"), 90);
     EXPECT_DOUBLE_EQ(in(3000, "rad/min", "rad/s"), 50);
     EXPECT_DOUBLE_EQ(in(7200, "m/h^2", "m/min/h"), 120);
-    EXPECT_FALSE(known_unit("mh")); // no prefixes
+    EXPECT_FALSE(known_unit("mh")); // hours take no prefixes
     for (const auto& [word, symbol] :
          {std::pair{"seconds", "s"}, std::pair{"sec", "s"}, std::pair{"msec", "ms"}, std::pair{"mSec", "ms"},
           std::pair{"usec", "us"}, std::pair{"milliseconds", "ms"}, std::pair{"Minutes", "min"}, std::pair{"hrs", "h"},
@@ -44,19 +44,19 @@ TEST(PhysicalUnit, MinutesHoursAndWords) {
     }
     for (const char* symbol : {"s", "S", "mS", "MSec", "V", "m/s", "min", "dBV", "", "kmin"})
         EXPECT_EQ(unit_symbol(symbol), symbol) << symbol;
-    EXPECT_EQ(in(1, "mS", "1/ohm"), 1e-3); // no time
+    EXPECT_EQ(in(1, "mS", "1/ohm"), 1e-3); // mS is millisiemens, not a time
     EXPECT_DOUBLE_EQ(in(1, "V msec/A", "H"), 1e-3);
-    EXPECT_FALSE(known_unit("MSec")) << "nobody knows whether it is ms";
+    EXPECT_FALSE(known_unit("MSec")) << "ambiguous: it may mean ms";
 }
 
-TEST(PhysicalUnit, RefusesOthers) {
+TEST(PhysicalUnit, RefusesTextsThatAreNotUnits) {
     for (const char* wrong : {"inch", "um^", "um^x", "um^99", "xm", "um^1.5", "kk", "(m)"}) {
         EXPECT_THROW(physical_unit(wrong), InputError) << wrong;
         EXPECT_FALSE(known_unit(wrong)) << wrong;
     }
     EXPECT_EQ(known_unit("um"), physical_unit("um"));
     EXPECT_THROW(in(1, "um", "um^2"), InputError);
-    EXPECT_THROW(in(1, "deg", "rad"), InputError); // no power of ten
+    EXPECT_THROW(in(1, "deg", "rad"), InputError); // the factor is not a power of ten
 }
 
 } // namespace

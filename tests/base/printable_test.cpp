@@ -10,7 +10,7 @@
 namespace graze {
 namespace {
 
-/// Bytes among which those that matter are frequent.
+/// Returns random bytes among which the special ones are frequent.
 std::string random_text(std::mt19937& random) {
     static const std::string_view parts[] = {"a",
                                              "\x1b[2J",
@@ -40,7 +40,7 @@ std::string random_text(std::mt19937& random) {
     return text;
 }
 
-TEST(Printable, WhatIsShownDoesNothing) {
+TEST(Printable, OutputHasNoActiveCharacters) {
     std::mt19937 random(1);
     for (int i = 0; i < 20'000; ++i) {
         const std::string text = random_text(random), line = printable_line(text), shown = printable(text);
@@ -62,7 +62,7 @@ TEST(Printable, CodesAreThoseOfUnicode) {
     EXPECT_EQ(printable("Übergröße → 😀"), "Übergröße → 😀");
 }
 
-TEST(Printable, CharactersThatComeInPartsAreWaitedFor) {
+TEST(Printable, IncompleteCharactersAreLeftForLater) {
     const std::string text = "a→😀";
     for (std::size_t size = 0; size <= text.size(); ++size) {
         const std::string_view part(text.data(), size);
@@ -71,7 +71,7 @@ TEST(Printable, CharactersThatComeInPartsAreWaitedFor) {
     EXPECT_EQ(unfinished_character("\x80\x80\x80"), 0u);
 }
 
-TEST(Printable, ErrorsAreOneShortLineWhateverTheyQuote) {
+TEST(Printable, ErrorMessagesAreOneShortLine) {
     std::mt19937 random(2);
     for (int i = 0; i < 2000; ++i) {
         const InputError error({random_text(random), 1, 2}, random_text(random), random_text(random));

@@ -17,7 +17,7 @@ TEST(Rounded, IsTheNearestDecimal) {
         EXPECT_EQ(rounded(value, 17), value);
 }
 
-TEST(Rounded, BearsWhateverIsANumberOrNone) {
+TEST(Rounded, KeepsExtremeAndNonFiniteValues) {
     constexpr double largest = std::numeric_limits<double>::max(), tiny = std::numeric_limits<double>::denorm_min();
     EXPECT_EQ(rounded(tiny, 6), tiny);
     EXPECT_NEAR(rounded(1.23456e-310, 3), 1.23e-310, 1e-315);

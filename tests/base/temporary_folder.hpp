@@ -14,7 +14,7 @@ inline std::string contents(const std::filesystem::path& path) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// A folder that is gone after the test.
+/// A folder that is removed after the test.
 class TemporaryFolder {
 public:
     TemporaryFolder() {
@@ -26,7 +26,7 @@ public:
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;
     std::string operator/(const std::string& name) const { return (path_ / name).string(); }
     std::string path() const { return path_.string(); }
-    /// Writes a file. @return its path
+    /// Writes a file into the folder. @return its path
     std::string write(const std::string& name, const std::string& contents) const {
         std::ofstream(path_ / name, std::ios::binary) << contents;
         return *this / name;

@@ -20,7 +20,7 @@ std::string refusal(const std::string& path, std::size_t most = 1000) {
     return "";
 }
 
-TEST(TextFile, OnlyPlainFilesAreRead) {
+TEST(TextFile, ReadsOnlyRegularFiles) {
     const auto folder = std::filesystem::temp_directory_path() / ("graze-text-file-" + std::to_string(getpid()));
     std::filesystem::create_directories(folder);
     const std::string pipe = folder / "pipe", link = folder / "link", file = folder / "file";

@@ -10,7 +10,7 @@
 namespace graze {
 namespace {
 
-/// Feeds the durations of points, and looks at what is shown.
+/// Feeds the durations of points and calls `look` with each estimate.
 template <class Look>
 void follow(const std::vector<double>& durations, const Look& look) {
     TimeLeft left;
@@ -24,7 +24,7 @@ void follow(const std::vector<double>& durations, const Look& look) {
     }
 }
 
-TEST(TimeLeft, is_that_of_equal_points) {
+TEST(TimeLeft, IsExactForEqualPoints) {
     follow(std::vector<double>(1000, 0.05), [](const auto& shown, double truth, std::size_t done) {
         ASSERT_EQ(shown.has_value(), done >= 10);
         if (!shown)
@@ -34,8 +34,8 @@ TEST(TimeLeft, is_that_of_equal_points) {
     });
 }
 
-/// Points that take ten times as long in the second half, or ever longer: the first ones promise too little.
-TEST(TimeLeft, does_not_climb_and_says_when_it_is_a_bound) {
+/// Points that become ten times slower in the second half, or ever slower: the first ones suggest too little time.
+TEST(TimeLeft, NeverRisesAndIsMarkedAsABoundWherePointsBecomeSlower) {
     std::vector<std::vector<double>> all(3, std::vector<double>(800));
     std::mt19937 random(11);
     for (std::size_t i = 0; i < 800; ++i) {
@@ -50,13 +50,13 @@ TEST(TimeLeft, does_not_climb_and_says_when_it_is_a_bound) {
                 return;
             EXPECT_LE(shown->seconds, before);
             before = shown->seconds;
-            // What is called a bound is one.
+            // An estimate that is marked as a lower bound is one.
             if (shown->at_least) {
                 EXPECT_LE(shown->seconds, 1.2 * truth);
             }
         });
     }
-    // Of points that come ever faster it is never too little.
+    // For points that become ever faster the estimate is never too small.
     std::vector<double> faster = all[1];
     std::reverse(faster.begin(), faster.end());
     follow(faster, [](const auto& shown, double truth, std::size_t) {

@@ -5,7 +5,7 @@
 namespace graze {
 namespace {
 
-TEST(Trimmed, LeavesWhatIsBetweenBlanks) {
+TEST(Trimmed, RemovesBlanksAtBothEnds) {
     EXPECT_EQ(trimmed(" \ta b\t "), "a b");
     EXPECT_EQ(trimmed("a"), "a");
     EXPECT_EQ(trimmed(" \t "), "");

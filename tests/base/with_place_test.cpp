@@ -15,7 +15,7 @@ InputError mistake_of(const InputError& found, const std::string& about = {}) {
     return InputError("none", "");
 }
 
-TEST(WithPlace, mistakes_without_a_place_get_one) {
+TEST(WithPlace, GivesAPlaceToErrorsWithoutOne) {
     const InputError error = mistake_of(InputError("it is wrong", "mend it"), "run 'a': ");
     EXPECT_EQ(error.place().file, "a.toml");
     EXPECT_EQ(error.place().line, 3);
@@ -23,7 +23,7 @@ TEST(WithPlace, mistakes_without_a_place_get_one) {
     EXPECT_EQ(error.remedy(), "mend it");
 }
 
-TEST(WithPlace, others_keep_theirs_and_work_gives_what_it_returns) {
+TEST(WithPlace, KeepsOtherPlacesAndReturnsTheResult) {
     const InputError error = mistake_of(InputError({"b.toml", 1, 2}, "it is wrong", "mend it"), "run 'a': ");
     EXPECT_EQ(error.place().file, "b.toml");
     EXPECT_EQ(error.problem(), "it is wrong");

@@ -8,7 +8,7 @@
 namespace graze {
 namespace {
 
-/// Amplitude of what comes out of a wave, when it has gone on for long.
+/// Gain of the filter for a wave, in the steady state.
 double gain(double corner, double frequency) {
     AntiAlias filter(corner);
     double sine = 0, cosine = 0;
@@ -25,8 +25,8 @@ double gain(double corner, double frequency) {
 
 } // namespace
 
-TEST(AntiAlias, LetsThroughWhatButterworthSays) {
-    // |H|^2 = 1/(1 + (tan(pi f)/tan(pi f_c))^8); whole periods fit into the samples, so that only round-off is left.
+TEST(AntiAlias, HasTheGainOfAButterworthFilter) {
+    // |H|^2 = 1/(1 + (tan(pi f)/tan(pi f_c))^8); the samples hold whole periods, so only round-off remains.
     for (const double corner : {0.01, 0.05, 0.2})
         for (const double frequency : {0.002, 0.01, 0.05, 0.2, 0.4}) {
             const double ratio = std::tan(std::numbers::pi * frequency) / std::tan(std::numbers::pi * corner);
@@ -34,7 +34,7 @@ TEST(AntiAlias, LetsThroughWhatButterworthSays) {
         }
 }
 
-TEST(AntiAlias, SettlesAtOnceWhereItIsTold) {
+TEST(AntiAlias, SettlesAtAGivenValue) {
     AntiAlias filter(0.05);
     filter.settle(3.5);
     for (int i = 0; i < 10; ++i)

@@ -7,7 +7,7 @@
 
 namespace graze::testing {
 
-/// The electromagnetic testbed on a bench that drives it and measures these channels.
+/// Settings of a bench with the electromagnetic testbed and these channels.
 inline BenchSettings testbed(std::initializer_list<const char*> channels) {
     BenchSettings settings;
     settings.model = load_model("electromagnetic-testbed");

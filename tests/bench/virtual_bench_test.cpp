@@ -15,7 +15,7 @@ BenchSettings testbed() {
     return testing::testbed({"V=voltage:V", "I", "q", "v"});
 }
 
-/// A phase alone, whose sine is what is measured: all of it is known in closed form.
+/// A model that is a phase; its sine is measured, so that all values are known in closed form.
 BenchSettings wave() {
     BenchSettings settings;
     settings.model = parse_model(R"(name = "wave"
@@ -42,7 +42,7 @@ Samples taken(VirtualBench& bench, std::size_t count) {
 
 } // namespace
 
-TEST(VirtualBench, GivesTheWaveThatIsSetWithItsPhaseGoingOn) {
+TEST(VirtualBench, GivesTheWaveOfTheGeneratorWithContinuousPhase) {
     VirtualBench bench(wave());
     bench.drive({5, 2});
     bench.set_rate(200);
@@ -61,7 +61,7 @@ TEST(VirtualBench, GivesTheWaveThatIsSetWithItsPhaseGoingOn) {
     EXPECT_EQ(bench.header().channels[0].unit, "V");
 }
 
-TEST(VirtualBench, AddsWhatSensorsAdd) {
+TEST(VirtualBench, AddsNoiseOffsetAndDrift) {
     BenchSettings settings = wave();
     settings.channels[0].noise = 0.1;
     settings.channels[0].offset = 1;
@@ -98,15 +98,15 @@ TEST(VirtualBench, ConvertsToWholeStepsWithinTheRange) {
     EXPECT_EQ(most, 2 - 1.0 / 16384);
 }
 
-TEST(VirtualBench, TakesAwayWhatWouldAppearAsAnotherFrequency) {
+TEST(VirtualBench, FiltersFrequenciesThatWouldBeAliased) {
     BenchSettings settings = wave();
     settings.anti_alias = 40;
     VirtualBench bench(settings);
-    bench.drive({990, 2}); // of 1000 samples in a second seen as 10 Hz
+    bench.drive({990, 2}); // aliased to 10 Hz at 1000 samples per second
     bench.set_rate(1000);
     taken(bench, 500);
     const Samples samples = taken(bench, 500);
-    // What is left is (tan(pi 40/8000)/tan(pi 990/8000))^4 of 3 V: 5e-6 V.
+    // The remainder is (tan(pi 40/8000)/tan(pi 990/8000))^4 of 3 V: 5e-6 V.
     for (const double value : samples.values[0])
         EXPECT_LT(std::abs(value), 1e-5);
     bench.drive({4, 2});
@@ -119,7 +119,7 @@ TEST(VirtualBench, TakesAwayWhatWouldAppearAsAnotherFrequency) {
     EXPECT_THROW(bench.set_rate(80), InputError);
 }
 
-TEST(VirtualBench, GivesTheSameAgainAfterItHasReturned) {
+TEST(VirtualBench, RepeatsItsSamplesAfterReturningToAMark) {
     BenchSettings settings = testbed();
     settings.anti_alias = 300;
     for (BenchChannel& channel : settings.channels)
@@ -150,7 +150,7 @@ TEST(VirtualBench, GivesTheSameAgainAfterItHasReturned) {
     EXPECT_EQ(taken(another, 2000).values, first.values) << "the same calls, the same samples";
 }
 
-TEST(VirtualBench, SaysWhyAMotionDoesNotGoOn) {
+TEST(VirtualBench, SaysWhyTheMotionHasEnded) {
     BenchSettings settings = wave();
     settings.model = parse_model(R"(name = "blow-up"
 [parameters]
@@ -175,7 +175,7 @@ rates = { x = "a*x^2", phase = "w" }
     bench.pass(1);
 }
 
-TEST(VirtualBench, RefusesSettingsWithoutMeaning) {
+TEST(VirtualBench, RefusesInvalidSettings) {
     const Model model = load_model("electromagnetic-testbed");
     EXPECT_THROW(bench_channel(model, "nothing", "--channel"), InputError);
     EXPECT_THROW(bench_channel(model, "../x=q", "--channel"), InputError);

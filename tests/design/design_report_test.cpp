@@ -1,4 +1,4 @@
-// What a report says of the MEMS switch and of an oscillator, against published values and closed forms.
+// Reports of the MEMS switch and of an oscillator, against published values and closed forms.
 
 #include "graze/design/design_report.hpp"
 
@@ -31,15 +31,15 @@ TEST(DesignReport, OfTheMemsSwitchHasThePublishedValues) {
     ASSERT_NE(row, report.times.rows.end());
     ASSERT_TRUE(row->best());
     EXPECT_NEAR(row->best()->time, 27.31773570163, 1e-8 * 27);
-    EXPECT_FALSE(report.reset.value); // the gap has closed for good
+    EXPECT_FALSE(report.reset.value); // the gap stays closed
     EXPECT_EQ(report.trial.outcome, TrialOutcome::agreed);
     EXPECT_TRUE(report.trial.rests_below && report.trial.trips_above);
-    EXPECT_EQ(of(report, "e").derivative, 0); // before the touch there is no impact
+    EXPECT_EQ(of(report, "e").derivative, 0); // there is no impact before the touch
     EXPECT_EQ(report.curves.size(), 3U);
     EXPECT_EQ(report.planes.size(), 1U);
     ASSERT_TRUE(report.tuning && report.yield);
     EXPECT_EQ(report.yield->made, 50U);
-    // The device goes to other commands; the value was solved for once more, to round-off.
+    // The device's model as written for other commands; its value was solved for again, to round-off.
     const Model device = parse_model(write_model(model_of_device(trip)), "device.toml");
     EXPECT_NEAR(device.parameter_values()[device.independent_parameter("V").place()], report.value, 1e-13);
 }
@@ -53,7 +53,7 @@ TEST(DesignReport, OfAnOscillatorHasExactDerivatives) {
     EXPECT_NEAR(of(report, "omega").derivative,
                 sigma * (-2 * omega * (1 - omega * omega) + 4 * zeta * zeta * omega) / root, 1e-10);
     EXPECT_NEAR(*of(report, "sigma").relative, 1, 1e-10);
-    // The value is linear in the stop's place, of one percent: so are the devices.
+    // The value is linear in the stop's position, which has one percent: so have the devices.
     ASSERT_TRUE(report.yield);
     EXPECT_NEAR(report.yield->linear_deviation, 0.01 * report.value, 1e-12);
     EXPECT_LT(report.yield->largest_departure, 1e-10);
@@ -66,7 +66,7 @@ TEST(DesignReport, IsInterruptedBetweenItsParts) {
     EXPECT_TRUE(report_of(design, trip_of(design), options).interrupted);
 }
 
-TEST(DesignReport, TablesHaveAFileEach) {
+TEST(DesignReport, EachTableHasAFile) {
     const Design design = parse_design(oscillator_text(), "d.toml");
     const TripPoint trip = trip_of(design);
     std::vector<std::string> names;

@@ -1,4 +1,4 @@
-// What a design file says, and what is wrong with it.
+// Reading design files, and their errors.
 
 #include "graze/design/design.hpp"
 
@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 
 namespace {
 
-/// All mistakes of a text, with their places.
+/// All errors of a text, with their places.
 std::vector<std::string> mistakes_of(const std::string& text) {
     std::vector<std::string> result;
     try {
@@ -41,11 +41,11 @@ TEST(Design, IsReadWithTolerancesOfEitherKind) {
     EXPECT_DOUBLE_EQ(sigma.tolerance->at(sigma.parameter, -0.4).size, 0.004);
     EXPECT_EQ(design.adjustable, 0U);
     EXPECT_TRUE(design.wanted.is_empty());
-    EXPECT_EQ(design.planes.size(), 1U); // of the first two, where none is named
+    EXPECT_EQ(design.planes.size(), 1U); // by default of the first two
     EXPECT_DOUBLE_EQ(design.trip.end.speed, 0.5);
 }
 
-TEST(Design, AllThatComeWithGrazeCanBeRead) {
+TEST(Design, AllShippedDesignsCanBeRead) {
     const std::vector<std::string> names = shipped_designs();
     EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
     EXPECT_TRUE(std::count(names.begin(), names.end(), "mems-switch"));
@@ -54,7 +54,7 @@ TEST(Design, AllThatComeWithGrazeCanBeRead) {
     EXPECT_THROW(load_design("mems-swich"), InputError);
 }
 
-TEST(Design, TellsAllMistakesAtOnceWithTheirPlaces) {
+TEST(Design, ReportsAllErrorsAtOnceWithTheirPlaces) {
     const std::vector<std::string> found = mistakes_of(R"(name = "bad one"
 model = "mems-switch"
 control = "W"
@@ -95,14 +95,14 @@ trip_time = { overshoot = 1 }
         EXPECT_THAT(found[i], HasSubstr(parts[i]));
 }
 
-TEST(Design, SaysWhatAYieldTakes) {
+TEST(Design, RequiresTolerancesAndLimitsForAYield) {
     const std::string head = "name = \"a\"\nmodel = \"mems-switch\"\ncontrol = \"V\"\n[approach]\nrange = [0.05, 0.6]\n"
                              "[dimensions.delta]\nrange = [0.1, 1]\n";
     EXPECT_THAT(mistakes_of(head + "[wanted]\nyield = 0.9\n").front(), HasSubstr("no dimension has a tolerance"));
     const std::string made = head + "tolerance = \"1%\"\n";
     EXPECT_THAT(mistakes_of(made + "[wanted]\nyield = 0.9\n").front(), HasSubstr("which trip values will do"));
     EXPECT_THAT(mistakes_of(made + "[wanted]\nvalue = [0.2, 0.3]\nyield = 0\n").front(),
-                HasSubstr("the yield 0 is no share of devices above 0"));
+                HasSubstr("the yield 0 is not a share of devices above 0"));
     EXPECT_THAT(mistakes_of(made + "[wanted]\nvalue = [0.2, 0.3]\nyield = 95\n").front(),
                 HasSubstr("as 0.95 for 95 percent"));
     EXPECT_THAT(mistakes_of(made + "[wanted]\nvalue = 0.2\nimportance = { value = 1000 }\n").front(),
@@ -112,8 +112,8 @@ TEST(Design, SaysWhatAYieldTakes) {
     EXPECT_TRUE(mistakes_of(made + "[wanted]\nvalue = [0.2, 0.3]\nyield = 1\nimportance = { yield = 2 }\n").empty());
 }
 
-/// The finished device goes the same way as the first.
-TEST(Design, WantsNoTripValueBelowTheBeginningOfItsApproach) {
+/// The finished device is approached like the first.
+TEST(Design, RefusesATripValueBelowTheStartOfItsApproach) {
     const std::string head = "name = \"a\"\nmodel = \"mems-switch\"\ncontrol = \"V\"\n[approach]\nrange = [0.05, 0.6]\n"
                              "[dimensions.delta]\nrange = [0.1, 1]\n[wanted]\n";
     for (const char* value : {"0.04", "[0.01, 0.049]"})
@@ -124,12 +124,12 @@ TEST(Design, WantsNoTripValueBelowTheBeginningOfItsApproach) {
         EXPECT_TRUE(mistakes_of(head + "value = " + value + "\n").empty()) << value;
 }
 
-TEST(Design, SaysWhatIsMissingOrDoesNotGoTogether) {
+TEST(Design, NamesMissingAndConflictingKeys) {
     EXPECT_EQ(mistakes_of("").size(), 4U); // name, approach, dimensions, model
     EXPECT_THAT(mistakes_of("name = \"a\"\nmodel = \"mems-switch\"\ncontrol = \"V\"\n[approach]\nrun = \"x\"\n"
                             "[dimensions.delta]\nrange = [0.1, 1]")
                     .front(),
-                HasSubstr("names a run of no study"));
+                HasSubstr("names a run without a study"));
     EXPECT_THAT(mistakes_of("name = \"a\"\ncontrol = \"V\"\n[approach]\nstudy = \"mems-switch\"\nrun = \"trip\"\n"
                             "point = \"GR1\"\n[dimensions.delta]\nrange = [0.1, 1]")
                     .front(),

@@ -1,4 +1,4 @@
-// Devices are tried by simulation on both sides of their trip value.
+// Simulation of devices on both sides of their trip value.
 
 #include "graze/design/device_trial.hpp"
 
@@ -17,7 +17,7 @@ TEST(DeviceTrial, OfTheMemsSwitchAgreesWithItsClass) {
     EXPECT_EQ(trial.trip.ending, "singular");
 }
 
-TEST(DeviceTrial, OfAFoldGoesBackAlongItsStableOrbits) {
+TEST(DeviceTrial, OfAFoldUsesItsStableBranch) {
     const Design design = parse_design(R"(name = "beam"
 control = "V"
 [approach]
@@ -38,7 +38,7 @@ range = [50, 200]
     EXPECT_EQ(trial.outcome, TrialOutcome::agreed) << trial.seen_above;
 }
 
-TEST(DeviceTrial, ContradictsAClassThatIsWrong) {
+TEST(DeviceTrial, ContradictsAWrongClass) {
     const Design design = load_design("mems-switch");
     const TripPoint trip = trip_of(design);
     TripClass wrong = class_at(trip);

@@ -1,4 +1,4 @@
-// What a report says in rows: a folder of tables is read by machines.
+// Tables of reports, which other programs read.
 
 #include "graze/design/design_report.hpp"
 
@@ -27,7 +27,7 @@ TEST(ReportTables, FactsAreThoseOfTheReport) {
     ASSERT_TRUE(row_of(facts, "trip_value"));
     EXPECT_EQ(facts.number(*row_of(facts, "trip_value"), 1), report.value);
     EXPECT_EQ(facts.number(*row_of(facts, "sigma"), 1), 0.2);
-    EXPECT_NEAR(facts.number(*row_of(facts, "sensitivity_sigma"), 1), 1, 1e-10); // linear in it
+    EXPECT_NEAR(facts.number(*row_of(facts, "sensitivity_sigma"), 1), 1, 1e-10); // the value is linear in it
     EXPECT_FALSE(row_of(facts, "wishes"));
     report.wishes = meet_wishes(design, trip);
     facts = facts_of(design, trip, report);

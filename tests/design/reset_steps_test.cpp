@@ -1,5 +1,5 @@
-// Down to where tripped motions remain that are no orbits of a branch: a mass that a stop holds against closed forms,
-// in two systems of units; and a motion that does not settle.
+// Reset values of tripped motions without a branch of orbits: a mass held by a stop against closed forms, in two
+// systems of units; and a motion that does not settle.
 
 #include "design/reset_steps.hpp"
 
@@ -21,9 +21,9 @@ struct Units {
 
 constexpr double stiffness = 1, damping = 0.6, drive = 0.1, frequency = 0.7, stop = 0.5, adhesion = 0.45;
 
-/// A linear oscillator, driven, and pressed towards its stop by a steady force, which is the control parameter. There
-/// it sticks, held by that force and the stop's adhesion, until the spring pulls it off.
-/// @param shakes the drive acts on the held mass, too
+/// A driven linear oscillator that a steady force, the control parameter, presses towards its stop. It sticks there,
+/// held by that force and by adhesion, until the spring pulls it off.
+/// @param shakes whether the drive acts on the held mass, too
 std::string latch_text(const Units& units, bool shakes) {
     return fmt::format(R"(name = "latch"
 [parameters]
@@ -100,23 +100,23 @@ range = [0, {:.17g}]
     options.overshoot = 0.01 * units.force();
     const Reset reset = reset_of(trip, trip.point.solution.orbit, options);
     ASSERT_TRUE(reset.value) << reset.reason;
-    // The spring's force, and that of the drive at its least, are what the steady force and adhesion hold.
+    // At release the spring's force and the least force of the drive equal steady force and adhesion.
     const double closed = stiffness * stop - adhesion + (shakes ? drive : 0);
     constexpr double rounding = 1e-12;
     if (shakes) {
-        // An orbit of the clock, which ends where the release's function touches zero.
+        // A held orbit, which ends where the release function touches zero.
         EXPECT_EQ(reset.how, "grazing");
         EXPECT_NEAR(*reset.value / units.force(), closed, 1e-9);
     } else {
         EXPECT_EQ(reset.motion, "equilibrium");
         ASSERT_TRUE(reset.lost_at);
-        // It lies between both ends, which differ by a millionth of the way at most.
+        // It lies between both ends, which differ by at most 1e-6 of the way.
         EXPECT_LE(*reset.lost_at / units.force(), closed + rounding);
         EXPECT_GE(*reset.value / units.force(), closed - rounding);
         EXPECT_LE((*reset.value - *reset.lost_at) / units.force(), 1e-6 * closed_trip * (1 + 1e-9));
         EXPECT_FALSE(reset.point);
     }
-    // Not followed as far as that, it is still there.
+    // If it is not followed that far, the motion is still there.
     options.least = (closed + 0.01) * units.force();
     const Reset remains = reset_of(trip, trip.point.solution.orbit, options);
     EXPECT_FALSE(remains.value);
@@ -128,7 +128,7 @@ constexpr Units micro{.length = 1e-6, .time = 1e-5, .mass = 1e-9};
 
 } // namespace
 
-TEST(ResetSteps, AMassHeldByASteadyForceIsReleasedWhereTheSpringIsStronger) {
+TEST(ResetSteps, AMassHeldByASteadyForceIsReleasedWhenTheSpringIsStronger) {
     expect_latch({}, false);
     expect_latch(micro, false);
 }
@@ -140,7 +140,7 @@ TEST(ResetSteps, AMassHeldWhileItIsShakenIsReleasedAtTheWorstPhase) {
 
 namespace {
 
-/// Contacts of the motion that begins on the orbit at the trip point, long after the control parameter has been brought
+/// Number of contacts of the motion from the orbit at the trip point, long after the control parameter has been brought
 /// to a value.
 std::size_t late_contacts(const TripPoint& trip, const std::vector<double>& values) {
     struct Count : public Observer {
@@ -154,7 +154,7 @@ std::size_t late_contacts(const TripPoint& trip, const std::vector<double>& valu
     for (const double value : values) {
         parameters[trip.control.place()] = value;
         Count count;
-        // First it settles, then contacts are counted.
+        // It settles first, then contacts are counted.
         for (const double periods : {1000.0, 100.0}) {
             count.contacts = 0;
             Trajectory trajectory(simulation, parameters, count);
@@ -169,7 +169,7 @@ std::size_t late_contacts(const TripPoint& trip, const std::vector<double>& valu
     return contacts;
 }
 
-/// Trip values of this oscillator are known in closed form.
+/// The trip value of this oscillator, in closed form.
 std::string oscillator(double zeta, double omega, double restitution) {
     return fmt::format(R"(name = "oscillator"
 model = "impact-oscillator"
@@ -184,8 +184,8 @@ range = [0.1, 0.4]
                        zeta, omega, restitution);
 }
 
-/// Another way down than those of the reset, to a hundredth above where it was there and as far below where it was
-/// lost: of its motion nothing is known but contacts. @return those at both
+/// Another sequence of steps than those of the reset, to 1 % above the value where the motion remained and 1 % below
+/// the one where it was lost. @return numbers of contacts at both
 std::pair<std::size_t, std::size_t> contacts_beside(const TripPoint& trip, double overshoot, const Reset& reset) {
     std::vector<double> way{trip.value() + overshoot};
     while (way.back() * 0.9 > *reset.value)
@@ -198,7 +198,7 @@ std::pair<std::size_t, std::size_t> contacts_beside(const TripPoint& trip, doubl
 
 } // namespace
 
-TEST(ResetStepsSlow, AMotionThatDoesNotSettleIsTakenBackUntilItDoes) {
+TEST(ResetStepsSlow, AMotionThatDoesNotSettleIsTakenBackUntilItSettles) {
     const TripPoint trip = trip_of(parse_design(oscillator(0.05, 2.7, 0.8), "d.toml"));
     EXPECT_NEAR(trip.value(), oscillator_value(0.2, 0.05, 2.7), 1e-9);
     ResetOptions options;
@@ -213,7 +213,7 @@ TEST(ResetStepsSlow, AMotionThatDoesNotSettleIsTakenBackUntilItDoes) {
     EXPECT_EQ(lost, 0U);
 }
 
-TEST(ResetStepsSlow, AnOrbitThatBecomesAnotherOneBeyondTheTripValueIsNoWayBack) {
+TEST(ResetStepsSlow, AnOrbitThatChangesBeyondTheTripValueIsNotAReset) {
     const TripPoint trip = trip_of(parse_design(oscillator(0.1, 2.4, 0.9), "d.toml"));
     EXPECT_NEAR(trip.value(), oscillator_value(0.2, 0.1, 2.4), 1e-9);
     ResetOptions options;
@@ -223,7 +223,7 @@ TEST(ResetStepsSlow, AnOrbitThatBecomesAnotherOneBeyondTheTripValueIsNoWayBack) 
     ASSERT_TRUE(reset.value && reset.lost_at) << reset.reason;
     EXPECT_LT(*reset.lost_at, *reset.value);
     EXPECT_LT(*reset.value, trip.value());
-    // Below it other motions with contacts may remain, which this one has not come to: nothing is claimed of them.
+    // Other motions with contacts may exist below, which this one has not reached: they are not tested.
     EXPECT_GT(contacts_beside(trip, options.overshoot, reset).first, 0U);
 }
 

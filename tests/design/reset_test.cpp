@@ -1,4 +1,4 @@
-// Down to where a tripped device remains so: the published fold of the testbed's period-3 orbit.
+// The reset value of the testbed: the published fold of its period-3 orbit.
 
 #include "graze/design/reset.hpp"
 
@@ -20,7 +20,7 @@ range = [0.0005, 0.002]
     const TripPoint trip = trip_of(design);
     EXPECT_NEAR(trip.value(), 4.833263260865, 1e-8);
     ResetOptions options;
-    options.overshoot = 0.001; // short of 4.846, where the period-3 orbit loses its symmetry
+    options.overshoot = 0.001; // below 4.846, where the period-3 orbit loses its symmetry
     options.least = 4;
     const Reset reset = reset_of(trip, trip.point.solution.orbit, options);
     ASSERT_TRUE(reset.value) << reset.reason;
@@ -28,7 +28,7 @@ range = [0.0005, 0.002]
     EXPECT_NEAR(*reset.value, 4.789014895054, 1e-8 * 4.8);
     EXPECT_NEAR(*reset.hysteresis(trip.value()), 4.833263260865 - 4.789014895054, 1e-7);
     EXPECT_TRUE(reset.point);
-    // Not followed as far as that, it is still there.
+    // If it is not followed that far, the orbit is still there.
     options.least = 4.8;
     const Reset remains = reset_of(trip, trip.point.solution.orbit, options);
     EXPECT_FALSE(remains.value);

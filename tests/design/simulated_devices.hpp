@@ -10,24 +10,24 @@
 
 namespace graze::testing {
 
-/// Whether devices trip, by nothing but simulation: from rest the control parameter is raised ever more slowly up to a
-/// value, cycle by cycle, and stays there. Nothing is known of orbits, touches or derivatives.
+/// Whether devices trip, by simulation alone: from rest the control parameter is raised more and more slowly to a
+/// value, cycle by cycle, and then held. It uses no orbits, touches or derivatives.
 class SimulatedDevices {
 public:
     struct Way {
-        double begin = 0.5;       ///< as a share of the value
-        double keeps = 0.94;      ///< of the distance from the value, in a cycle: more than the motion keeps of itself
-        std::size_t cycles = 250; ///< on the way
-        std::size_t rests = 100;  ///< at the value
+        double begin = 0.5;  ///< first value, relative to the final one
+        double keeps = 0.94; ///< factor of the remaining distance in each cycle; slower than the decay of the motion
+        std::size_t cycles = 250; ///< cycles of the rise
+        std::size_t rests = 100;  ///< cycles at the final value
     };
     SimulatedDevices(const Model& model, const std::string& control, Way way)
         : way_(way), place_(model.independent_parameter(control).place()),
           driven_(drive_parameter(model, control, DriveKind::shift)), simulation_(System(driven_.model)) {}
 
-    /// @param parameters of the device @param state in which it rests @param cycle time of one
+    /// @param parameters parameters of the device @param state state of rest @param cycle duration of a cycle
     bool trips(std::vector<double> parameters, std::vector<double> state, double cycle, double value) const {
         parameters[place_] = 0;
-        parameters.push_back(0); // the shift itself does not move by time
+        parameters.push_back(0); // the shift itself is constant in time
         state.push_back(0);
         Observer nobody;
         Trajectory trajectory(simulation_, parameters, nobody);
@@ -37,7 +37,7 @@ public:
         for (std::size_t k = 0; k < way_.cycles + way_.rests; ++k) {
             state.back() = k < way_.cycles ? value - distance : value;
             distance *= way_.keeps;
-            // Amid an arc: what changes together with an event may be before it or after.
+            // At the middle of an arc: a change at an event might come before or after it.
             constexpr double later = 0.3;
             const auto count = static_cast<double>(k);
             trajectory.start(state, mode, k == 0 ? 0 : (count + later) * cycle, (count + 1 + later) * cycle);

@@ -1,5 +1,5 @@
-// Yield of devices that are drawn and simulated one by one, against that of exact grazings: neither draws nor methods
-// have anything in common.
+// Yield of devices that are drawn and simulated one by one, against that of exact grazings: an independent method with
+// independent draws.
 
 #include "simulated_devices.hpp"
 
@@ -46,7 +46,7 @@ struct Switches {
 TEST(SimulatedDevices, TripAboveTheirValueAndNotBelow) {
     const Switches switches;
     const double value = switches.trip.value();
-    // Both sides of what has been published to sixteen digits, as near as a few hundred cycles tell.
+    // On both sides of the value published to sixteen digits, as close as a few hundred cycles can resolve.
     EXPECT_FALSE(switches.trips(switches.nominal, value * (1 - 1e-5)));
     EXPECT_TRUE(switches.trips(switches.nominal, value * (1 + 1e-5)));
 }
@@ -65,7 +65,7 @@ TEST(SimulatedDevicesSlow, HaveTheYieldOfExactGrazings) {
     LocatedValue located(switches.trip.system, switches.trip.point, switches.trip.control, varied);
     Noise noise(7);
     constexpr std::size_t devices = 400;
-    constexpr double near = 1e-4; // of a limit: what a few hundred cycles tell apart is ten times less
+    constexpr double near = 1e-4; // of a limit: ten times the resolution of a few hundred cycles
     std::size_t within = 0, compared = 0;
     for (std::size_t i = 0; i < devices; ++i) {
         const std::vector<double> device = switches.drawn(noise);
@@ -83,11 +83,11 @@ TEST(SimulatedDevicesSlow, HaveTheYieldOfExactGrazings) {
             }
     }
     EXPECT_GT(compared, 19 * devices / 10);
-    // Limits of confidence of 99.9 percent of either share hold the other: both are estimates.
+    // The 99.9 percent confidence limits of either share contain the other: both are estimates.
     const ConfidenceInterval brute = wilson_interval(within, devices, 0.999);
     EXPECT_GT(exact.within->value, brute.low);
     EXPECT_LT(exact.within->value, brute.high);
-    // So does the linear estimate here, and the frequency causes most of the variance.
+    // The linear estimate agrees here, too, and the frequency causes most of the variance.
     EXPECT_GT(*exact.linear_within, brute.low);
     EXPECT_LT(*exact.linear_within, brute.high);
     EXPECT_EQ(exact.contributions.front().parameter, switches.omega);

@@ -12,7 +12,7 @@
 
 namespace graze::testing {
 
-/// A folder that goes away.
+/// A temporary folder.
 struct DesignFolder {
     DesignFolder() {
         static int count = 0;
@@ -34,7 +34,7 @@ inline TripPoint trip_of(const Design& design) {
     return find_trip_point(design, study, file);
 }
 
-/// A linear oscillator below its resonance, driven up to its stop: an orbit without contact is known in closed form.
+/// A linear oscillator driven below its resonance up to its stop: an orbit without contact in closed form.
 inline std::string oscillator_text(const std::string& rest = "") {
     return R"(name = "oscillator"
 model = "impact-oscillator"
@@ -59,7 +59,7 @@ plane = 3
 devices = 200
 )" + rest;
 }
-/// The amplitude at which it touches.
+/// The amplitude at which it touches the stop.
 inline double oscillator_value(double sigma, double zeta, double omega = 0.5) {
     return sigma * std::hypot(1 - omega * omega, 2 * zeta * omega);
 }

@@ -1,4 +1,4 @@
-// Where a device trips: by its own branch, and by a study's.
+// Trip points by the design's own branch, and by a study's.
 
 #include "graze/design/trip_point.hpp"
 
@@ -13,10 +13,10 @@ namespace graze::testing {
 
 using ::testing::HasSubstr;
 
-TEST(TripPoint, OfAnOscillatorIsWhereTheForcedMotionReachesTheStop) {
+TEST(TripPoint, OfAnOscillatorEqualsTheClosedForm) {
     const TripPoint trip = trip_of(parse_design(oscillator_text(), "d.toml"));
     EXPECT_TRUE(trip.is_touch());
-    // Newton's method ends with a correction below 1e-10, whose square is beneath round-off.
+    // Newton's method ends with a correction below 1e-10, whose square is below round-off.
     EXPECT_NEAR(trip.value(), oscillator_value(0.2, 0.1), 1e-13);
     EXPECT_TRUE(trip.earlier.empty());
 }
@@ -29,7 +29,7 @@ TEST(TripPoint, OfTheMemsSwitchIsThePublishedVoltage) {
     EXPECT_EQ(class_name(found.outcome), "trips");
 }
 
-TEST(TripPoint, OfTheDeviceIsTheSameInVolts) {
+TEST(TripPoint, OfTheDeviceEqualsThatOfTheScaledModelInVolts) {
     Design design = load_design("mems-switch-device");
     const auto value = [&](const char* name) {
         return design.model.parameter_values()[*design.model.find_parameter(name)];
@@ -45,7 +45,7 @@ TEST(TripPoint, OfTheDeviceIsTheSameInVolts) {
     EXPECT_EQ(class_at(trip).outcome, GrazingOutcome::lost);
 }
 
-TEST(TripPoint, OfAStudyMayBeAFoldWithTheTouchBeforeIt) {
+TEST(TripPoint, OfAStudyMayBeAFoldAfterATouch) {
     const Design design = parse_design(R"(name = "beam"
 control = "V"
 [approach]
@@ -58,14 +58,14 @@ range = [50, 200]
                                        "d.toml");
     const TripPoint trip = trip_of(design);
     EXPECT_EQ(trip.point.type, PointType::fold);
-    EXPECT_NEAR(trip.value(), 0.032825650930776, 1e-8 * 0.0328); // published to eight digits at least
+    EXPECT_NEAR(trip.value(), 0.032825650930776, 1e-8 * 0.0328); // published to at least eight digits
     ASSERT_FALSE(trip.earlier.empty());
     EXPECT_EQ(trip.earlier.front().label, "GR1");
     EXPECT_NEAR(trip.earlier.front().value, 0.030040810557599, 1e-8 * 0.03);
     EXPECT_EQ(class_at(trip).outcome, GrazingOutcome::folds);
 }
 
-TEST(TripPoint, OfANeighbourHasItsTouchInTheSegmentWhereItIsThere) {
+TEST(TripPoint, OfANeighbourHasItsTouchInItsOwnSegment) {
     const TripPoint trip = trip_of(load_design("mems-switch"));
     const ParameterId omega = trip.system.model().independent_parameter("omega");
     LocatedValue located(trip.system, trip.point, trip.control, {omega});
@@ -75,19 +75,19 @@ TEST(TripPoint, OfANeighbourHasItsTouchInTheSegmentWhereItIsThere) {
     ASSERT_TRUE(solution.found) << solution.problem;
     const TripPoint moved = moved_to(trip, solution.orbit);
     EXPECT_NE(moved.point.segment, trip.point.segment);
-    // The moved point is a touch of its own: solved for once more, it stays where it is.
+    // The moved point is a valid touch: solving again does not change it.
     const LocatedValue again(moved.system, moved.point, moved.control, {omega});
     EXPECT_NEAR(again.value(), solution.value, 1e-11);
 }
 
-TEST(TripPoint, IsRefusedWhereTheBranchEndsBefore) {
+TEST(TripPoint, IsRefusedIfTheBranchEndsBefore) {
     Design design = load_design("mems-switch");
     design.approach.greatest = 0.1;
     try {
         trip_of(design);
         FAIL();
     } catch (const InputError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("without a touch of 'stop'; on its way: BD1 at 0.1"));
+        EXPECT_THAT(error.what(), HasSubstr("without a touch of 'stop'; points before: BD1 at 0.1"));
     }
 }
 

@@ -1,4 +1,4 @@
-// How long a trip takes: of the MEMS switch as published, of the beam's fold by its exponent.
+// Trip times: of the MEMS switch as published, of the beam's fold by its exponent.
 
 #include "graze/design/trip_times.hpp"
 
@@ -18,12 +18,12 @@ TEST(TripTimes, OfTheMemsSwitchAreThePublishedOnes) {
     ASSERT_EQ(times.rows.size(), 2U);
     ASSERT_TRUE(times.rows[0].simulated && times.rows[0].best());
     EXPECT_NEAR(times.rows[0].best()->time, 27.31773570163, 1e-8 * 27);
-    EXPECT_FALSE(times.rows[1].simulated); // below the digits of the voltage
+    EXPECT_FALSE(times.rows[1].simulated); // below the resolution of the voltage
     ASSERT_TRUE(times.rows[1].best());
     EXPECT_GT(times.rows[1].best()->time, times.rows[0].best()->time);
 }
 
-TEST(TripTimes, BeyondAFoldGoWithTheRootOfTheOvershoot) {
+TEST(TripTimes, BeyondAFoldScaleWithTheRootOfTheOvershoot) {
     Design design = parse_design(R"(name = "beam"
 control = "V"
 [approach]
@@ -41,12 +41,12 @@ range = [50, 200]
     const TripTimes times = trip_times(trip, trip.point.solution.orbit, class_at(trip), design.trip);
     ASSERT_EQ(times.rows.size(), 2U);
     ASSERT_TRUE(times.rows[0].best() && times.rows[1].best());
-    // From the fold itself half of the passage, pi / 2 root(a overshoot), is left, and some cycles beyond it: the ratio
-    // is ten but for those.
+    // Half of the passage, pi / 2 root(a overshoot), remains from the fold itself, plus some cycles beyond it: without
+    // these the ratio would be ten.
     EXPECT_NEAR(times.rows[1].best()->time / times.rows[0].best()->time, 10, 1);
 }
 
-TEST(TripTimes, AreNotThereWhereTheMotionPersists) {
+TEST(TripTimes, AreAbsentIfTheMotionPersists) {
     const Design design = parse_design(oscillator_text(), "d.toml");
     const TripPoint trip = trip_of(design);
     TripClass found = class_at(trip);
@@ -56,7 +56,7 @@ TEST(TripTimes, AreNotThereWhereTheMotionPersists) {
     EXPECT_FALSE(times.reason.empty());
 }
 
-TEST(TripTimes, HaveDecadesOfTheTripValueOfAnySize) {
+TEST(TripTimes, HaveDefaultOvershootsRelativeToTheTripValue) {
     EXPECT_EQ(overshoots_of({}, 4e6, 1).front(), 1e4);
     EXPECT_EQ(overshoots_of({}, 4e-9, -1).front(), -1e-11);
     EXPECT_EQ(overshoots_of({}, 4e6, 1).size(), 10U);

@@ -1,4 +1,4 @@
-// The trip value over one and two dimensions, and the stop's place over the trip value, against the closed form.
+// Trip values over one and two dimensions, and the tuning curve, against closed forms.
 
 #include "graze/design/value_map.hpp"
 
@@ -7,7 +7,7 @@
 
 namespace graze::testing {
 
-TEST(ValueMap, OfAnOscillatorIsTheClosedFormAtEachPoint) {
+TEST(ValueMap, OfAnOscillatorEqualsTheClosedForm) {
     const Design design = parse_design(oscillator_text(), "d.toml");
     const TripPoint trip = trip_of(design);
     MapSettings settings;
@@ -21,23 +21,23 @@ TEST(ValueMap, OfAnOscillatorIsTheClosedFormAtEachPoint) {
         EXPECT_TRUE(one.admissible);
         EXPECT_NEAR(one.value, oscillator_value(0.2, one.x), 1e-12);
     }
-    settings.points = 17; // more than are solved for from one device
+    settings.points = 17; // more than one tile
     const std::vector<MappedValue> plane = value_plane(trip, design.dimensions[0], design.dimensions[1], settings);
     ASSERT_EQ(plane.size(), 17U * 17U);
     for (const MappedValue& one : plane) {
         ASSERT_TRUE(one.found) << one.problem;
         EXPECT_NEAR(one.value, oscillator_value(one.x, one.y), 1e-12);
     }
-    // The same on threads, bit for bit.
+    // With threads the results are the same bit for bit.
     settings.jobs = 3;
     const std::vector<MappedValue> again = value_plane(trip, design.dimensions[0], design.dimensions[1], settings);
     for (std::size_t i = 0; i < plane.size(); ++i)
         EXPECT_EQ(again[i].value, plane[i].value);
 }
 
-/// Whether from what the solution has evaluated or by a map of its own, the class of a device is the same. The plane
-/// goes on to frequencies below 0.976, where the touch is in another segment of the orbit.
-TEST(ValueMap, TellsTheClassesOfThePlaneAsTheMapDoesFromTheBeginning) {
+/// The class of a device is the same from the solution's own map and from a map computed anew. The plane extends to
+/// frequencies below 0.976, where the touch is in another segment of the orbit.
+TEST(ValueMap, ClassesOfAPlaneEqualThoseOfMapsComputedAnew) {
     const Design design = load_design("mems-switch");
     const TripPoint trip = trip_of(design);
     const DesignDimension& delta = design.dimensions[*design.find_dimension("delta")];
@@ -53,15 +53,15 @@ TEST(ValueMap, TellsTheClassesOfThePlaneAsTheMapDoesFromTheBeginning) {
         const double values[] = {one.x, one.y};
         const LocatedSolution solution = located(values);
         ASSERT_TRUE(solution.found) << solution.problem;
-        EXPECT_FALSE(solution.map); // which has not been asked for
+        EXPECT_FALSE(solution.map); // it was not requested
         EXPECT_EQ(class_at(moved_to(trip, solution.orbit)).outcome, one.outcome) << one.x << ", " << one.y;
         ++compared;
     }
     EXPECT_GE(compared, 15U);
 }
 
-TEST(ValueMap, TellsClassesThatTheMapOfEachDeviceHas) {
-    // Of a damped oscillator the class is that of its own cycle: with the neighbours' it must agree point by point.
+TEST(ValueMap, ClassesEqualThoseOfEachDevicesOwnMap) {
+    // The class of a damped oscillator depends on its own cycle: it must agree point by point.
     const Design design = parse_design(oscillator_text(), "d.toml");
     const TripPoint trip = trip_of(design);
     MapSettings settings;
@@ -69,12 +69,12 @@ TEST(ValueMap, TellsClassesThatTheMapOfEachDeviceHas) {
     for (const MappedValue& one : value_curve(trip, design.dimensions[1], settings)) {
         Design other = design;
         other.set.emplace_back("zeta", one.x);
-        other.set.erase(other.set.begin()); // zeta, as it was
+        other.set.erase(other.set.begin()); // zeta
         EXPECT_EQ(class_at(trip_of(other)).outcome, one.outcome) << one.x;
     }
 }
 
-TEST(Tuning, IsTheInverseOfTheCurve) {
+TEST(Tuning, IsTheInverseOfTheValueCurve) {
     const Design design = parse_design(oscillator_text(), "d.toml");
     const TripPoint trip = trip_of(design);
     MapSettings settings;
@@ -87,7 +87,7 @@ TEST(Tuning, IsTheInverseOfTheCurve) {
         EXPECT_NEAR(oscillator_value(one.position, 0.1), one.value, 1e-12);
     }
     DesignDimension idle = design.dimensions[0];
-    idle.name = "e"; // of contacts, of which there are none
+    idle.name = "e"; // restitution: there are no contacts
     idle.parameter = trip.system.model().independent_parameter("e");
     idle.least = 0.1;
     idle.greatest = 0.9;

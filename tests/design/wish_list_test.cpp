@@ -17,7 +17,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double gravity = 9.81;
 
 /// A mass on a spring, in units that make numbers of any size: k = unit kg / s^2, m = unit kg.
-/// Frequency sqrt(k / m) / 2 pi; deflection by its own weight m g / k, which is measured in `length` metres.
 struct SpringMass {
     double unit = 1, length = 1;
     bool derivatives = true;
@@ -53,7 +52,7 @@ struct SpringMass {
 
 const SpringMass all_units[] = {{1, 1, true}, {1e-9, 1e-9, true}, {1e6, 1e6, true}, {1e-9, 1e6, false}, {1, 1, false}};
 
-/// The least value of a function of one variable, by golden section: nothing that the solver under test uses.
+/// Minimum of a function of one variable by golden section, independent of the solver under test.
 template <class F>
 double least_place(F f, double low, double high) {
     const double ratio = (std::sqrt(5.0) - 1) / 2;
@@ -64,14 +63,14 @@ double least_place(F f, double low, double high) {
     return (low + high) / 2;
 }
 
-TEST(WishList, of_one_value_has_the_closest_design) {
+TEST(WishList, OneRequiredValueIsMetByTheClosestDesign) {
     // All k = (2 pi f)^2 m have the frequency; the closest to (1, 1), in scales, is on a line through the origin.
     for (const SpringMass& one : all_units) {
         const FoundDesign found = design_for(one.wishes({one.frequency(2, 2)}));
         ASSERT_EQ(found.outcome, WishOutcome::met) << found.reason;
         EXPECT_NEAR(*found.wants[0].value, 2, 1e-9); // the tolerance
         const double slope = std::pow(4 * std::numbers::pi, 2) / 100;
-        // The root of an error of 1e-16 in the distance is one of 1e-8 in place.
+        // An error of 1e-16 in the distance is one of its root, 1e-8, in position.
         const double m = (1 + slope) / (1 + slope * slope);
         EXPECT_NEAR(found.dimensions[1].value / one.unit, m, 1e-6);
         EXPECT_NEAR(found.dimensions[0].value / one.unit, 100 * slope * m, 1e-4);
@@ -81,16 +80,16 @@ TEST(WishList, of_one_value_has_the_closest_design) {
     }
 }
 
-TEST(WishList, weights_are_derivatives_of_the_distance) {
+TEST(WishList, WeightsAreDerivativesOfTheDistance) {
     const SpringMass one;
     const FoundDesign found = design_for(one.wishes({one.frequency(2, infinity)}));
     const double step = 1e-4;
     const double above = design_for(one.wishes({one.frequency(2 + step, infinity)})).distance,
                  below = design_for(one.wishes({one.frequency(2 - step, infinity)})).distance;
-    EXPECT_NEAR(found.wants[0].weight, (above - below) / (2 * step), 1e-6); // its third derivative by step^2
+    EXPECT_NEAR(found.wants[0].weight, (above - below) / (2 * step), 1e-6); // error: third derivative times step^2
 }
 
-TEST(WishList, of_as_many_values_as_dimensions_has_the_only_design) {
+TEST(WishList, AsManyRequiredValuesAsDimensionsHaveOneDesign) {
     // A deflection of 4 mm fixes k / m, and the mass is given.
     for (const SpringMass& one : all_units) {
         const FoundDesign found = design_for(one.wishes({one.deflection(0.04, 0.04), one.mass(2, 2)}));
@@ -100,7 +99,7 @@ TEST(WishList, of_as_many_values_as_dimensions_has_the_only_design) {
     }
 }
 
-TEST(WishList, that_the_start_meets_is_met_by_it) {
+TEST(WishList, RequirementsThatTheStartMeetsKeepTheStart) {
     const SpringMass one;
     const FoundDesign found = design_for(one.wishes({one.frequency(1, 2), one.mass(0, 3)}));
     EXPECT_EQ(found.outcome, WishOutcome::met);
@@ -112,9 +111,9 @@ TEST(WishList, that_the_start_meets_is_met_by_it) {
     EXPECT_EQ(none.dimensions[0].value, 100);
 }
 
-TEST(WishList, wants_that_contradict_share_the_violation) {
-    // Both are functions of k / m alone: 2 Hz, whose deflection would be 62 mm, and 40 mm. The least largest
-    // violation is where both are violated alike.
+TEST(WishList, ContradictingRequirementsShareTheViolation) {
+    // Both are functions of k / m alone: 2 Hz, whose deflection would be 62 mm, and 40 mm. The largest violation is
+    // least where both are violated equally.
     for (const SpringMass& one : all_units) {
         const FoundDesign found =
             design_for(one.wishes({one.frequency(2, 2), one.deflection(0.04, 0.04), one.mass(3, 4)}));
@@ -128,7 +127,7 @@ TEST(WishList, wants_that_contradict_share_the_violation) {
         EXPECT_NEAR(found.dimensions[0].value / found.dimensions[1].value, ratio, 1e-5);
         EXPECT_TRUE(found.wants[0].binds && found.wants[1].binds && found.stationary);
         EXPECT_NEAR(found.wants[0].weight + found.wants[1].weight, 1, 1e-6);
-        // What stands in no contradiction is met, though the largest violation would not be less without it.
+        // A requirement without a conflict is met, though missing it would not change the largest violation.
         EXPECT_TRUE(found.wants[2].met);
         EXPECT_FALSE(found.wants[2].binds);
         EXPECT_NE(found.reason.find("in the way: 'frequency' (2 is wanted), 'deflection' ("), std::string::npos)
@@ -136,10 +135,10 @@ TEST(WishList, wants_that_contradict_share_the_violation) {
     }
 }
 
-TEST(WishList, misses_count_as_often_as_they_are_important) {
+TEST(WishList, ViolationsAreWeightedByImportance) {
     const auto at = [](std::span<const double> d) { return WantedValue{d[0], {1}, {}}; };
     WishList list{{{"x", 2, 0, 10, 1}}, {{"one", 1, 1, 0, at}, {"three", 3, 3, 0, at}}};
-    // (x - 1)/1 = (3 - x)/3, and with the second thrice: x - 1 = 3 - x.
+    // (x - 1)/1 = (3 - x)/3, and with the second weighted threefold: x - 1 = 3 - x.
     FoundDesign found = design_for(list);
     EXPECT_EQ(found.outcome, WishOutcome::unmet);
     EXPECT_NEAR(found.dimensions[0].value, 1.5, 1e-9);
@@ -155,7 +154,7 @@ TEST(WishList, misses_count_as_often_as_they_are_important) {
     EXPECT_THROW(design_for(list), InputError);
 }
 
-TEST(WishList, what_is_missing_is_told_where_the_search_ends_early) {
+TEST(WishList, ASearchThatEndsEarlyNamesWhatIsMissed) {
     const SpringMass spring;
     WishList list = spring.wishes({spring.frequency(2, 2), spring.deflection(0, 1e-3)});
     list.wants[0].text = "the frequency";
@@ -170,7 +169,7 @@ TEST(WishList, what_is_missing_is_told_where_the_search_ends_early) {
         << found.reason;
 }
 
-TEST(WishList, a_range_that_is_too_narrow_binds) {
+TEST(WishList, ATooNarrowRangeBinds) {
     // The largest k and the least m give sqrt(1000 / 0.1) / 2 pi = 15.9 Hz.
     for (const SpringMass& one : all_units) {
         const FoundDesign found = design_for(one.wishes({one.frequency(20, infinity)}));
@@ -184,7 +183,7 @@ TEST(WishList, a_range_that_is_too_narrow_binds) {
     }
 }
 
-TEST(WishList, the_same_want_twice_changes_nothing) {
+TEST(WishList, ADuplicateRequirementChangesNothing) {
     const SpringMass one;
     const FoundDesign found = design_for(one.wishes({one.frequency(2, 2), one.frequency(2, 2), one.frequency(2, 9)}));
     ASSERT_EQ(found.outcome, WishOutcome::met) << found.reason;
@@ -192,7 +191,7 @@ TEST(WishList, the_same_want_twice_changes_nothing) {
     EXPECT_TRUE(found.wants[0].binds && found.wants[1].binds && found.wants[2].binds);
 }
 
-TEST(WishList, a_value_that_just_touches_its_limit_is_found) {
+TEST(WishList, AValueThatJustTouchesItsLimitIsFound) {
     // (x - 1)^2 + (y - 2)^2 <= 0 has one design, at which no multipliers exist.
     const Want touch{"touch", -infinity, 0, 1, [](std::span<const double> d) {
                          const double x = d[0] - 1, y = d[1] - 2;
@@ -204,7 +203,7 @@ TEST(WishList, a_value_that_just_touches_its_limit_is_found) {
     EXPECT_NEAR(found.dimensions[1].value, 2, 1e-4);
 }
 
-TEST(WishList, a_least_violation_inside_of_the_ranges_is_found) {
+TEST(WishList, ALeastViolationInsideTheRangesIsFound) {
     // x^2 + 10 y^2 + 1 <= 0.25: by 0.75 at least.
     const Want bowl{"bowl", -infinity, 0.25, 1, [](std::span<const double> d) {
                         return WantedValue{d[0] * d[0] + 10 * d[1] * d[1] + 1, {2 * d[0], 20 * d[1]}, {}};
@@ -216,8 +215,8 @@ TEST(WishList, a_least_violation_inside_of_the_ranges_is_found) {
     EXPECT_TRUE(found.stationary);
 }
 
-TEST(WishList, of_several_designs_the_closest_is_taken) {
-    // sin has the value 0 at all multiples of pi; the closest to 4 is pi. Beyond a hill the search must start anew.
+TEST(WishList, TheClosestOfSeveralDesignsIsFound) {
+    // sin is 0 at all multiples of pi; the closest to 4 is pi. Beyond a maximum the search must restart.
     const auto curve = [](double level) {
         return Want{"curve", level, level, 1, [](std::span<const double> d) {
                         return WantedValue{std::sin(d[0]), {std::cos(d[0])}, {}};
@@ -226,16 +225,16 @@ TEST(WishList, of_several_designs_the_closest_is_taken) {
     const FoundDesign found = design_for({{{"x", 4, 0, 20, 1}}, {curve(0)}});
     ASSERT_EQ(found.outcome, WishOutcome::met);
     EXPECT_NEAR(found.dimensions[0].value, std::numbers::pi, 1e-8);
-    // x^3 - 3 x = 5 is met beyond the hill at -1 alone, on whose other side the start lies.
+    // x^3 - 3 x = 5 is met only beyond the maximum at -1, on whose other side the start lies.
     const Want hill{"hill", 5, 5, 1, [](std::span<const double> d) {
                         return WantedValue{d[0] * d[0] * d[0] - 3 * d[0], {3 * d[0] * d[0] - 3}, {}};
                     }};
     const FoundDesign beyond = design_for({{{"x", -1.5, -3, 3, 1}}, {hill}});
     ASSERT_EQ(beyond.outcome, WishOutcome::met) << beyond.reason;
-    EXPECT_NEAR(beyond.dimensions[0].value, 2.279018786165, 1e-9); // of the cubic formula
+    EXPECT_NEAR(beyond.dimensions[0].value, 2.279018786165, 1e-9); // by the cubic formula
 }
 
-/// sqrt(x - 1), which does not exist for less than 1; the second dimension is only there.
+/// sqrt(x - 1), which does not exist below 1; the second dimension has no effect.
 Want root(double least, double most) {
     return {"root", least, most, 1, [](std::span<const double> d) {
                 if (d[0] < 1)
@@ -245,8 +244,8 @@ Want root(double least, double most) {
             }};
 }
 
-TEST(WishList, values_that_do_not_exist_everywhere_are_no_obstacle) {
-    for (const double start : {5.0, 1.5, 0.5, -9.5}) { // the last two without a value
+TEST(WishList, ValuesThatDoNotExistEverywhereAreHandled) {
+    for (const double start : {5.0, 1.5, 0.5, -9.5}) { // the last two have no value
         const FoundDesign found = design_for({{{"x", start, -10, 10, 1}, {"y", 0, -1, 1, 1}}, {root(0.1, 0.1)}});
         ASSERT_EQ(found.outcome, WishOutcome::met) << found.reason;
         EXPECT_NEAR(found.dimensions[0].value, 1.01, 1e-8);
@@ -254,8 +253,8 @@ TEST(WishList, values_that_do_not_exist_everywhere_are_no_obstacle) {
     }
 }
 
-TEST(WishList, the_edge_of_existence_is_told) {
-    // x alone: 1 + x is least at the edge x = 0, beyond which there is none.
+TEST(WishList, TheEdgeOfExistenceIsReported) {
+    // x alone: 1 + x is least at the edge x = 0, beyond which there is no value.
     const Want edge{"edge", -infinity, 0.5, 1, [](std::span<const double> d) {
                         if (d[0] < 0)
                             return WantedValue{{}, {}, "nothing is there"};
@@ -273,8 +272,9 @@ TEST(WishList, the_edge_of_existence_is_told) {
     EXPECT_EQ(none.evaluations, none.missing);
 }
 
-TEST(WishList, of_a_hidden_design_is_met_no_farther_away) {
-    // Products of powers of dimensions in units from nano to mega, limits drawn so that one design meets them all.
+TEST(WishList, AKnownFeasibleDesignBoundsTheDistance) {
+    // Products of powers of dimensions in units from nano to mega; the limits are drawn so that a known design meets
+    // them all.
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> exponent(-2, 2), share(0, 1);
     for (int trial = 0; trial < 100; ++trial) {
@@ -309,12 +309,12 @@ TEST(WishList, of_a_hidden_design_is_met_no_farther_away) {
         }
         const FoundDesign found = design_for(wishes);
         ASSERT_EQ(found.outcome, WishOutcome::met) << trial << ": " << found.reason;
-        EXPECT_LE(found.distance, farthest * (1 + 1e-6) + 1e-9) << trial; // wants are met to 1e-9
+        EXPECT_LE(found.distance, farthest * (1 + 1e-6) + 1e-9) << trial; // requirements are met to 1e-9
         EXPECT_TRUE(found.stationary) << trial;
     }
 }
 
-TEST(WishList, a_dimension_without_range_stays) {
+TEST(WishList, ADimensionWithoutRangeStays) {
     const SpringMass one;
     WishList wishes = one.wishes({one.frequency(2, 2)});
     wishes.dimensions[0].lowest = wishes.dimensions[0].highest = 100;
@@ -324,14 +324,14 @@ TEST(WishList, a_dimension_without_range_stays) {
     EXPECT_NEAR(found.dimensions[1].value, 100 / std::pow(4 * std::numbers::pi, 2), 1e-8);
     EXPECT_TRUE(found.dimensions[0].binds);
 
-    wishes.dimensions.clear(); // nothing can be chosen
+    wishes.dimensions.clear(); // no free dimension
     wishes.wants = {{"fixed", 1, 1, 1, [](std::span<const double>) { return WantedValue{3, {}, {}}; }}};
     const FoundDesign fixed = design_for(wishes);
     EXPECT_EQ(fixed.outcome, WishOutcome::unmet);
     EXPECT_EQ(fixed.violation, 2);
 }
 
-TEST(WishList, ends_at_its_limits_and_when_it_is_told_to) {
+TEST(WishList, EndsAtItsLimitsAndWhenInterrupted) {
     const SpringMass one;
     WishOptions options;
     options.evaluations = 3;
@@ -345,7 +345,7 @@ TEST(WishList, ends_at_its_limits_and_when_it_is_told_to) {
     EXPECT_EQ(stopped.outcome, WishOutcome::interrupted);
     EXPECT_TRUE(stopped.wants[0].value);
 
-    // Noise instead of a value: never endless.
+    // Even with noise instead of a value it ends.
     unsigned noise = 1;
     const Want random{"noise", 2, 2, 1, [&](std::span<const double>) {
                           noise = noise * 1664525U + 1013904223U;
@@ -355,7 +355,7 @@ TEST(WishList, ends_at_its_limits_and_when_it_is_told_to) {
     EXPECT_LE(design_for({{{"x", 0, -1, 1, 1}, {"y", 0, -1, 1, 1}}, {random}}, options).evaluations, 4000U);
 }
 
-TEST(WishList, what_a_callback_throws_arrives) {
+TEST(WishList, ExceptionsOfCallbacksArePassedOn) {
     const Want broken{"broken", 1, 1, 1, [](std::span<const double> d) -> WantedValue {
                           if (d[0] != 0)
                               throw std::domain_error("broken");
@@ -366,7 +366,7 @@ TEST(WishList, what_a_callback_throws_arrives) {
     EXPECT_THROW(design_for({{{"x", 0, -1, 1, 1}}, {wrong}}), InputError);
 }
 
-TEST(WishList, refuses_what_makes_no_sense) {
+TEST(WishList, RefusesInvalidInput) {
     const SpringMass one;
     const auto with = [&](auto change) {
         WishList wishes = one.wishes({one.frequency(2, 2)});

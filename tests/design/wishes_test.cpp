@@ -1,4 +1,4 @@
-// Dimensions that have what is wanted, checked by devices that are found from scratch.
+// Devices that meet requirements, checked by solving for them from scratch.
 
 #include "graze/design/wishes.hpp"
 
@@ -9,34 +9,35 @@
 
 namespace graze::testing {
 
-TEST(Wishes, OfAnOscillatorAreMetByTheNearestDevice) {
+TEST(Wishes, AreMetByTheNearestDevice) {
     const Design design = parse_design(oscillator_text("[wanted]\nvalue = 0.2\n"), "d.toml");
     const MetWishes met = meet_wishes(design, trip_of(design));
     ASSERT_EQ(met.found.outcome, WishOutcome::met) << met.found.reason;
     const std::vector<double> values = met.values();
     EXPECT_NEAR(oscillator_value(values[0], values[1]), 0.2, 1e-9);
-    // Nearest in widths of the ranges: there the gradient of the distance is along that of the trip value.
+    // At the nearest device (in widths of the ranges) the gradient of the distance is parallel to that of the trip
+    // value.
     const double sigma = values[0], zeta = values[1], root = oscillator_value(1, zeta);
     const double across = (sigma - 0.2) / (0.3 * 0.3), up = (zeta - 0.1) / (0.25 * 0.25);
     EXPECT_NEAR(across * (sigma * zeta / root), up * root, 1e-6);
-    // The device is what it was promised to be.
+    // The device has the predicted trip value.
     EXPECT_NEAR(trip_of(with_values(design, values)).value(), 0.2, 1e-9);
 }
 
-TEST(Wishes, ThatCannotBeMetSayWhatBinds) {
+TEST(Wishes, ThatCannotBeMetNameTheActiveLimits) {
     const Design design = parse_design(oscillator_text("[wanted]\nvalue = 0.9\n"), "d.toml");
     const MetWishes met = meet_wishes(design, trip_of(design));
     EXPECT_EQ(met.found.outcome, WishOutcome::unmet);
     ASSERT_EQ(met.found.wants.size(), 1U);
     EXPECT_FALSE(met.found.wants[0].met);
     EXPECT_TRUE(met.found.wants[0].binds);
-    // As far as it goes: both at the ends of their ranges.
+    // The closest device: both at the ends of their ranges.
     EXPECT_NEAR(*met.found.wants[0].value, oscillator_value(0.4, 0.3), 1e-6);
     EXPECT_TRUE(met.found.dimensions[0].at_highest && met.found.dimensions[1].at_highest);
 }
 
 TEST(Wishes, ForASensitivityAreMetByTheDerivative) {
-    // Relative derivative by zeta: (2 zeta omega)^2 / root^2, which is to be no more than 1 percent.
+    // Relative derivative by zeta: (2 zeta omega)^2 / root^2, which must be at most 1 percent.
     const Design design = parse_design(oscillator_text("[wanted]\nsensitivity = { zeta = 0.01 }\n"), "d.toml");
     const MetWishes met = meet_wishes(design, trip_of(design));
     ASSERT_EQ(met.found.outcome, WishOutcome::met) << met.found.reason;
@@ -45,8 +46,8 @@ TEST(Wishes, ForASensitivityAreMetByTheDerivative) {
 }
 
 TEST(Wishes, ForAClassAreMetBeyondItsBoundary) {
-    // Twice the natural frequency and more damping than critical has real positive multipliers: all persist. Below
-    // critical damping some later contact is always hit, and the class is the other one.
+    // At twice the natural frequency with more than critical damping the multipliers are real and positive: all
+    // persist. Below critical damping some later contact is hit, and the class is the other one.
     const std::string text = R"(name = "calm"
 model = "impact-oscillator"
 control = "amplitude"
@@ -70,13 +71,13 @@ class = "persists"
         << met.values().front();
 }
 
-/// The trip value is in proportion to sigma, made to 1 percent: of value V it has a deviation of V/100.
+/// The trip value V is proportional to sigma, made to 1 percent: its deviation is V/100.
 double share_within(double least, double greatest, double value) {
     const auto below = [&](double limit) { return 0.5 * std::erfc((value - limit) / (0.01 * value) / std::sqrt(2.0)); };
     return below(greatest) - below(least);
 }
 
-TEST(Wishes, ForAYieldAreMetByTheDevicesThatAreMade) {
+TEST(Wishes, ForAYieldAreMetByCountedDevices) {
     Design design = parse_design(oscillator_text("[wanted]\nvalue = [0.198, 0.206]\nyield = 0.9\n"), "d.toml");
     design.yield.devices = 2000;
     const MetWishes met = meet_wishes(design, trip_of(design));
@@ -84,20 +85,20 @@ TEST(Wishes, ForAYieldAreMetByTheDevicesThatAreMade) {
     ASSERT_EQ(met.list.wants.size(), 2U);
     EXPECT_EQ(met.list.wants[1].name, "yield");
     EXPECT_EQ(met.list.wants[1].least, 0.9);
-    EXPECT_GE(*met.found.wants[1].value, 0.9); // counted
-    // The nearest device has no more than is wanted: of 2000 devices the share is known to 0.7 percent, as a deviation.
+    EXPECT_GE(*met.found.wants[1].value, 0.9); // by counting
+    // The nearest device has no more than is wanted; for 2000 devices the share has a standard error of 0.7 percent.
     EXPECT_NEAR(share_within(0.198, 0.206, *met.trip_value), 0.9, 0.025);
 
-    design.wanted.least_yield = 1; // all of those that are made
+    design.wanted.least_yield = 1; // all devices
     const MetWishes all = meet_wishes(design, trip_of(design));
-    EXPECT_NE(all.found.outcome, WishOutcome::met); // 0.206/0.198 are 4 deviations: 95 percent at most
+    EXPECT_NE(all.found.outcome, WishOutcome::met); // 0.206/0.198 is 4 deviations: 95 percent at most
     EXPECT_FALSE(all.found.wants[1].met);
     EXPECT_GT(*all.found.wants[1].value, 0.93);
     EXPECT_NE(all.found.reason.find("the yield"), std::string::npos) << all.found.reason;
 }
 
-/// A search that ends early by what derivatives say of the yield says nothing else than the devices that are made.
-TEST(Wishes, ForAYieldThatTheDevicesHaveAreMetHoweverTheSearchEnded) {
+/// If a search by derivatives misses the yield, the counted devices decide.
+TEST(Wishes, ForAYieldAreDecidedByCountedDevicesHoweverTheSearchEnded) {
     for (const std::size_t evaluations : {1, 3, 8})
         for (const double share : {0.85, 0.9, 0.92, 0.94}) {
             Design design = parse_design(oscillator_text("[wanted]\nvalue = [0.198, 0.206]\nyield = 0.9\n"), "d.toml");
@@ -114,12 +115,12 @@ TEST(Wishes, ForAYieldThatTheDevicesHaveAreMetHoweverTheSearchEnded) {
         }
 }
 
-TEST(Wishes, ForAYieldThatIsFarAwayLeadToIt) {
-    // No device of the first kind is within the limits, nor any that is near to it.
+TEST(Wishes, ForAYieldFarFromTheStartAreMet) {
+    // No device made like the first is within the limits, nor any near it.
     Design design = parse_design(oscillator_text("within = [0.29, 0.31]\n[wanted]\nyield = 0.95\n"), "d.toml");
     const MetWishes met = meet_wishes(design, trip_of(design));
     ASSERT_EQ(met.found.outcome, WishOutcome::met) << met.found.reason;
-    EXPECT_NEAR(share_within(0.29, 0.31, *met.trip_value), 0.95, 0.06); // of 200 devices
+    EXPECT_NEAR(share_within(0.29, 0.31, *met.trip_value), 0.95, 0.06); // for 200 devices
     design.yield.least = 0.2999;                                        // a thirtieth of a deviation to either side
     design.yield.greatest = 0.3001;
     const MetWishes narrow = meet_wishes(design, trip_of(design));
@@ -128,7 +129,7 @@ TEST(Wishes, ForAYieldThatIsFarAwayLeadToIt) {
     EXPECT_FALSE(narrow.found.wants[0].met);
 }
 
-TEST(Wishes, OfADeviceAreToldWithoutASearch) {
+TEST(Wishes, OfADeviceAreEvaluatedWithoutASearch) {
     const Design design = parse_design(
         oscillator_text("[wanted]\nvalue = [0.15, 0.16]\nclass = \"trips\"\nsensitivity = { zeta = 0.001 }\n"),
         "d.toml");
@@ -143,13 +144,13 @@ TEST(Wishes, OfADeviceAreToldWithoutASearch) {
     EXPECT_EQ(at.found.outcome, WishOutcome::unmet);
 }
 
-TEST(Wishes, ThatTheRangeOfTheApproachKeepsFromBeingMetSaySo) {
+TEST(Wishes, ThatTheRangeOfTheApproachPreventsNameIt) {
     std::string text = oscillator_text("[wanted]\nvalue = 0.28\n");
     text.replace(text.find("range = [0.01, 1]"), 17, "range = [0.01, 0.25]");
     const MetWishes met = [&] {
         const Design design = parse_design(text, "d.toml");
         WishesOptions options;
-        options.evaluations = 300; // where devices end to be known it goes on in small steps
+        options.evaluations = 300; // at the end of existing devices it continues in small steps
         return meet_wishes(design, trip_of(design), options);
     }();
     EXPECT_NE(met.found.outcome, WishOutcome::met);
@@ -159,15 +160,15 @@ TEST(Wishes, ThatTheRangeOfTheApproachKeepsFromBeingMetSaySo) {
     EXPECT_NE(met.found.reason.find("widen it"), std::string::npos) << met.found.reason;
 }
 
-TEST(Wishes, ForAWayBackThatIsNotThereAreRefused) {
+TEST(Wishes, ForAResetValueThatDoesNotExistAreRefused) {
     Design design = load_design("mems-switch");
     design.wanted.least_reset = 0.1;
     design.wanted.greatest_reset = 0.2;
     EXPECT_THROW(meet_wishes(design, trip_of(design)), InputError);
 }
 
-/// Times jump from cycle to cycle: value and class were met, and time, but not all of them together.
-TEST(WishesSlow, ForAValueAClassAndATimeAreMetTogetherOrSayWhatIsMissing) {
+/// Trip times jump from cycle to cycle: value and class were met, and time, but not all together.
+TEST(WishesSlow, ForAValueAClassAndATimeAreMetTogetherOrNameWhatIsMissing) {
     Design design = load_design("mems-switch");
     design.wanted = {};
     design.wanted.value = 0.17;

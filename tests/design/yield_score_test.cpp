@@ -21,17 +21,17 @@ TEST(YieldScore, OfOneLimitIsTheDistanceInDeviations) {
     }
 }
 
-TEST(YieldScore, OfTwoLimitsIsThatOfTheShareBetween) {
+TEST(YieldScore, OfTwoLimitsEqualsTheScoreOfTheShareBetween) {
     for (const double value : {-3.0, -1.0, 0.0, 0.3, 1.0, 1.5, 4.0})
         for (const double deviation : {0.1, 0.5, 2.0}) {
             const double share = share_below((1 - value) / deviation) - share_below((0 - value) / deviation);
-            if (share < 1e-12 || share > 1 - 1e-9) // of which a difference of shares tells nothing
+            if (share < 1e-12 || share > 1 - 1e-9) // beyond the resolution of a difference of shares
                 continue;
             EXPECT_NEAR(share_below(yield_score(0, 1, value, deviation)), share, 1e-11) << value << ' ' << deviation;
         }
 }
 
-TEST(YieldScore, TellsFarOutsideWhereThereIsMore) {
+TEST(YieldScore, HasAGradientFarOutsideTheLimits) {
     double last = -infinite;
     for (double value = -1e4; value <= 0.5; value += 13.7) {
         const double score = yield_score(0, 1, value, 0.25);
@@ -44,9 +44,9 @@ TEST(YieldScore, TellsFarOutsideWhereThereIsMore) {
     EXPECT_TRUE(std::isfinite(yield_score(0, 1e-9, 0.5, 1)));
 }
 
-TEST(YieldScore, OfAShareIsItsQuantile) {
+TEST(YieldScore, OfAShareIsTheNormalQuantile) {
     EXPECT_NEAR(score_of_share(0.5), 0, 1e-15);
-    EXPECT_NEAR(score_of_share(0.975), 1.959963984540054, 1e-12); // of tables
+    EXPECT_NEAR(score_of_share(0.975), 1.959963984540054, 1e-12); // tabulated
     EXPECT_NEAR(score_of_share(0.025), -1.959963984540054, 1e-12);
     EXPECT_NEAR(score_of_share(0.9999), 3.719016485455709, 1e-11);
     for (const double share : {1e-6, 0.1, 0.6, 1 - 1e-6})

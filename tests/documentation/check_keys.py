@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Tables of keys in the pages say what the program says of them.
+"""Checks, or writes, the tables of keys in the pages, which must equal the program's descriptions.
 
 usage: check_keys.py PROGRAM PAGE...           fails where a table differs
        check_keys.py --write PROGRAM PAGE...   writes the tables
 
-A table stands behind a line `<!-- keys of KIND: NAME, NAME, ... -->`. Together the tables of a kind, and keys that are
-told in words (`<!-- told in words, of KIND: NAME, ... -->`), have all of its keys.
+A table follows a line `<!-- keys of KIND: NAME, NAME, ... -->`. The tables of a kind, together with the keys that are
+described in the text (`<!-- told in words, of KIND: NAME, ... -->`), must have all of its keys.
 """
 import csv
 import io

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Checks that links between the pages of the repository lead somewhere: files exist, headings too.
+# Checks that the targets of links between the pages of the repository exist, files as well as headings.
 # Links to other sites are not followed. usage: check_links.sh REPOSITORY
 set -euo pipefail
 cd "$1"
@@ -65,7 +65,7 @@ while read -r page; do
         path=$page
         [[ -z $file ]] || path=$(dirname "$page")/$file
         if [[ ! -e $path ]]; then
-            complain "$page:$line: the link $target leads nowhere"
+            complain "$page:$line: the target of the link $target does not exist"
         elif [[ -n $anchor && $path == *.md ]] && ! anchors "$path" | grep -qxF -- "$anchor"; then
             complain "$page:$line: $path has no heading for #$anchor"
         fi

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Fails unless each promise of the pages about files has a test, and each test that is named is there.
+"""Fails unless each promise of the pages about files has a test, and each named test exists.
 
 usage: check_promises.py REPOSITORY
 
-promises.txt has a section for each page, `[docs/PAGE.md]` or `[docs/PAGE.md: HEADING]`, in which a promise stands at
-the beginning of a line, in the words of the page, and the tests of it below, indented. Under a heading everything is a
-promise.
+promises.txt has a section for each page, `[docs/PAGE.md]` or `[docs/PAGE.md: HEADING]`. In it each promise is a line, in
+the words of the page, and the names of its tests are on indented lines below. If a section names a heading, every sentence under
+that heading must be a promise.
 """
 import pathlib
 import re
@@ -16,7 +16,7 @@ TEST = re.compile(r"^TEST(?:_[FP])?\((\w+),\s*(\w+)\)", re.M)
 
 
 def words(text):
-    """Without marks of Markdown and line feeds."""
+    """@return the text without marks of Markdown and line feeds"""
     text = re.sub(r"```.*?```", " ", text, flags=re.S)
     text = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", text)
     return " ".join(text.replace("**", "").replace("`", "").split())
@@ -31,19 +31,19 @@ def part(page, heading):
 
 
 def check(place, promises, known):
-    """@return what is wrong with a section"""
+    """@return a list of the mistakes in a section"""
     page, _, heading = place.partition(": ")
     text, wrong = part(page, heading), []
     for promise, tests in promises:
         if words(promise) not in text:
-            wrong.append(f"{page} does not say any more: {promise}")
+            wrong.append(f"{page} no longer contains the promise: {promise}")
         elif heading:
             text = text.replace(words(promise), "", 1)
         wrong += [f"{page}: there is no test {test} of: {promise}" for test in tests if test not in known]
         if not tests:
-            wrong.append(f"{page}: no test is named of: {promise}")
+            wrong.append(f"{page}: promises.txt names no test of: {promise}")
     if heading and text.strip():
-        wrong.append(f"{page} promises what no test is named of: {' '.join(text.split())}")
+        wrong.append(f"{page}: promises.txt does not have these promises: {' '.join(text.split())}")
     return wrong
 
 

@@ -1,5 +1,5 @@
-"""Checks the site that mkdocs has built: links lead to files and anchors that exist, every page can be reached from
-the navigation, and nothing of Markdown is left that mkdocs reads differently from other readers of the same pages.
+"""Checks the site that mkdocs has built: links lead to files and anchors that exist, the navigation has every page, and the
+pages contain no Markdown that mkdocs has not understood.
 
 usage: check_site.py FOLDER_OF_PAGES FOLDER_OF_HTML
 """
@@ -34,7 +34,7 @@ class Page(html.parser.HTMLParser):
         if self.code:
             return
         for line in text.splitlines():
-            # A table, a list or a block of code that has become a paragraph.
+            # A table, a list or a block of code that mkdocs has taken for a paragraph.
             if re.match(r"\s*(\||[-*] \w|```)", line) or "`" in line or re.search(r"\]\(\S+\)", line):
                 self.leftovers.append(line.strip())
 
@@ -43,7 +43,7 @@ def main(sources, site):
     pages = {path: Page(path.read_text(encoding="utf-8")) for path in sorted(site.rglob("*.html"))}
     wrong, links = [], 0
     for path, page in pages.items():
-        wrong += [f"{path}: left of Markdown: {line}" for line in page.leftovers]
+        wrong += [f"{path}: Markdown that was not understood: {line}" for line in page.leftovers]
         for link in page.links:
             parts = urllib.parse.urlsplit(link)
             links += 1
@@ -53,7 +53,7 @@ def main(sources, site):
                 continue
             target = (path.parent / urllib.parse.unquote(parts.path)).resolve() if parts.path else path
             if not target.is_file():
-                wrong.append(f"{path}: the link {link} leads nowhere")
+                wrong.append(f"{path}: the target of the link {link} does not exist")
             elif parts.fragment and target in pages and parts.fragment not in pages[target].anchors:
                 wrong.append(f"{path}: {target.name} has no anchor {parts.fragment}")
 

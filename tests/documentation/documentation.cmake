@@ -1,4 +1,4 @@
-# Every page of the documentation is run: one test a page, and one for the links between them.
+# Every page of the documentation is run by a test of its own; another test checks the links between pages.
 set(runner ${CMAKE_CURRENT_LIST_DIR}/run_page.sh)
 file(GLOB_RECURSE pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/*.md)
 list(APPEND pages ${PROJECT_SOURCE_DIR}/README.md)
@@ -19,7 +19,7 @@ if(Python3_FOUND)
 endif()
 add_test(NAME documentation.links COMMAND bash ${CMAKE_CURRENT_LIST_DIR}/check_links.sh ${PROJECT_SOURCE_DIR})
 
-# The runner itself: pages named bad_* each hold one mistake, which it must find.
+# Tests of the runner itself: each page named bad_* has one mistake, which the runner must find.
 file(GLOB cases CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/cases/*.md)
 foreach(page IN LISTS cases)
     cmake_path(GET page STEM name)

@@ -1,5 +1,5 @@
-"""Makes the search of the site work from a disk: browsers let pages that are opened as files neither start workers nor
-fetch an index. One script, search/main.js, takes the place of mkdocs' three: lunr.js, the index, and what searches it.
+"""Makes the search of the site work from a disk, where browsers let pages neither start workers nor fetch an index. One
+script, search/main.js, replaces the three of mkdocs: lunr.js, the index, and the script that searches it.
 
 usage: embed_search.py SITE"""
 
@@ -47,7 +47,7 @@ def main(site):
                                    "      searchWorker.postMessage({query: query});\n    }",
                                    "searchWorker.postMessage({query: query});")
     lunr = (folder / "lunr.js").read_text(encoding="utf-8")
-    # "</" would end a script that stands within a page.
+    # "</" would end a script inside of a page.
     data = json.dumps({"config": index["config"], "docs": index["docs"]}).replace("</", "<\\/")
     (folder / "main.js").write_text(f"{lunr}\nvar min_search_length = 2, search_data = {data};\n{functions}{GLUE}",
                                     encoding="utf-8")

@@ -2,15 +2,15 @@
 # Runs the snippets of one page of the documentation, in order, in a folder of its own.
 # usage: run_page.sh PAGE REPOSITORY WORK_FOLDER
 #
-# What a fenced block is for stands behind its language:
+# The words after the language of a fenced block say what is done with it:
 #   ```sh run            run by bash; must exit with 0
 #   ```sh run fails=N    run by bash; must exit with N
-#   ```sh run needs=WHAT    run by bash where WHAT is there, else passed over: a program, or python3:MODULE
-#   ```text output       what the block run before has printed on standard output, exactly
-#   ```toml file=NAME    written to NAME before what follows is run (any language but cpp)
-#   ```cpp file=PATH     the file PATH of the repository, whole
+#   ```sh run needs=WHAT    run by bash if WHAT is installed, a program or python3:MODULE; else skipped
+#   ```text output       exactly the standard output of the block run before
+#   ```toml file=NAME    written to NAME before the following blocks are run (any language but cpp)
+#   ```cpp file=PATH     the whole file PATH of the repository
 #   ```cpp part-of=PATH  consecutive lines of the file PATH of the repository (any language)
-# Blocks with nothing behind the language are only read by people.
+# Blocks without further words are not tested.
 set -euo pipefail
 
 page=$(realpath "$1")
@@ -25,7 +25,7 @@ fail() { # LINE MESSAGE
     exit 1
 }
 
-# One line for each block into $work/list: its line, number, language and what it is for; its text into snippets/.
+# Writes one line for each block into $work/list, with its line, number, language and purpose, and its text into snippets/.
 awk -v folder="$work/snippets" '
     match($0, /^ *```+/) && !fence {
         marks = substr($0, 1, RLENGTH)
@@ -77,7 +77,7 @@ is_there() { # PROGRAM[:MODULE]
 }
 
 passed_over=false
-run_snippet() { # EXPECTED_STATUS: of the block at hand
+run_snippet() { # EXPECTED_STATUS: runs the current block
     local status=0
     passed_over=false
     bash -euo pipefail "$snippet" </dev/null >"$work/output" || status=$?
@@ -97,7 +97,7 @@ while read -r line number language purpose <&3; do
         needed=${purpose#run needs=}
         [[ $needed =~ ^[A-Za-z0-9_.+:-]+$ ]] || fail "$line" "needs= takes a program or python3:MODULE: $purpose"
         if ! is_there "$needed"; then
-            echo "$page:$line: passed over, since $needed is not there"
+            echo "$page:$line: skipped, since $needed is not installed"
             passed_over=true
             continue
         fi

@@ -20,7 +20,7 @@ std::vector<double> derivative_of(const std::vector<double>& c) {
     return rate;
 }
 
-/// Least of sign * p over many places in [0, length], whose terms are summed in higher precision.
+/// Returns the least value of sign * p at many points of [0, length], in higher precision.
 long double least_sample(const std::vector<double>& c, double length, int sign) {
     long double least = std::numeric_limits<long double>::infinity();
     constexpr int samples = 200;
@@ -34,7 +34,7 @@ long double least_sample(const std::vector<double>& c, double length, int sign) 
     return least;
 }
 
-TEST(ClearSign, IsThatOfTheWholeIntervalForAllDegreesAndScales) {
+TEST(ClearSign, HoldsOnTheWholeIntervalForAllDegreesAndScales) {
     std::mt19937_64 random(11);
     std::uniform_real_distribution<double> coefficient(-1, 1), exponent(-12, 12);
     int clear = 0, clear_rates = 0;
@@ -65,19 +65,19 @@ TEST(ClearSign, IsThatOfTheWholeIntervalForAllDegreesAndScales) {
     EXPECT_GT(clear_rates, 2'000);
 }
 
-TEST(ClearSign, LeavesOpenWhatComesCloseToZero) {
-    // 1 - s: zero at 1, and at 1 + 2^-50 to within a hundred times the round-off.
+TEST(ClearSign, IsUncertainNearZero) {
+    // 1 - s is zero at 1; at 1 + 2^-50 it is within a hundred round-offs of zero.
     const std::vector<double> falling{1, -1, 0, 0};
     EXPECT_EQ(roots::clear_sign<false>(falling, 0.999).sign, 1);
     EXPECT_EQ(roots::clear_sign<false>(falling, 1).sign, 0);
     EXPECT_EQ(roots::clear_sign<false>(falling, 1 - 0x1p-50).sign, 0);
-    // (s - 1/2)^2 + h touches zero for h = 0, and dips below it for less. Its derivative changes sign.
+    // (s - 1/2)^2 + h touches zero for h = 0 and is negative for smaller h. Its derivative changes sign.
     for (const double height : {0.0, -1e-3, 1e-17}) {
         const std::vector<double> dip{0.25 + height, -1, 1, 0};
         EXPECT_EQ(roots::clear_sign<false>(dip, 1).sign, 0);
         EXPECT_EQ(roots::clear_sign<true>(dip, 1).sign, 0);
     }
-    // The same among the small terms behind, whose signs do not count.
+    // The same in the later terms, whose signs are not used.
     std::vector<double> late(18, 0.0);
     late[0] = 1;
     late[15] = -4;
@@ -86,7 +86,7 @@ TEST(ClearSign, LeavesOpenWhatComesCloseToZero) {
     EXPECT_EQ(roots::clear_sign<false>(late, 0.5).sign, 1);
 }
 
-TEST(ClearSign, OfWhatIsNoNumberOrNoIntervalIsOpen) {
+TEST(ClearSign, IsUncertainForNaNAndEmptyIntervals) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     for (const double bad : {infinity, -infinity, std::numeric_limits<double>::quiet_NaN()})
         for (std::size_t at = 0; at < 18; ++at) {

@@ -16,7 +16,7 @@
 namespace graze {
 namespace {
 
-/// x'' = -k x, whose flow and derivatives are known, and a wall that the flow passes as if it were not there.
+/// x'' = -k x, whose flow and derivatives are known, and a barrier that the flow ignores.
 Model spring() {
     return parse_model(R"(
 name = "spring"
@@ -55,7 +55,7 @@ TEST(ModeFlow, AgreesWithClosedFormsForwardsAndBackwards) {
             std::vector<double> state{x, v}, alone = state, derivatives(2 * 3);
             ASSERT_EQ(flow.run(0, state, time, derivatives), ModeFlow::Ending::done);
             ASSERT_EQ(flow.run(0, alone, time), ModeFlow::Ending::done);
-            // By the frequency, then by k = w^2.
+            // By the angular frequency w, then by k = w^2.
             const double x_by_w = -x * time * s + v * (time * c / w - s / (w * w)),
                          v_by_w = -x * (s + w * time * c) - v * time * s;
             const std::vector<double> exact{c, s / w, x_by_w / (2 * w), -w * s, c, v_by_w / (2 * w)};
@@ -68,7 +68,7 @@ TEST(ModeFlow, AgreesWithClosedFormsForwardsAndBackwards) {
         }
 }
 
-TEST(ModeFlow, ShowsItsStepsAndPassesEvents) {
+TEST(ModeFlow, ShowsItsStepsAndIgnoresEvents) {
     ModeFlow flow(spring(), tolerance);
     flow.set_parameters(std::vector{7.0, 4.0});
     std::vector<double> state{1, 0};
@@ -84,10 +84,10 @@ TEST(ModeFlow, ShowsItsStepsAndPassesEvents) {
               ModeFlow::Ending::done);
     EXPECT_NEAR(reached, 1.0, 1e-15);
     EXPECT_EQ(flow.steps(), steps);
-    EXPECT_NEAR(state[0], std::cos(2.0), accuracy); // beyond the wall
+    EXPECT_NEAR(state[0], std::cos(2.0), accuracy); // beyond the barrier
 }
 
-TEST(ModeFlow, GivesDerivativesByChosenStatesAlone) {
+TEST(ModeFlow, ComputesDerivativesForChosenStatesOnly) {
     const System system(spring());
     ModeFlow all(system, tolerance, 0, {ParameterId(1)}),
         some(system, tolerance, 0, {ParameterId(1)}, std::vector<std::size_t>{1}),
@@ -107,7 +107,7 @@ TEST(ModeFlow, GivesDerivativesByChosenStatesAlone) {
     EXPECT_THROW(ModeFlow(system, tolerance, 0, {}, std::vector<std::size_t>{2}), InputError);
 }
 
-/// The second mode of the beam is antisymmetric: terms of its coupling to the first cancel, and leave round-off.
+/// The second mode of the beam is antisymmetric: terms of its coupling to the first cancel and leave round-off.
 TEST(ModeFlow, TakesFewStepsWhereASymmetryMakesDerivativesZero) {
     for (const double within : {1e-9, 1e-12, tolerance}) {
         const Model model = microbeam({.modes = 2});
@@ -127,7 +127,7 @@ TEST(ModeFlow, TakesFewStepsWhereASymmetryMakesDerivativesZero) {
     }
 }
 
-TEST(ModeFlow, TellsHowItEnds) {
+TEST(ModeFlow, ReportsHowItEnds) {
     const Model model = parse_model("name = \"a\"\n[states]\nx = 1\n[modes.m]\nrates = { x = \"x^2\" }\n"
                                     "[initial]\nmode = \"m\"\n",
                                     "a.toml");
@@ -138,9 +138,9 @@ TEST(ModeFlow, TellsHowItEnds) {
     EXPECT_EQ(flow.run(0, state, std::numeric_limits<double>::infinity()), ModeFlow::Ending::undefined);
 }
 
-/// Directions beyond those that fit into a jet with the first ones follow steps in parts where they are faster: the
-/// last two states rest and limit no step, but their derivatives turn as k t does.
-TEST(ModeFlow, FollowsFastDirectionsInPartsOrSaysThatTheyAreTooMany) {
+/// More directions than one jet computes at once follow steps in parts where they are faster: the last two states are
+/// at rest and do not limit steps, but their derivatives rotate with angle k t.
+TEST(ModeFlow, FollowsFastDirectionsInPartsUpToALimit) {
     std::string text = "name = \"rest\"\n[parameters]\nk = 1000\n[states]\n", rates;
     for (const char* slow : {"a", "b", "c", "d", "e", "f", "g", "h"}) {
         text += std::string(slow) + " = 1\n";
@@ -160,7 +160,7 @@ TEST(ModeFlow, FollowsFastDirectionsInPartsOrSaysThatTheyAreTooMany) {
     EXPECT_EQ(flow.run(0, state, 1.0, derivatives), ModeFlow::Ending::too_long);
 }
 
-TEST(ModeFlow, RefusesWhatDoesNotFit) {
+TEST(ModeFlow, MisuseThrows) {
     const System system(spring());
     EXPECT_THROW(ModeFlow(system, 0), InputError);
     EXPECT_THROW(ModeFlow(system, tolerance, 3), InputError);

@@ -12,7 +12,8 @@
 namespace graze {
 namespace {
 
-// The truth is computed in extended precision: 64 bits or more, so that its own errors are below the bounds tested.
+// Reference values are computed in extended precision: 64 bits or more, so that its own errors are below the bounds
+// tested.
 using Wide = long double;
 constexpr bool wide_enough = std::numeric_limits<Wide>::digits >= 64;
 constexpr double unit = 0x1p-53;
@@ -31,7 +32,7 @@ Wide derivative_wide(const std::vector<double>& c, Wide s) {
     return value;
 }
 
-/// error(s) of the class's documentation, from its definition.
+/// Returns error(s) of the class's documentation, by its definition.
 double error_at(const std::vector<double>& c, double s) {
     double sum = 0;
     for (std::size_t k = 0; k < c.size(); ++k)
@@ -54,7 +55,7 @@ std::vector<Wide> from_roots(const std::vector<Wide>& roots) {
     return c;
 }
 
-/// Coefficients for the variable s = length t, rounded; positive at 0 if that can be had by a sign.
+/// Returns rounded coefficients for s = length t, with a sign that makes the value at 0 positive if possible.
 std::vector<double> rounded(const std::vector<Wide>& c, double length) {
     std::vector<double> result;
     const Wide sign = c[0] < 0 ? -1 : 1;
@@ -73,7 +74,7 @@ public:
     int integer(int low, int high) { return std::uniform_int_distribution<int>(low, high)(engine_); }
     double logarithmic(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
 
-    /// A factor like a Taylor expansion: no roots near [0, 1], coefficients that decay like e^{-2k}.
+    /// Returns a factor like a Taylor expansion: no roots near [0, 1], coefficients that decay like e^{-2k}.
     std::vector<Wide> decaying(int degree) {
         std::vector<Wide> g{1};
         for (int k = 1; k <= degree; ++k)
@@ -85,7 +86,7 @@ private:
     std::mt19937_64 engine_;
 };
 
-/// What must hold for the first falling root of any polynomial, judged at the given places and on a grid.
+/// Checks the guarantees for the first falling root of any polynomial, at the given points and on a grid.
 void check_first_falling(RootFinder& finder, const std::vector<double>& c, double length, std::vector<double> places) {
     constexpr int grid = 24;
     for (int i = 0; i <= grid; ++i)
@@ -119,18 +120,18 @@ void check_first_falling(RootFinder& finder, const std::vector<double>& c, doubl
     ASSERT_LE(root.at, negative_from);
     const double error = error_at(c, root.at);
     ASSERT_LE(std::abs(static_cast<double>(evaluate_wide(c, root.at))), error);
-    // Not invented: behind the root the polynomial is negative somewhere, unless the root is at the very end.
+    // No false root: after the root the polynomial is negative somewhere, unless the root is at the end.
     bool negative = root.at == length && derivative_wide(c, length) < 0;
     for (const double s : places)
         negative |= s >= root.at && evaluate_wide(c, s) < 0;
-    // between the root and the next place: beyond what round-off lets pass for zero
+    // a point between the root and the next given point, clearly beyond round-off
     const double slope = std::abs(static_cast<double>(derivative_wide(c, root.at)));
     for (const double step : {4 * error / slope, 16 * error / slope, 256 * error / slope})
         negative |= evaluate_wide(c, std::min(length, root.at + step)) < 0;
     ASSERT_TRUE(negative) << "invented at " << root.at;
 }
 
-TEST(RootFinder, FindsTheFirstFallingRootAmongRandomOnes) {
+TEST(RootFinder, FindsTheFirstFallingRootOfRandomPolynomials) {
     if (!wide_enough)
         GTEST_SKIP();
     Random random(1);
@@ -195,7 +196,7 @@ TEST(RootFinder, DecidesNearlyDoubleRootsDownToResolution) {
         const std::vector<double> c =
             rounded(product({at * at - depth, -2 * at, 1}, random.decaying(random.integer(6, 22))), length);
         const double middle = length * static_cast<double>(at);
-        // the minimum itself, where g has moved it
+        // the minimum, displaced by g
         Wide bottom = middle;
         for (int i = 0; i < 60; ++i) {
             const Wide step = 1e-4L * static_cast<Wide>(length);
@@ -206,7 +207,7 @@ TEST(RootFinder, DecidesNearlyDoubleRootsDownToResolution) {
         touches.clear();
         const bool found = finder.first_falling(c, length, RootStart::as_is, root, 0, &touches);
         SCOPED_TRACE(n);
-        if (depth > 0 && at - std::sqrt(depth) < 0) // starts negative
+        if (depth > 0 && at - std::sqrt(depth) < 0) // negative at the start
             continue;
         const bool inside = bottom > 0 && bottom < static_cast<Wide>(length);
         if (!inside)
@@ -218,7 +219,7 @@ TEST(RootFinder, DecidesNearlyDoubleRootsDownToResolution) {
             const double exact = length * static_cast<double>(at - std::sqrt(depth));
             const double slope = std::abs(static_cast<double>(derivative_wide(c, exact)));
             const double curvature = 2 / (length * length);
-            // the root of a parabola shifted by the error on both sides
+            // the interval of roots of a parabola shifted by the error
             ASSERT_NEAR(root.at, exact, 3 * std::min(error / slope, std::sqrt(error / curvature)) + unit * exact);
             ASSERT_TRUE(touches.empty());
         } else if (value > 2 * error) {
@@ -243,7 +244,7 @@ TEST(RootFinder, ReportsEachTouchBeforeTheFallingRootOnce) {
     std::vector<Root> touches;
     touches.reserve(8);
     for (int n = 0; n < 3000; ++n) {
-        // t in [0, 1]; minima 1e-6 g and 1e-3 g, then a fall
+        // t in [0, 1]; minima of 1e-6 g and 1e-3 g, then a falling root
         const Wide first = random.uniform(0.05, 0.3), second = random.uniform(0.45, 0.6), fall = random.uniform(0.8, 1);
         const Wide gap = static_cast<Wide>(random.logarithmic(1e-13, 1e-8));
         std::vector<Wide> p = product({first * first + gap, -2 * first, 1}, {second * second + 1e-3L, -2 * second, 1});
@@ -262,13 +263,13 @@ TEST(RootFinder, ReportsEachTouchBeforeTheFallingRootOnce) {
         ASSERT_TRUE(finder.first_falling(c, 1, RootStart::as_is, root, 1, &touches));
         ASSERT_EQ(touches.size(), 2u);
         ASSERT_NEAR(touches[1].at, static_cast<double>(second), 2e-2);
-        // located by a root of the derivative
+        // located as a root of the derivative
         const double slope_error = 50 * RootFinder::resolution(c, 1);
         ASSERT_LE(std::abs(static_cast<double>(derivative_wide(c, touches[1].at))), slope_error);
     }
 }
 
-TEST(RootFinder, TouchesAtExactDoubleRoots) {
+TEST(RootFinder, ReportsTouchesAtExactDoubleRoots) {
     RootFinder finder(8);
     std::vector<Root> touches;
     Root root{};
@@ -283,18 +284,18 @@ TEST(RootFinder, TouchesAtExactDoubleRoots) {
     ASSERT_EQ(touches.size(), 2u);
     EXPECT_NEAR(touches[0].at, 0.25, 1e-15);
     EXPECT_NEAR(touches[1].at, 0.5, 1e-15);
-    // -(s - 1/2)^3: an inflection falls through
+    // -(s - 1/2)^3: a falling root with zero slope
     touches.clear();
     EXPECT_TRUE(finder.first_falling(std::vector{0.125, -0.75, 1.5, -1.0}, 1, RootStart::as_is, root, 0, &touches));
     EXPECT_NEAR(root.at, 0.5, 1e-5);
     EXPECT_TRUE(touches.empty());
-    // a touch at the end, and the same with touches not asked for
+    // a touch at the end, with and without a list of touches
     touches.clear();
     EXPECT_FALSE(finder.first_falling(std::vector{1.0, -2.0, 1.0}, 1, RootStart::as_is, root, 0, &touches));
     ASSERT_EQ(touches.size(), 1u);
     EXPECT_NEAR(touches[0].at, 1, 1e-15);
     EXPECT_FALSE(finder.first_falling(std::vector{1.0, -2.0, 1.0}, 1, RootStart::as_is, root));
-    // a gap that never falls below the threshold
+    // a minimum above the threshold
     touches.clear();
     EXPECT_FALSE(finder.first_falling(std::vector{1.25, -2.0, 1.0}, 1, RootStart::as_is, root, 0.3, &touches));
     ASSERT_EQ(touches.size(), 1u);
@@ -305,7 +306,7 @@ TEST(RootFinder, DeflatesTheStart) {
     RootFinder finder(32);
     Root root{};
     for (double speed = 1; speed > 1e-18; speed *= 0.37) {
-        // flight with p = v s - a s^2 / 2, and with higher terms that matter only later
+        // a flight p = v s - a s^2 / 2, and one with higher terms that matter only later
         const std::vector<double> ball{0, speed, -0.5};
         ASSERT_TRUE(finder.first_falling(ball, 4, RootStart::deflate, root)) << speed;
         EXPECT_NEAR(root.at, 2 * speed, 4 * unit * speed);
@@ -314,24 +315,24 @@ TEST(RootFinder, DeflatesTheStart) {
             ASSERT_TRUE(finder.first_falling(shaken, 1, RootStart::deflate, root));
             EXPECT_NEAR(root.at, 2 * speed * (1 + speed), 8 * speed * speed * speed + 8 * unit * speed);
         }
-        // downwards at first: the root of the rise is not a falling one
+        // falls at first: the rising root is not reported
         EXPECT_FALSE(finder.first_falling(std::vector{0.0, -speed, 0.5}, 4, RootStart::deflate, root));
         std::vector<Root> roots;
         finder.crossings(std::vector{0.0, -speed, 0.5}, 4, RootStart::deflate, roots);
         ASSERT_EQ(roots.size(), 1u);
         EXPECT_EQ(roots[0].kind, RootKind::rising);
         EXPECT_NEAR(roots[0].at, 2 * speed, 4 * unit * speed);
-        // upwards all the way
+        // rises throughout
         EXPECT_TRUE(RootFinder::surely_positive(std::vector{-1e-17, speed, 0.5}, 4, RootStart::deflate));
         EXPECT_FALSE(RootFinder::surely_positive(ball, 4, RootStart::deflate));
     }
-    // down, up through 0.25, down through 0.75
+    // falls, rises through 0.25, falls through 0.75
     ASSERT_TRUE(finder.first_falling(std::vector{0.0, -0.1875, 1.0, -1.0}, 1, RootStart::deflate, root));
     EXPECT_NEAR(root.at, 0.75, 4 * unit);
-    // the true start shifts the root: 1e-10 + s - s^2
+    // the true c[0] shifts the root: 1e-10 + s - s^2
     ASSERT_TRUE(finder.first_falling(std::vector{1e-10, 1.0, -1.0}, 2, RootStart::deflate, root));
     EXPECT_NEAR(root.at, 0.5 + std::sqrt(0.25 + 1e-10), 1e-15);
-    // but not when the flight is too short for that
+    // but not if the flight is too short for the correction
     ASSERT_TRUE(finder.first_falling(std::vector{-1e-17, 1e-12, -0.5}, 1, RootStart::deflate, root));
     EXPECT_NEAR(root.at, 2e-12, 2e-13);
     EXPECT_GT(root.at, 0);
@@ -352,7 +353,7 @@ TEST(RootFinder, FindsDeflatedRootsOfAllSizesToRelativeAccuracy) {
         std::vector<double> c =
             rounded(product(from_roots(roots), random.decaying(random.integer(4, 18))), 1); // q, positive at 0
         c.insert(c.begin(), 0.0);
-        bool clear = true; // only where the roots are well separated in the sense of the round-off
+        bool clear = true; // compared only if the roots are well separated relative to round-off
         std::size_t inside = 0;
         for (std::size_t i = 0; i < roots.size(); ++i) {
             const double at = static_cast<double>(roots[i]);
@@ -391,12 +392,12 @@ TEST(RootFinder, DividesOutMultipleRootsAtTheStart) {
     EXPECT_FALSE(finder.first_falling(std::vector{0.0, 0.0, -1.0, 1.0}, 1, RootStart::deflate, root));
     EXPECT_FALSE(finder.first_falling(std::vector{0.0, 0.0, 1.0}, 1, RootStart::deflate, root));
     EXPECT_FALSE(finder.first_falling(std::vector{0.0, 0.0, -1.0}, 1, RootStart::as_is, root));
-    // a start of exactly zero is no root of the open interval, deflated or not
+    // a zero at the start is not a root of the open interval, deflated or not
     ASSERT_TRUE(finder.first_falling(std::vector{0.0, 1.0, -2.0}, 1, RootStart::as_is, root));
     EXPECT_EQ(root.at, 0.5);
 }
 
-TEST(RootFinder, GivesARootAtTheEndToThisStep) {
+TEST(RootFinder, AssignsARootAtTheEndToThisStep) {
     Random random(5);
     RootFinder finder(32);
     Root root{};
@@ -423,7 +424,7 @@ TEST(RootFinder, GivesARootAtTheEndToThisStep) {
     EXPECT_EQ(root.at, 1);
 }
 
-/// Coefficients about `at`, rounded.
+/// Returns the coefficients about `at`, rounded.
 std::vector<double> shifted(const std::vector<double>& c, double at) {
     std::vector<Wide> b(c.begin(), c.end());
     for (std::size_t i = 0; i + 1 < b.size(); ++i)
@@ -445,7 +446,7 @@ TEST(RootFinder, NeitherLosesNorRepeatsRootsWhereStepsMeet) {
         const std::vector<double> c =
             rounded(product({static_cast<Wide>(middle) + offset, -1}, random.decaying(14)), 1);
         std::vector<double> next = shifted(c, middle);
-        next[0] += random.uniform(-0.5, 0.5) * error_at(c, middle); // the state there has round-off of its own
+        next[0] += random.uniform(-0.5, 0.5) * error_at(c, middle); // the state there has its own round-off
         Root root{};
         if (finder.first_falling(c, middle, RootStart::as_is, root)) {
             ++first_step;
@@ -454,7 +455,7 @@ TEST(RootFinder, NeitherLosesNorRepeatsRootsWhereStepsMeet) {
             ++second_step;
             ASSERT_TRUE(finder.first_falling(next, 0.2, RootStart::as_is, root)) << static_cast<double>(offset);
         }
-        // a minimum of 1e-9 there, small enough to count
+        // a minimum of 1e-9, below the threshold of touches
         const Wide at = static_cast<Wide>(middle) + offset;
         const std::vector<double> p = rounded({at * at + 1e-9L, -2 * at, 1}, 1);
         touches.clear();
@@ -508,7 +509,7 @@ TEST(RootFinder, FindsAllCrossings) {
             roots.push_back(random.uniform(-1, 2));
         std::sort(roots.begin(), roots.end());
         const std::vector<double> c = rounded(product(from_roots(roots), random.decaying(random.integer(0, 20))), 1);
-        // only where each root is well separated in the sense of the round-off
+        // compared only if each root is well separated relative to round-off
         bool clear = std::abs(c[0]) > 0;
         for (std::size_t i = 0; i < roots.size(); ++i) {
             const double margin = 8 * error_at(c, 2.1) / std::abs(static_cast<double>(derivative_wide(c, roots[i])));
@@ -563,7 +564,7 @@ TEST(RootFinder, BoundsTheMinimum) {
     EXPECT_GT(quartic.lower_bound, -500 * unit);
 }
 
-TEST(RootFinder, SurvivesWhatItCannotAnswer) {
+TEST(RootFinder, HandlesInvalidInput) {
     RootFinder finder(64);
     Root root{};
     std::vector<Root> roots, touches;
@@ -594,12 +595,12 @@ TEST(RootFinder, SurvivesWhatItCannotAnswer) {
     EXPECT_FALSE(RootFinder::surely_positive(std::vector{1.0, infinite}, 1, RootStart::as_is));
     EXPECT_THROW(RootFinder(3).first_falling(std::vector{1.0, 0.0, 0.0, 0.0, -2.0}, 1, RootStart::as_is, root),
                  InputError);
-    // trailing zeros do not matter
+    // trailing zeros have no effect
     ASSERT_TRUE(finder.first_falling(std::vector{1.0, -2.0, 0.0, 0.0}, 1, RootStart::as_is, root));
     EXPECT_EQ(root.at, 0.5);
 }
 
-TEST(RootFinder, TakesAdversarialPolynomials) {
+TEST(RootFinder, HandlesIllConditionedPolynomials) {
     if (!wide_enough)
         GTEST_SKIP();
     RootFinder finder(64);
@@ -618,7 +619,7 @@ TEST(RootFinder, TakesAdversarialPolynomials) {
             ASSERT_EQ(found.size(), roots.size());
         }
     }
-    for (const int degree : {10, 20, 30, 45, 64}) { // Chebyshev's on [0, 1]: the last ones are all noise
+    for (const int degree : {10, 20, 30, 45, 64}) { // Chebyshev's on [0, 1]: the last ones are round-off only
         std::vector<Wide> previous{1}, current{-1, 2};
         for (int k = 2; k <= degree; ++k) {
             std::vector<Wide> next = product({-2, 4}, current);
@@ -635,7 +636,7 @@ TEST(RootFinder, TakesAdversarialPolynomials) {
                             1, {});
     }
     Random random(9);
-    for (int n = 0; n < 3000; ++n) { // noise of all sizes
+    for (int n = 0; n < 3000; ++n) { // random coefficients of all sizes
         std::vector<double> c;
         for (int k = random.integer(0, 40); k >= 0; --k)
             c.push_back(random.uniform(-1, 1) * random.logarithmic(1e-30, 1));
@@ -644,7 +645,7 @@ TEST(RootFinder, TakesAdversarialPolynomials) {
         if (HasFatalFailure())
             return;
     }
-    for (int n = 1; n < 60; n += 4) { // (1/2 - s)^n: uncertain on a wide stretch
+    for (int n = 1; n < 60; n += 4) { // (1/2 - s)^n: zero within round-off on a wide interval
         std::vector<Wide> p{1};
         for (int k = 0; k < n; ++k)
             p = product(p, {0.5L, -1});

@@ -31,7 +31,7 @@ struct Flown {
     std::size_t steps;
 };
 
-/// From a start, which is left as it is.
+/// Runs the flow from a start, which is unchanged.
 Flown fly(SecondOrderFlow& flow, std::size_t mode, const Numbers& start, double duration, const Numbers& vector) {
     const std::size_t entries = start.size() * flow.system().variables();
     Flown flown{start, Numbers(entries), Numbers(entries), flow.steps()};
@@ -64,7 +64,7 @@ Numbers product(const Numbers& matrix, const Numbers& vector) {
     return result;
 }
 
-/// A model with one mode, whose flow is known.
+/// A model with one mode, whose flow is known in closed form.
 struct Solved {
     std::string text; ///< as in a model file, up to the rates
     std::string rates;
@@ -89,13 +89,13 @@ std::vector<Solved> solved() {
          {"K*x/(x + (K - x)*exp(-r*t))"},
          {0.2},
          {0.3, 2.5, -1.1}},
-        // Linear in the states: only what has to do with parameters is not zero. One of them follows from others.
+        // Linear in the states: only derivatives by parameters are nonzero. One parameter is dependent.
         {"[parameters]\nm = 2\ns = 5\nk = \"s/m\"\n[states]\nx = 1\nv = 0\n[definitions]\nforce = \"-k*x\"\n",
          "x = \"v\", v = \"force\"",
          {"x*cos(sqrt(s/m)*t) + v/sqrt(s/m)*sin(sqrt(s/m)*t)", "v*cos(sqrt(s/m)*t) - x*sqrt(s/m)*sin(sqrt(s/m)*t)"},
          {0.8, -0.3},
          {0.7, 6.0, -2.2}},
-        // Forced, with a cyclic phase that is left to run beyond its period, and the start at rest.
+        // Forced, with a cyclic phase that exceeds its period, and a start at rest.
         {"[parameters]\na = 1.5\nomega = 2\n[states]\nx = 0\ntheta = { initial = 0, period = \"2*pi\" }\n",
          "x = \"a*cos(theta)\", theta = \"omega\"",
          {"x + a*(sin(theta + omega*t) - sin(theta))/omega", "theta + omega*t"},
@@ -124,7 +124,7 @@ TEST(SecondOrderFlow, AgreesWithClosedFormsForwardsAndBackwards) {
                                         "solved.toml");
         const std::size_t n = model.states.size(), variables = n + model.parameter_values().size();
         SCOPED_TRACE(problem.rates);
-        // What is known, twice differentiated.
+        // The closed form, differentiated twice.
         Graph& graph = *model.graph;
         std::vector<Expression> inputs = model.inputs();
         Scope scope;
@@ -189,7 +189,7 @@ mode = "swing"
                        "pendulum.toml");
 }
 
-/// Differences of derivatives, more accurate the smaller h: (D(y + h u) v - D(y - h u) v) / 2h.
+/// Returns central differences of derivatives, (D(y + h u) v - D(y - h u) v) / 2h.
 Numbers difference(ModeFlow& flow, std::size_t mode, const Numbers& start, const Numbers& parameters, double duration,
                    const Numbers& vector, const Numbers& along, double h) {
     const std::size_t n = start.size();
@@ -209,7 +209,7 @@ Numbers difference(ModeFlow& flow, std::size_t mode, const Numbers& start, const
     return tangents[0];
 }
 
-TEST(SecondOrderFlow, AgreesWithDifferencesThatConverge) {
+TEST(SecondOrderFlow, AgreesWithTheLimitOfDifferences) {
     const System system(pendulum());
     const std::vector free{ParameterId(0), ParameterId(1), ParameterId(2)};
     const Numbers parameters = system.model().parameter_values(), start{1.0, -0.4, 0.3};
@@ -220,7 +220,7 @@ TEST(SecondOrderFlow, AgreesWithDifferencesThatConverge) {
     for (const double duration : {1.0, 7.0, -2.0}) {
         const Numbers vector = random_numbers(6, random), along = random_numbers(6, random);
         const Numbers exact = product(fly(flow, 0, start, duration, vector).second, along);
-        // Romberg's scheme.
+        // Richardson extrapolation (Romberg's scheme).
         std::vector<Numbers> rows;
         double last = std::numeric_limits<double>::infinity();
         double h = 0.02;
@@ -243,7 +243,7 @@ TEST(SecondOrderFlow, AgreesWithDifferencesThatConverge) {
     }
 }
 
-/// Second derivatives of both parts of an arc are those of the whole, by the chain rule.
+/// Second derivatives over two parts of an arc combine to those over the whole by the chain rule.
 TEST(SecondOrderFlow, ComposesByTheChainRule) {
     const VariationalSystem system(pendulum(), {ParameterId(2), ParameterId(0)});
     const std::size_t n = 3, variables = system.variables();
@@ -278,7 +278,7 @@ TEST(SecondOrderFlow, ComposesByTheChainRule) {
         }
 }
 
-/// What is small at the start, or zero, does not make steps small.
+/// States that are zero or small at the start do not make steps small.
 TEST(SecondOrderFlow, TakesFewStepsWhereDerivativesStartAtZero) {
     const Model model = parse_model("name = \"chain\"\n[parameters]\np = 0\n[states]\na = 0\nb = 0\nc = 0\nd = 0\n"
                                     "e = 0\nf = 0\n[modes.m]\nrates = { a = \"b\", b = \"c\", c = \"d\", d = \"e\", "
@@ -302,7 +302,7 @@ TEST(SecondOrderFlow, TakesFewStepsWhereDerivativesStartAtZero) {
         }
 }
 
-/// Where a mode is looked at, by how much its states change there, and a time over which its flow exists.
+/// A point at which a mode is tested, the scales of its states, and a time over which the flow exists.
 struct Setting {
     Numbers start, scales;
     double duration;
@@ -313,7 +313,7 @@ Setting setting_of(const System& system, std::size_t mode) {
     const Numbers parameters = model.parameter_values();
     ModeFlow flow(system, tolerance);
     flow.set_parameters(parameters);
-    // A radian or two of what drives it, whose frequency is given as such or by its periods.
+    // A radian or two of the forcing phase, whose frequency is given directly or by the period.
     double duration = model.find_parameter("omega") ? 2 / model.values_of(std::vector{model.symbol("omega")}).front()
                                                     : 0.3 / model.values_of(std::vector{model.symbol("f")}).front();
     for (;; duration /= 2) {
@@ -333,7 +333,7 @@ Setting setting_of(const System& system, std::size_t mode) {
     }
 }
 
-/// A mode of a model, followed by all parameters, and two vectors of natural size.
+/// A mode of a model with derivatives by all parameters, and two vectors of typical size.
 class Shipped {
 public:
     Shipped(const VariationalSystem& system, std::size_t mode, std::mt19937_64& random)
@@ -364,7 +364,7 @@ public:
         }
     }
 
-    /// Halving the difference leaves a quarter of the error.
+    /// Halving the difference reduces the error to a quarter.
     void expect_limit_of_differences() const {
         ModeFlow first(system_.system(), tolerance, 0, system_.free());
         std::vector<Numbers> differences;
@@ -406,11 +406,11 @@ private:
     std::size_t n_, variables_, mode_;
     Setting setting_;
     Numbers parameters_, v_, u_;
-    Numbers vu_;    ///< of second derivatives, contracted with both
-    Numbers sizes_; ///< of their terms, which may cancel
+    Numbers vu_;    ///< second derivatives contracted with both vectors
+    Numbers sizes_; ///< sizes of their terms, which may cancel
 };
 
-/// What can be said without knowing the solution: on every mode of every shipped model, by all its parameters.
+/// Properties that need no known solution, for every mode of every shipped model and all its parameters.
 TEST(SecondOrderFlow, IsSymmetricAndTheLimitOfDifferencesOnEveryShippedModel) {
     std::size_t modes = 0;
     std::set<std::filesystem::path> files;
@@ -419,7 +419,7 @@ TEST(SecondOrderFlow, IsSymmetricAndTheLimitOfDifferencesOnEveryShippedModel) {
             files.insert(file.path());
     for (const auto& file : files) {
         const System system(read_model(file.string()));
-        std::mt19937_64 random(5); // the same vectors however many models there are
+        std::mt19937_64 random(5); // the same vectors for each model
         const VariationalSystem variational(system, all_parameters(system.model()));
         for (std::size_t mode = 0; mode < system.model().modes.size(); ++mode, ++modes) {
             SCOPED_TRACE(system.model().name + " " + system.model().modes[mode].name);
@@ -451,7 +451,7 @@ TEST(SecondOrderFlow, GivesTheSameOnFourThreadsThatShareASystem) {
         EXPECT_EQ(result, expected);
 }
 
-TEST(SecondOrderFlow, TellsHowItEnds) {
+TEST(SecondOrderFlow, ReportsHowItEnds) {
     const Model model = parse_model("name = \"a\"\n[states]\nx = 1\n[modes.m]\nrates = { x = \"x^2\" }\n"
                                     "[initial]\nmode = \"m\"\n",
                                     "a.toml");
@@ -467,7 +467,7 @@ TEST(SecondOrderFlow, TellsHowItEnds) {
     EXPECT_EQ(ending_of(1, 0.5, 1e308), ModeFlow::Ending::undefined);
 }
 
-TEST(SecondOrderFlow, RefusesWhatDoesNotFit) {
+TEST(SecondOrderFlow, MisuseThrows) {
     const VariationalSystem system(pendulum(), {ParameterId(1)});
     EXPECT_THROW(SecondOrderFlow(system, 0), InputError);
     EXPECT_THROW(SecondOrderFlow(system, tolerance, 3), InputError);

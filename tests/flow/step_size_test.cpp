@@ -35,7 +35,7 @@ Coefficients exponential(int order, double rate) {
     return c;
 }
 
-TEST(StepSize, OrderGrowsWithTheDigitsAskedFor) {
+TEST(StepSize, OrderGrowsWithTheNumberOfDigits) {
     EXPECT_EQ(order_for_tolerance(1e-8), 12);
     EXPECT_EQ(order_for_tolerance(1e-12), 17);
     EXPECT_EQ(order_for_tolerance(1e-16), 20);
@@ -45,7 +45,7 @@ TEST(StepSize, OrderGrowsWithTheDigitsAskedFor) {
         EXPECT_LE(order_for_tolerance(tolerance), order_for_tolerance(tolerance / 3));
 }
 
-TEST(StepSize, FirstTermLeftOutIsBelowTheTolerance) {
+TEST(StepSize, TruncationErrorIsBelowTheTolerance) {
     for (const double tolerance : {1e-4, 1e-8, 1e-12, 1e-15}) {
         const int order = order_for_tolerance(tolerance);
         const double rate = 3;
@@ -54,7 +54,7 @@ TEST(StepSize, FirstTermLeftOutIsBelowTheTolerance) {
         for (int k = 1; k <= order + 1; ++k)
             term *= rate * h / k;
         EXPECT_LT(term, tolerance);
-        EXPECT_GT(term, 1e-3 * tolerance); // and not by much
+        EXPECT_GT(term, 1e-3 * tolerance); // but not far below
     }
 }
 
@@ -78,18 +78,18 @@ TEST(StepSize, DoesNotDependOnUnits) {
         EXPECT_NEAR(step({scaled, exponential(order, 0.5)}, 1e-12),
                     step({exponential(order, 2), exponential(order, 0.5)}, 1e-12), 1e-12);
     }
-    // In other units of time it scales with them.
+    // The step scales with the unit of time.
     for (const double unit : {1e-6, 1e3})
         EXPECT_NEAR(step({exponential(order, 2 / unit)}, 1e-12) / unit, step({exponential(order, 2)}, 1e-12), 1e-10);
 }
 
-TEST(StepSize, TheFastestStateDecides) {
+TEST(StepSize, FastestStateDecides) {
     const int order = 15;
     EXPECT_DOUBLE_EQ(step({exponential(order, 1), exponential(order, 50)}, 1e-12, 0.01),
                      step({exponential(order, 50)}, 1e-12, 0.01));
 }
 
-TEST(StepSize, AStateThatPassesZeroDoesNotStopTheMotion) {
+TEST(StepSize, StatesThatPassZeroDoNotLimitTheStep) {
     // sin s at s = 0, where its value is zero.
     const int order = 15;
     Coefficients c(order + 1);
@@ -104,7 +104,7 @@ TEST(StepSize, AStateThatPassesZeroDoesNotStopTheMotion) {
     }
 }
 
-TEST(StepSize, PolynomialsAndConstants) {
+TEST(StepSize, PolynomialsAndConstantsAreExact) {
     const int order = 12;
     Coefficients constant(order + 1), line(order + 1), parabola(order + 1);
     constant[0] = 5;
@@ -115,11 +115,11 @@ TEST(StepSize, PolynomialsAndConstants) {
     EXPECT_TRUE(std::isfinite(step({line}, 1e-12)));
     EXPECT_GT(step({line}, 1e-12), 0.2);
     EXPECT_GT(step({parabola}, 1e-12), 0.4);
-    // Beside a state that is no polynomial they do not matter.
+    // They have no effect beside a state that is not a polynomial.
     EXPECT_DOUBLE_EQ(step({exponential(order, 3), parabola}, 1e-12, 0.1), step({exponential(order, 3)}, 1e-12, 0.1));
 }
 
-TEST(StepSize, WhatIsNotFiniteGivesNoStep) {
+TEST(StepSize, NonFiniteCoefficientsGiveNaN) {
     const int order = 15;
     for (const double bad : {nan, infinity, -infinity})
         for (const int k : {0, 1, 2, order - 1, order}) {
@@ -127,13 +127,13 @@ TEST(StepSize, WhatIsNotFiniteGivesNoStep) {
             c[static_cast<std::size_t>(k)] = bad;
             EXPECT_TRUE(std::isnan(step({c}, 1e-12))) << k;
             EXPECT_TRUE(std::isnan(step({exponential(order, 1), c}, 1e-12, 0.1))) << k;
-            Coefficients short_one(order + 1); // log of a negative constant: one coefficient alone
+            Coefficients short_one(order + 1); // log of a negative constant: it has a single coefficient
             short_one[static_cast<std::size_t>(k)] = bad;
             EXPECT_TRUE(std::isnan(step({exponential(order, 1), short_one}, 1e-12, 0.1))) << k;
         }
 }
 
-TEST(StepSize, GrowingTermsShortenIt) {
+TEST(StepSize, GrowingTermsShortenTheStep) {
     // exp(-100 s^2) about s = -1, whose Taylor coefficients grow long before they fall.
     const int order = 15;
     Coefficients c(order + 1);
@@ -141,7 +141,7 @@ TEST(StepSize, GrowingTermsShortenIt) {
     c[1] = 200 * c[0];
     for (std::size_t k = 1; k < static_cast<std::size_t>(order); ++k)
         c[k + 1] = 200 * (c[k] - c[k - 1]) / static_cast<double>(k + 1);
-    Coefficients time(order + 1); // something else by which the function is small
+    Coefficients time(order + 1); // a second state of ordinary size, beside which the function is small
     time[0] = -1, time[1] = 1;
     const double h = step({c, time}, 1e-12, 0.1);
     EXPECT_GT(h, 0);

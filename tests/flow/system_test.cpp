@@ -18,7 +18,7 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// States near the initial one, followed by parameters: the inputs of a system model's functions.
+/// Returns states near the initial one, followed by parameters: the inputs of a system's functions.
 std::vector<double> inputs_near(const Model& model, std::mt19937& random) {
     std::uniform_real_distribution<double> spread(-0.01, 0.01);
     std::vector<double> inputs = model.initial_state();
@@ -68,7 +68,7 @@ TEST_P(Systems, AgreeWithTheirExpressions) {
     }
 }
 
-/// Row by row: states x (states + parameters).
+/// Returns the Jacobian of a jump row by row: states x (states + parameters).
 std::vector<double> dense_jacobian(const System& system, std::size_t index, const std::vector<double>& inputs) {
     const System::CompiledJump& jump = system.jump(index);
     const std::size_t columns = system.states() + system.parameters();
@@ -108,7 +108,7 @@ TEST_P(Systems, JumpJacobiansAgreeWithDifferences) {
     }
 }
 
-TEST_P(Systems, TapesGiveRatesEventsAndObserved) {
+TEST_P(Systems, TapesGiveRatesEventsAndObservedExpressions) {
     const Model model = load_model(GetParam());
     const std::vector<Expression> observed = {model.symbol(model.states[0].name) * 2.0};
     const System system = System(model).observing(observed);
@@ -157,7 +157,7 @@ TEST_P(Systems, TransitionsAndPeriodsMatchTheModel) {
     }
 }
 
-TEST_P(Systems, SurfacesHaveTheGradientsOfDifferences) {
+TEST_P(Systems, GradientsOfSurfacesAgreeWithDifferences) {
     const Model model = load_model(GetParam());
     const System system(model);
     std::mt19937 random(5);
@@ -184,7 +184,7 @@ TEST_P(Systems, SurfacesHaveTheGradientsOfDifferences) {
     }
     for (std::size_t s = 0; s < model.sections.size(); ++s)
         expect_gradient(system.section(s), model.sections[s].name);
-    // A section of the image is that of the state after the symmetry's map.
+    // The section of the image equals the section of the state after the symmetry's map.
     for (std::size_t m = 0; m < model.symmetries.size(); ++m)
         for (std::size_t s = 0; s < model.sections.size(); ++s) {
             expect_gradient(system.section(s, m), model.sections[s].name);
@@ -207,13 +207,13 @@ INSTANTIATE_TEST_SUITE_P(Shipped, Systems, ::testing::ValuesIn([] {
                              return name;
                          });
 
-TEST(System, RefusesModelsThatAreNotValid) {
+TEST(System, RefusesInvalidModels) {
     Model model = load_model("bouncing-ball");
     model.modes[0].rates.pop_back();
     EXPECT_THROW(System{model}, InputError);
 }
 
-TEST(System, DoesNotDependOnWhatBecomesOfTheModel) {
+TEST(System, DoesNotDependOnLaterChangesOfTheModel) {
     auto model = std::make_unique<Model>(load_model("bouncing-ball"));
     const System system(*model);
     const std::size_t states = model->states.size();
@@ -229,7 +229,7 @@ TEST(System, ModelCannotGrowButItsCopiesCan) {
     const System system(load_model("bouncing-ball"));
     const Model& frozen = system.model();
     const std::size_t size = frozen.graph->size();
-    EXPECT_EQ(frozen.symbol(frozen.states[0].name).name(), frozen.states[0].name); // what is there can be had
+    EXPECT_EQ(frozen.symbol(frozen.states[0].name).name(), frozen.states[0].name); // existing symbols can be used
     EXPECT_THROW(frozen.symbol("new_name"), std::logic_error);
     EXPECT_THROW(frozen.symbol(frozen.states[0].name) * 12345.678, std::logic_error);
     EXPECT_EQ(frozen.graph->size(), size);
@@ -239,7 +239,7 @@ TEST(System, ModelCannotGrowButItsCopiesCan) {
     EXPECT_EQ(frozen.graph->size(), size);
 }
 
-TEST(System, TakesExpressionsOfAnyGraphByTheNamesOfTheirSymbols) {
+TEST(System, AdoptsExpressionsOfAnyGraphByTheirSymbols) {
     const Model model = load_model("impact-oscillator");
     const System system(model);
     const auto graph = Graph::create();
@@ -256,11 +256,11 @@ TEST(System, TakesExpressionsOfAnyGraphByTheNamesOfTheirSymbols) {
         EXPECT_THROW(system.observing({{wrong}}), InputError);
     }
     EXPECT_THROW(system.function_of({{Expression()}}), std::invalid_argument);
-    // Periods and the like are of parameters alone.
+    // Periods and the like are functions of parameters only.
     EXPECT_THROW(system.function_of_parameters({{own}}), InputError);
 }
 
-TEST(System, WithoutEventsNothingIsWatched) {
+TEST(System, WithoutEventsHasNoWatchedEvents) {
     const System system = System(load_model("impact-microactuator")).without_events();
     for (std::size_t m = 0; m < system.model().modes.size(); ++m) {
         EXPECT_TRUE(system.mode(m).watched.empty());
@@ -268,7 +268,7 @@ TEST(System, WithoutEventsNothingIsWatched) {
     }
 }
 
-/// What is compiled of a chain of n oscillators with n walls grows as n does: nothing is made for each pair of them.
+/// The compiled size of a chain of n oscillators with n barriers grows linearly: nothing is made for each pair.
 TEST(SystemsOfManyEvents, GrowLinearly) {
     const auto size = [](std::size_t n) {
         const Model model = testing::chain(n);
@@ -298,7 +298,7 @@ TEST(SystemsOfManyEvents, HaveTheMapsAndGradientsOfEachEvent) {
     EXPECT_EQ(evaluate(system.jump(0).map, inputs), std::vector<double>(inputs.begin(), inputs.end() - 1));
 }
 
-TEST_P(Systems, GradientsOfEventsAreThoseOfAllOfThem) {
+TEST_P(Systems, GradientsOfSingleEventsAreThoseOfAllEvents) {
     const Model model = load_model(GetParam());
     const System system(model);
     std::mt19937 random(4);

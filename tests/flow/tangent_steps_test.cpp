@@ -22,18 +22,18 @@ using Matrix = std::vector<std::vector<Number>>;
 
 constexpr double omega = 0.9, force = 1.3;
 
-/// A chain of oscillators of which each is counted in a unit of its own, and all in one unit of time; the first is
-/// forced. States: displacement and speed in turn, then the force's phase.
+/// A chain of oscillators, each with its own unit of length and all with one unit of time; the first is forced. States:
+/// displacement and speed alternating, then the phase of the force.
 struct Chain {
     std::size_t links;
     double time_unit = 1;
-    std::vector<double> units; ///< of displacements, one for each
+    std::vector<double> units; ///< units of displacements, one for each oscillator
     double cubic = 0;
 
     double unit(std::size_t state) const {
         return state == 2 * links ? 1 : state % 2 == 0 ? units[state / 2] : units[state / 2] / time_unit;
     }
-    /// Rates of a displacement's speed: coefficient of another state.
+    /// Returns the coefficient of a state in the acceleration of an oscillator.
     double coefficient(std::size_t link, std::size_t state) const {
         const double share = unit(2 * link + 1) / unit(state) / time_unit;
         return state == 2 * link ? -2.2 * share : state == 2 * link + 1 ? -0.04 * share : share;
@@ -56,8 +56,8 @@ struct Chain {
                fmt::format("phase = {:.17g}\n[initial]\nmode = \"m\"\n", omega / time_unit);
     }
 
-    /// exp(A t) where A y = y' for y of displacements, speeds, and cosine and sine of the force, all by scaling and
-    /// squaring a Taylor series.
+    /// Returns exp(A t) with A y = y' for y of displacements, speeds, and cosine and sine of the force, by scaling and
+    /// squaring of a Taylor series.
     Matrix exponential(Number time) const {
         const std::size_t n = 2 * links + 2;
         Matrix a(n, std::vector<Number>(n, 0));
@@ -99,7 +99,7 @@ struct Chain {
             sum = times(sum, sum);
         return sum;
     }
-    /// Derivatives of the states by their starts and by the force, from there.
+    /// Returns the derivatives of the states with respect to initial states and the force, from the exponential.
     Matrix derivatives(Number time) const {
         const Matrix e = exponential(time);
         const std::size_t n = 2 * links + 1;
@@ -139,7 +139,7 @@ Flow flow_of(const Model& model, double tolerance, double time, bool with_deriva
     return result;
 }
 
-/// The error of each entry against the size of its direction, in the units of the states.
+/// Errors of entries are measured against the size of their direction, in the units of the states.
 TEST(TangentSteps, AreAccurateAlongAChainInAnyUnits) {
     constexpr double micro = 1e-6, nano = 1e-9, mega = 1e6;
     for (const std::size_t links : {1, 6, 14})
@@ -158,7 +158,7 @@ TEST(TangentSteps, AreAccurateAlongAChainInAnyUnits) {
                         for (std::size_t i = 0; i < n; ++i)
                             size = std::max(size, std::abs(exact[i][d]) / chain.unit(i));
                         for (std::size_t i = 0; i < n; ++i)
-                            // Less than a tolerance a step is usual; of round-off there are a few hundred units.
+                            // Usually the error is below one tolerance per step; round-off adds a few hundred units.
                             EXPECT_LE(std::abs(flow.derivatives[i * (n + 1) + d] - exact[i][d]) / chain.unit(i),
                                       (3 * tolerance + 1e-13) * size)
                                 << links << " links, entry " << i << ' ' << d << " tolerance " << tolerance
@@ -168,8 +168,8 @@ TEST(TangentSteps, AreAccurateAlongAChainInAnyUnits) {
             }
 }
 
-/// What has only begun to move needs no shorter steps than the rest; in other units no other ones.
-TEST(TangentSteps, AreHardlyMoreThanThoseOfTheMotion) {
+/// States that have only begun to move need no shorter steps than the others; units have no effect.
+TEST(TangentSteps, StepsAreHardlyMoreThanThoseOfTheMotion) {
     for (const double tolerance : {1e-6, 1e-9, 1e-12}) {
         std::size_t others = 0;
         for (const double unit : {1.0, 0x1p-30, 0x1p20}) {
@@ -177,7 +177,7 @@ TEST(TangentSteps, AreHardlyMoreThanThoseOfTheMotion) {
             chain.cubic = 0.1 / (unit * unit);
             const Model model = parse_model(chain.model(), "chain.toml");
             const Flow alone = flow_of(model, tolerance, 7, false), flow = flow_of(model, tolerance, 7, true);
-            // Sizes other than their own are asked for where steps would be shorter than 0.8 of the motion's.
+            // Floors are used where steps would be shorter than 0.8 of the motion's.
             EXPECT_LE(flow.steps, alone.steps + 1 + alone.steps / 4) << tolerance;
             EXPECT_TRUE(others == 0 || flow.steps == others) << tolerance << ' ' << unit;
             others = flow.steps;
@@ -187,10 +187,10 @@ TEST(TangentSteps, AreHardlyMoreThanThoseOfTheMotion) {
     }
 }
 
-/// Directions that are faster than the motion, and come after others: all take their steps.
-TEST(TangentSteps, AreShortenedForDirectionsThatAreFaster) {
+/// Directions that are faster than the motion and come after others: all take the shorter steps.
+TEST(TangentSteps, StepsAreShortenedForFasterDirections) {
     std::string states, rates;
-    constexpr std::size_t slow = 33; // more than are computed side by side
+    constexpr std::size_t slow = 33; // more directions than are computed side by side
     ASSERT_LT(TangentSteps::together(slow), slow);
     for (std::size_t i = 0; i < slow; ++i) {
         states += fmt::format("x{} = {}\n", i, 1 + i);
@@ -205,10 +205,10 @@ TEST(TangentSteps, AreShortenedForDirectionsThatAreFaster) {
     const std::size_t n = model.states.size();
     std::vector<double> state = model.initial_state(), derivatives(n * n);
     ASSERT_EQ(flow.run(0, state, time, derivatives), ModeFlow::Ending::done);
-    EXPECT_LE(flow.steps(), 200u); // a radian is no long step
+    EXPECT_LE(flow.steps(), 200u); // a step of one radian is not long
     for (std::size_t i = 0; i < slow; ++i)
         EXPECT_NEAR(derivatives[i * n + i], std::exp(-time), 10 * tolerance);
-    // Two hundred radians, each as good as a tolerance.
+    // Two hundred radians, each with an error of about one tolerance.
     constexpr double angle = 100 * time;
     EXPECT_NEAR(derivatives[slow * n + slow], std::cos(angle), angle * tolerance);
     EXPECT_NEAR(100 * derivatives[slow * n + slow + 1], std::sin(angle), angle * tolerance);
@@ -216,7 +216,7 @@ TEST(TangentSteps, AreShortenedForDirectionsThatAreFaster) {
     EXPECT_EQ(derivatives[slow * n], 0);
 }
 
-/// Oscillators that all feel a mean of all, which so is a quantity of its own in their first variational equations.
+/// Oscillators coupled to their mean, which is an intermediate quantity of the first variational equations.
 std::string mean_field(std::size_t count) {
     std::string states, rates, mean;
     for (std::size_t i = 0; i < count; ++i) {
@@ -230,7 +230,7 @@ std::string mean_field(std::size_t count) {
                        mean, count, states, rates);
 }
 
-/// The tangent as states of a larger system, which needs no derivatives of flows.
+/// The tangent computed as part of the state of a larger system, without derivatives of flows.
 TEST(TangentSteps, AgreeWithTheVariationalSystemOfAMeanField) {
     constexpr double tolerance = 1e-13, time = 3;
     const Model model = parse_model(mean_field(12), "mean_field.toml");
@@ -253,12 +253,12 @@ TEST(TangentSteps, AgreeWithTheVariationalSystemOfAMeanField) {
         larger.set_parameters(parameters);
         ASSERT_EQ(larger.run(0, both, time), ModeFlow::Ending::done);
         for (std::size_t i = 0; i < n; ++i)
-            // Derivatives are allowed fifty tolerances, of which they take few.
+            // Derivatives are allowed fifty tolerances, but need only a few.
             EXPECT_NEAR(derivatives[i * (n + 1) + d], both[n + i], 20 * tolerance) << i << ' ' << d;
     }
 }
 
-TEST(TangentSteps, RefuseWhatDoesNotFit) {
+TEST(TangentSteps, MisuseThrows) {
     const Model model = parse_model(chain_of(1, 1, 1, 1).model(), "chain.toml");
     TangentSteps steps(model, 1e-9, 2);
     ModeJets jets(model, 10, LaneKind::single), without(model, 10, LaneKind::single);
@@ -275,7 +275,7 @@ TEST(TangentSteps, RefuseWhatDoesNotFit) {
     EXPECT_THROW(steps.begin(jet, 0, few, matrix), InputError);
     EXPECT_THROW(steps.begin(jet, 0, state, few), InputError);
     EXPECT_THROW(steps.begin(without.computed(0, state), 0, state, matrix), InputError);
-    EXPECT_THROW(steps.begin(next, 0, state, matrix), std::logic_error); // nothing is computed there
+    EXPECT_THROW(steps.begin(next, 0, state, matrix), std::logic_error); // the jet has not been computed
     steps.begin(jet, 0, state, matrix);
     EXPECT_THROW(steps.carry(next, 0.1, few), InputError);
     EXPECT_EQ(steps.carry(next, 0.01, after), 0.01);

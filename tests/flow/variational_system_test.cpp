@@ -14,7 +14,7 @@ namespace {
 
 using Numbers = std::vector<double>;
 
-/// With names that derivatives might have liked to use themselves.
+/// A model with names that the derivatives might otherwise use for themselves.
 Model model() {
     return parse_model(R"(
 name = "names"
@@ -52,7 +52,7 @@ mode = "free"
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// x, y the states, a, c the parameters, of which c is free; then the vector of three components.
+/// x, y: states; a, c: parameters, c is free; then the three components of the vector.
 struct At {
     double x = 0.7, y = -1.1, a = 3, c = 1.9, vx = 0.4, vy = -0.9, vc = 1.7;
     Numbers inputs() const { return {x, y, a, c, vx, vy, vc}; }
@@ -87,11 +87,11 @@ TEST(VariationalSystem, HasSecondDerivativesOfEventsSectionsAndMaps) {
     expect_near(system.symmetry(0), {-x * x * x, -y, -3 * x * x, 0, 0, 0, -1, 0, -6 * x * vx, 0, 0, 0, 0, 0});
 }
 
-TEST(VariationalSystem, HasSecondDerivativesOfWhateverIsAskedFor) {
+TEST(VariationalSystem, CompilesFurtherExpressions) {
     const VariationalSystem system(model(), {ParameterId(1)});
     Model own = model();
     const auto [x, y, a, c, vx, vy, vc] = At();
-    // At the image of the state, and of expressions of another graph.
+    // At the image of the state under a symmetry, and for expressions of another graph.
     const Expression image = sin(own.symbol("c") * -pow(own.symbol("x"), 3)) * -own.symbol("along_1");
     const Numbers expected = system.function_of(std::vector{image})(At().inputs());
     expect_near(system.section(0, 0), expected);
@@ -112,7 +112,7 @@ TEST(VariationalSystem, HasTheVariationalEquationsOfEachMode) {
         EXPECT_NEAR(rates[i], exact[i], 8 * epsilon * (1 + std::abs(exact[i]))) << i;
 }
 
-TEST(VariationalSystem, RefusesWhatDoesNotFit) {
+TEST(VariationalSystem, MisuseThrows) {
     const System of(model());
     EXPECT_THROW(VariationalSystem(of, {ParameterId(2)}), InputError);
     EXPECT_THROW(VariationalSystem(of, {ParameterId(1), ParameterId(1)}), InputError);
@@ -122,7 +122,7 @@ TEST(VariationalSystem, RefusesWhatDoesNotFit) {
     EXPECT_THROW(system.section(0, 1), InputError);
     EXPECT_THROW(system.jump(2), InputError);
     EXPECT_THROW(system.symmetry(1), InputError);
-    // Its own names are no names of the model.
+    // New symbols do not collide with names of the model.
     EXPECT_THROW(system.function_of(std::vector{Graph::create()->symbol("along_3")}), InputError);
 }
 

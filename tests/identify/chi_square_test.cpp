@@ -4,8 +4,8 @@
 
 namespace graze::testing {
 
-// Quantiles of tables (M. Abramowitz and I. A. Stegun, Table 26.8), to their digits.
-TEST(ChiSquare, IsThatOfTables) {
+// Tabulated quantiles (M. Abramowitz and I. A. Stegun, Table 26.8), to their digits.
+TEST(ChiSquare, TailEqualsTabulatedValues) {
     EXPECT_NEAR(chi_square_tail(3.84146, 1), 0.05, 1e-6);
     EXPECT_NEAR(chi_square_tail(9.21034, 2), 0.01, 1e-7);
     EXPECT_NEAR(chi_square_tail(7.81473, 3), 0.05, 1e-6);

@@ -9,7 +9,7 @@ namespace graze::testing {
 
 namespace {
 
-// Of the testbed: Appendix C of B. E. Wilcox's dissertation.
+// Constants of the testbed: Appendix C of B. E. Wilcox's dissertation.
 constexpr double beta1 = 1.902e-5, beta2 = 1.631e-3, gap = 0.00479102312304, stiffness = 0.6462 * 95.94 * 95.94;
 
 /// The current at which a displacement is an equilibrium, Eq. (5.13).
@@ -36,7 +36,7 @@ CouplingSettings known() {
 
 } // namespace
 
-TEST(Coupling, OfExactEquilibriaIsExact) {
+TEST(Coupling, IsExactForExactEquilibria) {
     Noise noise(1);
     const Coupling found = coupling(loads_of(noise, 0, 0), known());
     EXPECT_NEAR(found.beta1.value, beta1, 1e-9 * beta1);
@@ -55,7 +55,7 @@ TEST(Coupling, DoesNotDependOnUnits) {
         load = {1e9 * load.displacement, 1e3 * load.current}; // nm and mA
     CouplingSettings settings = known();
     settings.gap *= 1e9;
-    const Coupling small = coupling(loads, settings); // force over displacement stays as it is
+    const Coupling small = coupling(loads, settings); // the stiffness keeps its number
     EXPECT_NEAR(small.beta2.value, 1e9 * metres.beta2.value, 1e-9 * 1e9 * metres.beta2.value);
     EXPECT_NEAR(small.beta1.value, 1e27 / 1e6 * metres.beta1.value, 1e-9 * 1e21 * metres.beta1.value);
     EXPECT_NEAR(small.beta1.error, 1e21 * metres.beta1.error, 1e-6 * 1e21 * metres.beta1.error);
@@ -78,8 +78,8 @@ TEST(Coupling, IntervalsCoverTheTruth) {
     EXPECT_LE(regression, first) << "which takes displacements as exact";
 }
 
-/// What is left of loads that are none of such a magnet is no noise.
-TEST(Coupling, TellsWhatIsNoEquilibrium) {
+/// Loads with an offset, a drift, a curved scale or an outlier leave structured residuals.
+TEST(Coupling, NamesWhyLoadsAreNotEquilibria) {
     const auto changed = [](std::uint64_t seed, const std::function<void(StaticLoad&, std::size_t)>& change) {
         Noise noise(seed);
         std::vector<StaticLoad> loads = loads_of(noise, 1e-6, 1e-3);
@@ -109,19 +109,19 @@ TEST(Coupling, TellsWhatIsNoEquilibrium) {
             EXPECT_FALSE(changed(seed, spoilers[k]).empty()) << k << ", seed " << seed;
 }
 
-TEST(Coupling, ErrorsOfWhatIsKnownMoveTheConstants) {
+TEST(Coupling, ErrorsOfGapAndStiffnessPropagate) {
     Noise noise(1), wider(1), stiffer(1);
     CouplingSettings settings = known();
     const std::vector<StaticLoad> loads = loads_of(noise, 0, 0);
     settings.gap_error = 1e-6;
     settings.stiffness_error = 1e-3 * stiffness;
     const Coupling found = coupling(loads, settings);
-    // A wider gap is a smaller beta2; a stiffer spring a larger beta1: both exactly so, from the equations.
+    // By the equations an error of the gap is one of beta2, and a relative error of the stiffness one of beta1.
     EXPECT_NEAR(found.beta2.error, 1e-6, 1e-12);
     EXPECT_NEAR(found.beta1.error, 1e-3 * beta1, 1e-9 * beta1);
 }
 
-TEST(Coupling, RefusesWhatTellsNothing) {
+TEST(Coupling, RefusesLoadsThatDoNotDetermineBothConstants) {
     Noise noise(1);
     const std::vector<StaticLoad> loads = loads_of(noise, 0, 0);
     EXPECT_THROW(coupling({}, known()), InputError);

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-/// Intervals of 95 % over grids of noise, steps, lengths and damping, of what the program's estimates find from records
-/// as a whole: estimate by estimate in 90 to 99 % of all cases, and nowhere in far fewer.
+/// Coverage of the program's 95 % intervals over grids of noise, steps, lengths and damping, from whole records: 90 to
+/// 99 % of all cases, and nowhere far less.
 namespace graze::testing {
 
 namespace {
@@ -23,11 +23,12 @@ struct Truth {
     double value = 0;
 };
 
+/// Counts of intervals, of those that cover the truth, and of records with warnings or refused.
 struct Covered {
     std::size_t tried = 0, inside = 0, warned = 0, refused = 0;
 };
 
-/// Records of some channels at equal distances.
+/// A made-up record of some channels.
 struct MadeRecord {
     RecordHeader header;
     Samples samples;
@@ -47,7 +48,7 @@ struct MadeRecord {
 using Make = std::function<std::vector<MadeRecord>(Noise&)>;
 using Find = std::function<Identification(const EachRecord&)>;
 
-/// One point of a grid.
+/// Counts coverage at one point of a grid.
 void cover(const std::string& what, const Make& make, const Find& find, const std::vector<Truth>& truths,
            Covered& all) {
     std::vector<std::size_t> inside(truths.size());
@@ -63,7 +64,7 @@ void cover(const std::string& what, const Make& make, const Find& find, const st
                     work("record", source);
                 }
             });
-        } catch (const InputError&) { // of much noise, which hides peaks
+        } catch (const InputError&) { // strong noise hides peaks
             ++all.refused;
             ++refused;
             continue;
@@ -79,7 +80,7 @@ void cover(const std::string& what, const Make& make, const Find& find, const st
                     ++all.tried;
                 }
     }
-    // Of 30 intervals of 95 % fewer than 23 cover the truth once in 7,000 times.
+    // Of 30 intervals of 95 %, fewer than 23 cover the truth with probability 1/7,000.
     for (std::size_t t = 0; t < truths.size(); ++t)
         EXPECT_GE(inside[t] + refused, 23U) << what << ": " << truths[t].name;
 }
@@ -94,7 +95,7 @@ void expect_covered(const Covered& all, std::size_t cases) {
 
 } // namespace
 
-TEST(CoverageSlow, OfDecrements) {
+TEST(CoverageSlow, DecrementsCoverTheTruth) {
     constexpr double natural = 96.4;
     Covered all;
     std::size_t cases = 0;
@@ -122,7 +123,7 @@ TEST(CoverageSlow, OfDecrements) {
     expect_covered(all, cases);
 }
 
-TEST(CoverageSlow, OfRestitutions) {
+TEST(CoverageSlow, RestitutionsCoverTheTruth) {
     Covered all;
     std::size_t cases = 0;
     for (const double e : {0.3, 0.85})
@@ -130,7 +131,7 @@ TEST(CoverageSlow, OfRestitutions) {
             for (const double rate : {40.0, 200.0}) {
                 const auto make = [=](Noise& noise) {
                     MadeRecord record({"v"});
-                    // From each impact at a constant rate to the next velocity.
+                    // The velocity changes linearly from each impact to the next.
                     double begin = 0, duration = 1, first = e, last = 0.8;
                     std::size_t row = 0;
                     for (int impact = 0; impact < 14; ++impact) {
@@ -154,7 +155,7 @@ TEST(CoverageSlow, OfRestitutions) {
     expect_covered(all, cases);
 }
 
-TEST(CoverageSlow, OfCouplings) {
+TEST(CoverageSlow, CouplingsCoverTheTruth) {
     constexpr double beta1 = 1.87e-5, beta2 = 1.66e-3, gap = 4.79e-3, stiffness = 5948;
     IdentificationSettings settings;
     settings.gap = gap;
@@ -186,7 +187,7 @@ TEST(CoverageSlow, OfCouplings) {
     expect_covered(all, cases);
 }
 
-TEST(CoverageSlow, OfImpedances) {
+TEST(CoverageSlow, ImpedancesCoverTheTruth) {
     Covered all;
     std::size_t cases = 0;
     constexpr double omega = 2 * std::numbers::pi * 6.1, size = 2.2;

@@ -10,10 +10,10 @@ namespace graze::testing {
 
 namespace {
 
-// Of the testbed: Appendix C of B. E. Wilcox's dissertation.
+// Constants of the testbed: Appendix C of B. E. Wilcox's dissertation.
 constexpr double frequency = 95.94, damping = 0.01626;
 
-/// Velocity of a release at time 0 from a displacement.
+/// Velocity after a release from a displacement at time 0.
 double velocity(double t, double displacement) {
     const double damped = frequency * std::sqrt(1 - damping * damping);
     return -displacement * frequency * frequency / damped * std::exp(-damping * frequency * t) * std::sin(damped * t);
@@ -33,7 +33,7 @@ DecayPeaks peaks_of(Noise& noise, double sigma, double rate, std::size_t most = 
 
 } // namespace
 
-TEST(Decrement, OfExactPeaksIsExact) {
+TEST(Decrement, IsExactForExactPeaks) {
     const double damped = frequency * std::sqrt(1 - damping * damping), period = 2 * std::numbers::pi / damped;
     std::vector<DecayPeaks> releases(3);
     for (int r = 0; r < 3; ++r)
@@ -51,7 +51,7 @@ TEST(Decrement, OfExactPeaksIsExact) {
     EXPECT_EQ(found.frequency.freedom, 26);
 }
 
-TEST(Decrement, OfSamplesWithoutNoiseIsRightToNineDigits) {
+TEST(Decrement, HasNineDigitsWithoutNoise) {
     Noise noise(1);
     std::vector<DecayPeaks> releases;
     for (int r = 0; r < 10; ++r)
@@ -79,11 +79,11 @@ TEST(Decrement, IntervalsCoverTheTruth) {
     }
     expect_coverage(frequencies, "natural frequency");
     expect_coverage(dampings, "damping ratio");
-    EXPECT_LT(scatter, pairs) << "means of pairs waste what was measured";
+    EXPECT_LT(scatter, pairs) << "means of pairs have larger errors";
 }
 
-// However few samples a period has, and wherever in it they lie.
-TEST(Decrement, OfFewSamplesAPeriodIsFound) {
+// Few samples a period, at any phase.
+TEST(Decrement, IsFoundWithFewSamplesAPeriod) {
     const double damped = frequency * std::sqrt(1 - damping * damping);
     for (const double in_a_period : {6.3, 8.0, 9.3, 11.0, 12.0, 13.0})
         for (const double relative : {0.0, 1e-3, 1e-2}) {
@@ -104,7 +104,7 @@ TEST(Decrement, OfFewSamplesAPeriodIsFound) {
                 StoredSamples source({{"t", "s"}, {{"v", "m/s"}}}, std::move(samples));
                 const DecayPeaks peaks = decay_peaks(source, 0, 10);
                 EXPECT_GE(peaks.times.size(), 3U) << in_a_period << ' ' << k;
-                EXPECT_TRUE(peaks.wave.left.is_noise()) << peaks.wave.left.text();
+                EXPECT_TRUE(peaks.wave.residual_test.is_noise()) << peaks.wave.residual_test.text();
                 const DampedOscillation found = damped_oscillation({&peaks.wave, 1});
                 const double roundoff = 1e-10;
                 frequencies +=
@@ -118,8 +118,8 @@ TEST(Decrement, OfFewSamplesAPeriodIsFound) {
         }
 }
 
-// A reading that is far off makes all peaks small beside what is left: it is that reading which is told of.
-TEST(Decrement, TellsOfAReadingThatIsFarOff) {
+// An outlier makes all peaks small relative to the residuals: the message must name the outlier.
+TEST(Decrement, RefusesARecordWithAnOutlier) {
     Noise noise(3);
     Samples samples;
     samples.clear(1);
@@ -131,15 +131,15 @@ TEST(Decrement, TellsOfAReadingThatIsFarOff) {
     StoredSamples source({{"t", "s"}, {{"v", "m/s"}}}, std::move(samples));
     try {
         decay_peaks(source, 0, 10);
-        ADD_FAILURE() << "nothing is told";
+        ADD_FAILURE() << "it was accepted";
     } catch (const InputError& error) {
         EXPECT_NE(std::string(error.what()).find("1 of "), std::string::npos) << error.what();
         EXPECT_NE(std::string(error.what()).find("standard deviations off"), std::string::npos) << error.what();
     }
 }
 
-// Of a record in which one period is missing no periods can be counted; of one with a few rows less they can.
-TEST(Decrement, TellsOfAGap) {
+// Periods cannot be counted if a whole one is missing; a gap of a few rows is harmless.
+TEST(Decrement, RefusesAGapThatMayHideAPeriod) {
     for (const double length : {0.005, 0.07}) {
         Noise noise(3);
         Samples samples;
@@ -167,8 +167,8 @@ TEST(Decrement, TellsOfAGap) {
     }
 }
 
-// A channel that comes to rest elsewhere than at nought: where that is belongs to what is found, and to the errors.
-TEST(Decrement, FindsWhereAChannelComesToRest) {
+// An unknown rest position other than zero is estimated, and its error enters the others.
+TEST(Decrement, FindsTheRestPosition) {
     constexpr double rest = 0.3; // four times the first peak
     std::size_t dampings = 0, rests = 0;
     for (std::size_t seed = 0; seed < experiments; ++seed) {
@@ -187,8 +187,8 @@ TEST(Decrement, FindsWhereAChannelComesToRest) {
     EXPECT_NEAR(exact.rest, rest, 1e-12);
 }
 
-// Noise of a third of the first peak, as large as the last ones: fewer peaks stand out, and those that do tell.
-TEST(Decrement, OfNoisyRecordsUsesThePeaksThatStandOut) {
+// With noise of a third of the first peak only the first peaks stand out.
+TEST(Decrement, UsesThePeaksThatStandOutFromNoise) {
     std::size_t frequencies = 0;
     for (std::size_t seed = 0; seed < experiments; ++seed) {
         Noise noise(seed);
@@ -209,8 +209,8 @@ TEST(Decrement, OfNoisyRecordsUsesThePeaksThatStandOut) {
     }
 }
 
-// Each peak is at most a thirtieth of the one before for the strongest damping: later ones are far below a tenth of the
-// record's range. Without noise what is left is how well polynomials follow the peaks, and the rest position.
+// With the strongest damping each peak is less than a thirtieth of the one before, far below a tenth of the range.
+// Without noise the error is that of the polynomials, and of the rest position.
 TEST(Decrement, FindsStrongDamping) {
     for (const double zeta : {0.1, 0.2, 0.3, 0.5}) {
         constexpr double omega = 3, length = 20;
@@ -230,7 +230,7 @@ TEST(Decrement, FindsStrongDamping) {
     }
 }
 
-TEST(Decrement, RefusesWhatIsNone) {
+TEST(Decrement, RefusesInvalidPeaks) {
     StoredSamples empty({{"t", "s"}, {{"v", ""}}}, {{}, {{}}});
     EXPECT_THROW(decay_peaks(empty, 0, 10), InputError);
     const auto refused = [](const std::vector<DecayPeaks>& releases) {

@@ -6,7 +6,7 @@
 
 namespace graze::testing {
 
-/// A ball that is dropped: it comes to rest after infinitely many bounces.
+/// A dropped ball, which comes to rest after infinitely many bounces.
 inline Model dropped_ball(const std::string& chatter = "chatter = { jump = \"stop\", mode = \"rest\" }") {
     return parse_model(R"(
 name = "drop"

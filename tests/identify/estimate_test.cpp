@@ -8,20 +8,20 @@
 
 namespace graze::testing {
 
-TEST(Estimate, QuantilesAreStudents) {
-    // Closed forms: of one degree of freedom the tangent, of two p sqrt(2/(1 - p^2)).
+TEST(Estimate, QuantilesAreThoseOfStudentsDistribution) {
+    // Closed forms: the tangent for one degree of freedom, p sqrt(2/(1 - p^2)) for two.
     EXPECT_NEAR(student_quantile(0.95, 1), std::tan(std::numbers::pi * 0.475), 1e-12);
     EXPECT_NEAR(student_quantile(0.95, 2), 0.95 * std::sqrt(2 / (1 - 0.95 * 0.95)), 1e-13);
-    const double root = std::sqrt(0.75); // of four the root of a cubic
+    const double root = std::sqrt(0.75); // for four: the root of a cubic
     EXPECT_NEAR(student_quantile(0.5, 4), 2 * std::sqrt(std::cos(std::acos(root) / 3) / root - 1), 1e-13);
-    const double z = 1.959963984540054, many = 1e6; // the normal quantile, and the first term of what differs from it
+    const double z = 1.959963984540054, many = 1e6; // the normal quantile, and the first-order correction
     EXPECT_NEAR(student_quantile(0.95, many), z + (z * z * z + z) / (4 * many), 1e-9);
     EXPECT_THROW(student_quantile(1, 3), InputError);
     EXPECT_THROW(student_quantile(0.5, 0), InputError);
     EXPECT_EQ((Estimate{1, 2, 0}.half_width()), 0);
 }
 
-TEST(Estimate, SetsThatDifferByTheirErrorsOnlyAreAveragedByThem) {
+TEST(Estimate, SetsThatDifferByTheirErrorsAreAveragedByInverseVariance) {
     const std::vector<Estimate> sets{{1, 0.1, 10}, {1.02, 0.2, 10}, {0.99, 0.1, 10}};
     const Combined all = combine(sets);
     EXPECT_EQ(all.spread, 0);
@@ -32,7 +32,7 @@ TEST(Estimate, SetsThatDifferByTheirErrorsOnlyAreAveragedByThem) {
     EXPECT_THROW(combine({}), InputError);
 }
 
-TEST(Estimate, SetsThatDifferByMoreCoverTheirMean) {
+TEST(Estimate, IntervalOfSetsThatDifferByMoreCoversTheirMean) {
     std::size_t covered = 0;
     for (std::size_t seed = 0; seed < experiments; ++seed) {
         Noise noise(seed);

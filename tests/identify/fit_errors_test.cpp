@@ -25,7 +25,7 @@ RecordedMotion wall_motion(std::size_t readings = 120) {
 
 } // namespace
 
-/// Intervals of 95 % cover the truth in 90 to 99 % of 200 experiments, of every parameter.
+/// 95 % intervals of every parameter cover the truth in 90 to 99 % of 200 experiments.
 TEST(FitErrorsSlow, IntervalsCoverTheTruth) {
     const RecordedMotion exact = wall_motion();
     ASSERT_GE(exact.contacts, 3U);
@@ -44,8 +44,8 @@ TEST(FitErrorsSlow, IntervalsCoverTheTruth) {
         expect_coverage(covered[j], exact.model.independent_parameters()[j].c_str());
 }
 
-/// What is left, drawn anew and added to what was fitted, scatters the estimates as their errors say (B. Efron).
-TEST(FitErrorsSlow, AreThoseOfTheBootstrap) {
+/// Bootstrap (B. Efron): refitting the fitted values with resampled residuals scatters the estimates by their errors.
+TEST(FitErrorsSlow, EqualThoseOfTheBootstrap) {
     constexpr std::size_t draws = 150;
     RecordedMotion motion = wall_motion();
     motion.add_noise(0.01, 11);
@@ -73,14 +73,14 @@ TEST(FitErrorsSlow, AreThoseOfTheBootstrap) {
     }
     for (std::size_t j = 0; j < sums.size(); ++j) {
         const double mean = sums[j] / draws, deviation = std::sqrt(squares[j] / draws - mean * mean);
-        // A standard deviation of 150 draws is known to 6 %.
+        // The standard deviation of 150 draws has an error of 6 %.
         EXPECT_NEAR(deviation, fit.numbers[j].estimate.error, 0.25 * fit.numbers[j].estimate.error)
             << fit.numbers[j].name;
     }
 }
 
-/// Of independent readings of a constant rate the errors are known in closed form: x = x0 + r t.
-TEST(FitErrors, AreThoseOfAStraightLine) {
+/// For independent readings of x = x0 + r t the errors have a closed form.
+TEST(FitErrors, EqualThoseOfAStraightLine) {
     const Model model = parse_model("name = \"line\"\n[parameters]\nr = 3\n[states]\nx = { initial = 1 }\n"
                                     "[modes.m]\nrates = { x = \"r\" }\n",
                                     "line.toml");
@@ -106,7 +106,8 @@ TEST(FitErrors, AreThoseOfAStraightLine) {
     for (std::size_t i = 0; i < count; ++i)
         left += std::pow(record.readings[0].values[i] - start - rate * record.times[i], 2);
     const double variance = left / (count - 2);
-    // Where the sum of squares changes by 1e-15 of itself no more, estimates do by 1e-7 of their errors, some 0.01.
+    // The iteration stops at a relative change of the sum of squares of 1e-15, which moves estimates by 1e-7 of their
+    // errors (some 0.01).
     EXPECT_NEAR(fit.numbers[0].estimate.value, rate, 1e-9);
     EXPECT_NEAR(fit.numbers[1].estimate.value, start, 1e-9);
     EXPECT_NEAR(fit.numbers[0].estimate.error, std::sqrt(variance / tt), 1e-10);
@@ -116,8 +117,8 @@ TEST(FitErrors, AreThoseOfAStraightLine) {
     EXPECT_NEAR(fit.outputs[0].deviation, std::sqrt(variance), 1e-11);
 }
 
-/// One reading in twenty is wild: squares are led astray, other losses are not.
-TEST(FitErrors, RobustLossesBearWildReadings) {
+/// One reading in twenty is an outlier: least squares is biased, robust losses are not.
+TEST(FitErrors, RobustLossesTolerateOutliers) {
     RecordedMotion motion = wall_motion();
     motion.add_noise(0.005, 21);
     Noise chance(8);
@@ -143,7 +144,7 @@ TEST(FitErrors, RobustLossesBearWildReadings) {
     }
 }
 
-TEST(FitErrors, BoundsHold) {
+TEST(FitErrors, ParametersStayWithinBounds) {
     RecordedMotion motion = wall_motion();
     motion.add_noise(0.005, 2);
     motion.task.parameters[3].greatest = 0.6; // the truth is 0.7
@@ -153,11 +154,11 @@ TEST(FitErrors, BoundsHold) {
     EXPECT_TRUE(fit.numbers[3].at_bound);
     EXPECT_NEAR(fit.numbers[3].estimate.value, 0.6, 1e-9);
     EXPECT_EQ(fit.numbers[3].estimate.freedom, 0);
-    EXPECT_FALSE(fit.outputs[1].independent) << "what is left tells that the model misses something";
+    EXPECT_FALSE(fit.outputs[1].independent) << "the residuals show that the model is wrong";
 }
 
-/// Chaotic motion with noise: each parameter within four of its errors.
-TEST(FitErrorsSlow, ChaosBearsNoise) {
+/// Chaotic motion with noise: each parameter is within four standard errors.
+TEST(FitErrorsSlow, ChaoticMotionWithNoiseIsFitted) {
     RecordedMotion motion(load_model("electromagnetic-testbed"), {"q", "v", "I"}, 4, 0.002, 1000);
     for (const char* name : {"V0", "zeta", "e", "R"})
         motion.forget(name, 1.05);
@@ -172,8 +173,8 @@ TEST(FitErrorsSlow, ChaosBearsNoise) {
 
 namespace {
 
-/// Fifteen impacts, some of them slow: noise hides them, or makes others. (How many there are is not asked for: one may
-/// be so slow that the readings are as likely without it.)
+/// Fifteen impacts, some of them slow: noise hides them, or creates others. (Their number is not tested: one may be so
+/// slow that the readings are as likely without it.)
 void expect_found_with_slow_impacts(std::uint64_t seed, double factor) {
     RecordedMotion motion(load_model("impact-oscillator"), {"x", "v"}, 0, 0.05, 601);
     for (const char* name : {"zeta", "omega", "sigma", "e"})
@@ -182,7 +183,7 @@ void expect_found_with_slow_impacts(std::uint64_t seed, double factor) {
     motion.add_noise(0.005, seed);
     const Fit fit = fit_model(motion.model, motion.task);
     EXPECT_EQ(name_of(fit.ending), "converged") << fit.detail;
-    // Of 4 numbers in 18 fits one would be beyond four errors by chance in one of 200 such tests.
+    // With 4 numbers in 18 fits, one exceeds four errors by chance in one of 200 such tests.
     for (std::size_t j = 0; j < 4; ++j)
         EXPECT_LE(std::abs(fit.numbers[j].estimate.value - motion.truth(j)), 4 * fit.numbers[j].estimate.error)
             << fit.numbers[j].name << ", seed " << seed << ", guesses " << factor;
@@ -190,14 +191,14 @@ void expect_found_with_slow_impacts(std::uint64_t seed, double factor) {
 
 } // namespace
 
-/// Records of which a first way ends where an impact is missed, or one too many, and looks as if it had converged.
+/// Records for which the first pass ends with one impact too few or too many, and seems converged.
 TEST(FitErrors, SlowImpactsAreFound) {
     for (const std::uint64_t seed : {8, 37})
         expect_found_with_slow_impacts(seed, 1);
 }
 
 /// From the true values, and from guesses that are ten percent off.
-TEST(FitErrorsSlow, GuessesMakeNoDifference) {
+TEST(FitErrorsSlow, GuessesDoNotMatter) {
     for (std::uint64_t seed = 1; seed <= 8; ++seed)
         for (const double factor : {1.0, 1.1})
             expect_found_with_slow_impacts(seed, factor);

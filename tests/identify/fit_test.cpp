@@ -17,7 +17,7 @@ namespace graze::testing {
 
 namespace {
 
-/// All that is computed is right to some 1e-13; numbers that follow from it are demanded to nine digits.
+/// Motions are accurate to some 1e-13; numbers fitted to them must have nine correct digits.
 constexpr double nine_digits = 1e-9;
 
 void expect_found(const RecordedMotion& motion, const FitSettings& settings = {}) {
@@ -56,7 +56,7 @@ TEST(Fit, FindsTheParametersOfADryFrictionOscillator) {
     RecordedMotion motion(load_model("dry-friction-oscillator"), {"x", "v"}, 0, 0.1, 500);
     for (const char* name : {"zeta", "omega", "amplitude", "friction_static", "friction_dynamic"})
         motion.forget(name, 1.05);
-    motion.task.records[0].unknown_states = {0, 2}; // it is at rest
+    motion.task.records[0].unknown_states = {0, 2}; // v is known: the motion starts at rest
     expect_found(motion);
 }
 
@@ -69,7 +69,7 @@ TEST(FitSlow, FindsTheParametersOfTheTestbedThroughChaos) {
     expect_found(motion);
 }
 
-/// Records of different voltages, each with its own; gains and offsets that are not known.
+/// Records with different amplitudes, each known, and an unknown gain and offset.
 TEST(Fit, FindsGainsAndOffsetsFromSeveralRecords) {
     Model model = load_model("impact-oscillator");
     RecordedMotion motion(model, {"x", "v"}, 0, 0.05, 300);
@@ -98,8 +98,8 @@ TEST(Fit, FindsGainsAndOffsetsFromSeveralRecords) {
     EXPECT_EQ(fit.numbers[11].name, "theta(0) of record 2");
 }
 
-/// x'' = -k/m x: nothing tells k and m but their ratio.
-TEST(Fit, TellsWhatIsNotDetermined) {
+/// x'' = -k/m x: only the ratio of k and m is determined.
+TEST(Fit, NamesUndeterminedCombinations) {
     const Model model = parse_model(R"(
 name = "swing"
 [parameters]
@@ -126,10 +126,10 @@ rates = { x = "v", v = "-k/m*x" }
     EXPECT_THAT(fit.detail, ::testing::HasSubstr("k (+1 %)"));
     EXPECT_EQ(fit.numbers[0].estimate.freedom, 0);
     EXPECT_NEAR(fit.numbers[1].estimate.value / fit.numbers[0].estimate.value, 4, 4 * nine_digits);
-    EXPECT_GT(fit.numbers[2].estimate.freedom, 0) << "the amplitude is known all the same";
+    EXPECT_GT(fit.numbers[2].estimate.freedom, 0) << "the amplitude is still determined";
 }
 
-TEST(Fit, EndsInTheMiddleOfAMotion) {
+TEST(Fit, CanBeInterruptedInTheMiddleOfAMotion) {
     const Model model = parse_model(R"(
 name = "cooling"
 [parameters]
@@ -152,8 +152,8 @@ rates = { T = "-T/tau" }
                 ::testing::HasSubstr("a record lasts 4.9 of the model's time; look at the unit of its times"));
 }
 
-/// Of a channel with the wrong sign or unit no parameters make a fit: it ends soon, and says which one.
-TEST(Fit, SaysWhatDoesNotMatch) {
+/// No parameters fit a channel with the wrong sign or unit: the fit ends soon, and names the channel.
+TEST(Fit, NamesTheChannelThatDoesNotMatch) {
     for (const double factor : {-1.0, 57.29577951308232}) {
         RecordedMotion motion(wall_model(), {"x", "v"}, 0.013, 0.05, 200);
         for (double& value : motion.task.records[0].readings[1].values)
@@ -172,7 +172,7 @@ TEST(Fit, SaysWhatDoesNotMatch) {
         EXPECT_NE(name_of(fit.ending), "converged") << factor;
         EXPECT_THAT(fit.detail, ::testing::HasSubstr("does not match from time")) << factor;
         EXPECT_THAT(fit.detail, ::testing::HasSubstr("look at its sign, its unit")) << factor;
-        // Ended early it says the same, as soon as all pieces were looked at.
+        // Interrupted early it says the same, as soon as all pieces have been evaluated.
         int until = asked / 2;
         settings.interrupted = [&] { return --until < 0; };
         const Fit ended = fit_model(motion.model, motion.task, settings);
@@ -181,7 +181,7 @@ TEST(Fit, SaysWhatDoesNotMatch) {
     }
 }
 
-/// The same motion in nano- and in megaunits.
+/// The same motion in units from nano to mega.
 TEST(Fit, UnitsMakeNoDifference) {
     const auto swing = [](double length, double time) {
         Model model = wall_model();
@@ -203,7 +203,7 @@ TEST(Fit, UnitsMakeNoDifference) {
         EXPECT_EQ(name_of(other.ending), "converged") << other.detail;
         const std::array<double, 6> units{1 / time, 1 / (time * time), length, 1, length, length / time};
         for (std::size_t j = 0; j < units.size(); ++j) {
-            // Stationary to a hundredth of the error at most.
+            // Each fit is stationary to at most a hundredth of the error.
             const double error = usual.numbers[j].estimate.error;
             EXPECT_NEAR(other.numbers[j].estimate.value / units[j], usual.numbers[j].estimate.value, 0.02 * error);
             EXPECT_NEAR(other.numbers[j].estimate.error / units[j], error, 1e-3 * error);
@@ -211,7 +211,7 @@ TEST(Fit, UnitsMakeNoDifference) {
     }
 }
 
-/// The period of a clock is a number to be found.
+/// The period of a cyclic state depends on an unknown parameter.
 TEST(Fit, FindsAPeriod) {
     const Model model = parse_model(R"(
 name = "clock"
@@ -233,8 +233,8 @@ rates = { x = "v", v = "cos(w*tau) - 4*x - c*v", tau = 1 }
     expect_found(motion);
 }
 
-/// More than half of the record is rest, with readings on both sides of the floor.
-TEST(Fit, BearsRestAfterChatter) {
+/// The ball rests for more than half of the record, with readings on both sides of the floor.
+TEST(Fit, ConvergesOnARecordWithRestAfterChatter) {
     for (const std::uint64_t seed : {1, 2, 3}) {
         RecordedMotion motion(dropped_ball(), {"x"}, 0, 0.01, 400);
         ASSERT_GT(motion.contacts, 10U);
@@ -249,7 +249,7 @@ TEST(Fit, BearsRestAfterChatter) {
     }
 }
 
-TEST(Fit, SaysThatTheModelDoesNotTellWhatFollowsChatter) {
+TEST(Fit, SaysThatTheModelDoesNotDefineWhatFollowsChatter) {
     RecordedMotion motion(dropped_ball(), {"x"}, 0, 0.02, 200);
     motion.model = dropped_ball("");
     motion.forget("e", 1.01);
@@ -259,8 +259,8 @@ TEST(Fit, SaysThatTheModelDoesNotTellWhatFollowsChatter) {
     EXPECT_THAT(fit.detail, ::testing::Not(::testing::HasSubstr("guesses")));
 }
 
-/// An output that is nought for ever, and one that is large only as another is small.
-TEST(Fit, NamesGainsThatNothingTells) {
+/// An output that is always 0, and one whose gain is only known in product with its initial state.
+TEST(Fit, NamesUndeterminedGains) {
     const Model model = parse_model(R"(
 name = "two"
 [parameters]
@@ -300,8 +300,8 @@ TEST(Fit, NamesAReadingThatIsOutOfAllProportion) {
     }
 }
 
-/// A converter that is stuck tells nothing of its noise.
-TEST(Fit, AConstantChannelHasNoExactInterval) {
+/// Equal readings, as from a stuck converter, do not show their noise.
+TEST(Fit, AConstantChannelHasAnIntervalAboveZero) {
     const Model model = parse_model("name = \"still\"\n[parameters]\nc = 5\n[states]\nx = { initial = 1 }\n"
                                     "[modes.m]\nrates = { x = 0 }\n",
                                     "still.toml");
@@ -314,7 +314,7 @@ TEST(Fit, AConstantChannelHasNoExactInterval) {
 
 namespace {
 
-/// The square of a displacement alone is read.
+/// Replaces the readings by the squares of a displacement.
 void read_squares(RecordedMotion& motion) {
     motion.task.outputs[0].value = pow(motion.task.outputs[0].value, 2);
     for (double& value : motion.task.records[0].readings[0].values)
@@ -324,12 +324,13 @@ void read_squares(RecordedMotion& motion) {
 
 } // namespace
 
-/// The other side is as good, and is told: by the signs of all states, or by a symmetry of the model, through stops.
-TEST(Fit, TellsOfMirrorImages) {
+/// Squares of a displacement do not show the side: the mirror image is reported as alternative, found by the signs of
+/// all states, or by a symmetry of the model, through impacts.
+TEST(Fit, ReportsMirrorImagesAsAlternatives) {
     RecordedMotion ball(dropped_ball(), {"v"}, 0, 0.01, 40);
     ball.forget("g", 1.02);
     ball.task.records[0].unknown_states = {1};
-    EXPECT_TRUE(fit_model(ball.model, ball.task).twins.empty());
+    EXPECT_TRUE(fit_model(ball.model, ball.task).alternatives.empty());
 
     RecordedMotion swing(parse_model("name = \"swing\"\n[parameters]\nk = 4\n[states]\nx = { initial = 1 }\n"
                                      "v = { initial = 0.5 }\n[modes.m]\nrates = { x = \"v\", v = \"-k*x\" }\n",
@@ -340,10 +341,10 @@ TEST(Fit, TellsOfMirrorImages) {
     swing.forget_states();
     const Fit fit = fit_model(swing.model, swing.task);
     EXPECT_EQ(name_of(fit.ending), "converged") << fit.detail;
-    ASSERT_EQ(fit.twins.size(), 1U);
-    EXPECT_EQ(fit.twins[0].text, "x(0) = -1, v(0) = -0.5");
-    ASSERT_EQ(fit.twins[0].numbers.size(), 2U);
-    EXPECT_NEAR(fit.twins[0].numbers[0].second, -1, nine_digits);
+    ASSERT_EQ(fit.alternatives.size(), 1U);
+    EXPECT_EQ(fit.alternatives[0].text, "x(0) = -1, v(0) = -0.5");
+    ASSERT_EQ(fit.alternatives[0].numbers.size(), 2U);
+    EXPECT_NEAR(fit.alternatives[0].numbers[0].second, -1, nine_digits);
 
     RecordedMotion stops(load_model("impact-oscillator-two-stops"), {"x"}, 0, 0.05, 200);
     ASSERT_GT(stops.contacts, 2U);
@@ -352,12 +353,12 @@ TEST(Fit, TellsOfMirrorImages) {
     stops.forget_states();
     const Fit other = fit_model(stops.model, stops.task);
     EXPECT_EQ(name_of(other.ending), "converged") << other.detail;
-    ASSERT_GE(other.twins.size(), 1U);
+    ASSERT_GE(other.alternatives.size(), 1U);
     for (const char* state : {"x(0) = ", "v(0) = ", "theta(0) = "})
-        EXPECT_THAT(other.twins[0].text, ::testing::HasSubstr(state));
+        EXPECT_THAT(other.alternatives[0].text, ::testing::HasSubstr(state));
 }
 
-/// A fit that has come to a negative amplitude half a period later goes over to the sign of the guess.
+/// A fit that converges to a negative amplitude with a phase half a period later is moved to the sign of the guess.
 TEST(Fit, SignsAreThoseOfGuesses) {
     RecordedMotion motion(load_model("ball-and-shaker"), {"q"}, 0.621, 0.005, 400);
     for (const char* name : {"zeta", "omega_n", "e", "a", "f"})
@@ -366,7 +367,7 @@ TEST(Fit, SignsAreThoseOfGuesses) {
     motion.add_noise(0.005, 17);
     const Fit fit = fit_model(motion.model, motion.task);
     EXPECT_EQ(name_of(fit.ending), "converged") << fit.detail;
-    EXPECT_TRUE(fit.twins.empty());
+    EXPECT_TRUE(fit.alternatives.empty());
     for (std::size_t j = 0; j < motion.task.parameters.size(); ++j)
         EXPECT_LE(std::abs(fit.numbers[j].estimate.value - motion.truth(j)), 4 * fit.numbers[j].estimate.error)
             << fit.numbers[j].name;

@@ -64,7 +64,7 @@ std::string message_of(const std::function<void()>& work) {
     return "";
 }
 
-/// Of a release, by natural frequency and damping ratio, about a rest.
+/// Velocity of a release by natural frequency and damping ratio, with a rest position.
 NamedRecord release(double height) {
     constexpr double natural = 95.94, damping = 0.01626;
     const double damped = natural * std::sqrt(1 - damping * damping);
@@ -72,7 +72,7 @@ NamedRecord release(double height) {
                   {[=](double t) { return 0.25 + height * std::exp(-damping * natural * t) * std::sin(damped * t); }});
 }
 
-/// A ball that falls from 1 m and loses speed by a factor: its velocity is straight between impacts.
+/// A ball that falls from 1 m and bounces with a coefficient of restitution: its velocity is linear between impacts.
 NamedRecord drops(const std::string& name, double restitution) {
     constexpr double g = 9.81;
     const double first = std::sqrt(2 / g);
@@ -90,9 +90,9 @@ NamedRecord drops(const std::string& name, double restitution) {
 
 } // namespace
 
-TEST(Identification, DecrementsHaveUnitsAndCurves) {
+TEST(Identification, DecrementHasUnitsAndCurves) {
     const Identification found = identify_decrement(each({release(0.1), release(0.2)}), {});
-    // Parabolas through the samples around peaks are right to some 1e-6 of a period.
+    // Parabolas through the samples around peaks are accurate to some 1e-6 of a period.
     EXPECT_NEAR(value_of(found, "natural_frequency").estimate.value, 95.94, 1e-5 * 95.94);
     EXPECT_EQ(value_of(found, "natural_frequency").unit, "rad/s");
     EXPECT_NEAR(value_of(found, "damping_ratio").estimate.value, 0.01626, 1e-5);
@@ -115,11 +115,11 @@ TEST(Identification, RestitutionsOfSeveralRecordsAreCombined) {
     IdentificationSettings settings;
     settings.impacts.least_jump = 1;
     const Identification one = identify_restitution(each({drops("a", 0.8)}), settings);
-    // Between two samples an impact may be half a millisecond from where it is looked for: 9.81 m/s^2 make 0.005 m/s of
-    // that before it and as much behind, of 1.8 m/s and more.
+    // Between two samples the time of an impact is uncertain by half a millisecond: 9.81 m/s^2 makes 0.005 m/s of that,
+    // before and after, of speeds of 1.8 m/s and more.
     constexpr double known = 0.005;
     EXPECT_NEAR(value_of(one, "restitution").estimate.value, 0.8, known);
-    EXPECT_EQ(one.values.size(), 1U) << "nothing is between records";
+    EXPECT_EQ(one.values.size(), 1U) << "a single record has no spread";
     const Identification both = identify_restitution(each({drops("a", 0.8), drops("b", 0.82)}), settings);
     EXPECT_NEAR(value_of(both, "restitution of a").estimate.value, 0.8, known);
     EXPECT_NEAR(value_of(both, "restitution of b").estimate.value, 0.82, known);
@@ -133,9 +133,9 @@ TEST(Identification, RestitutionsOfSeveralRecordsAreCombined) {
     EXPECT_NEAR(line.y[0], -value_of(both, "restitution").estimate.value * line.x[0], 1e-12);
 }
 
-/// An offset that is small beside velocities, but not beside their errors, is seen by those: the scatter about the
-/// line is what it makes itself.
-TEST(Identification, OffsetsOfVelocitiesAreTold) {
+/// An offset that is small relative to the velocities is detected by their errors; the scatter about the line would
+/// hide it, since the offset enlarges it.
+TEST(Identification, WarnsOfAnOffsetOfTheVelocity) {
     IdentificationSettings settings;
     settings.impacts.least_jump = 1;
     NamedRecord ball = drops("a", 0.85);
@@ -150,8 +150,9 @@ TEST(Identification, OffsetsOfVelocitiesAreTold) {
 }
 
 /// Four impacts with an offset that makes all ratios larger than one: by the scatter about the line the interval
-/// reaches below one, by the velocities' own errors it does not. One that loses nothing may be above one by its errors.
-TEST(Identification, RestitutionsAboveOneAreTold) {
+/// reaches below one, by the velocities' own errors it does not. For an elastic impact, errors alone may give more than
+/// one.
+TEST(Identification, WarnsOfARestitutionAboveOne) {
     IdentificationSettings settings;
     settings.impacts.least_jump = 1;
     for (const double offset : {0.0, 0.1}) {
@@ -178,8 +179,8 @@ TEST(Identification, RestitutionsAboveOneAreTold) {
     }
 }
 
-/// Between impacts the velocity goes straight from one to the next, so that each is known to its noise.
-TEST(Identification, RestitutionsThatChangeFromImpactToImpactAreTold) {
+/// Between impacts the velocity changes linearly, so that each value is known to its noise.
+TEST(Identification, WarnsOfARestitutionThatChangesFromImpactToImpact) {
     for (const double other : {0.8, 0.6}) {
         Noise noise(7);
         NamedRecord one{"a", {{"t", "s"}, {{"v", "m/s"}}}, {}};
@@ -196,7 +197,8 @@ TEST(Identification, RestitutionsThatChangeFromImpactToImpactAreTold) {
         const Identification found = identify_restitution(each({one}), {});
         if (other == 0.8) {
             EXPECT_THAT(found.warnings, ::testing::IsEmpty());
-            // Within half a sample velocities change by 0.017; both do so alike, which is a fifth of that over 0.85.
+            // Within half a sample both velocities change by 0.017, with the same sign: a fifth of that relative to
+            // 0.85.
             EXPECT_NEAR(value_of(found, "restitution").estimate.value, 0.8, 5e-3);
         } else {
             EXPECT_THAT(found.warnings, ::testing::Contains(HasSubstr("changes from impact to impact")));
@@ -204,8 +206,8 @@ TEST(Identification, RestitutionsThatChangeFromImpactToImpactAreTold) {
     }
 }
 
-/// Of exact loads in m: what is in mm, and what has another gap, is no magnet's.
-TEST(Identification, CouplingsOfNoMagnetAreNotTold) {
+/// Exact loads in m: the same loads in mm, or with another gap, are impossible for a magnet.
+TEST(Identification, CouplingIsLeftOutWhereNoMagnetHasIt) {
     constexpr double beta1 = 1.902e-5, beta2 = 1.631e-3, gap = 0.00479102312304, stiffness = 0.6462 * 95.94 * 95.94;
     const auto loads = [&](double unit) {
         return record("loads", {{"q", ""}, {"I", "A"}}, 1, 12,
@@ -222,13 +224,14 @@ TEST(Identification, CouplingsOfNoMagnetAreNotTold) {
                 HasSubstr("a displacement of 0.1 is larger than the gap at rest, 0.004791"));
     settings.gap = 0.05; // beta2 would have to be gap + beta2 less 50 mm
     const Identification found = identify_coupling(each({loads(1)}), settings);
-    EXPECT_THAT(found.warnings, ::testing::Contains(HasSubstr("beta2 is not told: beta2, which the way through")));
+    EXPECT_THAT(found.warnings,
+                ::testing::Contains(HasSubstr("beta2 is left out: beta2, the part of the magnetic path")));
     for (const Identification::Value& value : found.values)
         EXPECT_TRUE(value.name != "beta1" && value.name != "beta2");
 }
 
-TEST(Identification, CouplingsAreOfRowsOrOfRecords) {
-    // Eq. (5.13) with the constants of Appendix C.
+TEST(Identification, CouplingTakesRowsOrRecordsAsEquilibria) {
+    // Eq. (5.13) with the constants of Appendix C of the dissertation.
     constexpr double beta1 = 1.902e-5, beta2 = 1.631e-3, gap = 0.00479102312304, stiffness = 0.6462 * 95.94 * 95.94;
     const auto current_at = [&](double q) { return (gap + beta2 - q) * std::sqrt(2 * stiffness * q / beta1); };
     IdentificationSettings settings;
@@ -257,11 +260,11 @@ TEST(Identification, CouplingsAreOfRowsOrOfRecords) {
             EXPECT_NEAR(found.shown[0].fitted.x[i], current_at(found.shown[0].fitted.y[i]), 1e-8);
         const std::size_t count = found.values.size();
         EXPECT_EQ(found.covariance[1], found.covariance[count]);
-        EXPECT_EQ(found.covariance[2], 0) << "of a correlation no error is known";
+        EXPECT_EQ(found.covariance[2], 0) << "the error of a correlation is unknown";
     }
 }
 
-TEST(Identification, ImpedancesWarnOfSigns) {
+TEST(Identification, ImpedanceWarnsOfSigns) {
     constexpr double resistance = 1.39, inductance = 0.0145, frequency = 6.1;
     const double w = turn * frequency, size = std::hypot(resistance, w * inductance);
     const double late = std::atan2(w * inductance, resistance);
@@ -280,7 +283,7 @@ TEST(Identification, ImpedancesWarnOfSigns) {
     EXPECT_TRUE(found.warnings.empty());
     EXPECT_LE(found.shown.front().measured.x.back(), 3 / frequency) << "the first periods tell enough";
     const Identification turned = identify_impedance(each({coil(-1)}), {});
-    ASSERT_EQ(turned.warnings.size(), 2U) << "neither is that of a coil";
+    ASSERT_EQ(turned.warnings.size(), 2U) << "resistance and inductance are both negative";
     EXPECT_THAT(turned.warnings[0], HasSubstr("the resistance comes out below zero"));
     IdentificationSettings half;
     half.asked_as = "--";
@@ -289,7 +292,7 @@ TEST(Identification, ImpedancesWarnOfSigns) {
                 HasSubstr("give --beta1, --beta2 and --gap, or none"));
 }
 
-/// The same in other units, by numbers that are multiples of these.
+/// The same record in other units; `times` and `values` are the factors of the numbers.
 NamedRecord in_units(NamedRecord one, const std::string& time, double times, std::size_t channel,
                      const std::string& unit, double values) {
     one.header.time.unit = time;
@@ -301,7 +304,7 @@ NamedRecord in_units(NamedRecord one, const std::string& time, double times, std
     return one;
 }
 
-/// A record in mV, mA or ms tells what the one in V, A and s does, and the numbers are put together in the first one's.
+/// A record in mV, mA or ms gives the same as the one in V, A and s; results are in the units of the first record.
 TEST(Identification, RecordsInOtherUnitsAreConverted) {
     constexpr double resistance = 1.4, inductance = 0.0105, frequency = 4;
     const double w = turn * frequency, size = std::hypot(resistance, w * inductance);
@@ -333,7 +336,7 @@ TEST(Identification, RecordsInOtherUnitsAreConverted) {
         EXPECT_LT(x, 1) << "seconds";
 }
 
-TEST(Identification, RecordsOfOtherKindsAreRefused) {
+TEST(Identification, RecordsWithUnitsOfOtherDimensionsAreRefused) {
     const NamedRecord first = release(0.1);
     const auto refusal = [&](const NamedRecord& other) {
         return message_of([&] { identify_decrement(each({first, other}), {}); });
@@ -348,7 +351,7 @@ TEST(Identification, RecordsOfOtherKindsAreRefused) {
     EXPECT_NO_THROW(identify_decrement(each({ticks, ticks}), {})) << "the same unit, whatever it is";
 }
 
-TEST(Identification, RefusesWhatNothingCanBeFoundFrom) {
+TEST(Identification, RefusesRecordsWithoutUsableNumbers) {
     NamedRecord none = release(0.1);
     none.samples.clear(1);
     EXPECT_THAT(message_of([&] { identify_decrement(each({none}), {}); }), HasSubstr("the record has no rows"));

@@ -9,7 +9,7 @@ namespace graze::testing {
 
 namespace {
 
-/// Impacts of a ball that bounces, at speeds that fall by the restitution.
+/// Impacts of a bouncing ball; each speed is the one before times the restitution.
 std::vector<RecordedImpact> bounces(Noise& noise, double offset, double by_speed, double deviation) {
     std::vector<RecordedImpact> impacts;
     double speed = 1;
@@ -34,9 +34,9 @@ ImpactProportion tested(const std::vector<RecordedImpact>& impacts) {
 
 } // namespace
 
-/// The level is what it says: of honest impacts no more than this share is told to be none, and no fewer than a fifth
-/// of it (of several terms that are tested the chances are added, as if they were independent).
-TEST(ImpactProportion, ErrsAsOftenAsItsLevelSays) {
+/// The false-positive rate is at most the nominal level, and at least a fifth of it (the p values of several terms are
+/// combined by Bonferroni's bound).
+TEST(ImpactProportion, HasTheFalsePositiveRateOfItsLevel) {
     constexpr std::size_t records = 4000;
     constexpr double level = 0.05;
     std::size_t offsets = 0, changes = 0, rare = 0;
@@ -47,16 +47,16 @@ TEST(ImpactProportion, ErrsAsOftenAsItsLevelSays) {
         changes += test.change < level ? 1 : 0;
         rare += std::min(test.offset, test.change) < 1e-3 ? 1 : 0;
     }
-    constexpr double four_deviations = 55; // of a number with a mean of 200
+    constexpr double four_deviations = 55; // of a count with a mean of 200
     EXPECT_LT(static_cast<double>(offsets), level * records + four_deviations);
     EXPECT_LT(static_cast<double>(changes), level * records + four_deviations);
     EXPECT_GT(static_cast<double>(offsets), level * records / 5);
     EXPECT_GT(static_cast<double>(changes), level * records / 5);
-    EXPECT_LE(rare, 8U + 12U); // twice a thousandth of them, and four deviations
+    EXPECT_LE(rare, 8U + 12U); // 0.2 % of the records, and four deviations
 }
 
-/// An offset of ten times the error of a velocity hides in the scatter that it makes itself, and not in the errors.
-TEST(ImpactProportion, SeesAnOffsetAndAChangeWithSpeed) {
+/// An offset of ten standard errors is hidden by the scatter that it causes, but not by the velocities' own errors.
+TEST(ImpactProportion, DetectsAnOffsetAndAChangeWithSpeed) {
     for (std::size_t seed = 0; seed < 50; ++seed) {
         Noise noise(seed);
         const ImpactProportion shifted = tested(bounces(noise, 0.05, 0, 0.005));
@@ -66,8 +66,8 @@ TEST(ImpactProportion, SeesAnOffsetAndAChangeWithSpeed) {
     }
 }
 
-/// A restitution that differs from impact to impact leaves more than errors with any term: the scatter is its error.
-TEST(ImpactProportion, SaysNothingWhereImpactsDifferByMoreThanTheirErrors) {
+/// If the restitution varies from impact to impact, no further term explains the residuals, and none is reported.
+TEST(ImpactProportion, ReportsNoTermWhereImpactsDifferByMoreThanTheirErrors) {
     std::size_t told = 0;
     for (std::size_t seed = 0; seed < 200; ++seed) {
         Noise noise(seed);
@@ -81,14 +81,14 @@ TEST(ImpactProportion, SaysNothingWhereImpactsDifferByMoreThanTheirErrors) {
     EXPECT_LE(told, 4U);
 }
 
-TEST(ImpactProportion, SaysNotThatImpactsWithErrorsAloneAreUnlike) {
+TEST(ImpactProportion, DoesNotReportScatterThatErrorsExplain) {
     for (std::size_t seed = 0; seed < 4000; ++seed) {
         Noise noise(seed);
         EXPECT_GT(tested(bounces(noise, 0, 0, 0.004)).unlike, 1e-5) << seed;
     }
 }
 
-TEST(ImpactProportion, CountsImpactsThatAreNone) {
+TEST(ImpactProportion, CountsDoubtfulImpacts) {
     const RecordedImpact good{0, 0, 1, 0.1, -0.8, 0.1, 0}, weak{0, 0, 0.1, 0.1, -0.8, 0.1, 0},
         through{0, 0, 1, 0.1, 0.8, 0.1, 0}, plastic{0, 0, 1, 0.1, 0.15, 0.1, 0};
     EXPECT_EQ(doubtful_impacts(std::vector{good, weak, through, good, plastic}), 2U);

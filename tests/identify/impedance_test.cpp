@@ -17,7 +17,7 @@ struct Recorded {
     std::vector<double> times, voltage, current;
 };
 
-/// Eqs. (5.17) to (5.19), at the conditions of Fig. 5.9.
+/// A record by Eqs. (5.17) to (5.19), under the conditions of Fig. 5.9.
 Recorded recorded(Noise& noise, double noise_v, double noise_i) {
     const double inductance = leakage + beta1 / (beta2 + gap - q), lag = std::atan2(omega * inductance, resistance);
     const double flow = size / std::hypot(resistance, omega * inductance);
@@ -33,7 +33,7 @@ Recorded recorded(Noise& noise, double noise_v, double noise_i) {
 
 } // namespace
 
-TEST(Impedance, OfExactSinesIsExact) {
+TEST(Impedance, IsExactForExactSines) {
     Noise noise(1);
     const Recorded record = recorded(noise, 0, 0);
     for (const double guess : {0.0, 25.0}) {
@@ -45,8 +45,8 @@ TEST(Impedance, OfExactSinesIsExact) {
     }
 }
 
-/// In gaps periods may hide: the part without them says about how long one is.
-TEST(Impedance, OfARecordWithGapsIsFound) {
+/// The number of periods within a gap is unknown: the part without gaps gives the first guess of the frequency.
+TEST(Impedance, IsFoundInARecordWithGaps) {
     Noise noise(4);
     const Recorded whole = recorded(noise, 0.01, 0.01);
     for (const std::vector<std::size_t>& gaps : {std::vector<std::size_t>{500}, {300, 1500}}) {
@@ -60,7 +60,7 @@ TEST(Impedance, OfARecordWithGapsIsFound) {
         }
         const Impedance found = impedance(record.times, record.voltage, record.current);
         EXPECT_NEAR(found.frequency, omega, 1e-3 * omega);
-        EXPECT_TRUE(found.voltage_left.is_noise()) << found.voltage_left.text();
+        EXPECT_TRUE(found.voltage_test.is_noise()) << found.voltage_test.text();
         EXPECT_NEAR(found.resistance.value, resistance, 4 * found.resistance.error);
     }
 }
@@ -79,7 +79,7 @@ TEST(Impedance, IntervalsCoverTheTruth) {
     expect_coverage(leakages, "leakage inductance");
 }
 
-// Half as much noise as signal crosses the mean many times in a period.
+// With noise of half the amplitude the voltage crosses its mean many times a period.
 TEST(Impedance, IsFoundInNoiseThatCrossesTheMeanOften) {
     std::size_t covered = 0;
     for (std::size_t seed = 0; seed < experiments; ++seed) {
@@ -92,7 +92,7 @@ TEST(Impedance, IsFoundInNoiseThatCrossesTheMeanOften) {
     expect_coverage(covered, "resistance");
 }
 
-TEST(Impedance, ErrorsOfTheConstantsCount) {
+TEST(Impedance, ErrorsOfTheConstantsPropagate) {
     const Estimate all{0.014, 0, 100};
     EXPECT_NEAR(leakage_inductance(all, {beta1, 1e-3 * beta1, 9}, {beta2, 0, 9}, gap, q).error,
                 1e-3 * beta1 / (beta2 + gap - q), 1e-18);
@@ -101,7 +101,7 @@ TEST(Impedance, ErrorsOfTheConstantsCount) {
     EXPECT_THROW(leakage_inductance(all, {beta1, 0, 9}, {beta2, 0, 9}, 0, 1), InputError);
 }
 
-TEST(Impedance, RefusesWhatIsNone) {
+TEST(Impedance, RefusesChannelsWithoutASignal) {
     Noise noise(1);
     const Recorded record = recorded(noise, 0, 0);
     const std::vector<double> none(record.times.size(), 0.0);

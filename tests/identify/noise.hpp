@@ -8,7 +8,7 @@
 
 namespace graze::testing {
 
-/// Noise that is the same wherever it is drawn: a standard library may make its normal numbers as it likes.
+/// Noise that is the same with every standard library (their normal distributions differ).
 class Noise {
 public:
     explicit Noise(std::uint64_t seed) : engine_(seed) {}
@@ -25,7 +25,7 @@ private:
 
 constexpr std::size_t experiments = 200;
 
-/// Of 200 intervals of 95 %, 190 +- 3 cover the truth: 180 to 198 are three to four standard deviations.
+/// Expects 180 to 198 of 200 intervals of 95 % to cover the truth: 190 +- 3 is the binomial count.
 inline void expect_coverage(std::size_t covered, const char* what) {
     EXPECT_GE(covered, 180U) << what;
     EXPECT_LE(covered, 198U) << what;

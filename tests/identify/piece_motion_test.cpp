@@ -22,7 +22,7 @@ struct Case {
     double velocity = 0; ///< the second state at the beginning
 };
 
-/// Derivatives of all samples and of the end, and of the sides beyond contacts, against central differences.
+/// Compares the derivatives of all samples, of the end, and of the sides beyond contacts with central differences.
 void expect_differences(const Case& one) {
     const Model& model = one.model;
     const System system(model);
@@ -69,7 +69,7 @@ void expect_differences(const Case& one) {
             (d < states ? state[d] : values[moved[d - states]]) += sign * step;
             sides.push_back(follow(values, state));
         }
-        // Differences are wrong by the third derivative and by round-off of the motion, 1e-13/1e-6.
+        // The differences have errors from the third derivative and from round-off of the motion, 1e-13/1e-6.
         const auto expect = [&](double derivative, double above, double below, std::size_t i, std::size_t k) {
             const double scale = sizes[i] / size, period = model.periods()[i];
             const double difference = period > 0 ? std::remainder(above - below, period) : above - below;
@@ -96,7 +96,7 @@ void expect_differences(const Case& one) {
 
 } // namespace
 
-TEST(PieceMotion, DerivativesAreThoseOfDifferences) {
+TEST(PieceMotion, DerivativesEqualFiniteDifferences) {
     expect_differences({load_model("impact-oscillator"), {"zeta", "omega", "sigma", "e", "amplitude"}, 0, 9, 87});
     expect_differences({load_model("bouncing-ball"), {"g", "e", "a", "f"}, 0, 0.5, 113});
     expect_differences({load_model("dry-friction-oscillator"),
@@ -110,8 +110,8 @@ TEST(PieceMotion, DerivativesAreThoseOfDifferences) {
         {load_model("electromagnetic-testbed"), {"V0", "zeta", "e", "beta1", "R", "w0", "delta", "Ll"}, 0, 0.6, 119});
 }
 
-/// A clock that is set back after a period that depends on a parameter: the phase is w t all the same.
-TEST(PieceMotion, DerivativesPassPeriodsThatDependOnParameters) {
+/// A cyclic state whose period depends on a parameter: the phase is w t all the same.
+TEST(PieceMotion, DerivativesAreRightForPeriodsThatDependOnParameters) {
     const Model model = parse_model(R"(
 name = "clock"
 [parameters]

@@ -12,7 +12,7 @@
 
 namespace graze::testing {
 
-/// A motion of a model and what an instrument reads of it, without noise: as a task in which nothing is unknown yet.
+/// A motion of a model with exact readings of it, as a fit task without unknowns.
 struct RecordedMotion {
     Model model;
     FitTask task;
@@ -72,7 +72,7 @@ struct RecordedMotion {
                 return o;
         return 0;
     }
-    /// Its value is not known any more, but by a factor.
+    /// Makes a parameter unknown, with its value times a factor as guess.
     void forget(const std::string& parameter, double factor) {
         UnknownParameter unknown;
         unknown.parameter = model.independent_parameter(parameter);

@@ -25,8 +25,8 @@ std::vector<double> series(std::size_t count, const std::function<double(double)
 
 } // namespace
 
-// F with one and f degrees of freedom is the square of Student's t.
-TEST(ResidualTest, FishersTailIsStudentsOfOneDegree) {
+// An F variable with one and f degrees of freedom is the square of Student's t.
+TEST(ResidualTest, FisherTailOfOneDegreeIsThatOfStudent) {
     for (const double freedom : {3.0, 10.0, 200.0})
         for (const double probability : {0.5, 0.95, 0.999}) {
             const double t = student_quantile(probability, freedom);
@@ -34,7 +34,7 @@ TEST(ResidualTest, FishersTailIsStudentsOfOneDegree) {
         }
 }
 
-TEST(ResidualTest, NoiseIsNoise) {
+TEST(ResidualTest, AcceptsRandomNoise) {
     std::size_t wrong = 0;
     for (std::uint64_t seed = 0; seed < 400; ++seed) {
         Noise noise(seed);
@@ -43,8 +43,8 @@ TEST(ResidualTest, NoiseIsNoise) {
     EXPECT_LE(wrong, 2U);
 }
 
-/// Where the clock jitters, what is left dies out with the motion, and so do the weights that samples should have had.
-TEST(ResidualTest, NoiseThatDiesOutIsTold) {
+/// With a jittering clock the residuals decay with the motion, as the weights of the samples should.
+TEST(ResidualTest, FindsNoiseThatDecays) {
     const std::vector<double> readings = series(400, [](double i) { return 1000 * std::sin(i); });
     std::size_t wrong = 0, seen = 0;
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
@@ -53,7 +53,7 @@ TEST(ResidualTest, NoiseThatDiesOutIsTold) {
         const ResidualTest dying =
             test_residuals(series(400, [&](double i) { return std::exp(-i / 400) * noise.normal(); }), readings);
         seen += dying.is_noise() ? 0 : 1;
-        // Of noise with long tails nobody can tell so well.
+        // Noise with heavy tails must not be mistaken for decaying noise.
         const auto tails = series(400, [&](double) { return noise.normal() / std::sqrt(0.05 + noise.uniform()); });
         EXPECT_EQ(test_residuals(tails, readings).text().find("as large in the first half"), std::string::npos) << seed;
     }
@@ -61,8 +61,8 @@ TEST(ResidualTest, NoiseThatDiesOutIsTold) {
     EXPECT_GE(seen, 85U);
 }
 
-/// A release whose samples are taken up to a tenth of a step beside their times.
-TEST(ResidualTest, AClockThatJittersIsTold) {
+/// A release whose samples are taken up to a tenth of a step off their times.
+TEST(ResidualTest, FindsAClockThatJitters) {
     constexpr double w0 = 50, zeta = 0.02, step = 3e-3;
     std::size_t told = 0, wrong = 0;
     for (std::uint64_t seed = 0; seed < 40; ++seed)
@@ -78,28 +78,28 @@ TEST(ResidualTest, AClockThatJittersIsTold) {
                                             0.002 * noise.normal());
             }
             StoredSamples source({{"t", "s"}, {{"v", "m/s"}}}, std::move(samples));
-            (jitter > 0 ? told : wrong) += decay_peaks(source, 0, 10).wave.left.is_noise() ? 0 : 1;
+            (jitter > 0 ? told : wrong) += decay_peaks(source, 0, 10).wave.residual_test.is_noise() ? 0 : 1;
         }
     EXPECT_GE(told, 38U);
     EXPECT_LE(wrong, 1U);
 }
 
-TEST(ResidualTest, TellsWhyItIsNone) {
+TEST(ResidualTest, NamesTheStructureThatItFinds) {
     Noise noise(3);
     const auto text = [&](const std::function<double(double)>& value) {
         return test_residuals(series(2000, [&](double i) { return value(i) + noise.normal(); })).text();
     };
-    EXPECT_NE(text([](double i) { return 0.4 * (i - 1000) / 1000; }).find("it drifts"), std::string::npos);
+    EXPECT_NE(text([](double i) { return 0.4 * (i - 1000) / 1000; }).find("residuals drift"), std::string::npos);
     EXPECT_NE(text([](double i) {
                   return 0.3 * std::sin(2 * std::acos(-1.0) * 123 * i / 2000);
               }).find("a wave of 123 cycles"),
               std::string::npos);
-    EXPECT_NE(text([](double i) { return std::cos(2 * std::acos(-1.0) * 3 * i / 2000); }).find("keeps its sign"),
+    EXPECT_NE(text([](double i) { return std::cos(2 * std::acos(-1.0) * 3 * i / 2000); }).find("keep their sign"),
               std::string::npos);
     EXPECT_NE(text([](double i) { return i == 700 ? 9.0 : 0.0; }).find("1 of 2000 readings"), std::string::npos);
 }
 
-TEST(ResidualTest, CountsReadingsThatStandAtTheEndOfTheirRange) {
+TEST(ResidualTest, CountsClippedReadings) {
     Noise noise(4);
     const auto wave = [&](double i) { return std::sin(0.01 * i) + 0.01 * noise.normal(); };
     EXPECT_EQ(clipped_readings(series(2000, wave)), 0U);
@@ -109,7 +109,7 @@ TEST(ResidualTest, CountsReadingsThatStandAtTheEndOfTheirRange) {
               100U);
 }
 
-TEST(ResidualTest, ChanceOfFitIsUniformWhereNothingIsLeft) {
+TEST(ResidualTest, ChanceOfFitIsUniformForRandomNoise) {
     std::size_t below = 0;
     for (std::uint64_t seed = 0; seed < 1000; ++seed) {
         Noise noise(seed);
@@ -123,7 +123,7 @@ TEST(ResidualTest, ChanceOfFitIsUniformWhereNothingIsLeft) {
     EXPECT_NEAR(static_cast<double>(below), 100, 38); // four standard deviations of a binomial count
 }
 
-TEST(ResidualTest, ReadingsThatRepeatAreNotIndependent) {
+TEST(ResidualTest, RepeatedReadingsWidenErrors) {
     const auto rounded = [](double step) {
         const auto exact = series(400, [](double i) { return std::exp(-0.003 * i) * std::cos(0.21 * i + 0.3); });
         std::vector<double> readings, left;
@@ -137,8 +137,8 @@ TEST(ResidualTest, ReadingsThatRepeatAreNotIndependent) {
     EXPECT_NEAR(rounded(0.001), 1, 0.05);
 }
 
-// Rounded to steps of 0.2 with no noise that would blur them: intervals as of independent errors covered 85 %.
-TEST(DampedOscillationSlow, IntervalsCoverTheTruthOfCoarselyRoundedReadings) {
+// Rounded to steps of 0.2, without noise that would blur them: intervals that assume independent errors cover 85 %.
+TEST(DampedOscillationSlow, IntervalsCoverTheTruthForCoarselyRoundedReadings) {
     constexpr double w0 = 20, zeta = 0.015, step = 0.2, pi = std::numbers::pi;
     std::size_t frequencies = 0, dampings = 0, answers = 0;
     for (std::uint64_t seed = 0; seed < 300; ++seed) {
@@ -164,8 +164,8 @@ TEST(DampedOscillationSlow, IntervalsCoverTheTruthOfCoarselyRoundedReadings) {
     EXPECT_GE(dampings, 270U);
 }
 
-// Amplitude 0.35 in steps of 0.2 ms: at a noise of 0.005 peaks alone said 0.0175 where 0.017 is true.
-TEST(DampedOscillationSlow, IntervalsCoverTheTruthWhateverTheNoise) {
+// Amplitude 0.35 sampled every 0.2 ms: with noise of 0.005 peaks alone gave 0.0175 instead of 0.017.
+TEST(DampedOscillationSlow, IntervalsCoverTheTruthAtAnyNoise) {
     constexpr double w0 = 96.4;
     for (const double zeta : {0.005, 0.017, 0.08})
         for (const double sigma : {0.0005, 0.005, 0.02}) {
@@ -186,7 +186,7 @@ TEST(DampedOscillationSlow, IntervalsCoverTheTruthWhateverTheNoise) {
                     }
                     StoredSamples source({{"t", "s"}, {{"v", "m/s"}}}, std::move(samples));
                     waves.push_back(decay_peaks(source, 0, 10).wave);
-                    doubted += waves.back().left.is_noise() ? 0 : 1;
+                    doubted += waves.back().residual_test.is_noise() ? 0 : 1;
                 }
                 const DampedOscillation found = damped_oscillation(waves);
                 dampings += std::abs(found.damping.value - zeta) < found.damping.half_width() ? 1 : 0;

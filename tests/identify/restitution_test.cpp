@@ -5,7 +5,7 @@
 
 namespace graze::testing {
 
-TEST(Restitution, OfExactImpactsIsExact) {
+TEST(Restitution, IsExactForExactImpacts) {
     const std::vector<ImpactSpeeds> impacts{{0.1, -0.0866}, {0.05, -0.0433}, {-0.2, 0.1732}};
     const Restitution found = restitution(impacts);
     EXPECT_NEAR(found.coefficient.value, 0.866, 1e-15);
@@ -13,7 +13,7 @@ TEST(Restitution, OfExactImpactsIsExact) {
     EXPECT_LT(found.coefficient.error, 1e-15);
 }
 
-TEST(Restitution, OfEqualNoiseIsTheNearestLineInClosedForm) {
+TEST(Restitution, EqualsTheClosedFormForEqualNoise) {
     Noise noise(3);
     std::vector<ImpactSpeeds> impacts;
     double before = 0, after = 0, product = 0;
@@ -29,7 +29,7 @@ TEST(Restitution, OfEqualNoiseIsTheNearestLineInClosedForm) {
     EXPECT_NEAR(restitution(impacts).coefficient.value, -slope, 1e-12);
 }
 
-// Impacts of many speeds, of which the softest are no faster than ten times the noise: ratios of these are biased.
+// Impacts of many speeds; the slowest are ten times the noise: their ratios are biased.
 TEST(Restitution, IntervalsCoverTheTruth) {
     for (const double ratio : {1.0, 3.0}) {
         std::size_t covered = 0;
@@ -47,7 +47,7 @@ TEST(Restitution, IntervalsCoverTheTruth) {
     }
 }
 
-TEST(Restitution, RefusesWhatIsNone) {
+TEST(Restitution, RefusesVelocitiesThatAreNotThoseOfImpacts) {
     EXPECT_THROW(restitution({}), InputError);
     EXPECT_THROW(restitution(std::vector<ImpactSpeeds>{{1, -1}}), InputError);
     EXPECT_THROW(restitution(std::vector<ImpactSpeeds>{{1, 1}, {1, 1}}), InputError);

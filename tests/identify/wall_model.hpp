@@ -4,7 +4,7 @@
 
 namespace graze::testing {
 
-/// A damped oscillator that is let go and hits a wall: quick, and through three impacts.
+/// A damped oscillator that is released and hits a wall: three impacts, quick to compute.
 inline Model wall_model() {
     return parse_model(R"(
 name = "wall"

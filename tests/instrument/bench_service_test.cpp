@@ -23,7 +23,7 @@ BenchSettings testbed() {
     return testing::testbed({"I"});
 }
 
-/// A bench that serves in a thread of its own, and the other ends of its connections.
+/// A bench service in a thread of its own, with clients of its connections.
 class Served {
 public:
     explicit Served(ServiceSettings settings = {})
@@ -46,7 +46,7 @@ public:
         std::filesystem::remove_all(folder_);
     }
     std::string port() const { return (folder_ / "generator").string(); }
-    /// Whether somebody listens at an address.
+    /// Whether a connection to an address is accepted.
     bool is_reached(in_addr_t where, int file) const {
         sockaddr_in address{};
         address.sin_family = AF_INET;
@@ -62,7 +62,7 @@ public:
     static void say(int file, const std::string& text) {
         EXPECT_EQ(write(file, text.data(), text.size()), static_cast<ssize_t>(text.size()));
     }
-    /// What comes until it ends so, or for two seconds.
+    /// Returns the text received until it ends with `end`, or for two seconds.
     static std::string heard(int file, const std::string& end) {
         std::string text;
         std::array<char, 4096> buffer{};
@@ -88,7 +88,7 @@ private:
 
 } // namespace
 
-TEST(BenchService, AnswersOnALineAndGivesSamplesOnAPort) {
+TEST(BenchService, ServesTheGeneratorOnALineAndSamplesOnAPort) {
     Served served;
     Served::say(served.serial, "SYST:REM\nAPPL:SIN 6.1, 2, 0\r\nVOLT?\n");
     EXPECT_EQ(Served::heard(served.serial, "\n"), "+2.000000E+00\r\n");
@@ -107,7 +107,7 @@ TEST(BenchService, AnswersOnALineAndGivesSamplesOnAPort) {
     EXPECT_TRUE(rows.ends_with("OK\nOK\nERROR nothing is marked by 2\n"));
 }
 
-TEST(BenchService, OutlivesWhateverIsWrittenToIt) {
+TEST(BenchService, SurvivesAnyInput) {
     Served served;
     std::string noise;
     for (int i = 0; i < 2000; ++i)
@@ -115,7 +115,7 @@ TEST(BenchService, OutlivesWhateverIsWrittenToIt) {
     Served::say(served.serial, noise + "\nSYST:REM;*CLS\n*IDN?\n");
     EXPECT_NE(Served::heard(served.serial, "-2.0\r\n").find("33120A"), std::string::npos);
     Served::say(served.connection, noise + std::string(5000, 'x'));
-    Served::heard(served.connection, "never"); // until it hangs up
+    Served::heard(served.connection, "never"); // until it closes the connection
     const int other = served.connected();
     Served::say(other, "RATE 1000\n");
     EXPECT_EQ(Served::heard(other, "\n"), "OK 1000\n");
@@ -140,7 +140,7 @@ TEST(BenchService, BreaksOnRequest) {
     EXPECT_EQ(Served::heard(served.connection, "never").find("END"), std::string::npos);
 }
 
-/// Who listens at all addresses is reached at this one, too.
+/// A service on all interfaces would be reachable at this address.
 TEST(BenchService, IsReachedFromThisMachineAlone) {
     const Served served;
     const int file = socket(AF_INET, SOCK_STREAM, 0);
@@ -148,7 +148,7 @@ TEST(BenchService, IsReachedFromThisMachineAlone) {
     close(file);
 }
 
-TEST(BenchService, TakesNobodysName) {
+TEST(BenchService, ReplacesOnlyStaleLinks) {
     const std::filesystem::path file =
         std::filesystem::temp_directory_path() / ("graze-taken-" + std::to_string(getpid()));
     std::ofstream(file) << "mine";
@@ -162,7 +162,7 @@ TEST(BenchService, TakesNobodysName) {
     settings.speed = 0;
     EXPECT_THROW(BenchService service(bench, settings), InputError);
     std::filesystem::remove(file);
-    std::filesystem::create_symlink("/dev/pts/123456", file); // left by one that was killed
+    std::filesystem::create_symlink("/dev/pts/123456", file); // left by a process that was killed
     settings = {};
     settings.port = file.string();
     {

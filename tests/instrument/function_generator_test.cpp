@@ -21,7 +21,7 @@ std::string error(FunctionGenerator& generator) {
 
 } // namespace
 
-TEST(FunctionGenerator, DoesWhatAnExperimentAsksOfIt) {
+TEST(FunctionGenerator, ExecutesTheCommandsOfAnExperiment) {
     FunctionGenerator generator;
     for (const char* line : {"SYST:REM", "*CLS", "APPL:SIN 6.1, 5.5, 0", "VOLT 5.51"})
         EXPECT_EQ(generator.execute(line), "") << line;
@@ -33,11 +33,11 @@ TEST(FunctionGenerator, DoesWhatAnExperimentAsksOfIt) {
     EXPECT_EQ(error(generator), "+0,\"No error\"");
 }
 
-TEST(FunctionGenerator, KnowsLongAndShortFormsPathsUnitsAndWords) {
+TEST(FunctionGenerator, UnderstandsLongAndShortFormsPathsUnitsAndKeywords) {
     FunctionGenerator generator = remote();
     generator.execute("source:frequency 2.5 kHz;:sour:volt 500 mvpp");
     EXPECT_EQ(generator.output(), (GeneratorOutput{2500, 0.5, 0}));
-    generator.execute("VOLTage:OFFSet 0.25;UNIT VRMS"); // the second goes on below VOLT
+    generator.execute("VOLTage:OFFSet 0.25;UNIT VRMS"); // the second is relative to VOLT
     EXPECT_EQ(generator.output().offset, 0.25);
     EXPECT_EQ(generator.execute("VOLT:UNIT?;:VOLT?"), "VRMS;+1.767767E-01");
     generator.execute("VOLT 1;:VOLT:UNIT VPP");
@@ -53,7 +53,7 @@ TEST(FunctionGenerator, KnowsLongAndShortFormsPathsUnitsAndWords) {
     EXPECT_EQ(error(generator), "+0,\"No error\"");
 }
 
-TEST(FunctionGenerator, OfAHigherLoadShowsTwiceWithoutGivingMore) {
+TEST(FunctionGenerator, ShowsTwiceTheVoltageAtHighLoadWithTheSameOutput) {
     FunctionGenerator generator = remote();
     generator.execute("APPL:SIN 5, 2, 0.5");
     generator.execute("OUTP:LOAD INF");
@@ -65,8 +65,8 @@ TEST(FunctionGenerator, OfAHigherLoadShowsTwiceWithoutGivingMore) {
     EXPECT_EQ(generator.output().offset, 0);
 }
 
-/// By the definitions: root mean squares of a sine, a square and a triangle, power at 50 ohm over a milliwatt.
-TEST(FunctionGenerator, ShowsAmplitudesInTheUnitItStandsIn) {
+/// By definition: root mean squares of a sine, a square and a triangle; power at 50 ohm relative to a milliwatt.
+TEST(FunctionGenerator, ShowsAmplitudesInTheSelectedUnit) {
     FunctionGenerator generator = remote();
     generator.execute("VOLT 2;:VOLT:UNIT VRMS");
     EXPECT_NEAR(std::stod(generator.execute("VOLT?")), 1 / std::sqrt(2.0), 1e-6);
@@ -85,7 +85,7 @@ TEST(FunctionGenerator, ShowsAmplitudesInTheUnitItStandsIn) {
     EXPECT_EQ(error(generator), "+0,\"No error\"");
 }
 
-TEST(FunctionGenerator, StandsAsItWasLeft) {
+TEST(FunctionGenerator, StartsInTheStateThatItWasLeftIn) {
     FunctionGenerator generator({.left_as = "VOLT:UNIT VRMS;:FUNC:SHAP SQU;:VOLT 1.5;:SWE:STAT ON"});
     EXPECT_FALSE(generator.is_remote());
     EXPECT_EQ(generator.output().shape, WaveShape::square);
@@ -95,7 +95,7 @@ TEST(FunctionGenerator, StandsAsItWasLeft) {
     EXPECT_THROW(FunctionGenerator({.left_as = "VOLT 300"}), InputError);
 }
 
-TEST(FunctionGenerator, TellsMistakesInTheirOrder) {
+TEST(FunctionGenerator, ReportsErrorsInTheirOrder) {
     FunctionGenerator generator = remote();
     const GeneratorOutput before = generator.output();
     for (const char* line : {"VOLTS 3", "VOLT 11", "VOLT", "VOLT 1, 2", "VOLT x", "FREQ 5 VPP", "FUNC:SHAP SAW",
@@ -104,12 +104,12 @@ TEST(FunctionGenerator, TellsMistakesInTheirOrder) {
     EXPECT_EQ(generator.output(), before);
     for (const int number : {-113, -222, -109, -108, -104, -131, -224, -113, -222, -101, -104, -222})
         EXPECT_EQ(std::stoi(error(generator)), number);
-    EXPECT_EQ(generator.execute("*ESR?"), "+48"); // of commands and of their execution
+    EXPECT_EQ(generator.execute("*ESR?"), "+48"); // command and execution errors
     EXPECT_EQ(generator.execute("*ESR?"), "+0");
     EXPECT_EQ(error(generator), "+0,\"No error\"");
 }
 
-TEST(FunctionGenerator, SetsNothingBeforeItIsRemote) {
+TEST(FunctionGenerator, RefusesSettingsBeforeItIsRemote) {
     FunctionGenerator generator;
     generator.execute("VOLT 3");
     EXPECT_EQ(generator.output(), GeneratorOutput());
@@ -118,7 +118,7 @@ TEST(FunctionGenerator, SetsNothingBeforeItIsRemote) {
     EXPECT_FALSE(generator.is_remote());
 }
 
-TEST(FunctionGenerator, KeepsTheOldestErrorsAndSaysThatThereWereMore) {
+TEST(FunctionGenerator, KeepsTheOldestErrorsAndReportsOverflow) {
     FunctionGenerator generator = remote();
     for (int i = 0; i < 1000; ++i)
         generator.execute("WRONG");
@@ -132,7 +132,7 @@ TEST(FunctionGenerator, KeepsTheOldestErrorsAndSaysThatThereWereMore) {
     EXPECT_EQ(error(generator), "+0,\"No error\"");
 }
 
-TEST(FunctionGenerator, CutsDownSilentlyWhereItIsMadeTo) {
+TEST(FunctionGenerator, ClipsSilentlyIfConfiguredTo) {
     FunctionGenerator generator = remote({.takes_offset = false, .clip = 4});
     generator.execute("VOLT 6");
     EXPECT_EQ(error(generator), "+0,\"No error\"");
@@ -142,7 +142,7 @@ TEST(FunctionGenerator, CutsDownSilentlyWhereItIsMadeTo) {
     EXPECT_EQ(generator.output().offset, 0);
 }
 
-TEST(FunctionGenerator, StaysWithinItsLimitsWhateverItIsTold) {
+TEST(FunctionGenerator, StaysWithinItsLimitsForAnyCommand) {
     FunctionGenerator generator = remote();
     std::mt19937 random(7);
     const std::string letters = "VOLTFREQAPPLSIN:;,?* 0123456789.E+-MAXmin\"\t\x80\n";

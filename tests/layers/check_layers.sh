@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Fails when a folder includes a header of a later one: data flows in one direction only.
-# usage: check_layers.sh REPOSITORY FOLDER... (from the first to the last)
+# usage: check_layers.sh REPOSITORY FOLDER... (in the order in which data flows)
 set -euo pipefail
 cd "$1"
 shift

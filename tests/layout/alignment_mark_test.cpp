@@ -18,7 +18,7 @@ TEST(AlignmentMark, IsACrossBetweenSquares) {
         }
         EXPECT_EQ(all.width(), size);
         EXPECT_EQ(all.height(), size);
-        // The cross is a twentieth of the size apart from each square to its right.
+        // The cross is a twentieth of the size from each square to its right.
         EXPECT_EQ(mark.shapes[0].layer, mask_layers::back_marks);
         const auto apart = facing(mark.shapes[0].polygon, mark.shapes[1].polygon);
         ASSERT_TRUE(apart);

@@ -7,7 +7,7 @@
 namespace graze::testing {
 namespace {
 
-TEST(BoxSets, LeaveOutWhatIsTakenAway) {
+TEST(BoxSets, ExcludeSubtractedBoxes) {
     const std::vector<GridBox> boxes{{0, 0, 10, 10}, {5, 0, 20, 10}}, without{{0, 0, 3, 3}};
     const auto found = outlines(boxes, without, {0, 0, 20, 10});
     ASSERT_EQ(found.size(), 1U);
@@ -17,8 +17,8 @@ TEST(BoxSets, LeaveOutWhatIsTakenAway) {
     EXPECT_TRUE(outlines(boxes, boxes, {0, 0, 20, 10}).empty());
 }
 
-/// Against counting squares.
-TEST(BoxSets, HaveTheAreaOfTheirSquares) {
+/// Compares areas with counted squares.
+TEST(BoxSets, HaveTheAreaOfTheCountedSquares) {
     std::mt19937_64 random(7);
     constexpr std::int64_t side = 24;
     const auto box = [&] {
@@ -43,7 +43,7 @@ TEST(BoxSets, HaveTheAreaOfTheirSquares) {
             const auto found = outlines(boxes, without, clip);
             EXPECT_NEAR(total_area(found), squares, 1e-15) << seed;
             ++tried;
-        } catch (const std::logic_error&) { // a hole
+        } catch (const std::logic_error&) { // an area with a hole
         }
     }
     EXPECT_GT(tried, 200);

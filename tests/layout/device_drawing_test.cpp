@@ -36,8 +36,8 @@ double box_area(const std::vector<GridBox>& boxes) {
     return sum;
 }
 
-/// Areas by the dimensions alone, without polygons: what is drawn must agree. All in micrometres, where sums of some
-/// thirty terms of up to 1e7 um^2 are exact to 1e-7 um^2 or so: a nanometre along a side of 1 mm is 1 um^2.
+/// Areas computed from the dimensions alone, without polygons, against those of the drawing. In micrometres, sums of
+/// some thirty terms of up to 1e7 um^2 are exact to about 1e-7 um^2, while a nanometre along a side of 1 mm is 1 um^2.
 void expect_closed_forms(const DeviceDimensions& d, const DeviceDrawing& drawing) {
     constexpr double near = 1e-6;
     const auto folds = static_cast<double>(d.folds);
@@ -58,7 +58,7 @@ void expect_closed_forms(const DeviceDimensions& d, const DeviceDrawing& drawing
     const double pair = 2 * d.flexure_width + d.flexure_spacing, middle = 2 * pair + d.flexure_middle;
     EXPECT_NEAR(measures.truss_area, 2 * d.truss_width * (middle + 4 * (folds - 1) * pair), near);
     EXPECT_NEAR(measures.electrode_area, d.electrode_length * d.electrode_width + d.pad_length * d.pad_width, near);
-    // What of the notches is etched is all that does not stay.
+    // The etched area of the notches is all that does not remain.
     const double finger = (d.flexure_middle + 2 * d.flexure_width) * d.truss_width;
     const double stays = box_area(drawing.flexure.beams) + box_area(drawing.flexure.trusses) +
                          2 * d.truss_width * (d.flexure_spacing + d.flexure_width) + finger;
@@ -76,8 +76,8 @@ TEST(DeviceDrawing, HasTheAreasAndGapsOfItsDimensions) {
     }
 }
 
-/// Window, electrode and moat as numbers: the moats of plate and pad overlap each other and the window of the mass.
-TEST(DeviceDrawing, EtchesWhatIsAroundTheMass) {
+/// Window, electrode and moats by numbers: the moats of plate and pad overlap each other and the window of the mass.
+TEST(DeviceDrawing, EtchesTheAreaAroundTheMass) {
     const DeviceDimensions d;
     const DeviceDrawing drawing = draw_device(file_of(d));
     const double length = 2 * d.mass_half_length(), width = 2 * d.bar_width + 2 * d.notch_half_width();
@@ -86,19 +86,19 @@ TEST(DeviceDrawing, EtchesWhatIsAroundTheMass) {
     const double stops = 2 * d.stop_width * (d.clearance - d.stop_gap);
     const double right = drawing.die.right / 1000.0 - (drawing.centre.x / 1000.0 + width / 2 + d.clearance);
     const double channel = d.channel_width * right;
-    // To the left of the window of the mass: the moats' hull less the electrode.
+    // Left of the window of the mass: the moats' union less the electrode.
     const double plate_to = d.gap + d.electrode_width + d.moat - d.clearance;
     const double moats = plate_to * (d.electrode_length + 2 * d.moat) + d.pad_length * (d.pad_width + 2 * d.moat);
-    // Of the electrode, what lies beyond the window of the mass: all but the face's first part.
+    // The part of the electrode beyond the window of the mass: all but the face's first part.
     const double electrode = d.electrode_length * d.electrode_width + d.pad_length * d.pad_width;
     const double face = d.electrode_length * (d.clearance - d.gap); // within the window
     const double expected = around - fingers - stops - face + channel + moats - (electrode - face);
     EXPECT_NEAR(total_area(drawing.etched), expected, 1e-6);
-    // The chamber has all of it, and the margin.
+    // The chamber covers all of it, with a margin.
     EXPECT_GT(total_area(drawing.chambers), expected);
 }
 
-TEST(DeviceDrawing, OfOtherSizesIsTheSameToScale) {
+TEST(DeviceDrawing, ScalesWithItsDimensions) {
     DeviceDimensions small;
     for (const LengthField<DeviceDimensions>& field : device_fields())
         small.*field.member /= 50; // flexures of 120 nm
@@ -111,7 +111,7 @@ TEST(DeviceDrawing, OfOtherSizesIsTheSameToScale) {
     EXPECT_NEAR(measures_of(draw_device(file_of(small))).gap, one.gap * 20, 1e-9);
 }
 
-TEST(DeviceDrawing, RefusesWhatDoesNotGoTogether) {
+TEST(DeviceDrawing, RefusesInconsistentDimensions) {
     const auto with = [](double DeviceDimensions::*member, double value) {
         DeviceDimensions dimensions;
         dimensions.*member = value;
@@ -138,8 +138,8 @@ TEST(DeviceDrawing, RefusesWhatDoesNotGoTogether) {
     EXPECT_THAT(with(&DeviceDimensions::stop_gap, 39.998), HasSubstr("step that is too small")) << "stops of 2 nm";
 }
 
-/// What a message asks for is enough, to the nanometre.
-TEST(DeviceDrawing, FitsOnTheDieThatAMessageAsksFor) {
+/// The size that a message recommends is sufficient, to the nanometre.
+TEST(DeviceDrawing, FitsOnTheDieThatAMessageRecommends) {
     for (const auto& [length, marks] : {std::pair{1150.0, 0.0}, {1234.567, 0.0}, {877.001, 0.0}, {6000.0, 300.0}}) {
         DeviceDimensions dimensions;
         dimensions.flexure_length = length;
@@ -160,8 +160,8 @@ TEST(DeviceDrawing, FitsOnTheDieThatAMessageAsksFor) {
     }
 }
 
-/// Whatever the dimensions are, all parts are right, or there is a message.
-TEST(DeviceDrawing, OfRandomDimensionsIsRightOrRefused) {
+/// For any dimensions the drawing is valid, or refused.
+TEST(DeviceDrawing, OfRandomDimensionsIsValidOrRefused) {
     std::mt19937_64 random(20);
     std::uniform_real_distribution<double> factor(-1.3, 1.3);
     std::size_t drawn = 0;

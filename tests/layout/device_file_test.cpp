@@ -55,7 +55,7 @@ smallest_gap = "0.005 mm"
     EXPECT_EQ(file.place("none").text(), "one.toml:1:1");
 }
 
-TEST(DeviceFile, SaysWhatIsWrongAndWhere) {
+TEST(DeviceFile, ErrorsHavePlaceAndRemedy) {
     const std::vector<std::pair<std::string, std::string>> mistakes{
         {"gap = -3", "one.toml:3:7: device.gap is -3 um, not positive; give a positive length"},
         {"gap = 0", "one.toml:3:7: device.gap is 0 um, not positive; give a positive length"},
@@ -97,7 +97,7 @@ TEST(DeviceFile, SaysWhatIsWrongAndWhere) {
     EXPECT_THROW(parse_device_file("[device]\n", "one.toml"), InputError) << "no name";
 }
 
-TEST(DeviceFile, ReadsDimensionsOfTheCommandLineInTheirUnits) {
+TEST(DeviceFile, ReadsDimensionsOfTheCommandLineWithUnits) {
     const Place place{"--set", 1, 1};
     const auto value = [&](const std::string& name, const std::string& text) {
         return dimension_of_text(name, text, place);
@@ -122,7 +122,7 @@ TEST(DeviceFile, ReadsDimensionsOfTheCommandLineInTheirUnits) {
     EXPECT_EQ(said("gap", "3 inch"), "--set:1:1: gap has the unknown unit 'inch'; give it in nm, um, mm, cm or m");
 }
 
-TEST(DeviceFile, IsReadByTheDesignerToo) {
+TEST(DeviceFile, IsAlsoReadAsADesign) {
     const DeviceFile file = load_device_file("mems-switch-device", {{"gap", 20}});
     EXPECT_EQ(file.device.gap, 20);
     EXPECT_EQ(file.place("device.gap").file, "--set gap");

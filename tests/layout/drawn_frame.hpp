@@ -9,9 +9,9 @@
 
 namespace graze {
 
-/// The whole device as a plane frame, read from the boxes of its drawing (walls vertical, at the drawn edges): beams,
-/// trusses, lugs, fingers, bars and bridge are beams along their middles, rigid where they overlap others. Micrometres;
-/// E = h = 1.
+/// The whole device as a plane frame, from the boxes of its drawing (vertical walls at the drawn edges): beams,
+/// trusses, lugs, fingers, bars and bridge are beams along their centre lines, rigid where they overlap others.
+/// Micrometres; E = h = 1.
 class DrawnFrame {
 public:
     explicit DrawnFrame(const DeviceDrawing& drawing) : drawing_(&drawing) {
@@ -32,9 +32,9 @@ public:
             add_flexure(side, half_bridge);
     }
 
-    /// Force that moves the middle of the bridge by one.
+    /// Stiffness at the middle of the bridge.
     double stiffness() const { return frame_.driven({bridge_middle_}, held_).first; }
-    /// The same with bars that do not bend: both flexures' ends move as one.
+    /// The same with rigid bars: both flexures' ends move together.
     double with_rigid_mass() const { return frame_.driven(lug_ends_, held_).first; }
 
 private:
@@ -43,16 +43,16 @@ private:
         frame_.add_beam(from, to, width * width * width / 12, width, 0, 1); // a cubic polynomial is exact
     }
     void rigid(std::size_t from, std::size_t to) {
-        const double width = 20 * drawing_->dimensions.truss_width; // stiffer by thousands than whatever bends nearby
+        const double width = 20 * drawing_->dimensions.truss_width; // thousands of times stiffer than nearby parts
         frame_.add_beam(from, to, width * width * width / 12, width, 0, 1);
     }
 
-    /// The joint on the middle line of a truss or a lug above or below a beam's end.
+    /// The joint on the centre line of a truss or a lug above or below a beam's end.
     struct Attached {
-        double from, to; ///< of the beam's width
-        std::size_t end; ///< of the beam
+        double from, to; ///< interval of the beam's width
+        std::size_t end; ///< joint at the beam's end
     };
-    /// Beams at one of its edges, from left to right. @return joints at its ends
+    /// Adds a truss with the beams at one of its edges, from left to right. @return joints at its ends
     std::pair<std::size_t, std::size_t> add_across(const GridBox& box, double side, double offset) {
         const double y = side * (offset + 0.5 * um(box.bottom + box.top)), width = um(box.top - box.bottom);
         std::vector<Attached> here;
@@ -129,10 +129,10 @@ private:
     };
     const DeviceDrawing* drawing_;
     PlaneFrame frame_;
-    std::array<double, 2> bars_{}; ///< their middle lines
+    std::array<double, 2> bars_{}; ///< their centre lines
     std::size_t bridge_middle_ = 0;
     std::vector<std::size_t> bridge_, faces_, held_, lug_ends_;
-    std::vector<End> ends_; ///< of a flexure's beams that are not at the finger
+    std::vector<End> ends_; ///< ends of a flexure's beams, except those at the finger
 };
 
 } // namespace graze

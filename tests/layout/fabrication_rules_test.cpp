@@ -25,7 +25,7 @@ const RuleFinding& of(const std::vector<RuleFinding>& findings, const std::strin
     return *std::find_if(findings.begin(), findings.end(), [&](const auto& one) { return one.rule == rule; });
 }
 
-/// What is said when a rule is broken; empty where all hold.
+/// The message about broken rules; empty if all hold.
 std::string message(const DeviceFile& file) {
     try {
         require_rules(file, found(file));
@@ -50,7 +50,8 @@ TEST(FabricationRules, MeasureTheShippedDevice) {
     EXPECT_EQ(of(findings, "smallest_gap").part, "the trench between the mass and a stop");
     EXPECT_NEAR(of(findings, "largest_aspect").value, 250 / 8.4, 1e-12);
     EXPECT_EQ(of(findings, "undercut").value, 40);
-    // The chamber reaches 50 um beyond what is etched, that 40 um beyond the mass; the base is 14.185 + 40 um away.
+    // The chamber extends 50 um beyond the etched area, and that 40 um beyond the mass; the base is 14.185 + 40 um
+    // away.
     EXPECT_NEAR(of(findings, "chamber_overlap").value, 54.185, 1e-9);
     EXPECT_NEAR(of(findings, "largest_stop_share").value, 9 / 14.785, 1e-12);
     EXPECT_EQ(message(file), "");
@@ -72,7 +73,7 @@ TEST(FabricationRules, AreBrokenByDimensions) {
     EXPECT_THAT(broken([](DeviceFile& f) { f.rules.largest_stress = 15; }),
                 HasSubstr("largest_stress is 18.1085 MPa for a beam, when the electrodes touch"));
     EXPECT_THAT(broken([](DeviceFile& f) { f.rules.largest_squeeze = 0.05; }), HasSubstr("largest_squeeze is"));
-    // Without a margin the chamber ends with the trench around the mass.
+    // Without a margin the chamber ends at the trench around the mass.
     EXPECT_THAT(broken([](DeviceFile& f) {
                     f.device.chamber_margin = 0;
                     f.rules.chamber_overlap = 45;
@@ -80,9 +81,9 @@ TEST(FabricationRules, AreBrokenByDimensions) {
                 HasSubstr("chamber_overlap is 40 um for the mass"));
 }
 
-TEST(FabricationRules, KnowWhatTheEtchLeaves) {
+TEST(FabricationRules, MeasureWidthsAfterTheEtch) {
     DeviceFile file = shipped();
-    const double slope = std::tan(0.05 * M_PI / 180); // of the design's walls
+    const double slope = std::tan(0.05 * M_PI / 180); // slope of the design's walls
     const std::vector<RuleFinding> findings = found(file);
     // Trenches widen with depth: lines are narrowest at the bottom, 250 um deep, and trenches at the top.
     EXPECT_NEAR(of(findings, "smallest_etched_line").value, 7 - 2 * (0.3 + 250 * slope), 1e-9);
@@ -120,7 +121,7 @@ TEST(FabricationRules, ApplyUnlessSwitchedOff) {
         << "no device has none";
 }
 
-TEST(FabricationRules, TellEachBrokenOneWithItsPlaceInTheFile) {
+TEST(FabricationRules, ReportEachBrokenRuleAtItsPlaceInTheFile) {
     DeviceFile file = shipped();
     file.device.stop_gap = 5;
     file.device.flexure_width = 4;
@@ -128,7 +129,7 @@ TEST(FabricationRules, TellEachBrokenOneWithItsPlaceInTheFile) {
         require_rules(file, found(file));
         FAIL();
     } catch (const InputErrors& errors) {
-        EXPECT_GT(errors.all().size(), 4U); // every beam, both stops, the aspect of these
+        EXPECT_GT(errors.all().size(), 4U); // every beam, both stops, and their aspect ratios
         for (const InputError& error : errors.all())
             EXPECT_GT(error.place().line, 1U);
     }
@@ -147,10 +148,10 @@ TEST(FabricationRules, CountFurtherPlaces) {
     EXPECT_THAT(lines.back().text(), HasSubstr("at least 5 um is allowed (and at 3 more places)"));
 }
 
-TEST(FabricationRules, KnowWhatReachesOutOfItsChamber) {
+TEST(FabricationRules, DetectAMassThatExtendsBeyondItsChamber) {
     const DeviceFile file = shipped();
     Layout layout = draw_device_layout(file);
-    // The mass is drawn a millimetre aside from its chamber.
+    // The mass is drawn a millimetre off its chamber.
     for (GridPoint& corner : layout.devices[0].drawing.mass)
         corner.y += 1'000'000;
     const std::vector<RuleFinding> findings = rule_findings(file, layout, layout.devices[0]);

@@ -13,8 +13,8 @@
 namespace graze {
 namespace {
 
-/// Both halves of a flexure whose walls are straight, without the links' mass, divided by two; joints are made 1e4
-/// times stiffer than trusses.
+/// Finite elements of both halves of a flexure with vertical walls, without the links' mass, divided by two; joints are
+/// 1e4 times stiffer than trusses.
 std::pair<double, double> by_elements(const FoldedSpring& spring, double density) {
     const double w = spring.beam_width.top, t = spring.truss_width.top, l = spring.beam_length, h = spring.height;
     const auto bending = [&](double width) { return spring.modulus * h * width * width * width / 12; };
@@ -41,7 +41,7 @@ std::pair<double, double> by_elements(const FoldedSpring& spring, double density
             go(0, direction * t / 2, rigid * bending(t), rigid * stretching(t), 0, 1);
             if (i == 0)
                 middles.push_back(last);
-            const double joint = i == 0 ? mass : 2 * mass; // of all of the beam's width; the branch has the other half
+            const double joint = i == 0 ? mass : 2 * mass; // of the whole beam's width; the branch has the other half
             go(w / 2, 0, rigid * bending(t), rigid * stretching(t), joint, 1);
             go(spring.spacing, 0, bending(t), stretching(t), mass, 2);
             if (!is_last) {
@@ -75,7 +75,7 @@ FoldedSpring spring_of(std::size_t beams, double truss) {
             .bar_width = {}};
 }
 
-TEST(FoldedSpring, IsAsStiffAsItsFiniteElements) {
+TEST(FoldedSpring, HasTheStiffnessOfItsFiniteElements) {
     for (const std::size_t beams : {2U, 4U, 6U})
         for (const double truss : {4e-6, 10e-6, 40e-6}) {
             const FoldedSpring spring = spring_of(beams, truss);
@@ -85,7 +85,7 @@ TEST(FoldedSpring, IsAsStiffAsItsFiniteElements) {
         }
 }
 
-TEST(FoldedSpring, WithStiffTrussesIsARowOfGuidedBeams) {
+TEST(FoldedSpring, WithStiffTrussesEqualsGuidedBeamsInSeries) {
     FoldedSpring spring = spring_of(2, 40e-6);
     spring.modulus = 1;
     for (const double width : {4e-6, 1e-6}) {
@@ -94,42 +94,43 @@ TEST(FoldedSpring, WithStiffTrussesIsARowOfGuidedBeams) {
         const SpringProperties found = properties_of(spring);
         const double guided = 0.5 * spring.height * std::pow(width / spring.beam_length, 3);
         EXPECT_NEAR(found.stiff_trusses, guided, 1e-14 * guided);
-        // The truss turns a little, as beams are stretched: (width/spacing)^2 of the stiffness.
+        // The truss rotates a little, as beams stretch: (width/spacing)^2 of the stiffness.
         EXPECT_NEAR(found.stiffness, guided, 0.5 * guided * std::pow(width / spring.spacing, 2));
-        // 3 E w (u/2)/L^2 in each of two beams, and the axial force that stretches them.
+        // 3 E w (u/2)/L^2 in each of two beams, plus the axial force that stretches them.
         const double bending = 1.5 * width / (spring.beam_length * spring.beam_length);
         EXPECT_NEAR(found.stress_per_travel, bending, bending * width / spring.spacing);
     }
 }
 
-TEST(FoldedSpring, BendsLikeTheCubeOfItsWidthAndOfItsLength) {
+TEST(FoldedSpring, ScalesWithTheCubeOfWidthOverLength) {
     FoldedSpring spring = spring_of(2, 40e-6);
     const double first = properties_of(spring).stiffness;
     spring.beam_width = {.top = 6.06e-6, .bottom = 6.06e-6};
     EXPECT_NEAR(std::log(properties_of(spring).stiffness / first) / std::log(1.01), 3, 0.1); // trusses bend, too
     spring.beam_width = {.top = 5.5e-6, .bottom = 6.5e-6};
-    // Walls that are not vertical: mean of (6 + x)^3 = 216 (1 + (0.5/6)^2).
+    // Inclined walls: mean of (6 + x)^3 = 216 (1 + (0.5/6)^2).
     EXPECT_NEAR(properties_of(spring).stiffness / first, 1 + 0.25 / 36, 1e-4);
     spring = spring_of(2, 40e-6);
     for (double* size :
          {&spring.beam_length, &spring.spacing, &spring.half_middle, &spring.height, &spring.beam_width.top,
           &spring.beam_width.bottom, &spring.truss_width.top, &spring.truss_width.bottom})
-        *size *= 1e9; // in nm, or as large as a moon: the same shape is as much stiffer as it is larger
+        *size *= 1e9; // in nm: stiffness is proportional to size for the same shape
     EXPECT_NEAR(properties_of(spring).stiffness, 1e9 * first, 1e-4 * first);
 }
 
-TEST(FoldedSpring, MovesAShareOfItsOwnMass) {
-    // Rayleigh's quotient of the static shape; where trusses are stiff that is the shape of guided beams.
+TEST(FoldedSpring, MovesTheShareOfItsMassByRayleighsQuotient) {
+    // Rayleigh's quotient of the static shape; with stiff trusses this is the shape of guided beams.
     const FoldedSpring spring = spring_of(2, 100e-6);
     const double energy = by_elements(spring, 2330).second;
     const double area = properties_of(spring).moving_area;
-    EXPECT_NEAR(2330 * spring.height * area, energy, 0.005 * energy); // axial motion and turns of the trusses
-    // Two beams of 12/35 each and a quarter of the truss.
+    // neglected: axial motion and rotation of the trusses
+    EXPECT_NEAR(2330 * spring.height * area, energy, 0.005 * energy);
+    // Two beams of 12/35 each, and a quarter of the truss.
     const double beams = 2 * 6e-6 * 1.15e-3 * 12 / 35, truss = 0.25 * 100e-6 * 72e-6;
     EXPECT_NEAR(area, beams + truss, 1e-12 * area);
 }
 
-TEST(FoldedSpring, RefusesWhatIsNoSpring) {
+TEST(FoldedSpring, RefusesInvalidSprings) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (const auto field : {&FoldedSpring::beam_length, &FoldedSpring::spacing, &FoldedSpring::half_middle,
                              &FoldedSpring::height, &FoldedSpring::modulus})

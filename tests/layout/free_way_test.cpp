@@ -9,7 +9,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// The worst place to the stops, and that to the electrode.
+/// The worst place on the way to the stops, and on that to the electrode.
 std::vector<RuleFinding> ways(const GivenLengths& given) {
     const DeviceFile file = load_device_file("mems-switch-device", given);
     std::vector<RuleFinding> found;
@@ -31,12 +31,12 @@ std::string refusal(const GivenLengths& given) {
     return "";
 }
 
-constexpr double rounding = 1e-9; // of sums of micrometres
+constexpr double rounding = 1e-9; // of sums in micrometres
 
-TEST(FreeWay, OfTheShippedDeviceIsThatOfItsLugs) {
+TEST(FreeWay, OfTheShippedDeviceIsLimitedByItsLugs) {
     const std::vector<RuleFinding> found = ways({});
     ASSERT_EQ(found.size(), 2U);
-    // 0.3 um of each face are etched away at the top, where trenches are narrowest.
+    // 0.3 um of each face is etched away at the top, where trenches are narrowest.
     for (const RuleFinding& one : found) {
         EXPECT_NEAR(one.value, 30 + 0.6, rounding);
         EXPECT_TRUE(one.holds());
@@ -52,7 +52,7 @@ TEST(FreeWay, MustExceedTheWayToTheStops) {
                   "lug of the mass meets the frame's finger, at ("));
     EXPECT_THAT(refusal({{"flexure_spacing", 8}}), HasSubstr("where more than 9 um is needed; give a greater "
                                                              "flexure_spacing, or a smaller stop_gap"));
-    // As wide as the gap, the lug arrives with the electrode.
+    // With a clearance equal to the gap the lug arrives together with the electrode.
     EXPECT_THAT(refusal({{"flexure_spacing", 14.185}}), HasSubstr("on its way to the fixed electrode"));
     EXPECT_EQ(refusal({{"flexure_spacing", 14.186}}), "");
 }
@@ -65,8 +65,8 @@ TEST(FreeWay, MustExceedTheWayToTheElectrode) {
     EXPECT_THAT(refusal({{"clearance", 14.186}}), ::testing::Not(HasSubstr("free_way")));
 }
 
-/// With n folds neighbouring trusses, and finger and truss, move by an n-th of the mass's way against each other.
-TEST(FreeWay, IsSharedByFolds) {
+/// With n folds neighbouring trusses, and finger and truss, move relative to each other by 1/n of the mass's travel.
+TEST(FreeWay, IsDividedByTheNumberOfFolds) {
     for (const double folds : {2.0, 3.0, 7.0}) {
         const std::vector<RuleFinding> found =
             ways({{"folds", folds}, {"flexure_spacing", 8}, {"flexure_length", 900}});
@@ -77,8 +77,8 @@ TEST(FreeWay, IsSharedByFolds) {
     }
 }
 
-/// An independent way: the mass itself is moved, by a little less and a little more, until it covers what stays.
-TEST(FreeWay, IsWhereTheMovedMassCoversTheFrame) {
+/// Independent method: the mass is moved by slightly less and slightly more, until it overlaps the frame.
+TEST(FreeWay, IsWhereTheMovedMassOverlapsTheFrame) {
     const DeviceFile file = load_device_file("mems-switch-device", {{"flexure_spacing", 20}, {"clearance", 17}});
     const Layout layout = draw_device_layout(file);
     const DeviceDrawing& drawing = layout.devices[0].drawing;
@@ -95,7 +95,7 @@ TEST(FreeWay, IsWhereTheMovedMassCoversTheFrame) {
     EXPECT_TRUE(covers(20'001));
     EXPECT_FALSE(covers(-20'000));
     EXPECT_TRUE(covers(-20'001));
-    // Along the frame's side walls it has its clearance, which is less here.
+    // Its clearance to the frame's side walls is smaller here.
     for (const RuleFinding& one : ways({{"flexure_spacing", 20}, {"clearance", 17}}))
         EXPECT_NEAR(one.value, 17 + 0.6, rounding);
     for (const RuleFinding& one : ways({{"flexure_spacing", 20}, {"clearance", 21}}))

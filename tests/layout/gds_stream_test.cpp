@@ -10,14 +10,14 @@
 namespace graze::testing {
 namespace {
 
-/// The value of a number in the format of GDSII, by its definition.
+/// Decodes a GDSII number by its definition.
 double value_of(std::uint64_t bits) {
     const double fraction = std::ldexp(static_cast<double>(bits & 0x00ffffffffffffffULL), -56);
     const int exponent = static_cast<int>((bits >> 56U) & 0x7fU) - 64;
     return (bits >> 63U ? -1 : 1) * fraction * std::pow(16.0, exponent);
 }
 
-TEST(GdsStream, WritesNumbersAsTheFormatHasThem) {
+TEST(GdsStream, EncodesNumbersByTheFormat) {
     EXPECT_EQ(gds_real(0), 0U);
     EXPECT_EQ(gds_real(1), 0x4110000000000000ULL) << "as in the format's description";
     EXPECT_EQ(gds_real(2), 0x4120000000000000ULL);
@@ -89,7 +89,7 @@ TEST(GdsStream, IsTheSequenceOfRecordsOfTheFormat) {
     EXPECT_EQ(gds_stream(small_library()), gds_stream(small_library()));
 }
 
-TEST(GdsStream, RefusesWhatTheFormatCannotHave) {
+TEST(GdsStream, RefusesValuesBeyondTheFormat) {
     LayoutLibrary library = small_library();
     library.cells[0].shapes[0].polygon[0].x = std::int64_t{1} << 31;
     EXPECT_THROW(gds_stream(library), std::out_of_range);
@@ -101,7 +101,7 @@ TEST(GdsStream, RefusesWhatTheFormatCannotHave) {
     EXPECT_THROW(gds_stream(library), std::length_error);
 }
 
-/// What GDSII has no room for, and cells that contain themselves.
+/// Sizes beyond GDSII's limits, and cells that contain themselves.
 TEST(GdsStream, WrongUsesAreRefused) {
     const GridPolygon square{{0, 0}, {1, 0}, {1, 1}};
     const auto library = [](const LayoutCell& cell) {
@@ -130,7 +130,7 @@ TEST(GdsStream, WrongUsesAreRefused) {
         wrong.texts = {text};
         EXPECT_THROW(gds_stream(library(wrong)), InputError);
     }
-    for (const std::string& name : {std::string("a"), std::string("missing")}) { // itself, nothing
+    for (const std::string& name : {std::string("a"), std::string("missing")}) { // itself; an unknown cell
         LayoutCell wrong = cell;
         wrong.references = {CellReference{name, {0, 0}}};
         EXPECT_THROW(gds_stream(library(wrong)), InputError);

@@ -15,7 +15,7 @@ std::string fault(const GridPolygon& polygon, std::int64_t least = 1) {
 TEST(GridPolygon, AreasAreExactUpToMetres) {
     EXPECT_EQ(area_of(polygon_of({0, 0, 1, 1})), 1e-6);
     EXPECT_EQ(area_of(GridPolygon{{0, 0}, {3, 0}, {0, 5}}), 7.5e-6);
-    // 2 m square: twice the area, 8e18, is near the largest whole number of 64 bits.
+    // 2 m square: twice the area, 8e18, is close to the largest 64-bit integer.
     EXPECT_EQ(area_of(polygon_of({-1'000'000'000, -1'000'000'000, 1'000'000'000, 1'000'000'000})), 4e12);
     GridPolygon clockwise = polygon_of({0, 0, 10, 20});
     std::reverse(clockwise.begin(), clockwise.end());
@@ -39,14 +39,14 @@ TEST(GridPolygon, FaultsAreFound) {
     EXPECT_THAT(fault({{0, 0}, {1, 0}}), HasSubstr("fewer than three"));
     EXPECT_THAT(fault({{0, 0}, {10, 0}, {10, 10}, {10, 10}, {0, 10}}), HasSubstr("turns back"));
     EXPECT_THAT(fault({{0, 0}, {10, 0}, {10, 2}, {12, 2}, {12, 10}, {0, 10}}, 3), HasSubstr("too small"));
-    EXPECT_THAT(fault({{0, 0}, {5, 0}, {10, 0}, {10, 10}, {0, 10}}), HasSubstr("a corner that is none"));
+    EXPECT_THAT(fault({{0, 0}, {5, 0}, {10, 0}, {10, 10}, {0, 10}}), HasSubstr("a straight corner"));
     EXPECT_THAT(fault({{0, 0}, {10, 0}, {10, 10}, {10, 5}, {0, 5}}), HasSubstr("turns back"));
     EXPECT_THAT(fault({{0, 0}, {100, 0}, {100, 10}}), HasSubstr("acute"));
     EXPECT_THAT(fault({{0, 0}, {10, 0}, {10, 10}, {-5, 10}, {-5, 5}, {5, 5}, {5, 20}, {0, 20}}),
-                HasSubstr("meets itself"));
-    // Two squares that meet at one corner.
+                HasSubstr("intersects itself"));
+    // Two squares that share one corner.
     EXPECT_THAT(fault({{0, 0}, {10, 0}, {10, 10}, {20, 10}, {20, 20}, {10, 20}, {10, 10}, {0, 10}}),
-                HasSubstr("meets itself"));
+                HasSubstr("intersects itself"));
     const auto far = polygon_fault(polygon_of({-1'000'000'000, -1'000'000'000, 1'000'000'000, 1'000'000'000}), 1);
     EXPECT_FALSE(far) << far->text;
 }

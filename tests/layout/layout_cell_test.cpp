@@ -14,7 +14,7 @@ LayoutCell cell_of(const std::string& name, std::vector<CellReference> reference
     return cell;
 }
 
-TEST(LayoutCell, IsMirroredThenTurnedThenMoved) {
+TEST(LayoutCell, IsMirroredThenRotatedThenMoved) {
     LayoutLibrary library;
     LayoutCell arrow;
     arrow.name = "ARROW";
@@ -30,7 +30,7 @@ TEST(LayoutCell, IsMirroredThenTurnedThenMoved) {
     EXPECT_THROW(flattened(library, "THREE"), std::out_of_range);
 }
 
-TEST(LayoutCell, TurnedByAnyAngleIsRoundedToTheGrid) {
+TEST(LayoutCell, RotatedByAnyAngleIsRoundedToTheGrid) {
     LayoutLibrary library;
     LayoutCell square;
     square.name = "SQUARE";
@@ -40,7 +40,7 @@ TEST(LayoutCell, TurnedByAnyAngleIsRoundedToTheGrid) {
     EXPECT_EQ(areas_of(library, "TOP").at({1, 0}), 1) << "of what is drawn, not of what is rounded";
 }
 
-TEST(LayoutCell, LayersHaveTextsAndNamesAreOfLettersAndDigits) {
+TEST(LayoutCell, LayersHaveDescriptionsAndNamesHaveOnlyLettersAndDigits) {
     std::set<MaskLayer> different;
     for (const MaskLayer layer : all_layers()) {
         EXPECT_FALSE(layer_text(layer).empty());

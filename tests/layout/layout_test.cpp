@@ -27,7 +27,7 @@ std::string message(const std::string& sections) {
     return "";
 }
 
-/// Square micrometres of what is flattened, by layer.
+/// Areas of the flattened polygons by layer, in square micrometres.
 std::map<MaskLayer, double> flat_areas(const LayoutLibrary& library, const std::string& cell) {
     std::map<MaskLayer, double> areas;
     for (const PlacedShape& one : flattened(library, cell))
@@ -47,7 +47,7 @@ TEST(Layout, OfADeviceHasItsCells) {
     EXPECT_FALSE(areas_of(layout.library, "DEVICE").contains(mask_layers::front_letters));
 }
 
-TEST(Layout, OfMasksHaveNothingElseAndTheFirstIsMirrored) {
+TEST(Layout, OfMasksHasOnlyTheirLayersAndMirrorsTheFirst) {
     Layout layout = draw_device_layout(file_of("[device]\n"));
     const auto all = areas_of(layout.library, "DEVICE");
     add_masks(layout);
@@ -61,7 +61,7 @@ TEST(Layout, OfMasksHaveNothingElseAndTheFirstIsMirrored) {
         EXPECT_EQ(areas_of(alone, top), expected);
         EXPECT_EQ(areas_of(layout.library, top), expected);
     }
-    // The channel, which leads to the right, leads to the left on the back.
+    // The channel leads to the right, and to the left on the back.
     const auto box = [&](const char* cell) {
         GridBox found{};
         for (const PlacedShape& one : flattened(layout.library, cell))
@@ -75,19 +75,19 @@ TEST(Layout, OfMasksHaveNothingElseAndTheFirstIsMirrored) {
     EXPECT_THROW(mask_library(layout, 3), InputError);
 }
 
-TEST(Layout, OfAWaferHasDevicesAroundItsMiddle) {
+TEST(Layout, OfAWaferHasDevicesOnACircle) {
     const Layout layout = draw_wafer_layout(file_of("[device]\n[wafer]\n"));
     ASSERT_EQ(layout.sites.size(), 8U);
     EXPECT_THAT(layout.site_degrees, ElementsAre(22.5, 67.5, 112.5, 157.5, 202.5, 247.5, 292.5, 337.5));
     EXPECT_EQ(layout.devices.size(), 1U);
     const auto wafer = areas_of(layout.library, "WAFER"), device = areas_of(layout.library, "DEVICE");
     EXPECT_NEAR(wafer.at(mask_layers::mass), 8 * device.at(mask_layers::mass), 1e-6);
-    // A disc less the segment beyond the flat; the circle is a polygon of about 720 sides, each of which cuts off
-    // a share of (2 pi/720)^2/6 = 1.3e-5.
+    // A disc less the segment beyond the flat; the circle is a polygon of about 720 sides, each of which removes a
+    // share of (2 pi/720)^2/6 = 1.3e-5.
     const double radius = 50'000, half = 16'250, angle = std::asin(half / radius);
     const double disc = radius * radius * (M_PI - angle) + half * std::sqrt(radius * radius - half * half);
     EXPECT_NEAR(wafer.at(mask_layers::wafer), disc, 2e-5 * disc);
-    // All channels point outwards: of the etched, what is farthest from the middle reaches the edge.
+    // All channels point outwards: the etched polygons reach the edge.
     double farthest = 0;
     std::size_t masses = 0;
     for (const PlacedShape& one : flattened(layout.library, "WAFER"))
@@ -105,7 +105,7 @@ TEST(Layout, OfAWaferHasDevicesAroundItsMiddle) {
     EXPECT_EQ(masses, 8U * 20U) << "corners of eight masses";
 }
 
-/// Twelve devices: two of them point at the flat, at 15 degrees to either side of its middle.
+/// Twelve devices, two of which point at the flat, at 15 degrees to either side of its middle.
 TEST(Layout, OfAWaferHasChannelsThatEndAtItsFlat) {
     const Layout layout = draw_wafer_layout(file_of("[device]\n[wafer]\ndevices = 12\n"));
     const double flat = std::sqrt(50e6 * 50e6 - 16.25e6 * 16.25e6); // nm
@@ -113,22 +113,21 @@ TEST(Layout, OfAWaferHasChannelsThatEndAtItsFlat) {
     for (const PlacedShape& one : flattened(layout.library, "WAFER"))
         if (one.layer == mask_layers::front || one.layer == mask_layers::back)
             for (const GridPoint& corner : one.polygon) {
-                // Corners are rounded where they are drawn, and once more where they are turned.
+                // Corners are rounded when drawn, and again when rotated.
                 lowest = std::min(lowest, static_cast<double>(corner.y));
                 EXPECT_GE(static_cast<double>(corner.y), -flat - 2);
                 EXPECT_LE(std::hypot(static_cast<double>(corner.x), static_cast<double>(corner.y)), 50e6 + 2);
             }
     EXPECT_NEAR(lowest, -flat, 5) << "and they do reach it";
-    // Each channel, 200 um wide, is 17 mm long; two are shorter by what the flat takes along the radius. From the
-    // others the rim, 100^2/(2 50000) = 0.1 um lower at their sides, takes half of that by its chords. Ends are on the
-    // grid.
+    // Each channel, 200 um wide, is 17 mm long; two are shortened by the flat. Of the others the rim, 100^2/(2 50000) =
+    // 0.1 um lower at their sides, removes half of that by its chords. Ends are on the grid.
     const double device = areas_of(layout.library, "DEVICE").at(mask_layers::front);
     const double cut = 50'000 - flat / 1000 / std::cos(M_PI / 12);
     const double expected = 12 * device + 200 * (12 * 17'000 - 2 * cut - 10 * 0.05);
     EXPECT_NEAR(areas_of(layout.library, "WAFER").at(mask_layers::front), expected, 12 * 200 * 0.001);
 }
 
-TEST(Layout, OfVariantsHasEachOnce) {
+TEST(Layout, OfVariantsHasEachVariantOnce) {
     const Layout layout = draw_wafer_layout(
         file_of("[device]\n[wafer]\ndevices = 7\nvary = { stop_gap = [7, 8, 9], gap = [15], folds = [2] }\n"));
     EXPECT_THAT(layout.sites, ElementsAre(0, 1, 2, 0, 1, 2, 0));
@@ -140,7 +139,7 @@ TEST(Layout, OfVariantsHasEachOnce) {
                 HasSubstr("mine.toml:4:21: the stops do not reach out of the frame"));
 }
 
-TEST(Layout, OfAWaferIsRefusedWhereThingsOverlap) {
+TEST(Layout, OfAWaferIsRefusedIfPartsOverlap) {
     const std::vector<std::pair<std::string, std::string>> mistakes{
         {"devices = 40", "mine.toml:4:11: device 1 and device 2 overlap; give fewer devices"},
         {"radius = 43000", "mine.toml:4:10: device 1 reaches into the exclusion"},
@@ -162,7 +161,7 @@ TEST(Layout, OfAWaferIsRefusedWhereThingsOverlap) {
     EXPECT_EQ(message("[device]\n[wafer]\ndevices = 5\n"), "") << "an odd number leaves the marks free, too";
 }
 
-/// Ten thousand drawings with all their cells, as many as a sweep may want. Counted, not timed.
+/// Ten thousand drawings with all their cells, as a sweep may need. Counted, not timed.
 TEST(Layout, OfTenThousandVariantsAreDrawnAndWritten) {
     DeviceFile file = file_of("[device]\nmark_size = 0\n");
     std::set<std::size_t> sizes;

@@ -19,7 +19,7 @@ std::int64_t least(const std::vector<FacingEdges>& places, bool etched) {
     return found;
 }
 
-TEST(MaskEdges, KnowTrenchesFromLines) {
+TEST(MaskEdges, DistinguishTrenchesFromLines) {
     // Two trenches, 30 and 20 wide, 7 apart; one drawn clockwise.
     GridPolygon second = box(37, 0, 57, 100);
     std::reverse(second.begin(), second.end());
@@ -32,14 +32,14 @@ TEST(MaskEdges, KnowTrenchesFromLines) {
 }
 
 TEST(MaskEdges, OfPolygonsThatTouchAreThoseOfTheirUnion) {
-    // One trench of 50 in two parts, and a notch of 4 beside them.
+    // One trench of 50 in two parts, and a notch of 4 next to them.
     const std::vector<FacingEdges> places =
         facing_edges(mask_edges(std::vector{box(0, 0, 50, 20), box(0, 20, 50, 50), box(50, 10, 54, 30)}));
     EXPECT_EQ(least(places, true), 20) << "the notch is 20 high; the cut at 20 is none";
     EXPECT_EQ(least(places, false), 1'000'000);
 }
 
-TEST(MaskEdges, AreWithinOrWithout) {
+TEST(MaskEdges, ContainPointsInsideAndOnTheOutline) {
     const GridPolygon l{{0, 0}, {10, 0}, {10, 5}, {5, 5}, {5, 10}, {0, 10}};
     EXPECT_TRUE(contains(l, {2, 8}));
     EXPECT_TRUE(contains(l, {5, 7})) << "on its outline";

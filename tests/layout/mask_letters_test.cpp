@@ -35,7 +35,7 @@ TEST(MaskLetters, DifferAndTouchAlongEdgesOnly) {
     }
 }
 
-TEST(MaskLetters, AreAsWideAsTheySay) {
+TEST(MaskLetters, HaveTheStatedWidth) {
     EXPECT_EQ(letters_width("", 70), 0);
     EXPECT_EQ(letters_width("H", 70), 50);
     EXPECT_EQ(letters_width("HH", 76), 110) << "whole sevenths are used";

@@ -1,4 +1,4 @@
-// From a designed device to the drawing that gives it after the etch, and back.
+// From a designed device to the drawing that realises it after the etch, and back.
 
 #include "graze/layout/matched_drawing.hpp"
 
@@ -24,7 +24,7 @@ const MatchedQuantity& quantity(const MatchedDrawing& drawing, const std::string
     throw std::runtime_error("no quantity " + parameter);
 }
 
-/// By how much one step of the grid, or a billionth of the pressure, moves a quantity.
+/// Change of a quantity by one step of the grid, or by a billionth of the pressure.
 double step_of(const MatchedDrawing& drawing, const MatchedQuantity& one) {
     DeviceFile more = drawing.file;
     const std::string number = one.number.substr(one.number.find('.') + 1);
@@ -39,8 +39,8 @@ double step_of(const MatchedDrawing& drawing, const MatchedQuantity& one) {
     return 0;
 }
 
-TEST(MatchedDrawing, HasAfterTheEtchWhatAnotherDrawingHas) {
-    // A device of known dimensions: the same are found again from a start elsewhere.
+TEST(MatchedDrawing, FindsAKnownDrawingFromAnotherStart) {
+    // The dimensions of a known device are found from a different start.
     DeviceFile known = load_device_file(shipped);
     known.device.gap = 14.6;
     known.device.stop_gap = 8.1;
@@ -68,7 +68,7 @@ TEST(MatchedDrawing, AllowsForBiasAndTaper) {
         file.conditions.bias = bias;
         file.conditions.taper = taper;
         const MatchedDrawing found = match_drawing(file, designed);
-        // Walls recede by r(z) from both sides: the stops' gap where it is narrowest, and 2 g0 g1/(g0 + g1).
+        // Walls recede by r(z) on both sides: the stops' gap at its narrowest, and 2 g0 g1/(g0 + g1).
         const double slope = std::tan(taper * std::acos(-1.0) / 180), bottom = bias + 250 * slope;
         EXPECT_NEAR(found.file.device.stop_gap + 2 * std::min(bias, bottom), 8.2, 5.1e-4) << bias << ' ' << taper;
         const double g0 = found.file.device.gap + 2 * bias, g1 = found.file.device.gap + 2 * bottom;
@@ -78,7 +78,7 @@ TEST(MatchedDrawing, AllowsForBiasAndTaper) {
     }
 }
 
-TEST(MatchedDrawing, IsAsNearAsTheGridAllowsForDesignsOfAllKinds) {
+TEST(MatchedDrawing, IsAsCloseAsTheGridAllows) {
     const DeviceFile file = load_device_file(shipped);
     const Model model = load_model(shipped);
     std::mt19937 generator(6);
@@ -103,7 +103,7 @@ TEST(MatchedDrawing, IsAsNearAsTheGridAllowsForDesignsOfAllKinds) {
     }
 }
 
-TEST(MatchedDrawing, SaysWhatCannotBeMet) {
+TEST(MatchedDrawing, SaysWhyAQuantityCannotBeMet) {
     Model designed = load_model(shipped);
     designed.set_parameter("zeta", 0.5); // more than the gas gives at an atmosphere
     const MatchedDrawing thick = match_drawing(load_device_file(shipped), designed);
@@ -116,7 +116,7 @@ TEST(MatchedDrawing, SaysWhatCannotBeMet) {
     EXPECT_TRUE(quantity(thick, "d").met && quantity(thick, "f0").met);
 
     designed = load_model(shipped);
-    designed.set_parameter("stop", 45); // stops stand out of the frame, 40 away, by half a flexure or more
+    designed.set_parameter("stop", 45); // stops extend from the frame, 40 away, by at least half a flexure
     designed.set_parameter("d", 60);
     const MatchedDrawing wide = match_drawing(load_device_file(shipped), designed);
     const MatchedQuantity& stop = quantity(wide, "stop");
@@ -125,7 +125,7 @@ TEST(MatchedDrawing, SaysWhatCannotBeMet) {
     EXPECT_NE(stop.reason.find("device.stop_gap would have to be more than 36.5 um"), std::string::npos) << stop.reason;
 }
 
-TEST(MatchedDrawing, LeavesWhatIsGiven) {
+TEST(MatchedDrawing, KeepsGivenNumbers) {
     const DeviceFile file = load_device_file(shipped, {{"gap", 13.5}, {"pressure", 4000}});
     Model designed = load_model(shipped);
     const MatchedDrawing found = match_drawing(file, designed);

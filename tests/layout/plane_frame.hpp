@@ -8,14 +8,14 @@
 
 namespace graze {
 
-/// A plane frame by finite elements: displacements of joints, each element a cubic polynomial.
+/// A plane frame by finite elements: displacements of joints, with cubic polynomials in each element.
 class PlaneFrame {
 public:
     std::size_t add_joint(double x, double y) {
         joints_.push_back({x, y});
         return joints_.size() - 1;
     }
-    /// In equal elements.
+    /// Adds a beam, divided into equal elements.
     void add_beam(std::size_t from, std::size_t to, double bending, double stretching, double density = 0,
                   int elements = 8) {
         std::size_t last = from;
@@ -28,8 +28,8 @@ public:
         }
         elements_.push_back({last, to, bending, stretching, density});
     }
-    /// Force that moves some joints by one in x, without a turn or a motion in y, while others are held; and twice the
-    /// kinetic energy at unit speed of those.
+    /// Stiffness: force that moves some joints by one in x, without rotation or motion in y, while others are held; and
+    /// twice the kinetic energy at unit speed of those.
     std::pair<double, double> driven(const std::vector<std::size_t>& moved,
                                      const std::vector<std::size_t>& held) const {
         const std::size_t n = 3 * joints_.size();
@@ -102,7 +102,8 @@ private:
                         mass[place(i)][place(j)] += turn[p][i] * inert[p][q] * turn[q][j];
                     }
     }
-    /// Elimination; the matrix is symmetric and positive. In double precision rigid joints would cost ten digits.
+    /// Solves by elimination; the matrix is symmetric and positive. In double precision rigid joints would cost ten
+    /// digits.
     static void solve(std::vector<std::vector<long double>>& matrix, std::vector<long double>& right) {
         const std::size_t n = right.size();
         for (std::size_t i = 0; i < n; ++i)

@@ -16,10 +16,10 @@ namespace {
 
 /// A strip of surface charge.
 struct Strip {
-    double x, y, tx, ty, length; // beginning, direction
+    double x, y, tx, ty, length; // start, direction
 };
 
-/// The outline of a block in strips that are finer towards the edges, where charge gathers.
+/// Divides the outline of a block into strips that are finer towards the edges, where charge concentrates.
 void add_block(std::vector<Strip>& strips, double left, double right, double height, int n) {
     const std::array<std::array<double, 2>, 5> corners{
         {{left, 0}, {right, 0}, {right, height}, {left, height}, {left, 0}}};
@@ -57,8 +57,8 @@ std::vector<double> solved(std::vector<std::vector<double>> matrix, std::vector<
     return right;
 }
 
-/// Capacitance per length over epsilon of two blocks in free space, by charges on their surfaces (boundary elements
-/// with constant charge, potentials integrated exactly, equations in the middle of each strip).
+/// Capacitance per length over epsilon of two blocks in free space by boundary elements (constant charge, exact
+/// potentials, collocation at the middle of each strip).
 double capacitance_by_charges(double height, double gap, double backing, int n) {
     std::vector<Strip> strips;
     add_block(strips, -0.5 * gap - backing, -0.5 * gap, height, n);
@@ -79,7 +79,7 @@ double capacitance_by_charges(double height, double gap, double backing, int n) 
             };
             matrix[i][j] = -(integral(from.length - along) - integral(-along)) / (2 * std::numbers::pi);
         }
-        matrix[i][size] = 1; // the potential is known up to a constant, and all charge together is none
+        matrix[i][size] = 1; // the potential is known up to a constant, and the total charge is zero
         matrix[size][i] = strips[i].length;
         right[i] = i < size / 2 ? 0.5 : -0.5;
     }
@@ -90,20 +90,19 @@ double capacitance_by_charges(double height, double gap, double backing, int n) 
     return sum;
 }
 
-TEST(PlateAttraction, HasTheFringeOfBlocksByTheirCharges) {
+TEST(PlateAttraction, HasTheFringeOfBoundaryElements) {
     struct Case {
-        double height, gap, backing, share; // of the fringe that the formula may be wrong by
+        double height, gap, backing, share; // allowed error of the fringe
     };
-    // Thick blocks, as those of a device, are within 2 percent of the fringe; sheets, and plates of few gaps,
-    // within 15.
+    // For thick blocks, as in a device, the error is 2 percent of the fringe; for sheets, and plates of few gaps, 15.
     for (const Case& one :
          {Case{250, 15, 300, 0.02}, Case{250, 5, 100, 0.02}, Case{50, 10, 10, 0.1}, Case{250, 15, 1, 0.15}}) {
         const auto charged = [&](double gap) { return capacitance_by_charges(one.height, gap, one.backing, 40); };
         const double by_charges = charged(one.gap);
         EXPECT_NEAR(capacitance_by_length(one.height, one.gap, one.backing), by_charges, 0.015 * by_charges);
-        const double step = 0.01 * one.gap; // the difference is wrong by 1e-4 of the force
+        const double step = 0.01 * one.gap; // error of the difference: 1e-4 of the force
         const double force = (charged(one.gap - step) - charged(one.gap + step)) / (2 * step);
-        const double seen = force * one.gap * one.gap; // height of plates without a fringe with that force
+        const double seen = force * one.gap * one.gap; // height of plates without fringe field and equal force
         constexpr double length = 1e9;
         const EquivalentPlates plates = equivalent_plates({.length = length,
                                                            .height = one.height,
@@ -125,8 +124,8 @@ TEST(PlateAttraction, IsTheDerivativeOfItsCapacitance) {
     EXPECT_NEAR(plates.area / (length * gap * gap), slope, 1e-10);
 }
 
-TEST(PlateAttraction, OfAWedgeHasItsForceAndItsDerivative) {
-    constexpr double top = 14, bottom = 17, height = 1e6, length = 1e6; // no fringe to speak of
+TEST(PlateAttraction, OfAWedgeHasItsForceAndDerivative) {
+    constexpr double top = 14, bottom = 17, height = 1e6, length = 1e6; // negligible fringe field
     const EquivalentPlates plates =
         equivalent_plates({.length = length, .height = height, .backing = 0, .gap = {.top = top, .bottom = bottom}});
     // Integrals over the depth of 1/g^2 and 2/g^3 by the midpoint rule, to 1e-9.
@@ -143,7 +142,7 @@ TEST(PlateAttraction, OfAWedgeHasItsForceAndItsDerivative) {
     EXPECT_NEAR((2 / d) / (derivative / force), 1, 1e-8);
 }
 
-TEST(PlateAttraction, RefusesWhatIsNoPair) {
+TEST(PlateAttraction, RefusesInvalidPlates) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const FacingPlates good{
         .length = 4e-3, .height = 2.5e-4, .backing = 3e-4, .gap = {.top = 1.5e-5, .bottom = 1.5e-5}};

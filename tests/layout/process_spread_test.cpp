@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-TEST(ProcessSpread, HasTheDeviationsAndCorrelationsThatAreAskedFor) {
+TEST(ProcessSpread, HasTheRequestedDeviationsAndCorrelations) {
     ProcessSpread spread;
     spread.bias = {.wafer = 3, .radial = 0, .device = 4};
     spread.taper = {.wafer = 0, .radial = 8, .device = 0};
@@ -30,25 +30,25 @@ TEST(ProcessSpread, HasTheDeviationsAndCorrelationsThatAreAskedFor) {
         EXPECT_DOUBLE_EQ(departures[2].taper, 8 * 0.25);
         EXPECT_EQ(departures[0].thickness, 0);
     }
-    // Four standard errors of means over 20000 wafers; variances are 25, of which 9 are the wafer's.
+    // Four standard errors of means over 20000 wafers; variances are 25, of which 9 are between wafers.
     EXPECT_NEAR(mean, 0, 4 * 5 / std::sqrt(20000.0));
     EXPECT_NEAR(square, 25, 4 * 25 * std::sqrt(2.0 / 20000));
     EXPECT_NEAR(near, 9 + 16 * std::exp(-0.5), 4 * 31 / std::sqrt(20000.0));
     EXPECT_NEAR(far, 9, 4 * 27 / std::sqrt(20000.0));
-    // Nothing depends on what else is drawn.
+    // Draws are independent of each other.
     const auto alone = departures_of(spread, sites, 2000, 1, 7), again = departures_of(spread, sites, 2000, 1, 7);
     EXPECT_EQ(alone[1].bias, again[1].bias);
     EXPECT_NE(alone[1].bias, departures_of(spread, sites, 2000, 2, 7)[1].bias);
 }
 
-TEST(ProcessSpread, OfManySitesAtOnePlaceIsOne) {
+TEST(ProcessSpread, IsEqualAtCoincidentSites) {
     ProcessSpread spread;
     spread.bias.device = 1;
     spread.correlation = 1e6;
-    const std::vector<SitePlace> sites(50, SitePlace{1, 2}); // correlations that are singular
+    const std::vector<SitePlace> sites(50, SitePlace{1, 2}); // a singular correlation matrix
     for (const ProcessDeparture& one : departures_of(spread, sites, 10, 1, 0)) {
         EXPECT_TRUE(std::isfinite(one.bias));
-        EXPECT_NEAR(one.bias, departures_of(spread, sites, 10, 1, 0)[0].bias, 1e-6); // round-off of the pivots, rooted
+        EXPECT_NEAR(one.bias, departures_of(spread, sites, 10, 1, 0)[0].bias, 1e-6); // root of the pivots' round-off
     }
     EXPECT_THROW(departures_of(spread, std::vector<SitePlace>(3000), 10, 1, 0), InputError);
 }
@@ -74,7 +74,7 @@ drive = "tuned"
     EXPECT_TRUE(with_spread("").spread.is_empty());
 }
 
-TEST(ProcessSpread, SaysWhatIsWrongAndWhere) {
+TEST(ProcessSpread, ErrorsHavePlaceAndRemedy) {
     const std::pair<const char*, const char*> mistakes[] = {
         {"bias = { wafer = -1 }", "one.toml:4:18: spread.bias.wafer is -1 um; give a number from 0 to 1000"},
         {"bias = { wafer = nan }", "one.toml:4:18: spread.bias.wafer is not a finite number"},

@@ -34,21 +34,21 @@ protected:
     }
 };
 
-TEST_F(ProcessSteps, takeWhatTheMasksSay) {
+TEST_F(ProcessSteps, FollowTheMasks) {
     ASSERT_EQ(steps.size(), 11U);
     const double thickness = file.process.wafer_thickness, depth = file.process.chamber_depth;
     const double width = file.device.die_length, whole = width * thickness;
     EXPECT_NEAR(area(1, ProcessMaterial::silicon), whole, 1e-6 * whole);
-    // The plane cuts the chamber beside the channel: all of its box but the base of the electrode.
+    // The plane cuts the chamber beside the channel: its whole box except the base of the electrode.
     const DeviceDrawing& drawing = layout.devices.front().drawing;
     const double chamber = static_cast<double>(drawing.chamber_box.width() - bounding_box(drawing.base).width()) / 1000;
     EXPECT_NEAR(area(3, ProcessMaterial::silicon), whole - chamber * depth, 1e-6 * whole);
-    // Resist of mask 2 stands where silicon is left, and nothing else of the device's wafer does.
+    // Resist of mask 2 is exactly where silicon of the device wafer remains.
     EXPECT_EQ(stretches(8, ProcessMaterial::resist, thickness * 1.08),
               stretches(9, ProcessMaterial::silicon, thickness));
     EXPECT_EQ(stretches(9, ProcessMaterial::silicon, thickness), stretches(10, ProcessMaterial::silicon, thickness));
     EXPECT_EQ(area(10, ProcessMaterial::resist), 0);
-    // The gap between electrode and mass, and that between mass and stop, are open down to the epoxy.
+    // The gaps between electrode and mass, and between mass and stop, are open down to the epoxy.
     const auto left = stretches(10, ProcessMaterial::silicon, thickness);
     const double gap = file.device.gap, stop_gap = file.device.stop_gap;
     bool has_gap = false, has_stop_gap = false;
@@ -60,7 +60,7 @@ TEST_F(ProcessSteps, takeWhatTheMasksSay) {
     EXPECT_TRUE(has_stop_gap);
 }
 
-TEST_F(ProcessSteps, leaveMarksUntilTheSecondMaskIsAligned) {
+TEST_F(ProcessSteps, KeepMarksUntilTheSecondMaskIsAligned) {
     for (std::size_t step = 1; step <= 10; ++step)
         EXPECT_EQ(area(step, ProcessMaterial::aluminium) > 0, step == 5 || step == 7) << step;
     EXPECT_GT(area(11, ProcessMaterial::aluminium), 0);
@@ -68,8 +68,8 @@ TEST_F(ProcessSteps, leaveMarksUntilTheSecondMaskIsAligned) {
         EXPECT_EQ(area(step, ProcessMaterial::epoxy) > 0, step >= 6) << step;
 }
 
-TEST_F(ProcessSteps, coatNothingBelowAnOverhang) {
-    // Metal on the epoxy lies where silicon was etched away, and so does not reach below the electrode to its base.
+TEST_F(ProcessSteps, CoatNothingBelowAnOverhang) {
+    // Metal covers the epoxy where silicon was etched away, so it does not reach below the electrode to its base.
     const double thickness = file.process.wafer_thickness;
     const auto silicon = stretches(10, ProcessMaterial::silicon, thickness);
     for (const ProcessSlab& slab : steps[10].slabs)

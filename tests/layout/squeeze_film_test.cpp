@@ -13,15 +13,15 @@ namespace graze {
 namespace {
 
 const Gas air{.pressure = 101325, .viscosity = 1.82e-5, .mean_free_path = 67e-9};
-/// So dense that it does not slip.
+/// A gas so dense that it does not slip.
 const Gas dense{.pressure = 1e12, .viscosity = 1.82e-5, .mean_free_path = 67e-9};
 
 EtchedWidth straight(double gap) {
     return {.top = gap, .bottom = gap};
 }
 
-/// Reynolds' equation on a grid, by over-relaxation: force by velocity of a film of sides 1 and `length`, with mu = 1
-/// and a gap that changes linearly along the first side.
+/// Solves Reynolds' equation on a grid by over-relaxation: damping of a film with sides 1 and `length`, mu = 1, and a
+/// gap that varies linearly along the first side.
 double damping_on_grid(double length, double top, double bottom, int n) {
     const int m = static_cast<int>(std::lround(n * length));
     const double h = 1.0 / n;
@@ -46,12 +46,12 @@ double damping_on_grid(double length, double top, double bottom, int n) {
     return force;
 }
 
-TEST(SqueezeFilm, IsThatOfALongOneAndOfASquare) {
-    // A square film: 0.42173 mu s^4/g^3 (the value that is tabulated; five digits).
+TEST(SqueezeFilm, EqualsKnownValuesOfALongAndASquareFilm) {
+    // A square film: 0.42173 mu s^4/g^3 (tabulated, five digits).
     const double square = squeeze_film_damping({.length = 1e-3, .height = 1e-3, .gap = straight(1e-5)}, dense);
     EXPECT_NEAR(square / (1.82e-5 * 1e-12 / 1e-15), 0.42173, 1e-5);
     const double longest = squeeze_film_damping({.length = 1, .height = 1e-3, .gap = straight(1e-5)}, dense);
-    // Ends take 0.63 of a height away: 192 zeta(5) (31/32)/pi^5.
+    // The ends reduce the length by 0.63 heights: 192 zeta(5) (31/32)/pi^5.
     const double ends = 192 * 1.0369277551433699 * (31.0 / 32) / std::pow(std::numbers::pi, 5);
     EXPECT_NEAR(longest / (1.82e-5 * 1e-9 / 1e-15), 1 - 1e-3 * ends, 1e-9); // slip: 2e-10
     // Either side may be the longer.
@@ -59,19 +59,19 @@ TEST(SqueezeFilm, IsThatOfALongOneAndOfASquare) {
                      squeeze_film_damping({.length = 1e-3, .height = 3e-4, .gap = straight(1e-5)}, dense));
 }
 
-TEST(SqueezeFilm, IsTheSolutionOfReynoldsEquation) {
+TEST(SqueezeFilm, SolvesReynoldsEquation) {
     const Gas unit{.pressure = 1e20, .viscosity = 1, .mean_free_path = 1e-9};
-    // Second-order differences: two grids extrapolated.
+    // Second-order differences, extrapolated from two grids.
     const auto exact = [](double length, double top, double bottom) {
         return (4 * damping_on_grid(length, top, bottom, 40) - damping_on_grid(length, top, bottom, 20)) / 3;
     };
     EXPECT_NEAR(squeeze_film_damping({.length = 2, .height = 1, .gap = straight(1)}, unit), exact(2, 1, 1), 2e-5);
-    // A wedge: the factor for the ends is that of a constant gap, which differs little.
+    // A wedge: the factor for the ends is that of a constant gap, a small error.
     const double wedge = squeeze_film_damping({.length = 6, .height = 1, .gap = {.top = 0.8, .bottom = 1.2}}, unit);
     EXPECT_NEAR(wedge, exact(6, 0.8, 1.2), 0.01 * wedge);
 }
 
-TEST(SqueezeFilm, OfAWedgeIsAQuadrature) {
+TEST(SqueezeFilm, OfAWedgeEqualsItsIntegral) {
     for (const double a : {0.0, 0.05, 0.0999999, 0.1, 0.1000001, 0.5}) {
         // 12 (I2 - I1^2/I0) by the midpoint rule.
         double i0 = 0, i1 = 0, i2 = 0;
@@ -88,7 +88,7 @@ TEST(SqueezeFilm, OfAWedgeIsAQuadrature) {
     }
 }
 
-TEST(SqueezeFilm, FeelsARarefiedGasLess) {
+TEST(SqueezeFilm, IsReducedInARarefiedGas) {
     EXPECT_NEAR(effective_viscosity(air, 1e-3), air.viscosity, 2e-4 * air.viscosity);
     Gas thin = air;
     thin.pressure = air.pressure / 100;
@@ -97,12 +97,12 @@ TEST(SqueezeFilm, FeelsARarefiedGasLess) {
     EXPECT_NEAR(effective_viscosity(thin, 6.7e-6), air.viscosity / 10.638, 1e-12 * air.viscosity);
     const GasFilm film{.length = 4e-3, .height = 2.5e-4, .gap = straight(1.5e-5)};
     EXPECT_LT(squeeze_film_damping(film, thin), squeeze_film_damping(film, air));
-    // 12 mu omega s^2/(p g^2), where hardly anything slips.
+    // 12 mu omega s^2/(p g^2), with negligible slip.
     EXPECT_NEAR(squeeze_number(film, dense, 6283) * 1e12, 12 * 1.82e-5 * 6283 * 6.25e-8 / 2.25e-10, 1e-6);
 }
 
-TEST(SqueezeFilm, ThatIsShearedSlipsAtBothWalls) {
-    // The speed falls from u by 2 lambda du/dz at the walls: 1 + 2 K, with K = 1 a third.
+TEST(SqueezeFilm, SlipsAtBothWallsWhenSheared) {
+    // The speed falls by 2 lambda du/dz at the walls: 1 + 2 K, with K = 1 a third.
     Gas thin = air;
     thin.pressure = air.pressure / 100;
     EXPECT_NEAR(sliding_film_damping(1e-6, 6.7e-6, thin), air.viscosity * 1e-6 / 6.7e-6 / 3, 1e-20);
@@ -110,7 +110,7 @@ TEST(SqueezeFilm, ThatIsShearedSlipsAtBothWalls) {
     EXPECT_THROW(sliding_film_damping(1, 0, air), InputError);
 }
 
-TEST(SqueezeFilm, RefusesWhatIsNoFilm) {
+TEST(SqueezeFilm, RefusesInvalidFilms) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_THROW(squeeze_film_damping({.length = 0, .height = 1, .gap = straight(1)}, air), InputError);
     EXPECT_THROW(squeeze_film_damping({.length = 1, .height = nan, .gap = straight(1)}, air), InputError);

@@ -1,7 +1,6 @@
 #pragma once
 
-// An evaluator of the part of Verilog-A that a module of one analog block takes, which knows nothing of how it was
-// made.
+// An evaluator of the subset of Verilog-A that a module with one analog block uses, independent of its writer.
 
 #include <cctype>
 #include <cmath>
@@ -28,8 +27,8 @@ public:
         block_ = at_;
     }
 
-    /// Contributions to flows, by "node" or "node,node", at these potentials; `ddt` is taken for zero, and its argument
-    /// kept by what it is contributed to.
+    /// Contributions to flows, by "node" or "node,node", at given potentials; `ddt` counts as zero, and its argument is
+    /// stored under the node that it contributes to.
     std::map<std::string, double> flows(const std::map<std::string, double>& potentials) {
         potentials_ = potentials;
         values_ = parameters;

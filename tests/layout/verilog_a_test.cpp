@@ -1,4 +1,4 @@
-// The module of Verilog-A, read by an evaluator that knows nothing of its writer, against the model's own equations.
+// The Verilog-A module, evaluated independently of its writer, against the model's own equations.
 
 #include "graze/layout/verilog_a.hpp"
 
@@ -27,7 +27,7 @@ VerilogModule module_of(const Model& model) {
     return VerilogModule(verilog_a_text(model, "mems-switch-device", "graze"));
 }
 
-/// What the module makes of position (um) and velocity (um/ms, which are mm/s): rates in um/s and mm/s^2.
+/// Rates of the module at a position (um) and velocity (um/ms, i.e. mm/s): in um/s and mm/s^2.
 struct Rates {
     double position, velocity;
 };
@@ -36,7 +36,7 @@ Rates rates_of(VerilogModule& module, double q, double v, double voltage) {
     return {-flows.at("position"), -flows.at("velocity")};
 }
 
-/// In um/ms^2, by the model's compiled equations.
+/// Acceleration in um/ms^2, by the model's compiled equations.
 double acceleration_of(const System& system, const std::string& mode, double q, double v, double voltage) {
     const Model& model = system.model();
     std::vector<double> inputs{q, v, 1};
@@ -67,15 +67,15 @@ TEST(VerilogA, HasTheModelsEquationsBetweenContacts) {
         const double q = within(-stop, gap), v = within(-100, 100), voltage = i % 3 == 0 ? 0 : within(-60, 60);
         const Rates rates = rates_of(module, q, v, voltage);
         const double expected = acceleration_of(system, voltage == 0 ? "off" : "on", q, v, voltage);
-        // um/ms^2 are 1e3 mm/s^2. Some ten roundings of terms that may cancel; the largest has these sizes.
+        // um/ms^2 are 1e3 mm/s^2. Some ten roundings of terms that may cancel; these are the sizes of the largest.
         const double w0 = 2 * std::numbers::pi * 0.964, size = w0 * w0 * gap + 2 * w0 * 0.02 * 100;
         EXPECT_NEAR(rates.velocity, 1e3 * expected, 1e3 * 1e-14 * (size + std::abs(expected))) << q << ' ' << voltage;
         EXPECT_NEAR(rates.position, 1e3 * v, 1e-12);
     }
 }
 
-TEST(VerilogA, ForceAndChargeBelongTogether) {
-    // Without losses: the force is half V^2 dC/dq, and C the charge by the voltage.
+TEST(VerilogA, ForceAndChargeAreConsistent) {
+    // Without losses the force is V^2/2 dC/dq, where C is charge over voltage.
     VerilogModule module = module_of(load_model(shipped));
     const double mass = module.parameters.at("m"), voltage = 30, step = 1e-3;
     const auto charge = [&](double q) {
@@ -85,20 +85,20 @@ TEST(VerilogA, ForceAndChargeBelongTogether) {
     for (const double q : {-8.0, 0.0, 5.0, 12.0}) {
         const double force =
             1e-3 * mass * (rates_of(module, q, 0, voltage).velocity - rates_of(module, q, 0, 0).velocity);
-        const double slope = (charge(q + step) - charge(q - step)) / (2 * step * 1e-6); // of the charge, by metres
+        const double slope = (charge(q + step) - charge(q - step)) / (2 * step * 1e-6); // of the charge, per metre
         // The difference's error: the third derivative of 1/(d - q), (step/(d - q))^2 of the slope.
         EXPECT_NEAR(force, 0.5 * voltage * slope, 2e-7 * force * std::pow(3 / (15 - q), 2)) << q;
     }
 }
 
-TEST(VerilogA, StopsGiveBackTheShareOfTheSpeed) {
+TEST(VerilogA, StopsReturnTheShareOfTheSpeed) {
     for (const double e : {1.0, 0.8, 0.3, 0.0}) {
         Model model = load_model(shipped);
         model.set_parameter("e", e);
         VerilogModule module = module_of(model);
-        const double stop = 9, before = 50, contact = 0.5 / (100 * 0.9640932355e3); // half a swing on the stop, in s
+        const double stop = 9, before = 50, contact = 0.5 / (100 * 0.9640932355e3); // half a period on the stop, in s
         double q = -stop, v = -before;
-        // Classical Runge-Kutta, until it leaves the stop (at most some swings, if it is thrown back at all).
+        // Classical Runge-Kutta until it leaves the stop (within a few periods).
         const double h = contact / 400;
         int steps = 0;
         do {
@@ -109,13 +109,13 @@ TEST(VerilogA, StopsGiveBackTheShareOfTheSpeed) {
             q += h / 6 * (a.position + 2 * b.position + 2 * c.position + d.position);
             v += h / 6 * (a.velocity + 2 * b.velocity + 2 * c.velocity + d.velocity);
         } while (q < -stop && ++steps < 4000);
-        // The spring of the device pushes too: by w0 stop for half a swing of a hundredth of the period, 3 percent of
-        // w0 stop = 54 mm/s, most of which is given back again.
+        // The device's own spring acts too: w0 stop for half a period of contact, a hundredth of its period, is 3
+        // percent of w0 stop = 54 mm/s, most of which is returned.
         EXPECT_NEAR(v / before, e, 0.04) << e;
     }
 }
 
-TEST(VerilogA, NothingIsSingularWhereTheElectrodesMeet) {
+TEST(VerilogA, IsFiniteWhereTheElectrodesMeet) {
     VerilogModule module = module_of(load_model(shipped));
     for (const double q : {14.2, 14.5, 14.999, 15.0, 15.1, 20.0}) {
         const Rates rates = rates_of(module, q, 0, 50);
@@ -126,14 +126,14 @@ TEST(VerilogA, NothingIsSingularWhereTheElectrodesMeet) {
     }
 }
 
-TEST(VerilogA, TakesWhatModelsHave) {
+TEST(VerilogA, UsesTheParametersAndUnitsOfModels) {
     Model model = load_model(shipped);
     EXPECT_TRUE(has_verilog_a(model));
     for (Parameter& one : model.parameters)
         if (one.name == "d" || one.name == "stop")
             one.unit = "nm";
     VerilogModule module = module_of(model);
-    EXPECT_NEAR(module.parameters.at("d"), 14.99999378e-9, 1e-22); // its numbers are now nanometres
+    EXPECT_NEAR(module.parameters.at("d"), 14.99999378e-9, 1e-22); // its numbers are in nanometres now
     EXPECT_NEAR(module.parameters.at("m"), 357.1554696e-9, 1e-20);
     EXPECT_EQ(module.parameters.at("epsilon"), vacuum_permittivity);
     EXPECT_FALSE(has_verilog_a(load_model("mems-switch")));

@@ -12,7 +12,7 @@
 namespace graze::testing {
 namespace {
 
-/// The shipped device on its wafers, with some spread of its process.
+/// The shipped device on its wafers, with some variation of its process.
 struct Wafers {
     DeviceFile file = load_device_file("mems-switch-device");
     Design design;
@@ -30,17 +30,17 @@ struct Wafers {
     }
 };
 
-TEST(WaferYield, OfSmallSpreadsIsThatOfTheFirstOrder) {
+TEST(WaferYield, OfSmallSpreadsEqualsTheLinearEstimate) {
     Wafers wafers(1e-3);
     wafers.settings.wafers = 40;
     const WaferYield found = wafers.yield();
     ASSERT_EQ(found.yield.found, 320U);
-    // What is not linear is the square of relative departures, 1e-5 each.
+    // Nonlinear effects are squares of relative deviations, 1e-5 each.
     EXPECT_LT(found.yield.largest_departure, 1e-3 * found.linear_deviation);
-    // Devices of a wafer have much in common: 40 wafers tell the deviation to 4/sqrt(80).
+    // Devices of a wafer are correlated: 40 wafers give the deviation within 4/sqrt(80).
     EXPECT_NEAR(found.yield.deviation->value, found.linear_deviation, 0.45 * found.linear_deviation);
     EXPECT_NEAR(found.yield.deviation->value, found.yield.linear_deviation, 1e-3 * found.linear_deviation);
-    // The derivative by the bias, by devices alone.
+    // The derivative by the bias, from devices alone.
     DeviceFile etched = wafers.file;
     etched.conditions.bias += 0.002;
     const double more = trip_of(design_of_device(wafers.design, etched)).value();
@@ -49,7 +49,7 @@ TEST(WaferYield, OfSmallSpreadsIsThatOfTheFirstOrder) {
     EXPECT_NEAR(found.effects.front().derivative, derivative, 2e-3 * std::abs(derivative)); // a one-sided difference
 }
 
-TEST(WaferYield, OfADeviceIsWhatSimulationSays) {
+TEST(WaferYield, OfADeviceAgreesWithSimulation) {
     const Wafers wafers;
     const WaferYield found = wafers.yield();
     ASSERT_EQ(found.devices.size(), 32U);
@@ -68,7 +68,7 @@ TEST(WaferYield, OfADeviceIsWhatSimulationSays) {
         }
         parameters = one.parameter_values();
         const double cycle = 1 / (device.lumped->frequency() / 1000);
-        // From rest; the way up leaves a disturbance of 0.94^250, the rest is for contacts to grow.
+        // From rest; the rise leaves a disturbance of 0.94^250, then contacts have time to grow.
         EXPECT_FALSE(shop.trips(parameters, {0, 0, 0}, cycle, 0.999 * device.value)) << i;
         EXPECT_TRUE(shop.trips(parameters, {0, 0, 0}, cycle, 1.001 * device.value)) << i;
         ASSERT_TRUE(device.trip_time);
@@ -77,7 +77,7 @@ TEST(WaferYield, OfADeviceIsWhatSimulationSays) {
 }
 
 /// Dependent parameters have no values of their own among those of the model.
-TEST(WaferYield, TunesTheDriveOfAModelWhoseParametersStandInAnyOrder) {
+TEST(WaferYield, TunesTheDriveForAnyOrderOfParameters) {
     const DeviceFile file = load_device_file("mems-switch-device");
     Design design = load_design("mems-switch-device");
     design.model.set_parameter("f", 0.5 * *design.model.parameters[*design.model.find_parameter("f0")].value);
@@ -101,9 +101,9 @@ TEST(WaferYield, DependsOnTheSeedAndNotOnThreads) {
     EXPECT_EQ(one.classes, two.classes);
 }
 
-TEST(WaferYield, CountsDevicesThatTheEtchTakesAway) {
+TEST(WaferYield, CountsDevicesThatTheEtchRemoves) {
     Wafers wafers;
-    wafers.file.spread.bias.wafer = 4; // of flexures that are 6.4 um wide
+    wafers.file.spread.bias.wafer = 4; // flexures are 6.4 um wide
     wafers.settings.wafers = 3;
     const WaferYield found = wafers.yield();
     std::size_t gone = 0;

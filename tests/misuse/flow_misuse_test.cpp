@@ -194,10 +194,10 @@ void jets(WrongUses& wrong) {
         });
     }
     for (const auto& [how, index] : wrong_indices(0))
-        wrong("jet_follower_" + how, [index = index] { keep(Pendulum().jet()->follower(index)); });
+        wrong("jet_deferred_" + how, [index = index] { keep(Pendulum().jet()->deferred(index)); });
     wrong("jet_follow_before_it_is_computed", [] {
         constexpr std::uint32_t group = 0;
-        make_jet(Pendulum().tape(), 8, LaneKind::single)->follow({&group, 1});
+        make_jet(Pendulum().tape(), 8, LaneKind::single)->compute_deferred({&group, 1});
     });
 }
 

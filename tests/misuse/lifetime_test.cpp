@@ -188,12 +188,12 @@ void trajectories(WrongUses& right) {
         jets.set_parameters(oscillator().parameter_values());
         jets.computed(1, std::vector<double>(3, 0.1));
     });
-    right("outlook_outlives_simulation", [] {
-        Outlook outlook(Simulation(oscillator()), 1);
+    right("preview_outlives_simulation", [] {
+        StepPreview preview(Simulation(oscillator()), 1);
         JetSet jets(Simulation(oscillator()), LaneKind::single);
         jets.set_parameters(oscillator().parameter_values());
-        outlook.lengths()[0] = 0;
-        outlook.find_steps(jets.computed(0, oscillator().initial_state()));
+        preview.lengths()[0] = 0;
+        preview.find_steps(jets.computed(0, oscillator().initial_state()));
     });
     right("ensemble_outlives_simulation", [] {
         Observer nobody;

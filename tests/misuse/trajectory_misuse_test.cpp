@@ -241,13 +241,13 @@ void order_of_calls(WrongUses& wrong) {
         parameters(m);
         keep(m.trajectory.propose(jet(m), 0.1));
     });
-    of_motion("advance_before_start", [](Motion& m) { m.trajectory.advance(Outlook(m.simulation, 1)); });
-    of_motion("advance_before_propose", [](Motion& m) { m.begun().advance(Outlook(m.simulation, 1)); });
+    of_motion("advance_before_start", [](Motion& m) { m.trajectory.advance(StepPreview(m.simulation, 1)); });
+    of_motion("advance_before_propose", [](Motion& m) { m.begun().advance(StepPreview(m.simulation, 1)); });
     of_motion("propose_after_end", [=](Motion& m) {
         m.finished();
         keep(m.trajectory.propose(jet(m), 0.1));
     });
-    of_motion("advance_after_end", [](Motion& m) { m.finished().advance(Outlook(m.simulation, 1)); });
+    of_motion("advance_after_end", [](Motion& m) { m.finished().advance(StepPreview(m.simulation, 1)); });
     for (const auto& [kind, lane] : wrong_indices(1)) {
         of_motion("propose_lane_" + kind, [=, lane = lane](Motion& m) {
             parameters(m);
@@ -256,7 +256,7 @@ void order_of_calls(WrongUses& wrong) {
         of_motion("advance_lane_" + kind, [=, lane = lane](Motion& m) {
             parameters(m);
             keep(m.begun().propose(jet(m), 0.1));
-            m.trajectory.advance(Outlook(m.simulation, 1), lane);
+            m.trajectory.advance(StepPreview(m.simulation, 1), lane);
         });
     }
     of_motion("propose_with_another_models_jet", [](Motion& m) {
@@ -271,10 +271,10 @@ void order_of_calls(WrongUses& wrong) {
         jets.set_parameters(m.model.parameter_values());
         keep(m.begun().propose(jets.computed(0, m.model.initial_state()), 0.1));
     });
-    of_motion("advance_with_another_models_outlook", [=](Motion& m) {
+    of_motion("advance_with_another_models_preview", [=](Motion& m) {
         parameters(m);
         keep(m.begun().propose(jet(m), 0.1));
-        m.trajectory.advance(Outlook(Simulation(load_model("mems-switch")), 1));
+        m.trajectory.advance(StepPreview(Simulation(load_model("mems-switch")), 1));
     });
     of_motion("run_with_another_simulations_jets", [](Motion& m) {
         JetSet jets(Simulation(load_model("mems-switch")), LaneKind::single);
@@ -314,12 +314,12 @@ void drivers(WrongUses& wrong) {
                   [i = mode](Motion& m) { keep(m.jets.computed(i, std::vector<double>(3))); });
         of_motion("jet_set_parameters_of_mode_" + kind,
                   [i = mode](Motion& m) { m.jets.set_parameters(i, std::vector<double>(5)); });
-        of_motion("outlook_look_mode_" + kind, [i = mode](Motion& m) {
+        of_motion("preview_mode_" + kind, [i = mode](Motion& m) {
             m.jets.set_parameters(m.model.parameter_values());
-            Outlook outlook(m.simulation, 1);
+            StepPreview preview(m.simulation, 1);
             Jet& jet = m.jets.computed(0, m.model.initial_state());
-            outlook.lengths()[0] = 0.01;
-            outlook.look(jet, m.jets.next(0), i);
+            preview.lengths()[0] = 0.01;
+            preview.evaluate_ends(jet, m.jets.next(0), i);
         });
     }
     for (const auto& [kind, length] : wrong_lengths(5)) {
@@ -336,17 +336,21 @@ void drivers(WrongUses& wrong) {
               [](Motion& m) { keep(JetSet(m.simulation, LaneKind::single, static_cast<InstructionSet>(9))); });
     of_motion("ensemble_no_set", [](Motion& m) { keep(Ensemble(m.simulation, static_cast<InstructionSet>(9))); });
     for (const int width : {0, -1, std::numeric_limits<int>::min()})
-        of_motion("outlook_width_" + std::to_string(width), [width](Motion& m) { keep(Outlook(m.simulation, width)); });
-    of_motion("outlook_of_another_width", [](Motion& m) {
+        of_motion("preview_width_" + std::to_string(width),
+                  [width](Motion& m) { keep(StepPreview(m.simulation, width)); });
+    of_motion("preview_of_another_width", [](Motion& m) {
         m.jets.set_parameters(m.model.parameter_values());
-        Outlook(m.simulation, 8).find_steps(m.jets.computed(0, m.model.initial_state()));
+        StepPreview(m.simulation, 8).find_steps(m.jets.computed(0, m.model.initial_state()));
     });
     for (const auto& [kind, index] : wrong_indices(1)) {
-        of_motion("outlook_length_" + kind, [i = index](Motion& m) { keep(Outlook(m.simulation, 1).length(i)); });
-        of_motion("outlook_agrees_" + kind, [i = index](Motion& m) { keep(Outlook(m.simulation, 1).agrees(i)); });
-        of_motion("outlook_state_lane_" + kind, [i = index](Motion& m) { keep(Outlook(m.simulation, 1).state(2, i)); });
-        of_motion("outlook_least_lane_" + kind, [i = index](Motion& m) { keep(Outlook(m.simulation, 1).least(0, i)); });
-        of_motion("outlook_size_lane_" + kind, [i = index](Motion& m) { keep(Outlook(m.simulation, 1).size(0, i)); });
+        of_motion("preview_length_" + kind, [i = index](Motion& m) { keep(StepPreview(m.simulation, 1).length(i)); });
+        of_motion("preview_agrees_" + kind, [i = index](Motion& m) { keep(StepPreview(m.simulation, 1).agrees(i)); });
+        of_motion("preview_state_lane_" + kind,
+                  [i = index](Motion& m) { keep(StepPreview(m.simulation, 1).state(2, i)); });
+        of_motion("preview_least_lane_" + kind,
+                  [i = index](Motion& m) { keep(StepPreview(m.simulation, 1).least(0, i)); });
+        of_motion("preview_size_lane_" + kind,
+                  [i = index](Motion& m) { keep(StepPreview(m.simulation, 1).size(0, i)); });
     }
     of_motion("ensemble_unstarted", [](Motion& m) { Ensemble(m.simulation).run(std::span(&m.trajectory, 1)); });
     of_motion("ensemble_of_another_simulation",

@@ -25,7 +25,7 @@ std::string message(const std::string& name) {
     return "";
 }
 
-TEST(Catalogue, HoldsTheFilesOfModelsWordForWord) {
+TEST(Catalogue, HoldsTheFilesOfModelsUnchanged) {
     std::set<std::string> files;
     for (const auto& file : std::filesystem::directory_iterator(std::string(testing::source_folder) + "/models"))
         if (file.path().extension() == ".toml") {
@@ -40,7 +40,7 @@ TEST(Catalogue, HoldsTheFilesOfModelsWordForWord) {
     EXPECT_FALSE(files.empty());
 }
 
-TEST(Catalogue, IsSortedAndSummarised) {
+TEST(Catalogue, IsSortedAndHasSummaries) {
     EXPECT_TRUE(std::is_sorted(catalogue().begin(), catalogue().end(),
                                [](const auto& one, const auto& other) { return one.name < other.name; }));
     for (const CatalogueEntry& entry : catalogue()) {
@@ -49,7 +49,7 @@ TEST(Catalogue, IsSortedAndSummarised) {
     }
 }
 
-TEST(Catalogue, ShippedModelsAreRightDocumentedAndReadBackTheSame) {
+TEST(Catalogue, ShippedModelsAreValidDocumentedAndReadBack) {
     for (const CatalogueEntry& entry : catalogue()) {
         SCOPED_TRACE(entry.name);
         const Model model = load_model(entry.name);

@@ -11,8 +11,8 @@ namespace graze::testing {
 
 /// A chain of n oscillators of which the first is forced, each with a wall of its own:
 /// x_i'' = -0.2 x_i - 0.04 x_i' - coupling (2 x_i - x_{i-1} - x_{i+1}) - 0.1 x_i^3, with F cos(phase) added to the
-/// first; contacts at x_i = 0.6 reverse the velocity and leave 0.7 of it. Its ends are fixed. States: x1, v1, x2, ...,
-/// phase.
+/// first; contacts at x_i = 0.6 have restitution coefficient 0.7. The ends of the chain are fixed. States: x1, v1, x2,
+/// ..., phase.
 inline Model chain(std::size_t n, double coupling = 1) {
     Model model;
     model.name = "chain";

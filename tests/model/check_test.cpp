@@ -64,12 +64,12 @@ void expect_warning(const std::vector<std::string>& found, const std::string& wo
     EXPECT_TRUE(there) << "expected: " << words << "\nfound:\n" << all;
 }
 
-TEST(Check, HasNothingToSayOfAGoodModel) {
+TEST(Check, DoesNotWarnOfAGoodModel) {
     const std::vector<std::string> found = warnings();
     EXPECT_TRUE(found.empty()) << found.front();
 }
 
-TEST(Check, WarnsOfWhatIsNeverUsed) {
+TEST(Check, WarnsOfUnusedItems) {
     expect_warning(warnings("e = 0.8", "e = 0.8\nmass = 1"), "nothing uses the parameter 'mass'");
     expect_warning(warnings("height = \"x\"", "height = \"x\"\ndepth = \"-x\""), "nothing uses the definition 'depth'");
     expect_warning(warnings("contact = \"height\"", "contact = \"height\"\ntop = \"v\""),
@@ -84,7 +84,7 @@ TEST(Check, WarnsOfWhatIsNeverUsed) {
     expect_warning(warnings("[initial]", second), "two transitions have the label 'J1'");
 }
 
-TEST(Check, WarnsOfConditionsThatFailOrNeverMatter) {
+TEST(Check, WarnsOfConditionsThatFailOrAreNeverTested) {
     expect_warning(warnings(", { mode = \"end\" }", ""), "the conditions of the transition 'J1' may all fail");
     expect_warning(warnings("{ mode = \"end\" }", "{ mode = \"end\" }, { when = \"x > 1\", mode = \"rest\" }"),
                    "alternative 3 of the transition 'J1' is never taken");
@@ -99,7 +99,7 @@ TEST(Check, WarnsOfSectionsUsedAsBarriers) {
     expect_warning(warnings("watch = [\"contact\"]", top), "watches the section 'top' but has no transition");
 }
 
-TEST(Check, WarnsOfABadStart) {
+TEST(Check, WarnsOfABadInitialState) {
     expect_warning(warnings("x = 1.0", "x = -0.5"), "the barrier 'contact' is -0.5");
     expect_warning(warnings("v = \"-g\"", "v = \"-g/v\""), "the rate of 'v' is -inf");
     EXPECT_TRUE(warnings("x = 1.0", "x = 0.0").empty());
@@ -130,7 +130,7 @@ TEST(Check, WarnsOfASymmetryThatDoesNotHold) {
     const std::vector<std::string> found = oscillator(right, "{}");
     expect_warning(found, "the symmetry 'half' does not hold: it does not take the rate of 'v' in mode 'b' to that in "
                           "mode 'b'");
-    EXPECT_EQ(found.size(), 2U) << "the other one says that nothing leads to mode b";
+    EXPECT_EQ(found.size(), 2U) << "the second warning says that nothing leads to mode b";
     expect_warning(oscillator("{ x = \"-x\", theta = \"theta + pi\" }", "{}"), "the rate of 'x' in mode 'a'");
     expect_warning(oscillator("{ x = \"-x\", v = \"-v\" }", "{}"), "the rate of 'v' in mode 'a'");
     expect_warning(oscillator(right, "{ a = \"b\", b = \"a\" }"), "in mode 'a' to that in mode 'b'");

@@ -1,4 +1,4 @@
-// Parameters that change in time: what has become of a model's equations, and motions in closed form.
+// Parameters that change in time: the equations of the driven model, and motions in closed form.
 
 #include "graze/model/driven_parameter.hpp"
 
@@ -46,7 +46,7 @@ value = 0
                        "pushed.toml");
 }
 
-TEST(DrivenParameter, IsReplacedInAllThatTheMotionDependsOn) {
+TEST(DrivenParameter, ReplacesTheParameterInAllEquationsOfMotion) {
     DrivenParameter driven = drive_parameter(pushed(), "p", DriveKind::shift);
     EXPECT_EQ(driven.state, "p_shift");
     EXPECT_EQ(driven.rate, "p_rate");
@@ -60,13 +60,13 @@ TEST(DrivenParameter, IsReplacedInAllThatTheMotionDependsOn) {
     EXPECT_EQ(evaluate(model, model.expand(model.jumps[1].map[2]), at), 0.5);
     EXPECT_EQ(evaluate(model, model.expand(driven.value), at), 2.5);
     EXPECT_EQ(model.initial_state(), (std::vector<double>{2, 0, 0}));
-    // What users name in words of the model that they know.
+    // Quantities and texts that users wrote for the original model.
     Model known = pushed();
     EXPECT_EQ(evaluate(model, driven.of(known.symbol("force") + known.symbol("twice")), at), 5 + 2.5 * 3 + 5);
     EXPECT_THROW(driven.of(known.symbol("p_shift")), InputError);
 }
 
-TEST(DrivenParameter, SwingsWithAWave) {
+TEST(DrivenParameter, WaveAddsASineOfThePhase) {
     DrivenParameter driven = drive_parameter(pushed(), "p", DriveKind::wave);
     Model& model = driven.model;
     model.set_parameter(driven.amplitude, 0.5);
@@ -79,13 +79,13 @@ TEST(DrivenParameter, SwingsWithAWave) {
     EXPECT_NEAR(model.periods()[2], 2 * std::numbers::pi, 1e-15);
 }
 
-TEST(DrivenParameter, IsRefusedWhereSomethingFixedDependsOnIt) {
+TEST(DrivenParameter, IsRefusedWhereAConstantDependsOnTheParameter) {
     EXPECT_THROW(drive_parameter(pushed(), "q", DriveKind::shift), InputError);
     EXPECT_THROW(drive_parameter(pushed(), "twice", DriveKind::shift), InputError);
     EXPECT_THROW(drive_parameter(pushed(), "none", DriveKind::wave), InputError);
 }
 
-TEST(DrivenParameter, OfEveryShippedModel) {
+TEST(DrivenParameter, CanBeMadeOfEveryShippedModel) {
     for (const std::string& name : shipped_models()) {
         const Model model = load_model(name);
         for (const std::string& parameter : model.independent_parameters())

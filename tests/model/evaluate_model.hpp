@@ -36,7 +36,7 @@ inline double evaluate(const Model& model, const Expression& expression, std::sp
     return evaluate(model, {&expression, 1}, state).front();
 }
 
-/// Rate of an expression along the motion in a mode.
+/// Returns the rate of change of an expression along the motion in a mode.
 inline Expression rate_of(Model model, const Expression& expression, std::size_t mode) {
     const Expression expanded = model.expand(expression);
     Expression sum = model.graph->number(0);
@@ -47,7 +47,7 @@ inline Expression rate_of(Model model, const Expression& expression, std::size_t
     return sum;
 }
 
-/// All that a model says about motion, one expression after another.
+/// Returns all expressions of a model that determine the motion.
 inline std::vector<Expression> expressions_of(const Model& model) {
     std::vector<Expression> all;
     const auto append = [&](const std::vector<Expression>& more) { all.insert(all.end(), more.begin(), more.end()); };

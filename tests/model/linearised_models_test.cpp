@@ -15,11 +15,11 @@ namespace graze {
 namespace {
 
 struct Compared {
-    Linearisation linear, plain; ///< by states alone
-    Linearisation of_many;       ///< for so many directions that coefficients cost nothing
+    Linearisation linear, plain; ///< with respect to states only
+    Linearisation of_many;       ///< for so many directions that the cost of coefficients is negligible
 };
 
-/// The rates of a mode, by states and parameters, at random points near the model's own values.
+/// Linearises the rates of a mode by states and parameters, at random points near the model's own values.
 Compared compare(Model model, const std::string& mode) {
     const std::vector<Expression> rates = model.expand(model.modes[testing::mode_index(model, mode.c_str())].rates),
                                   states = model.state_symbols();
@@ -36,7 +36,7 @@ Compared compare(Model model, const std::string& mode) {
         const std::vector<double> plain = testing::plain_derivatives(rates, inputs, at);
         const testing::DenseDerivatives derivatives = testing::multiplied_out(linear, inputs, at);
         for (std::size_t i = 0; i < plain.size(); ++i) {
-            // Of each row's size: some hundred roundings of what is added up to it.
+            // Tolerance relative to each row's size: some hundred roundings accumulate in its sum.
             const double bound = 1e-13 * derivatives.sizes[i / inputs.size()];
             if (std::isfinite(plain[i])) {
                 EXPECT_NEAR(derivatives.values[i], plain[i], bound) << model.name << ' ' << mode << ' ' << i;
@@ -47,8 +47,8 @@ Compared compare(Model model, const std::string& mode) {
             linearise(rates, of_states, states.size(), 1000000)};
 }
 
-/// Shown by the tests, for whoever wants to know.
-std::string told(const Linearisation& one) {
+/// Returns a description that the tests print for information.
+std::string description(const Linearisation& one) {
     return std::to_string(one.entries.size()) + " entries (" + std::to_string(one.varying_entries()) + " vary), " +
            std::to_string(one.intermediates) + " intermediates, cost " + std::to_string(one.cost());
 }
@@ -60,8 +60,8 @@ void compare_all(const Model& model) {
         if (linear.intermediates == 0) {
             EXPECT_EQ(linear.entries.size(), plain.entries.size()) << model.name << ' ' << mode.name;
         }
-        std::cout << model.name << ' ' << mode.name << ": " << told(linear) << "; without " << told(plain)
-                  << "; for many directions " << told(of_many) << '\n';
+        std::cout << model.name << ' ' << mode.name << ": " << description(linear) << "; without " << description(plain)
+                  << "; for many directions " << description(of_many) << '\n';
     }
 }
 
@@ -73,12 +73,12 @@ TEST(LinearisedModels, EqualTheirJacobians) {
 TEST(LinearisedModels, MicrobeamsEqualTheirJacobiansAndCostLessWithManyModes) {
     for (const int modes : {1, 9})
         compare_all(microbeam({.modes = modes}));
-    // Each rate has the stretch in it, and one projection of the slope.
+    // Each rate depends on the stretch and on one projection of the slope.
     const auto [off, plain_off, off_many] = compare(microbeam({.modes = 9}), "free_off");
     EXPECT_EQ(plain_off.varying_entries(), 81u);
     EXPECT_EQ(off.varying_entries(), 36u);
     EXPECT_EQ(off_many.varying_entries(), 36u);
-    // The attraction at 19 places of the beam.
+    // The attraction at 19 points of the beam.
     const auto [on, plain_on, on_many] = compare(microbeam({.modes = 18}), "free_on");
     EXPECT_EQ(plain_on.varying_entries(), 18u * 18u);
     EXPECT_EQ(on.varying_entries(), 19u + 4 * 18u);
@@ -86,7 +86,7 @@ TEST(LinearisedModels, MicrobeamsEqualTheirJacobiansAndCostLessWithManyModes) {
 }
 
 TEST(LinearisedModels, FewDirectionsDoNotPayForManyCoefficients) {
-    // With nine modes both ways cost about the same for each direction, but 81 coefficients of 19 terms take far more.
+    // With nine modes both forms cost about the same for each direction, but 81 coefficients of 19 terms cost far more.
     Model model = microbeam({.modes = 9});
     const std::vector<Expression> rates = model.expand(model.modes[testing::mode_index(model, "free_on")].rates);
     const SymbolIndex inputs(model.inputs()), states(model.state_symbols());
@@ -102,7 +102,7 @@ TEST(LinearisedModels, FewDirectionsDoNotPayForManyCoefficients) {
 TEST(LinearisedModels, ChainsHaveNoIntermediates) {
     const auto [linear, plain, of_many] = compare(testing::chain(30), "free");
     EXPECT_EQ(linear.intermediates, 0u);
-    EXPECT_EQ(linear.entries.size(), 5 * 30u - 1); // those at the ends have one neighbour; the first is forced
+    EXPECT_EQ(linear.entries.size(), 5 * 30u - 1); // the ends have one neighbour; the first oscillator is forced
     EXPECT_EQ(linear.varying_entries(), 30u + 1);
     EXPECT_EQ(plain.cost(), linear.cost());
     EXPECT_EQ(of_many.cost(), linear.cost());

@@ -25,7 +25,7 @@ using testing::rate_of;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// Integral over [0, 1] by Gauss's rule with three nodes on many panels: independent of the model's quadrature.
+/// Integral over [0, 1] by three-point Gauss quadrature on many panels, independent of the model's quadrature.
 double integral(const std::function<double(double)>& integrand, int panels = 4000) {
     const double offset = std::sqrt(0.6) / 2;
     double sum = 0;
@@ -63,7 +63,7 @@ TEST(ClampedBeamModes, SlopeProductsAreThePublishedOnes) {
     EXPECT_EQ(beam.slope_product(1, 2), 0);
 }
 
-TEST(ClampedBeamModes, SlopeProductsAreTheIntegralsThatTheyStandFor) {
+TEST(ClampedBeamModes, SlopeProductsEqualTheirIntegrals) {
     const ClampedBeamModes beam(9);
     for (int i = 1; i <= 9; ++i)
         for (int j = 1; j <= 9; ++j) {
@@ -104,25 +104,25 @@ TEST(ClampedBeamModes, ShapesAgreeWithTheTextbookFormula) {
             const long double z = k * x;
             const long double shape = std::cosh(z) - std::cos(z) - weight * (std::sinh(z) - std::sin(z));
             const long double slope = k * (std::sinh(z) + std::sin(z) - weight * (std::cosh(z) - std::cos(z)));
-            // The textbook formula itself loses exp(k) of the precision of its wave number.
+            // The textbook formula itself amplifies the rounding of its wave number by exp(k).
             EXPECT_NEAR(beam.shape(i, x), static_cast<double>(shape), 4 * epsilon * std::exp(z)) << i << ' ' << x;
             EXPECT_NEAR(beam.slope(i, x), static_cast<double>(slope), 4 * epsilon * k * std::exp(z)) << i << ' ' << x;
         }
     }
 }
 
-TEST(ClampedBeamModes, RefusesModesThatItDoesNotHave) {
+TEST(ClampedBeamModes, RefusesModeNumbersOutOfRange) {
     EXPECT_THROW(ClampedBeamModes(0), InputError);
     EXPECT_THROW(ClampedBeamModes(2).frequency(3), std::out_of_range);
     EXPECT_THROW(ClampedBeamModes(2).shape(0, 0.5), std::out_of_range);
 }
 
 TEST(ClampedBeamPolynomial, HasTheIntegralsOfTheChapter) {
-    // Eq. (3.20) with its integrals, Eq. (3.21), of which this is phi/Lambda_11^(1/2).
+    // Eq. (3.20) with its integrals, Eq. (3.21); the polynomial here is phi/Lambda_11^(1/2).
     const double gap = 0.04, mass = 128 * gap * gap / 315, slopes = 512 * gap * gap / 105,
                  curvatures = 1024 * gap * gap / 5;
     const ClampedBeamPolynomial beam;
-    const auto curvature = [](double x) { return 32 * (1 - 6 * x + 6 * x * x); }; // of 16 x^2 (x - 1)^2
+    const auto curvature = [](double x) { return 32 * (1 - 6 * x + 6 * x * x); }; // (16 x^2 (x - 1)^2)''
     for (const double x : {0.0, 0.1, 0.37, 0.5, 0.9, 1.0}) {
         EXPECT_NEAR(beam.shape(x) * std::sqrt(mass), 16 * gap * x * x * (x - 1) * (x - 1), 4 * epsilon);
         EXPECT_NEAR(beam.shape(x), beam.shape(1 - x), 8 * epsilon);
@@ -136,7 +136,7 @@ TEST(ClampedBeamPolynomial, HasTheIntegralsOfTheChapter) {
     EXPECT_THROW(beam.shape(1.1), InputError);
 }
 
-/// Right-hand sides of Eq. (3.17), written out in numbers.
+/// Right-hand sides of Eq. (3.17), evaluated directly.
 class DirectBeam {
 public:
     explicit DirectBeam(const MicrobeamOptions& options) : o(options), beam(options.modes) {}
@@ -224,13 +224,13 @@ TEST_P(MicrobeamFamily, ForcesOfTheFreeBeamAreTheGradientOfItsEnergy) {
     std::mt19937_64 random(4);
     for (int trial = 0; trial < 20; ++trial) {
         const std::vector<double> state = random_state(model, 0.01, random);
-        // Terms of this size cancel.
+        // The tolerance is relative to the cancelling terms.
         const double size = 0.01 * 0.01 * std::pow(9 * 900.0, 2);
         EXPECT_NEAR(evaluate(model, rate, state), 0, 10 * epsilon * size);
     }
 }
 
-TEST_P(MicrobeamFamily, IsAModelWithoutWarningsThatReadsBack) {
+TEST_P(MicrobeamFamily, IsValidAndReadsBackWithoutWarnings) {
     MicrobeamOptions options;
     options.modes = GetParam();
     options.quadrature = Quadrature::gauss;
@@ -274,8 +274,9 @@ TEST(Microbeam, GaussAndSimpsonConvergeToTheSameForce) {
     }
 }
 
-/// Of the amplitude of Eq. (3.20) itself, whose trial function has the size of the gap, by Eqs. (3.19) and (3.21).
-TEST(Microbeam, OfThePolynomialIsThatOfTheChapter) {
+/// The equations for the amplitude of Eq. (3.20), whose trial function has the size of the gap, by Eqs. (3.19) and
+/// (3.21).
+TEST(Microbeam, PolynomialModelIsThatOfTheChapter) {
     MicrobeamOptions options;
     options.trial = TrialFunctions::polynomial;
     const Model model = microbeam(options);
@@ -308,7 +309,7 @@ TEST(Microbeam, OfThePolynomialIsThatOfTheChapter) {
     }
 }
 
-TEST(Microbeam, UnderASteadyVoltageHasTheForcesOfThePulses) {
+TEST(Microbeam, SteadyVoltageHasTheForcesOfThePulses) {
     MicrobeamOptions options;
     options.modes = 3;
     const Model pulsed = microbeam(options);
@@ -321,7 +322,7 @@ TEST(Microbeam, UnderASteadyVoltageHasTheForcesOfThePulses) {
     EXPECT_EQ(evaluate(steady, steady.modes[1].rates, state), evaluate(pulsed, pulsed.modes[2].rates, state));
 }
 
-TEST(Microbeam, MembersHaveNames) {
+TEST(Microbeam, MembersAreFoundByName) {
     EXPECT_EQ(microbeam_member("microbeam-9").value().modes, 9);
     EXPECT_EQ(microbeam_member("microbeam-polynomial").value().trial, TrialFunctions::polynomial);
     EXPECT_TRUE(microbeam_member("microbeam-steady").value().steady);
@@ -342,7 +343,7 @@ TEST(Microbeam, SymmetricMotionsStaySymmetric) {
     }
 }
 
-TEST(Microbeam, TheForceIsContinuousAtContact) {
+TEST(Microbeam, ForceIsContinuousAtContact) {
     for (const double distance : {-0.004, 0.004}) {
         MicrobeamOptions options;
         options.stop_distance = distance;
@@ -362,7 +363,7 @@ TEST(Microbeam, TheForceIsContinuousAtContact) {
     }
 }
 
-TEST(Microbeam, RefusesOptionsThatMakeNoSense) {
+TEST(Microbeam, RefusesInvalidOptions) {
     const auto with = [](auto change) {
         MicrobeamOptions options;
         change(options);
@@ -396,7 +397,7 @@ TEST(Microbeam, CanBeBuiltForAnyNumberOfModesAndWrittenOut) {
     EXPECT_EQ(parse_model(text, "microbeam-9.toml").name, "microbeam-9");
 }
 
-/// A text with its decimal fractions taken out, and these.
+/// Returns a text without its decimal fractions, and the fractions.
 std::pair<std::string, std::vector<double>> without_fractions(const std::string& text) {
     static const std::regex fraction(R"(\d+\.\d+(e[-+]?\d+)?)");
     std::vector<double> numbers;
@@ -406,7 +407,7 @@ std::pair<std::string, std::vector<double>> without_fractions(const std::string&
     return {std::regex_replace(text, fraction, "#"), numbers};
 }
 
-TEST(Microbeam, TheShippedFileIsWhatTheBuilderWrites) {
+TEST(Microbeam, ShippedFileIsThatOfTheBuilder) {
     std::ifstream file(std::string(testing::source_folder) + "/models/microbeam.toml");
     ASSERT_TRUE(file);
     std::ostringstream text;

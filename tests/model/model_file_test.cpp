@@ -15,7 +15,7 @@
 namespace graze {
 namespace {
 
-/// Uses every feature of the format; order of states and events is not alphabetical on purpose.
+/// Uses every feature of the format; states and events are deliberately not in alphabetical order.
 const char* const everything = R"toml(name = "everything"
 text = """
 Two lines, a "quoted" word
@@ -118,7 +118,7 @@ gap = "gap"
 mode = "on"
 )toml";
 
-/// The text of a smooth oscillator, which is right, with one piece replaced.
+/// Returns a valid text of a smooth oscillator with one piece replaced.
 std::string smooth_with(const std::string& piece, const std::string& replacement) {
     std::string text = "[parameters]\n"
                        "k = 4.0\n"
@@ -132,7 +132,7 @@ std::string smooth_with(const std::string& piece, const std::string& replacement
     return text.replace(at, piece.size(), replacement);
 }
 
-/// Checks that a text is refused at a place, and that the message contains some words.
+/// Checks that a text is refused at a place, with a message that contains some words.
 void expect_refused(const std::string& text, int line, int column, const std::string& words,
                     const std::string& remedy = "") {
     try {
@@ -148,7 +148,7 @@ void expect_refused(const std::string& text, int line, int column, const std::st
     }
 }
 
-/// The same with a piece added to the smooth oscillator, on line 8 and those after it.
+/// The same for a piece added to the smooth oscillator from line 8 on.
 void expect_addition_refused(const std::string& addition, int line, int column, const std::string& words,
                              const std::string& remedy = "") {
     expect_refused(smooth_with("", "") + addition, line, column, words, remedy);
@@ -177,7 +177,7 @@ TEST(ModelFile, ReadsEverythingInTheOrderOfTheFile) {
     ASSERT_TRUE(model.parameters[3].expression);
     EXPECT_FALSE(model.parameters[3].value);
     EXPECT_EQ(to_string(*model.parameters[4].expression), "period/2");
-    EXPECT_EQ(model.parameters[5].value, 2.0); // depends on nothing
+    EXPECT_EQ(model.parameters[5].value, 2.0); // an expression without parameters
 
     ASSERT_EQ(model.states.size(), 5U);
     EXPECT_EQ(model.states[0].name, "z");
@@ -248,7 +248,7 @@ TEST(ModelFile, ReadsEverythingInTheOrderOfTheFile) {
     EXPECT_EQ(model.initial_mode, 0U);
 }
 
-/// Everything in a model that can be compared between graphs, as text.
+/// Returns, as text, everything in a model that can be compared between graphs.
 std::string contents(const Model& model) {
     std::string result = model.name + '\n' + model.text + '\n' + model.source + '\n' + model.time_unit + '\n';
     const auto add = [&](const auto&... parts) {
@@ -327,7 +327,7 @@ TEST(ModelFile, WritesAllFunctions) {
     EXPECT_EQ(contents(again), contents(model)) << write_model(model);
 }
 
-TEST(ModelFile, WritesConditionsThatNeverHadAText) {
+TEST(ModelFile, WritesConditionsOfModelsBuiltFromCpp) {
     Model model = parse_model(everything, "everything.toml");
     model.transitions[0].next[0].when_text = "when the ball rises";
     const Model again = parse_model(write_model(model), "written.toml");
@@ -393,7 +393,7 @@ TEST(ModelFile, RefusesFilesThatCannotBeRead) {
     std::filesystem::remove(path);
 }
 
-TEST(ModelFile, RefusesWhatIsNotToml) {
+TEST(ModelFile, RefusesTextsThatAreNotToml) {
     expect_refused("", 0, 0, "the model is empty");
     expect_refused("# nothing\n", 0, 0, "the model is empty");
     expect_refused("name = \"x\nstates", 1, 10, "not TOML");
@@ -409,7 +409,7 @@ TEST(ModelFile, RefusesNestingThatWouldExhaustTheStack) {
     expect_refused("[" + dots + "]", 1, 33, "a key of more than");
     expect_refused("x = ''' ]\n\n\"'''\n y = \"''\" # '\nz = { " + dots + " = 1}", 5, 38, "a key of more than");
     EXPECT_THROW(parse_model("a = " + std::string(100000, '['), "deep.toml"), InputError);
-    // Dots in values, comments and strings are no keys.
+    // Dots in values, comments and strings do not separate keys.
     EXPECT_NO_THROW(parse_model(smooth_with("k = 4.0", "# " + std::string(99, '.') + "\nk = 4.0"), "dots.toml"));
 }
 
@@ -438,7 +438,7 @@ TEST(ModelFile, RefusesHeadersAndBracketsThatTheParserCannotTake) {
     expect_refused("a = 1 ]", 1, 7, "a ']' that closes nothing");
     for (const std::string unfinished : {"[", "[[", "[ ", "[[ ", "[]", "[[]]", "[ [a]]", "[a", "a = [", "a = [{"})
         EXPECT_THROW(parse_model(unfinished, "unfinished.toml"), InputError) << unfinished;
-    // Lists may continue on a line of their own with what is no name; brackets in texts and comments are only text.
+    // Lists may continue on another line with a value; brackets in strings and comments are text.
     EXPECT_NO_THROW(parse_toml("[ 'a' ] # [.\nb = [\n[+1,\n-2], # }\n[ 5 ]]\n[[ \"c\" ]]\nd = '}]'\n", "fine.toml"));
 }
 
@@ -562,7 +562,7 @@ TEST(ModelFile, RefusesNamesThatClash) {
     expect_addition_refused("[sections.'a b']\nfunction = \"x\"\n", 8, 11, "'a b' cannot be the name of a section");
 }
 
-TEST(ModelFile, RefusesWhatIsUsedInTheWrongPlace) {
+TEST(ModelFile, RefusesNamesUsedInTheWrongPlace) {
     expect_refused(smooth_with("{ initial = 0 }", "{ initial = \"k + 2*x\" }"), 5, 24,
                    "states.v.initial uses the state 'x'");
     expect_refused(smooth_with("4.0", "4.0\nd = \"k*v\""), 3, 8, "parameters.d.value uses the state 'v'");
@@ -608,7 +608,7 @@ TEST(ModelFile, FindsPlacesInsideStrings) {
     expect_addition_refused("[definitions]\nd = \"x +\"\n", 9, 8, "");
 }
 
-/// The fenced block of the guide that begins with this line.
+/// Returns the fenced block of the guide that begins with this line.
 std::string block_of_the_guide(const std::string& fence) {
     std::ifstream file(std::string(testing::source_folder) + "/docs/model-format.md");
     std::string result;
@@ -620,7 +620,7 @@ std::string block_of_the_guide(const std::string& fence) {
     return result;
 }
 
-TEST(ModelFile, GuideShowsModelsAsTheyAreRead) {
+TEST(ModelFile, ExamplesOfTheGuideAreValidModels) {
     const Model model = parse_model(block_of_the_guide("```toml file=ball-on-table.toml"), "ball-on-table.toml");
     EXPECT_TRUE(model_warnings(model).empty());
     EXPECT_EQ(contents(parse_model(write_model(model), "again.toml")), contents(model));

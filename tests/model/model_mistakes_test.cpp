@@ -1,4 +1,4 @@
-// Several mistakes of a model file at once, and none that only follow from others.
+// Several mistakes of a model file are reported at once, without those that only follow from others.
 
 #include "graze/base/input_errors.hpp"
 #include "graze/model/model_file.hpp"
@@ -16,7 +16,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::StartsWith;
 
-/// Beginnings of the messages, without the name of the file.
+/// Returns the beginnings of the messages, without the name of the file.
 std::vector<std::string> mistakes_of(const std::string& text) {
     std::vector<std::string> said;
     const auto note = [&](const InputError& error) { said.push_back(std::string(error.what()).substr(5)); };
@@ -73,7 +73,7 @@ std::string text_with(const std::vector<std::pair<std::size_t, std::string>>& ch
     return text;
 }
 
-TEST(ModelMistakes, are_all_told_in_the_order_of_the_file) {
+TEST(ModelMistakes, AreReportedInTheOrderOfTheFile) {
     EXPECT_TRUE(mistakes_of(text_with({})).empty());
     EXPECT_THAT(mistakes_of(text_with({{4, "c = \"q/4\""},
                                        {9, "force = \"-k*x - c*u\""},
@@ -87,7 +87,7 @@ TEST(ModelMistakes, are_all_told_in_the_order_of_the_file) {
                             StartsWith(":25:1: unknown key 'even'"), StartsWith(":28:10: quantities.energy must be")));
 }
 
-TEST(ModelMistakes, of_transitions_and_sections_are_told_together) {
+TEST(ModelMistakes, OfTransitionsAndSectionsAreReportedTogether) {
     EXPECT_THAT(mistakes_of(text_with({{20, "event = \"wall\""},
                                        {25, "event = \"wall\""},
                                        {27, "[sections]"},
@@ -96,8 +96,8 @@ TEST(ModelMistakes, of_transitions_and_sections_are_told_together) {
                             StartsWith(":23:"), StartsWith(":28:")));
 }
 
-TEST(ModelMistakes, of_one_thing_are_not_told_of_those_that_refer_to_it) {
-    // Others name the event, the jump, the definition and the parameter, and have no mistakes of their own.
+TEST(ModelMistakes, OfOneItemAreNotReportedForItsUsers) {
+    // Other items refer to the event, the jump, the definition and the parameter, and have no mistakes of their own.
     for (const auto& [line, text] :
          std::vector<std::pair<std::size_t, std::string>>{{3, "k = true"},
                                                           {3, "k = { valu = 3 }"},
@@ -115,8 +115,8 @@ TEST(ModelMistakes, of_one_thing_are_not_told_of_those_that_refer_to_it) {
             << text;
 }
 
-/// Each mistake is told whichever others there are; the two of one name are told once at each place.
-TEST(ModelMistakes, are_told_whatever_others_there_are) {
+/// Each mistake is reported whichever other mistakes there are; a name used twice is reported at both places.
+TEST(ModelMistakes, AreReportedIndependently) {
     const std::vector<std::pair<std::size_t, std::string>> some{
         {3, "k = \"2 +\""},       {4, "c = \"z\""},
         {6, "x = \"y\""},         {9, "force = \"-k*\""},
@@ -137,7 +137,7 @@ TEST(ModelMistakes, are_told_whatever_others_there_are) {
     }
 }
 
-TEST(ModelMistakes, of_names_end_the_reading) {
+TEST(ModelMistakes, OfNamesEndTheReading) {
     EXPECT_THAT(mistakes_of(text_with({{7, "k = 0"}, {9, "force = \"-k*x\""}})), ElementsAre(StartsWith(":7:1: ")));
     EXPECT_THAT(mistakes_of("colour = 1\nsize = 2\n" + text_with({})),
                 ElementsAre(StartsWith(":1:1: unknown key 'colour'"), StartsWith(":2:1: unknown key 'size'")));

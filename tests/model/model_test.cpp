@@ -14,7 +14,7 @@
 namespace graze {
 namespace {
 
-/// A ball that bounces on the floor, built from C++.
+/// A bouncing ball, built from C++.
 Model ball() {
     Model model;
     model.name = "ball";
@@ -34,7 +34,7 @@ Model ball() {
     return model;
 }
 
-/// Checks that a change makes the model invalid, and what is said about it.
+/// Checks that a change makes the model invalid, and the message.
 void expect_invalid(const std::function<void(Model&)>& change, const std::string& words) {
     Model model = ball();
     EXPECT_NO_THROW(model.validate());
@@ -123,7 +123,7 @@ TEST(Model, ExpandsManyDefinitionsOfALargeGraph) {
     EXPECT_EQ(model.expand(model.symbol("d299")), term);
 }
 
-TEST(Model, ShowsTheCircleItCannotExpand) {
+TEST(Model, ExpandShowsTheCircle) {
     Model model = ball();
     model.definitions.push_back({"a", "", model.symbol("b") + 1});
     model.definitions.push_back({"b", "", model.symbol("c") * 2});
@@ -247,7 +247,7 @@ TEST(Model, ValidatesValuesAndTransitions) {
             m.sections.push_back({"s", "", {}, 0, m.graph->number(0), {}});
         },
         "which is not cyclic");
-    // A section may be watched for its own sake.
+    // A section may be watched without a transition.
     Model model = ball();
     model.events[0].kind = EventKind::section;
     model.transitions.clear();

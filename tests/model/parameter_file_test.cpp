@@ -6,7 +6,7 @@
 
 namespace graze::testing {
 
-TEST(ParameterFile, IsReadBackAsItWasWritten) {
+TEST(ParameterFile, ReadsBackUnchanged) {
     ParameterFile file;
     file.model = "impact-oscillator";
     file.text = "found by \"fit\"\nfrom two records";

@@ -1,5 +1,5 @@
-// The equations of the shipped models, against those of their sources written out in numbers, and against what follows
-// from them: conservation of momentum, balance of energy, laws of friction and restitution.
+// The equations of the shipped models against those of their sources, evaluated directly, and against physical
+// consequences: conservation of momentum, balance of energy, laws of friction and restitution.
 #include "model/shipped_model.hpp"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ TEST(BouncingBall, KeepsItsEnergyInFlightAndLosesRelativeVelocityInImpacts) {
     }
 }
 
-TEST(ImpactOscillator, StopsAtOnceWhenImpactsArePlastic) {
+TEST(ImpactOscillator, SticksAtOnceAfterPlasticImpacts) {
     Model model = shipped("impact-oscillator");
     model.set_parameter("e", 0);
     const Transition* impact = model.find_transition(mode_index(model, "free"), model.find_event("stop").value());
@@ -51,7 +51,7 @@ TEST(ImpactOscillator, StopsAtOnceWhenImpactsArePlastic) {
     EXPECT_EQ(next_mode(model, *impact, jumped(model, impact->jump, std::vector<double>{stop, 1, 0})), "free");
 }
 
-TEST(DryFriction, ActsAgainstTheMotion) {
+TEST(DryFriction, ForceOpposesTheMotion) {
     const Model model = shipped("dry-friction-oscillator");
     std::mt19937_64 random(6);
     for (int trial = 0; trial < 50; ++trial) {
@@ -62,7 +62,7 @@ TEST(DryFriction, ActsAgainstTheMotion) {
     }
 }
 
-TEST(DryFriction, TheModeAfterAStopIsTheOneThatCanLast) {
+TEST(DryFriction, ModeAfterAStopIsConsistentWithTheForces) {
     const Model model = shipped("dry-friction-oscillator");
     std::mt19937_64 random(7);
     std::map<std::string, int> seen;
@@ -74,13 +74,13 @@ TEST(DryFriction, TheModeAfterAStopIsTheOneThatCanLast) {
             std::vector<double> state = random_state(model, 1.5, random);
             state[1] = 0;
             if (direction * rates(model, from, state)[1] > 0)
-                continue; // slip does not end there
+                continue; // slip cannot end at this force
             const std::vector<double> after = jumped(model, stop->jump, state);
             const std::string next = next_mode(model, *stop, after);
             ++seen[next];
             const double force = quantity(model, "force", after);
             EXPECT_EQ(next == "stick", std::abs(force) <= 0.4);
-            // Slip goes on the other way, and begins in its direction.
+            // Slip continues in the other direction, and the acceleration agrees with it.
             if (next != "stick") {
                 EXPECT_LT(direction * rates(model, next.c_str(), after)[1], 0);
             }
@@ -130,7 +130,7 @@ TEST(Microactuator, HasTheConnectivityOfTheDissertation) {
         EXPECT_EQ(transition->label, index.label);
         EXPECT_EQ(model.jumps[transition->jump].name, index.jump) << index.label;
     }
-    EXPECT_EQ(model.transitions.size(), std::size(indices) + 3); // and those of a held impactor
+    EXPECT_EQ(model.transitions.size(), std::size(indices) + 3); // and those of a sticking impactor
 }
 
 TEST(Microactuator, ImpactsConserveMomentumAndLoseTheEnergyOfRelativeMotion) {
@@ -161,12 +161,13 @@ TEST(Microactuator, OnlyFrictionChangesMomentum) {
         };
         EXPECT_NEAR(rate("slip_plus"), -friction, 64 * epsilon * friction);
         EXPECT_NEAR(rate("slip_minus"), friction, 64 * epsilon * friction);
-        EXPECT_NEAR(rate("stick"), quantity(model, "F", state), 64 * epsilon); // static friction is minus the reaction
+        // Static friction is minus the reaction force.
+        EXPECT_NEAR(rate("stick"), quantity(model, "F", state), 64 * epsilon);
         EXPECT_EQ(rates(model, "stick", state)[1], 0);
     }
 }
 
-TEST(Microactuator, TheForceIsThatOfTheDissertation) {
+TEST(Microactuator, ForceIsThatOfTheDissertation) {
     const Model model = shipped("impact-microactuator");
     std::mt19937_64 random(11);
     for (int trial = 0; trial < 50; ++trial) {
@@ -179,7 +180,7 @@ TEST(Microactuator, TheForceIsThatOfTheDissertation) {
     }
 }
 
-/// What can follow an impact with a frame at this velocity, by Amontons's and Coulomb's laws.
+/// Returns the mode that can follow an impact with the frame at this velocity, by the laws of Amontons and Coulomb.
 std::string lasting_mode(double frame_velocity, double force) {
     const double static_friction = 0.4 * 58.86;
     if (frame_velocity != 0)
@@ -189,7 +190,7 @@ std::string lasting_mode(double frame_velocity, double force) {
     return force < 0 ? "slip_plus" : "slip_minus";
 }
 
-TEST(Microactuator, TheModeAfterAnImpactIsTheOneThatCanLast) {
+TEST(Microactuator, ModeAfterAnImpactIsConsistentWithTheForces) {
     const Model model = shipped("impact-microactuator");
     std::mt19937_64 random(12);
     std::map<std::string, int> seen;
@@ -198,7 +199,7 @@ TEST(Microactuator, TheModeAfterAnImpactIsTheOneThatCanLast) {
             continue;
         for (int trial = 0; trial < 200; ++trial) {
             std::vector<double> after = random_state(model, 1, random);
-            after[3] *= 1000; // so that damping makes forces beyond static friction
+            after[3] *= 1000; // so that damping forces exceed static friction
             if (trial % 2 == 0)
                 after[1] = 0;
             const std::string next = next_mode(model, transition, after);
@@ -213,7 +214,7 @@ TEST(Microactuator, TheModeAfterAnImpactIsTheOneThatCanLast) {
     EXPECT_EQ(seen.size(), 3u);
 }
 
-TEST(Microactuator, TheModeAfterSlipIsTheOneThatCanLast) {
+TEST(Microactuator, ModeAfterSlipIsConsistentWithTheForces) {
     const Model model = shipped("impact-microactuator");
     std::mt19937_64 random(13);
     std::map<std::string, int> seen;
@@ -225,7 +226,7 @@ TEST(Microactuator, TheModeAfterSlipIsTheOneThatCanLast) {
             state[1] = 0;
             state[3] *= 1000;
             if (direction * rates(model, from, state)[1] > 0)
-                continue; // slip does not end there
+                continue; // slip cannot end at this force
             const std::vector<double> after = jumped(model, end->jump, state);
             const std::string next = next_mode(model, *end, after);
             EXPECT_EQ(next, lasting_mode(0, quantity(model, "F", after))) << end->label;
@@ -235,7 +236,7 @@ TEST(Microactuator, TheModeAfterSlipIsTheOneThatCanLast) {
     EXPECT_EQ(seen.size(), 3u);
 }
 
-TEST(Microactuator, StickEndsIntoSlipThatBegins) {
+TEST(Microactuator, StickEndsInSlipInTheDirectionOfTheForce) {
     const Model model = shipped("impact-microactuator");
     for (const double sign : {1.0, -1.0}) {
         // The speed at which damping alone reaches static friction.
@@ -264,7 +265,7 @@ TEST(ElectromagneticTestbed, HasTheNondimensionalGroupsOfTheDissertation) {
     expect_near(parameter("delta") / beta2, 0.678258489270386);
     EXPECT_NEAR(parameter("voltage_unit"), 1.843020388944, 1e-12);
     EXPECT_NEAR(parameter("current_unit"), 1.647304459240, 1e-12);
-    // The gaps are products of the sensor's readings and its sensitivity.
+    // The gaps are the sensor's readings times its sensitivity.
     EXPECT_NEAR(parameter("d"), 2.382 * 0.0791868 * 0.0254, epsilon * parameter("d"));
     EXPECT_NEAR(parameter("delta"), 0.55 * 0.0791868 * 0.0254, epsilon * parameter("delta"));
 }
@@ -325,7 +326,7 @@ TEST(ElectromagneticTestbed, CurrentIsThatOfACoilAtRest) {
     }
 }
 
-TEST(MemsSwitch, BeginsAtThePointOfGrazing) {
+TEST(MemsSwitch, InitialStateIsAtTheGrazingPoint) {
     const Model model = shipped("mems-switch");
     const std::vector<double> state = model.initial_state();
     EXPECT_EQ(evaluate(model, event_function(model, "stop"), state), 0);
@@ -336,7 +337,7 @@ TEST(MemsSwitch, BeginsAtThePointOfGrazing) {
     EXPECT_NEAR(rates(model, "off", state)[1], 0.6, 4 * epsilon);
 }
 
-TEST(MemsSwitch, TheStopAlwaysPushesOff) {
+TEST(MemsSwitch, StopForceIsAlwaysRepulsive) {
     const Model model = shipped("mems-switch");
     const Expression gap = event_function(model, "stop");
     for (const char* mode : {"on", "off"}) {

@@ -28,7 +28,7 @@ inline std::size_t mode_index(const Model& model, const char* mode) {
     return model.find_mode(mode).value();
 }
 
-/// Rates of change of states, by name of mode.
+/// Rates of the states in the mode of this name.
 inline std::vector<double> rates(const Model& model, const char* mode, std::span<const double> state) {
     return evaluate(model, model.modes[mode_index(model, mode)].rates, state);
 }
@@ -42,7 +42,7 @@ inline double quantity(const Model& model, const char* name, std::span<const dou
     return evaluate(model, model.quantities[model.find_quantity(name).value()].value, state);
 }
 
-/// The mode that follows, by the guards of a transition, or "end".
+/// Returns the name of the mode that follows a transition, by its guards, or "end".
 inline std::string next_mode(const Model& model, const Transition& transition, std::span<const double> after) {
     for (const Alternative& alternative : transition.next) {
         const bool holds =

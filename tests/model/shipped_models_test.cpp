@@ -78,7 +78,7 @@ TEST_P(ShippedModel, ReadsBackWhenWritten) {
     EXPECT_EQ(evaluate(read, expressions_of(read), state), evaluate(model, expressions_of(model), state));
 }
 
-TEST_P(ShippedModel, BeginsWithinItsBarriers) {
+TEST_P(ShippedModel, InitialStateIsWithinTheBarriers) {
     const Model model = shipped(GetParam());
     const std::vector<double> state = model.initial_state();
     for (const std::size_t event : model.modes[model.initial_mode].watched)
@@ -89,9 +89,9 @@ TEST_P(ShippedModel, BeginsWithinItsBarriers) {
         EXPECT_TRUE(std::isfinite(rate));
 }
 
-/// Chatter ends where the contact can last: the surface and the contact speed are zero after the jump and remain so
-/// in the sticking mode, which ends exactly when the motion that came before it would leave the surface.
-TEST_P(ShippedModel, SticksAsLongAsTheFreeMotionWouldPressOn) {
+/// Chatter ends where the contact can persist: gap and contact speed are zero after the jump and stay zero in the
+/// sticking mode, which ends exactly when the free motion would leave the surface.
+TEST_P(ShippedModel, SticksAsLongAsTheFreeMotionWouldPressOnTheSurface) {
     const Model model = shipped(GetParam());
     std::mt19937_64 random(1);
     for (const Transition& transition : model.transitions) {
@@ -129,7 +129,7 @@ TEST_P(ShippedModel, SticksAsLongAsTheFreeMotionWouldPressOn) {
     }
 }
 
-/// Differences of images under a symmetry, with phases taken modulo their periods.
+/// Compares images under a symmetry, with phases modulo their periods.
 void expect_same_states(const Model& model, std::span<const double> one, std::span<const double> other) {
     for (std::size_t i = 0; i < model.states.size(); ++i) {
         double difference = one[i] - other[i];
@@ -139,7 +139,7 @@ void expect_same_states(const Model& model, std::span<const double> one, std::sp
     }
 }
 
-TEST_P(ShippedModel, SymmetriesTakeSolutionsToSolutions) {
+TEST_P(ShippedModel, SymmetriesMapSolutionsToSolutions) {
     const Model model = shipped(GetParam());
     std::mt19937_64 random(2);
     for (const Symmetry& symmetry : model.symmetries)
@@ -152,7 +152,7 @@ TEST_P(ShippedModel, SymmetriesTakeSolutionsToSolutions) {
                     moved.push_back(rate_of(model, coordinate, mode));
                 const std::vector<double> expected = evaluate(model, moved, state);
                 const std::vector<double> actual = evaluate(model, model.modes[symmetry.modes[mode]].rates, image);
-                // A phase of which half a period is added is rounded, and some rates are 1000 times as large.
+                // Adding half a period rounds the phase, and some rates are 1000 times as large.
                 for (std::size_t i = 0; i < expected.size(); ++i)
                     EXPECT_NEAR(actual[i], expected[i], 1000 * epsilon * (1 + std::abs(expected[i]))) << i;
             }
@@ -177,7 +177,7 @@ INSTANTIATE_TEST_SUITE_P(All, ShippedModel, ::testing::ValuesIn(shipped_names())
     return name;
 });
 
-TEST(ShippedModels, AreAllThere) {
+TEST(ShippedModels, AreComplete) {
     const std::vector<std::string> expected = {
         "ball-and-shaker",      "bouncing-ball",     "dry-friction-oscillator",     "electromagnetic-testbed",
         "impact-microactuator", "impact-oscillator", "impact-oscillator-two-stops", "mems-switch",

@@ -35,7 +35,7 @@ TEST_F(StateMaps, BehaveAsVectors) {
     EXPECT_EQ(std::vector<Expression>(StateMap()), std::vector<Expression>());
 }
 
-TEST_F(StateMaps, ShareWhatCopiesHaveInCommon) {
+TEST_F(StateMaps, ShareTheirCommonPartWithCopies) {
     const StateMap stays(states);
     StateMap one = stays, other = stays;
     one[1] = -v;
@@ -53,7 +53,7 @@ TEST_F(StateMaps, ShareWhatCopiesHaveInCommon) {
     EXPECT_EQ(read.changes().size(), 1u);
 }
 
-TEST_F(StateMaps, RefuseStatesThatThereAreNot) {
+TEST_F(StateMaps, RefuseIndicesOutOfRange) {
     StateMap map(states);
     const StateMap& read = map;
     EXPECT_THROW(map[3] = x, InputError);
@@ -63,7 +63,7 @@ TEST_F(StateMaps, RefuseStatesThatThereAreNot) {
     EXPECT_THROW(map.replace(nullptr, [](Expression&) {}), std::invalid_argument);
 }
 
-/// A model of two states with two jumps that share all but what they change.
+/// A model of two states with two jumps that share all images that they do not change.
 Model two_jumps() {
     Model model;
     model.states = {{.name = "x", .initial = model.number(1)}, {.name = "v", .initial = model.number(0)}};
@@ -90,7 +90,7 @@ TEST(StateMapsOfModels, AreCopiedIntoTheGraphOfTheCopyAndSharedThere) {
     EXPECT_EQ(copy.jumps[2].map, (StateMap{copy.number(0), copy.symbol("v")}));
 }
 
-TEST(StateMapsOfModels, AreCheckedWhetherSharedOrNot) {
+TEST(StateMapsOfModels, AreValidatedWhetherSharedOrNot) {
     const auto problem = [](const Model& model) -> std::string {
         try {
             model.validate();
@@ -102,7 +102,7 @@ TEST(StateMapsOfModels, AreCheckedWhetherSharedOrNot) {
     Model model = two_jumps();
     model.jumps[2].map[1] = {};
     EXPECT_EQ(problem(model), "jumps.home.v is missing");
-    // What all jumps override may be missing from what they share.
+    // An image that every jump overrides may be missing from the shared images.
     model = two_jumps();
     StateMap holes(std::vector<Expression>(2));
     model.jumps[1].map = model.jumps[2].map = holes;

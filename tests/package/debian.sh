@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Makes the Debian package, installs it into a root that has nothing but the libraries on which it says that it depends,
+# Makes the Debian package, installs it into a root folder with nothing but the libraries on which it depends,
 # uses it there and from another project, and removes it again.
-# usage: debian.sh BUILD COMPILER GENERATOR; the package comes to lie in BUILD/debian
+# usage: debian.sh BUILD COMPILER GENERATOR; the package goes to BUILD/debian
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 build=$1 compiler=$2 generator=$3
@@ -23,7 +23,7 @@ packages=("$work"/*.deb)
 package=${packages[0]}
 dpkg-deb --info "$package"
 
-step "what is in it"
+step "its content"
 depends=$(dpkg-deb --field "$package" Depends)
 [[ $depends == *libc6* && $depends == *libfmt* && $depends == *libsqlite3* && $depends == *libnlopt* && $depends == *libcholmod* ]] || fail "it depends on $depends"
 dpkg-deb --fsys-tarfile "$package" | tar -tv >"$work/list"
@@ -36,13 +36,13 @@ for file in bin/graze lib/libgraze.a lib/cmake/graze/graze-config.cmake include/
 done
 ! grep -v -E ' \./(usr/.*)?$' "$work/list" || fail "there are files outside of /usr"
 
-# dpkg asks who it is and changes owners; fakeroot lets anybody do so in a folder of his own.
+# dpkg needs root to change owners of files; fakeroot lets other users run it in a folder of their own.
 as_root=()
 if ((EUID != 0)); then
     as_root=(fakeroot)
 fi
 
-# The root believes that what this machine has is installed in it, and so the package's dependencies are looked at.
+# The root gets the package status of this machine, so that dpkg checks the dependencies against it.
 step "it is installed"
 mkdir -p "$root"/var/lib/dpkg/{info,updates,triggers} "$root"/var/log
 cp /var/lib/dpkg/status "$root/var/lib/dpkg/status"
@@ -56,7 +56,7 @@ find "$root/usr" ! -type d | sort >"$work/installed"
 step "the program runs"
 "$root/usr/bin/graze" --version
 if ((EUID == 0)); then
-    # Nothing but the program and its libraries: what it needs besides would be missing.
+    # Only the program and its libraries are there: anything else that it needs would be missing.
     ldd "$root/usr/bin/graze" | grep -o '/[^ ]*' | while read -r library; do
         mkdir -p "$root$(dirname "$library")"
         cp -L "$library" "$root$library"

@@ -1,5 +1,5 @@
-# Installs graze into a folder of its own, moves it, and builds and runs a consumer that knows nothing else.
-# Needs: build (the build folder), work (a folder to work in), compiler, generator; sanitizers, if any.
+# Installs graze into a folder, moves that folder, and builds and runs a consumer with it alone.
+# Variables: build (the build folder), work (a folder to work in), compiler, generator; sanitizers, if any.
 function(must_run)
     execute_process(COMMAND ${ARGV} COMMAND_ECHO STDOUT RESULT_VARIABLE result)
     if(NOT result EQUAL 0)
@@ -24,10 +24,10 @@ foreach(file man/man1/graze.1 man/man1/graze-run.1 bash-completion/completions/g
     endif()
 endforeach()
 
-# What is installed of the documentation has no link that leads nowhere.
+# Links of the installed documentation must have targets.
 must_run(bash ${CMAKE_CURRENT_LIST_DIR}/../documentation/check_links.sh ${work}/prefix/share/doc/graze)
 
-# A copy, so that no relative path can lead back into the repository.
+# The consumer is copied, so that no relative path leads back into the repository.
 file(COPY ${CMAKE_CURRENT_LIST_DIR}/consumer DESTINATION ${work})
 set(flags)
 if(sanitizers)
@@ -40,7 +40,7 @@ must_run(
 must_run(${CMAKE_COMMAND} --build ${work}/build)
 must_run(${work}/build/consumer)
 
-# The project of the documentation.
+# The same for the project that the documentation quotes.
 file(COPY ${CMAKE_CURRENT_LIST_DIR}/../../examples/project DESTINATION ${work})
 must_run(
     ${CMAKE_COMMAND} -S ${work}/project -B ${work}/project-build -G ${generator} -D CMAKE_CXX_COMPILER=${compiler} -D

@@ -182,7 +182,7 @@ TEST_F(FitCommand, SaysWhatIsNotFinite) {
     for (const char* reading : {"x=1/0", "x=log(-1-x^2)"}) {
         const Printed printed = run_graze(fit(record("a.csv", 1, "m") + " --free c,k --reading " + reading));
         EXPECT_EQ(printed.code, 3) << reading;
-        EXPECT_THAT(printed.err, HasSubstr("is not finite: look at what they mean")) << reading;
+        EXPECT_THAT(printed.err, HasSubstr("are not finite: check the outputs")) << reading;
         EXPECT_EQ(std::count(printed.err.begin(), printed.err.end(), '\n'), 1) << printed.err;
     }
 }
@@ -216,7 +216,7 @@ TEST_F(FitCommand, MistakesAreOneLineWithARemedy) {
         {a + " --free c --with b.csv:k=1", "is none of the records"},
         {a + " --free c --channel x", "--channel has no effect beside WHAT fit"},
         {millimetres + " --free c", "--scale x=0.001:m"},
-        {brief + " --free c,k", "3 readings cannot tell 4 numbers"},
+        {brief + " --free c,k", "3 readings cannot determine 4 numbers"},
         {one + " --free c", "fewer than two rows"},
         {(folder / "none.csv") + " --free c", "none.csv: the record cannot be read"},
         {a + " --free c --save " + a, "is the file of an input too"},

@@ -194,7 +194,7 @@ TEST_F(RecordCommand, MistakesAreOneLineWithARemedy) {
     std::ofstream(folder / "wrong.csv") << "t [s], V [V], v [mm/s]\n0,1,2\n1,one,2\n";
     const std::vector<std::pair<std::string, std::string>> mistakes{
         {folder / "none.csv", "none.csv: the record cannot be read"},
-        {folder / "wrong.csv", "wrong.csv:3:3: 'one' is no finite number"},
+        {folder / "wrong.csv", "wrong.csv:3:3: 'one' is not a finite number"},
         {run + " " + (folder / "wrong.csv"), "wrong.csv:3:3: 'one'"},
         {run + " --what sections", "name the channel of the input by --reference"},
         {run + " --what sections --reference W", "--reference: the record has no channel 'W'"},
@@ -206,7 +206,7 @@ TEST_F(RecordCommand, MistakesAreOneLineWithARemedy) {
         {run + " --what impacts --channel v --phase 0.5", "--phase has no effect beside --what impacts"},
         {run + " --scale v", "write NAME=FACTOR"},
         {run + " --scale v=2x", "'2x' is no number"},
-        {run + " --pass 1e9", "cannot be seen in samples"},
+        {run + " --pass 1e9", "cannot be resolved"},
         {run + " --what samples --from 2 --to 1", "give the earlier one first"},
         {run + " --write " + (folder / "no/such.csv"), "cannot be written"},
         {folder / "header.csv", "header.csv: the record has no rows"},
@@ -214,7 +214,7 @@ TEST_F(RecordCommand, MistakesAreOneLineWithARemedy) {
          "header.csv: the record has no rows"},
         {(folder / "header.csv") + " --write " + (folder / "none.csv"), "header.csv: the record has no rows"},
         {run + " --what samples --from 1e9", "run.csv: the record has no rows"},
-        {folder / "two.csv", "two.csv:1:1: this is text of two bytes a letter"},
+        {folder / "two.csv", "two.csv:1:1: this text is in UTF-16"},
         {run + " --columns t,v", "the file has a header of its own"},
     };
     for (const auto& [line, message] : mistakes) {

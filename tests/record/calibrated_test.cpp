@@ -8,7 +8,7 @@
 
 namespace graze::testing {
 
-TEST(Calibrated, TurnsReadingsIntoWhatTheyMeanInAPart) {
+TEST(Calibrated, ConvertsReadingsOfAPart) {
     const auto line = [](double t) { return t; };
     for (const std::size_t part : {1U, 7U, 1000U}) {
         StoredSamples source(named({"q", "v"}), sampled(10, 100, {line, line}), part);
@@ -22,7 +22,7 @@ TEST(Calibrated, TurnsReadingsIntoWhatTheyMeanInAPart) {
     }
 }
 
-TEST(Calibrated, RefusesWhatHasNoMeaning) {
+TEST(Calibrated, RefusesInvalidSettings) {
     StoredSamples source(named({"q"}), sampled(10, 100, {[](double) { return 1e300; }}));
     EXPECT_THROW(Calibrated(source, {{{1, 2, 1, {}}}}), InputError);
     EXPECT_THROW(Calibrated(source, {{{0, std::nan(""), 1, {}}}}), InputError);

@@ -16,7 +16,7 @@ namespace {
 constexpr double turn = 2 * std::numbers::pi;
 }
 
-TEST(Derivative, OfPolynomialsOfFourthDegreeIsExact) {
+TEST(Derivative, IsExactForPolynomialsOfFourthDegree) {
     const auto p = [](double t) { return 1e3 + t * (2 + t * (-3 + t * (0.5 - 0.25 * t))); };
     StoredSamples source(named({"q"}), sampled(100, 500, {p}), 123);
     WithDerivative derived(source, {0, 6, ""});
@@ -26,13 +26,13 @@ TEST(Derivative, OfPolynomialsOfFourthDegreeIsExact) {
     EXPECT_EQ(rows.rows(), 488U);
     for (std::size_t i = 0; i < rows.rows(); ++i) {
         const double t = rows.times[i];
-        // 1e3 is rounded to 1e-13, over a few samples of 0.01.
+        // Values of 1e3 are rounded to 1e-13, over a few samples of 0.01.
         EXPECT_NEAR(rows.values[1][i], 2 + t * (-6 + t * (1.5 - t)), 1e-10);
         EXPECT_LT(rows.values[2][i], 1e-10);
     }
 }
 
-TEST(Derivative, ErrorsAreAsLargeAsTheySay) {
+TEST(Derivative, ErrorsHaveTheStatedSize) {
     const double f = 6.1;
     for (const double sigma : {1e-6, 1e-3, 0.05}) {
         Noise noise(11);
@@ -55,16 +55,16 @@ TEST(Derivative, ErrorsAreAsLargeAsTheySay) {
         }
         const auto count = static_cast<double>(rows.rows());
         EXPECT_NEAR(std::sqrt(squares / said), 1, 0.3) << sigma << ", half width " << derived.half_width();
-        // 0.95 of normal errors; the part that the next terms tell is there always, and not by chance.
+        // 0.95 for normal errors; the truncation error is systematic.
         EXPECT_GT(within / count, 0.85) << sigma;
         EXPECT_LT(std::sqrt(squares), 0.25 * std::sqrt(plain)) << "differences of neighbours, " << sigma;
     }
 }
 
-// What is said of the errors, over many records: their squares by those said are one. Where the width is the best, both
-// parts are there, noise and what the next terms add. What these add in the mean is said of every sample, which is too
-// much by up to a tenth where it is most of the error; it is no noise, and nowhere twice as large.
-TEST(Derivative, ErrorsCoverTheTruthOfManyRecords) {
+// Over many records the mean of (error/stated error)^2 is 1. At the best width, noise and truncation both contribute.
+// The mean truncation error is stated for every sample: up to a tenth too much where it dominates, and nowhere twice as
+// large.
+TEST(Derivative, StatedErrorsCoverTheTruthOfManyRecords) {
     for (const double f : {6.1, 40.0})
         for (const double sigma : {1e-4, 0.01, 0.1}) {
             double ratio = 0, within = 0, count = 0;
@@ -92,8 +92,8 @@ TEST(Derivative, ErrorsCoverTheTruthOfManyRecords) {
         }
 }
 
-/// A sine with noise at times of a clock whose steps change: they are taken as told.
-TEST(Derivative, OfAClockThatIsNotEvenIsThatAtTheTimesTold) {
+/// A sine with noise, sampled by a clock whose steps change: the times are used as given.
+TEST(Derivative, UsesTheTimesOfAnUnevenClock) {
     constexpr double w = turn * 7;
     constexpr std::size_t count = 1500;
     const std::vector<std::function<double(std::size_t)>> clocks{
@@ -125,8 +125,8 @@ TEST(Derivative, OfAClockThatIsNotEvenIsThatAtTheTimesTold) {
     }
 }
 
-/// Times with few digits are those of an even clock: as they are told, they would make noise of the motion.
-TEST(Derivative, TimesThatAreRoundedAreEven) {
+/// Times with few digits belong to an even clock: taken literally, they would add noise to the derivative.
+TEST(Derivative, RoundedTimesCountAsEven) {
     constexpr double w = turn * 7;
     Samples exact = sampled(300, 3000, {[](double t) { return std::sin(w * t); }}), rounded = exact;
     for (double& t : rounded.times)
@@ -139,10 +139,10 @@ TEST(Derivative, TimesThatAreRoundedAreEven) {
     const Samples one = derivative(exact), other = derivative(rounded);
     for (std::size_t i = 0; i < one.rows(); ++i)
         EXPECT_NEAR(other.values[1][i], one.values[1][i], 1e-2)
-            << i; // the last time is off by half a ms of ten seconds
+            << i; // the last time is off by half a ms in ten seconds
 }
 
-TEST(Derivative, OfARecordedDisplacementIsItsVelocityAndSaysWhereItJumps) {
+TEST(Derivative, OfADisplacementIsItsVelocityWithLargeErrorsAtJumps) {
     const Model model = load_model("electromagnetic-testbed");
     RecordedModel recorded(model, "theta", 4.0, 10'000, 20'000);
     Noise noise(5);
@@ -156,11 +156,11 @@ TEST(Derivative, OfARecordedDisplacementIsItsVelocityAndSaysWhereItJumps) {
     for (std::size_t i = 0; i < rows.rows(); ++i)
         outside += std::abs(rows.values[rate][i] - rows.values[v][i]) > 3 * rows.values[error][i] ? 1 : 0;
     EXPECT_GT(recorded.truth.contacts().size(), 8U);
-    // Beside a corner of the displacement errors are not normal.
+    // Next to a corner of the displacement errors are not normal.
     EXPECT_LT(static_cast<double>(outside), 0.03 * static_cast<double>(rows.rows()));
 }
 
-TEST(Derivative, RefusesWhatHasNoMeaning) {
+TEST(Derivative, RefusesInvalidSettings) {
     StoredSamples source(named({"q", "v"}), sampled(10, 10, {[](double t) { return t; }, [](double t) { return t; }}));
     EXPECT_THROW(WithDerivative(source, {2, 0, ""}), InputError);
     EXPECT_THROW(WithDerivative(source, {0, 3, ""}), InputError);

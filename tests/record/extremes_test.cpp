@@ -16,7 +16,7 @@ namespace {
 constexpr double turn = 2 * std::numbers::pi;
 }
 
-TEST(Extremes, OfASineAreBetweenItsSamples) {
+TEST(Extremes, OfASineAreFoundBetweenSamples) {
     const auto wave = [](double t) { return 2 + 3 * std::sin(turn * 5 * t); };
     StoredSamples source(named({"V", "q"}),
                          sampled(1000, 3000, {[](double t) { return std::sin(turn * 5 * t + 0.3); }, wave}));
@@ -24,7 +24,7 @@ TEST(Extremes, OfASineAreBetweenItsSamples) {
     std::size_t count = 0;
     for (Period period; splitter.next(period); ++count) {
         const Extremes found = extremes(period, 1);
-        // A parabola through three samples 0.031 rad apart: fourth order, 3 (0.031)^4/24/3.
+        // Error of a parabola through three samples 0.031 rad apart: fourth order, 3 (0.031)^4/24/3.
         EXPECT_NEAR(found.greatest, 5, 1e-7);
         EXPECT_NEAR(found.least, -1, 1e-7);
         EXPECT_NEAR(found.peak_to_peak(), 6, 2e-7);
@@ -37,7 +37,7 @@ TEST(Extremes, OfASineAreBetweenItsSamples) {
 }
 
 TEST(Extremes, DoNotOvershootAJump) {
-    // Rises by 1 in a period and then falls at once, as a velocity at an impact.
+    // Rises by 1 in a period and then drops, as a velocity at an impact.
     const auto saw = [](double t) { return t - std::floor(t); };
     StoredSamples source(named({"V", "v"}), sampled(100, 1000,
                                                     {[](double t) { return std::sin(turn * t - 1); },
@@ -57,7 +57,7 @@ TEST(Extremes, AgreeWithTheSimulation) {
     PeriodSplitter splitter(source, {recorded.header.channel("drive", "test"), 0, 0});
     std::size_t impacts = 0;
     for (Period period; splitter.next(period);) {
-        double fastest = 0; // towards the stop
+        double fastest = 0; // largest speed towards the stop
         for (const auto& contact : recorded.truth.contacts())
             if (contact.contact.time > period.begin && contact.contact.time < period.end)
                 fastest = std::max(fastest, contact.before[1]);
@@ -71,7 +71,7 @@ TEST(Extremes, AgreeWithTheSimulation) {
     EXPECT_GE(impacts, 8U);
 }
 
-TEST(Interpolate, IsOfThirdOrderAndMindsNoJumpBesideIt) {
+TEST(Interpolate, IsOfThirdOrderNextToAJump) {
     double previous = 0;
     for (const double h : {0.1, 0.05, 0.025}) {
         double worst = 0;

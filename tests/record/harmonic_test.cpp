@@ -15,7 +15,7 @@ namespace {
 constexpr double turn = 2 * std::numbers::pi;
 }
 
-TEST(Harmonic, FindsWhatASineIsMadeOf) {
+TEST(Harmonic, FindsTheCoefficientsOfASine) {
     const double w = turn * 6.1;
     const Samples wave = sampled(1000, 777,
                                  {[&](double t) { return 0.4 + 1.7 * std::sin(w * t + 2.5); },
@@ -32,7 +32,7 @@ TEST(Harmonic, FindsWhatASineIsMadeOf) {
     EXPECT_THROW(fit_harmonic(wave.times, wave.values[0], -1), InputError);
 }
 
-TEST(Harmonic, ErrorsAreThoseOfTheNoise) {
+TEST(Harmonic, ErrorsFollowFromTheNoise) {
     const double w = turn * 3, sigma = 0.2;
     std::size_t amplitudes = 0, phases = 0, trials = 200;
     for (std::size_t seed = 0; seed < trials; ++seed) {
@@ -43,7 +43,7 @@ TEST(Harmonic, ErrorsAreThoseOfTheNoise) {
         amplitudes += std::abs(fit.amplitude() - 1) < 1.96 * fit.amplitude_error() ? 1 : 0;
         phases += std::abs(fit.phase() - 1) < 1.96 * fit.phase_error() ? 1 : 0;
     }
-    for (const std::size_t within : {amplitudes, phases}) { // 190 +- 3
+    for (const std::size_t within : {amplitudes, phases}) { // expected: 190 +- 3
         EXPECT_GE(within, 180U);
         EXPECT_LE(within, 199U);
     }

@@ -1,4 +1,4 @@
-// Records as a stranger may make them.
+// Records that may have been made to attack the reader.
 
 #include "base/temporary_folder.hpp"
 #include "graze/base/input_error.hpp"
@@ -28,7 +28,7 @@ std::string refusal_of(const std::string& path) {
     return "";
 }
 
-/// A file of HDF5 to which anything can be done.
+/// An HDF5 file for tests.
 void make_file(const std::string& path, const std::function<void(hid_t)>& fill) {
     const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
     ASSERT_GE(file, 0);
@@ -36,7 +36,7 @@ void make_file(const std::string& path, const std::function<void(hid_t)>& fill) 
     H5Fclose(file);
 }
 
-/// A dataset of so many noughts, or of its numbers.
+/// A dataset of the given numbers, or of zeros.
 void add_set(hid_t file, const std::string& name, hsize_t rows, hid_t how = H5P_DEFAULT,
              hid_t type = H5T_NATIVE_DOUBLE) {
     const hid_t space = H5Screate_simple(1, &rows, nullptr);
@@ -56,7 +56,7 @@ void add_time(hid_t file, hsize_t rows = 3) {
     add_set(file, "t", rows);
 }
 
-/// Properties of a dataset that is made.
+/// Creation properties of a dataset.
 class Layout {
 public:
     Layout() : id_(H5Pcreate(H5P_DATASET_CREATE)) {}
@@ -71,7 +71,7 @@ private:
 
 } // namespace
 
-TEST(HostileRecord, LinksToOtherFilesAreLeftAlone) {
+TEST(HostileRecord, LinksToOtherFilesAreIgnored) {
     const TemporaryFolder folder;
     make_file(folder / "other.h5", [](hid_t file) { add_set(file, "secret", 3); });
     make_file(folder / "r.h5", [&](hid_t file) {
@@ -85,7 +85,7 @@ TEST(HostileRecord, LinksToOtherFilesAreLeftAlone) {
     EXPECT_EQ(record->header().channels[0].name, "x");
 }
 
-TEST(HostileRecord, NumbersThatAreKeptInOtherFilesAreNotRead) {
+TEST(HostileRecord, DataInOtherFilesAreNotRead) {
     const TemporaryFolder folder;
     const std::string secret = folder.write("secret", std::string(24, 'x'));
     make_file(folder / "external.h5", [&](hid_t file) {
@@ -108,8 +108,8 @@ TEST(HostileRecord, NumbersThatAreKeptInOtherFilesAreNotRead) {
     EXPECT_THAT(refusal_of(folder / "virtual.h5"), HasSubstr("it is kept in another file"));
 }
 
-/// A filter of a number that nobody has would be looked for among plug-ins.
-TEST(HostileRecord, FiltersAreNotLoaded) {
+/// For a filter with an unknown number HDF5 would search for plug-ins.
+TEST(HostileRecord, PluginFiltersAreNotLoaded) {
     const TemporaryFolder folder;
     const H5Z_class2_t foreign{
         H5Z_CLASS_T_VERS,
@@ -137,7 +137,7 @@ TEST(HostileRecord, FiltersAreNotLoaded) {
     EXPECT_THAT(refusal_of(folder / "r.h5"), HasSubstr("it cannot be read"));
 }
 
-TEST(HostileRecord, ChunksAndGroupsAreBounded) {
+TEST(HostileRecord, SizesOfChunksAndGroupsAreLimited) {
     const TemporaryFolder folder;
     const auto with_chunk = [&](hsize_t chunk) {
         make_file(folder / "chunk.h5", [chunk](hid_t file) {
@@ -177,7 +177,7 @@ TEST(HostileRecord, OnlyDatasetsOfNumbersAreChannels) {
     EXPECT_EQ(open_record(folder / "r.h5")->header().channels.size(), 1U);
 }
 
-TEST(HostileRecord, LinesAndColumnsOfTextAreBounded) {
+TEST(HostileRecord, LengthsOfLinesAndNumbersOfColumnsAreLimited) {
     const TemporaryFolder folder;
     const std::string head = "t,x\n0,1\n", blanks(1 << 20, ' ');
     EXPECT_EQ(refusal_of(folder.write("long.csv", head + "1,2" + blanks.substr(3) + "\n")), "");

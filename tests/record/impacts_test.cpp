@@ -12,7 +12,7 @@ namespace graze::testing {
 
 namespace {
 
-/// Impacts of the simulation within the rows that can be looked at.
+/// Impacts of the simulation within the rows in which they can be found.
 std::vector<Recorder::RecordedContact> known(const RecordedModel& recorded, const std::string& velocity, double edge,
                                              double least_jump) {
     std::vector<Recorder::RecordedContact> result;
@@ -27,8 +27,8 @@ std::vector<Recorder::RecordedContact> known(const RecordedModel& recorded, cons
 
 } // namespace
 
-TEST(Impacts, OfABouncingParabolaAreExact) {
-    // Falls with 9.81 from 1 and bounces with 0.8: between impacts the velocity is a straight line.
+TEST(Impacts, OfABouncingBallAreExact) {
+    // Falls with 9.81 from 1 and bounces with 0.8: the velocity is linear between impacts.
     const double g = 9.81, first = std::sqrt(2 / g);
     std::vector<double> times{first}, speeds{std::sqrt(2 * g)};
     for (int k = 0; k < 4; ++k) {
@@ -100,7 +100,7 @@ TEST(Impacts, OfTheTestbedAreFoundInNoise) {
 }
 
 TEST(Impacts, OfAShakerGrowAsPublished) {
-    // Jumps of the velocity from rest at a = 0.6505 mm, f = 6 Hz: they grow from 1.5 to 38 mm/s.
+    // Impact velocities from rest at a = 0.6505 mm, f = 6 Hz: they grow from 1.5 to 38 mm/s.
     RecordedModel recorded(load_model("ball-and-shaker"), "theta", 0.0, 12'800, 6000);
     Noise noise(1);
     recorded.add_noise("v", 0.05, noise);
@@ -119,7 +119,7 @@ TEST(Impacts, OfAShakerGrowAsPublished) {
     }
 }
 
-TEST(Impacts, AreNotSeenInSmoothMotionsAndNoise) {
+TEST(Impacts, AreNotFoundInSmoothMotionWithNoise) {
     Noise noise(2);
     for (const double sigma : {0.0, 1e-4, 0.3}) {
         StoredSamples source(named({"v"}), sampled(200, 50'000, {[&](double t) {
@@ -130,13 +130,13 @@ TEST(Impacts, AreNotSeenInSmoothMotionsAndNoise) {
     }
 }
 
-TEST(Impacts, AreNotSeenInStepsOfFewDigits) {
+TEST(Impacts, AreNotFoundInNumbersWithFewDigits) {
     StoredSamples source(named({"v"}),
                          sampled(1000, 20'000, {[](double t) { return std::round(50 * std::sin(t)) / 50; }}));
     EXPECT_EQ(find_impacts(source, {}).size(), 0U);
 }
 
-TEST(Impacts, RefuseWhatHasNoMeaning) {
+TEST(Impacts, RefuseInvalidSettings) {
     StoredSamples source(named({"v"}), sampled(200, 500, {[](double t) { return t; }}));
     const auto with = [](auto change) {
         ImpactSettings settings;

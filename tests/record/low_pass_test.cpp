@@ -22,7 +22,7 @@ Samples filtered(const LowPassSettings& settings, const std::function<double(dou
 
 } // namespace
 
-TEST(LowPass, PassesWhatIsSlowAndStopsWhatIsFast) {
+TEST(LowPass, PassesThePassBandAndStopsTheStopBand) {
     for (const double attenuation : {40.0, 80.0, 120.0}) {
         const LowPassSettings settings{50, 70, attenuation, 1};
         const double most = std::pow(10, -attenuation / 20);
@@ -30,7 +30,7 @@ TEST(LowPass, PassesWhatIsSlowAndStopsWhatIsFast) {
             const Samples rest = filtered(settings, [&](double t) { return std::sin(turn * f * t + 1); });
             ASSERT_GT(rest.rows(), 19'000U);
             const Harmonic fit = fit_harmonic(rest.times, rest.values[0], turn * f);
-            // Kaiser's length keeps the ripple; half as much again for rounding the length up and down.
+            // Kaiser's formula for the length bounds the ripple; half as much again for rounding the length.
             EXPECT_NEAR(fit.amplitude(), f < 60 ? 1 : 0, 1.5 * most) << attenuation << ' ' << f;
             if (f < 60) {
                 EXPECT_NEAR(fit.phase(), 1, 1e-9) << "without delay";
@@ -45,7 +45,7 @@ TEST(LowPass, KeepsConstantsAndDropsSamples) {
     const Samples constant = filtered(settings, [](double) { return 3.25; });
     for (const double value : constant.values[0])
         EXPECT_NEAR(value, 3.25, 1e-13);
-    // 130 Hz would appear as 30 Hz in 100 samples a second.
+    // 130 Hz would be aliased to 30 Hz at 100 samples a second.
     const Samples alias = filtered(settings, [](double t) { return std::sin(turn * 130 * t); });
     for (const double value : alias.values[0])
         EXPECT_NEAR(value, 0, 1.5e-4);
@@ -61,8 +61,8 @@ TEST(LowPass, KeepsConstantsAndDropsSamples) {
     }
 }
 
-/// What passes is said in the frequency of samples, which must not change within the filter.
-TEST(LowPass, RefusesClocksThatAreNotEven) {
+/// The bands are relative to the sampling frequency, which must be constant over the filter's length.
+TEST(LowPass, RefusesUnevenClocks) {
     const auto filter_clock = [](double later, double jitter) {
         Samples samples;
         samples.clear(1);
@@ -83,7 +83,7 @@ TEST(LowPass, RefusesClocksThatAreNotEven) {
     }
 }
 
-TEST(LowPass, RefusesWhatHasNoMeaning) {
+TEST(LowPass, RefusesInvalidSettings) {
     const auto wave = [](double t) { return t; };
     EXPECT_THROW(filtered({0, 0, 80, 1}, wave), InputError);
     EXPECT_THROW(filtered({50, 40, 80, 1}, wave), InputError);

@@ -33,16 +33,16 @@ std::vector<double> crossings_of(const std::vector<Period>& periods) {
 
 } // namespace
 
-TEST(Period, CrossingsOfASineAreWhereTheyAre) {
+TEST(Period, FindsTheCrossingsOfASine) {
     const double f = 6.1, start = 0.0137;
     const auto sine = [&](double t) { return 5 * std::sin(turn * f * (t - start)); };
-    for (const std::size_t part : {1U, 7U, 64U, 65536U}) { // rows that come at a time change nothing
+    for (const std::size_t part : {1U, 7U, 64U, 65536U}) { // the size of parts changes nothing
         StoredSamples source(named({"V"}), sampled(1000, 10'000, {sine}), part);
         const std::vector<Period> periods = periods_of(source, {});
         ASSERT_EQ(periods.size(), 60U);
         for (std::size_t k = 0; k < periods.size(); ++k) {
             EXPECT_EQ(periods[k].number, k);
-            // A cubic through a sine within 0.25 rad is wrong by some 1e-6 rad.
+            // The error of a cubic through a sine within 0.25 rad is some 1e-6 rad.
             EXPECT_NEAR(periods[k].begin, start + static_cast<double>(k) / f, 1e-6 / (turn * f));
             EXPECT_LE(periods[k].samples.times.front(), periods[k].begin);
             EXPECT_GE(periods[k].samples.times.back(), periods[k].end);
@@ -54,8 +54,8 @@ TEST(Period, CrossingsOfASineAreWhereTheyAre) {
     }
 }
 
-TEST(Period, SamplesOnTheLevelAndLevelsOtherThanNoughtCount) {
-    // Each crossing is a sample that is exactly nought, where looking for a change of sign between two samples fails.
+TEST(Period, FindsCrossingsAtSamplesAndOfAnyLevel) {
+    // Each crossing is a sample that is exactly 0, where a test for a change of sign between two samples would fail.
     StoredSamples triangle(named({"V"}), sampled(1, 200, {[](double t) {
                                                      const int k = static_cast<int>(t) % 8;
                                                      return static_cast<double>(k < 4 ? k - 2 : 6 - k);
@@ -70,7 +70,7 @@ TEST(Period, SamplesOnTheLevelAndLevelsOtherThanNoughtCount) {
     EXPECT_NEAR(found[0].begin, 1 / (2 * turn), 1e-7);
 }
 
-TEST(Period, NoiseMakesNoCrossingsAndTheFitSaysHowFarItIsWrong) {
+TEST(Period, NoiseMakesNoCrossingsAndTheErrorsOfTheFitCoverTheTruth) {
     const double f = 6.1, sigma = 0.05;
     std::size_t within = 0;
     constexpr std::size_t trials = 200;
@@ -86,11 +86,11 @@ TEST(Period, NoiseMakesNoCrossingsAndTheFitSaysHowFarItIsWrong) {
         within += std::abs(fit.period - 1 / f) < 2.1199 * fit.period_error ? 1 : 0;
         EXPECT_LT(fit.jitter, sigma / (turn * f)) << "less than one sample would have";
     }
-    EXPECT_GE(within, 180U); // of 190 that are expected: more than three standard deviations
+    EXPECT_GE(within, 180U); // 190 are expected: three standard deviations less
     EXPECT_LE(within, 199U);
 }
 
-TEST(Period, AReferenceThatDoesNotCrossHasNoPeriods) {
+TEST(Period, AReferenceWithoutCrossingsHasNoPeriods) {
     StoredSamples source(named({"V"}), sampled(10, 100, {[](double) { return 1.0; }}));
     EXPECT_TRUE(periods_of(source, {}).empty());
     EXPECT_THROW(PeriodSplitter(source, {1, 0, 0}), InputError);
@@ -102,7 +102,7 @@ TEST(Period, AReferenceThatDoesNotCrossHasNoPeriods) {
 
 TEST(Section, AgreesWithSectionsOfTheSimulation) {
     Model model = load_model("electromagnetic-testbed");
-    model.set_parameter("f", 7.0); // chaotic: points differ
+    model.set_parameter("f", 7.0); // chaotic: all points differ
     model.set_parameter("V0", 4.5);
     const RecordedModel recorded(model, "theta", 2.0, 5000, 20'000, {section_probe(model, "phase0")});
     StoredSamples source(recorded.header, recorded.samples);
@@ -117,7 +117,7 @@ TEST(Section, AgreesWithSectionsOfTheSimulation) {
                 continue;
             const SectionPoint point = section(period, 0);
             ++compared;
-            // Third order in steps of 0.2 ms, where the fastest of the motions is 96 rad/s.
+            // Third order in steps of 0.2 ms; the fastest motion has 96 rad/s.
             EXPECT_NEAR(point.time, passage.time, 1e-8);
             EXPECT_NEAR(point.values[q], state[0], 1e-9);
             EXPECT_NEAR(point.values[v], state[1], 1e-6);
@@ -126,7 +126,7 @@ TEST(Section, AgreesWithSectionsOfTheSimulation) {
     EXPECT_GE(compared, 26U);
 }
 
-TEST(Section, ImagesOfASymmetricMotionAreTheMotion) {
+TEST(Section, ImagesOfASymmetricMotionLieOnTheMotion) {
     Model model = load_model("electromagnetic-testbed"); // without impacts: symmetric under (5.11)
     model.set_parameter("V0", 4.0);
     const RecordedModel recorded(model, "theta", 10.0, 5000, 10'000);
@@ -136,7 +136,7 @@ TEST(Section, ImagesOfASymmetricMotionAreTheMotion) {
         const SectionPoint point = section(period, 0), image = image_of(section(period, 0.5), symmetry);
         EXPECT_TRUE(image.image);
         EXPECT_EQ(image.phase, 0);
-        for (std::size_t c = 0; c < 3; ++c) // free motion decays by exp(-1.56 t)
+        for (std::size_t c = 0; c < 3; ++c) // the transient has decayed by exp(-1.56 t)
             EXPECT_NEAR(image.values[c], point.values[c], 3e-6 * std::abs(point.values[c])) << c;
     }
     EXPECT_THROW(section(Period{}, 1.5), InputError);

@@ -11,7 +11,7 @@ namespace graze::testing {
 
 namespace {
 
-/// x = t^2 and a wave of so many turns by unit of time, for 10 units.
+/// x = t^2 and a wave with this many cycles per unit of time, for 10 units.
 std::unique_ptr<SampleSource> record(double turns = 1) {
     RecordHeader header = named({"x", "w"});
     header.channels[0].unit = "mm";
@@ -22,7 +22,7 @@ std::unique_ptr<SampleSource> record(double turns = 1) {
 
 } // namespace
 
-TEST(ProcessedRecord, WithoutProcessingIsTheRecord) {
+TEST(ProcessedRecord, WithoutProcessingIsTheRecordItself) {
     ProcessedRecord processed(record(), {});
     EXPECT_EQ(processed.header().channels.size(), 2U);
     const Samples rows = read_all(processed.source(), 2000);
@@ -30,8 +30,8 @@ TEST(ProcessedRecord, WithoutProcessingIsTheRecord) {
     EXPECT_EQ(rows.values[0][300], 9);
 }
 
-/// The derivative is that of what the scale makes of the channel, within the part that is wanted.
-TEST(ProcessedRecord, ScalesBeforeItDerives) {
+/// The derivative is taken of the scaled channel, within the selected part.
+TEST(ProcessedRecord, ScalesBeforeItDifferentiates) {
     RecordProcessing processing;
     processing.scales = {{"x", 3, 5, "um"}};
     processing.begin = 2;
@@ -55,8 +55,8 @@ TEST(ProcessedRecord, ScalesBeforeItDerives) {
     }
 }
 
-/// A wave of 20 turns would be one of 5 where only every fourth sample is kept, if nothing took it away before.
-TEST(ProcessedRecord, FiltersWhatDroppedSamplesWouldTurnIntoOther) {
+/// A wave of 20 cycles would be aliased to 5 if every fourth sample were kept without a filter.
+TEST(ProcessedRecord, FiltersWavesThatDecimationWouldAlias) {
     for (const double turns : {2.0, 20.0}) {
         RecordProcessing processing;
         processing.every = 4;
@@ -67,12 +67,12 @@ TEST(ProcessedRecord, FiltersWhatDroppedSamplesWouldTurnIntoOther) {
         double largest = 0;
         for (const double value : rows.values[1])
             largest = std::max(largest, std::abs(value));
-        // What must pass changes by 80 dB less than it is; what must not comes so far down.
+        // The pass band changes by -80 dB at most; the stop band is attenuated by 80 dB.
         EXPECT_NEAR(largest, turns < 10 ? 1 : 0, turns < 10 ? 0.01 : 2e-4) << turns;
     }
 }
 
-TEST(ProcessedRecord, WithoutRowsIsRefusedInTheWordsOfWhoAsks) {
+TEST(ProcessedRecord, RefusesARecordWithoutRowsByTheNamesOfOptions) {
     RecordProcessing processing;
     processing.begin = 1e9;
     for (const auto& [asked_as, remedy] :
@@ -82,14 +82,14 @@ TEST(ProcessedRecord, WithoutRowsIsRefusedInTheWordsOfWhoAsks) {
             ProcessedRecord processed(record(), processing);
             Samples samples;
             processed.source().read(samples);
-            ADD_FAILURE() << "nothing is refused";
+            ADD_FAILURE() << "it was accepted";
         } catch (const InputError& error) {
             EXPECT_EQ(error.problem(), "the record has no rows");
             EXPECT_NE(error.remedy().find(remedy), std::string::npos) << error.remedy();
         }
 }
 
-TEST(ProcessedRecord, NamesChannelsThatAreNotThere) {
+TEST(ProcessedRecord, RefusesUnknownChannels) {
     const auto message = [](const RecordProcessing& processing) -> std::string {
         try {
             ProcessedRecord processed(record(), processing);

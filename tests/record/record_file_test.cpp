@@ -21,7 +21,7 @@ Samples read_text(const std::string& text, const RecordLayout& layout = {}) {
     return read_all(*open_record(folder.write("record.csv", text), layout), most);
 }
 
-/// What is said of a file with this text, behind the folder's name.
+/// The message about a file with this text, after the folder's name.
 std::string refusal_of(const std::string& text, const RecordLayout& layout = {}) {
     const TemporaryFolder folder;
     const std::string path = folder.write("r.csv", text);
@@ -38,7 +38,7 @@ std::string refusal_of(const std::string& text, const RecordLayout& layout = {})
 
 } // namespace
 
-TEST(RecordFile, HeaderSaysNamesAndUnits) {
+TEST(RecordFile, HeaderGivesNamesAndUnits) {
     const TemporaryFolder folder;
     const auto record = open_record(folder.write("a.csv", "t [s], V [V],\"I\" (A),q\n0,1,2,3\n0.5,-1e-3,+2,3\n"));
     EXPECT_EQ(record->header().time.name, "t");
@@ -54,14 +54,14 @@ TEST(RecordFile, HeaderSaysNamesAndUnits) {
     EXPECT_THAT(all.values[0], ElementsAre(1, -1e-3));
 }
 
-TEST(RecordFile, TakesWhatInstrumentsWrite) {
+TEST(RecordFile, ReadsFormatsOfInstruments) {
     EXPECT_THAT(read_text("\xef\xbb\xbft;v\r\n0;1\r\n1;2\r\n").values[0], ElementsAre(1, 2));
     EXPECT_THAT(read_text("# made by\n% hand\n\nt [s]\tv [m/s]\n 0\t1\n1 \t 2\n").values[0], ElementsAre(1, 2));
     EXPECT_THAT(read_text("t [s] v [m/s] q\n0 1 2\n1   2 3 \n").values[1], ElementsAre(2, 3));
     EXPECT_THAT(read_text("t (s, of the clock), v\n0,1\n1,1e-400\n").values[0], ElementsAre(1, 0));
 }
 
-TEST(RecordFile, PlainColumnsOfTheDissertation) {
+TEST(RecordFile, FiveColumnsWithoutAHeaderAreThoseOfTheDissertation) {
     const std::string text = "  0.0000000e+00   1.0e+00   2.0e+00   3.0e+00  -4.0e+00\n"
                              "  1.0000000e-03   1.5e+00   2.5e+00   3.5e+00  -4.5e+00\n";
     const TemporaryFolder folder;
@@ -73,30 +73,30 @@ TEST(RecordFile, PlainColumnsOfTheDissertation) {
     EXPECT_THAT(read_text("0 1 2\n1 3 4\n", layout).values[1], ElementsAre(2, 4));
 }
 
-TEST(RecordFile, MistakesAreToldWithTheirPlaces) {
+TEST(RecordFile, ErrorsHaveTheirPlace) {
     const std::vector<std::pair<std::string, std::string>> mistakes{
         {"", "r.csv: the record is empty"},
-        {"t,v\n0,1\n1,none of it\n", "r.csv:3:3: 'none of it' is no finite number"},
-        {"t,v\n0,1\n1,1e999\n", "r.csv:3:3: '1e999' is no finite number"},
+        {"t,v\n0,1\n1,none of it\n", "r.csv:3:3: 'none of it' is not a finite number"},
+        {"t,v\n0,1\n1,1e999\n", "r.csv:3:3: '1e999' is not a finite number"},
         {"t,v\n0,1\n1\n", "r.csv:3:2: the line has 1 columns instead of 2"},
         {"t v\n0 1\n1\n", "r.csv:3:2: the line has 1 columns instead of 2"},
-        {"t,v\n0,1,2\n", "r.csv:2:4: there is more on this line than 2 columns"},
+        {"t,v\n0,1,2\n", "r.csv:2:4: this line has more than 2 columns"},
         {"t,v\n0,1\n0,2\n", "r.csv:3:1: the time 0 is not after the one before, 0"},
-        {"t,v\n0;1\n", "r.csv:2:2: ';' stands behind a number"},
+        {"t,v\n0;1\n", "r.csv:2:2: ';' follows a number"},
         {"t [s, V [V]\n0,1\n", "r.csv:1:3: the bracket of a unit is not closed"},
         {"t [s], V (V\n0,1\n", "r.csv:1:10: the bracket of a unit is not closed"},
-        {"0,5;1,2\n", "r.csv:1:1: nothing says what the 2 columns"},
-        {"0,5 1,2\n", "r.csv:1:1: nothing says what the 2 columns"},
+        {"0,5;1,2\n", "r.csv:1:1: the 2 columns of the record are not named"},
+        {"0,5 1,2\n", "r.csv:1:1: the 2 columns of the record are not named"},
         {"t,v\n0,5,1,2\n", "r.csv:2:1: there are 4 numbers instead of 2; give one for each column; decimal commas"},
-        {"t,v\n0,1x\n", "r.csv:2:4: 'x' stands behind a number"},
-        {"0,1,2\n", "r.csv:1:1: nothing says what the 3 columns"},
+        {"t,v\n0,1x\n", "r.csv:2:4: 'x' follows a number"},
+        {"0,1,2\n", "r.csv:1:1: the 3 columns of the record are not named"},
         {"t\n0\n", "r.csv:1:1: there is only one column"},
-        {"t,v,v\n", "r.csv:1:5: column 'v' is there twice"},
-        {"t,t\n", "r.csv:1:3: column 't' is there twice"},
-        {"t,,v\n", "r.csv:1:3: '' is no name"},
-        {"t,\x1b[2J\n", "r.csv:1:3: '\\u001b[2J' is no name"},
-        {"nan,1,2\n", "r.csv:1:1: 'nan' is no name"},
-        {"t,v\n0,\x1b[2J\n", "r.csv:2:3: '\\u001b[2J' is no finite number"},
+        {"t,v,v\n", "r.csv:1:5: column 'v' occurs twice"},
+        {"t,t\n", "r.csv:1:3: column 't' occurs twice"},
+        {"t,,v\n", "r.csv:1:3: '' is not a name"},
+        {"t,\x1b[2J\n", "r.csv:1:3: '\\u001b[2J' is not a name"},
+        {"nan,1,2\n", "r.csv:1:1: 'nan' is not a name"},
+        {"t,v\n0,\x1b[2J\n", "r.csv:2:3: '\\u001b[2J' is not a finite number"},
     };
     for (const auto& [text, message] : mistakes)
         EXPECT_THAT(refusal_of(text), HasSubstr(message)) << text;
@@ -143,7 +143,7 @@ std::string written(const TemporaryFolder& folder, const std::string& name, std:
 
 } // namespace
 
-TEST(RecordFile, WhatIsWrittenIsReadBackBitForBit) {
+TEST(RecordFile, WrittenRecordsAreReadBackBitForBit) {
     const TemporaryFolder folder;
     for (const char* name : {"record.csv", "record.h5"}) {
         const std::string path = written(folder, name, 40'000);
@@ -157,8 +157,8 @@ TEST(RecordFile, WhatIsWrittenIsReadBackBitForBit) {
     }
 }
 
-/// Names that would come back as others.
-TEST(RecordFile, TextTakesOnlyNamesThatItCanGiveBack) {
+/// Names that would be read back as others.
+TEST(RecordFile, TextRefusesNamesThatCannotBeReadBack) {
     const TemporaryFolder folder;
     for (const char* name : {"a,b", "a;b", "a\tb", "a [b]", "#a", "", " a"}) {
         const RecordHeader header{{"t", "s"}, {{name, "V"}}};
@@ -191,7 +191,7 @@ TEST(RecordFile, DamagedHdf5IsRefused) {
     EXPECT_THROW(open_record(folder / "record.h5", layout), InputError);
 }
 
-TEST(RecordFile, WriterRefusesWhatIsNoRecord) {
+TEST(RecordFile, WriterRefusesInvalidSamples) {
     const TemporaryFolder folder;
     for (const char* name : {"r.csv", "r.h5"}) {
         RecordWriter writer(folder / name, example_header());
@@ -199,7 +199,7 @@ TEST(RecordFile, WriterRefusesWhatIsNoRecord) {
         EXPECT_THROW(writer.write({{1, 2}, {{1, 2}}}), InputError);                    // a channel is missing
         EXPECT_THROW(writer.write({{1, 2}, {{1, 2}, {1, 2}, {1, 2}}}), InputError);    // one too many
         EXPECT_THROW(writer.write({{1, 2}, {{1, 2}, {1}}}), InputError);               // a row is missing
-        EXPECT_THROW(writer.write({{1, 2}, {{1, 2}, {1, std::nan("")}}}), InputError); // no number
+        EXPECT_THROW(writer.write({{1, 2}, {{1, 2}, {1, std::nan("")}}}), InputError); // not a number
         EXPECT_THROW(writer.write({{1, std::nan("")}, {{1, 2}, {1, 2}}}), InputError);
         writer.close();
         EXPECT_THROW(writer.write(example_samples(2)), InputError);

@@ -13,7 +13,7 @@ namespace graze::testing {
 
 using ::testing::HasSubstr;
 
-TEST(RecordPeriods, TellHowManyThereAreAndTheMeanAmplitude) {
+TEST(RecordPeriods, CountPeriodsAndAverageTheAmplitude) {
     StoredSamples source(
         named({"V"}), sampled(100, 1050, {[](double t) { return 3 * std::sin(2 * std::numbers::pi * (t - 0.105)); }}));
     std::vector<std::size_t> numbers;
@@ -22,10 +22,11 @@ TEST(RecordPeriods, TellHowManyThereAreAndTheMeanAmplitude) {
     ASSERT_EQ(found.count, 10U);
     EXPECT_EQ(numbers.front(), 0U);
     EXPECT_EQ(numbers.back(), 9U);
-    EXPECT_NEAR(found.amplitude, 3, 1e-9); // crossings are by a cubic, of which the amplitude feels the square
+    // crossings are found by a cubic; the amplitude depends on the square of their error
+    EXPECT_NEAR(found.amplitude, 3, 1e-9);
 }
 
-TEST(RecordPeriods, WithoutAWholePeriodTheReferenceIsNamed) {
+TEST(RecordPeriods, NameTheReferenceThatHasNoWholePeriod) {
     PeriodSettings settings;
     settings.level = 5;
     const auto refusal = [&](const std::string& asked_as) -> std::string {

@@ -12,7 +12,7 @@
 
 namespace graze::testing {
 
-/// Noise that is the same wherever it is drawn: a standard library may make its normal numbers as it likes.
+/// Noise that is the same with every standard library (their normal distributions differ).
 class Noise {
 public:
     explicit Noise(std::uint64_t seed) : engine_(seed) {}
@@ -27,12 +27,11 @@ private:
     std::mt19937_64 engine_;
 };
 
-/// A motion of a shipped model as an instrument would record it: channels are its states, and `drive`, the sine of the
-/// phase.
+/// A simulated record of a shipped model: channels are its states, and `drive`, the sine of the phase.
 struct RecordedModel {
     RecordHeader header;
     Samples samples;
-    Recorder truth; ///< contacts and passages
+    Recorder truth; ///< contacts and passages of the simulation
 
     /// @param skipped time before the first sample. @param phase name of the cyclic state
     RecordedModel(Model model, const std::string& phase, double skipped, double frequency, std::size_t count,

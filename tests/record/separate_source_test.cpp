@@ -25,7 +25,7 @@ using ::testing::HasSubstr;
 
 namespace {
 
-/// A source that does what is asked for once it is read.
+/// A source that runs a given function when it is read.
 class ActingSource : public SampleSource {
 public:
     explicit ActingSource(std::function<bool(Samples&)> act) : act_(std::move(act)) {}
@@ -52,7 +52,7 @@ std::string refusal_of(const std::function<bool(Samples&)>& act, const ReadingLi
 
 } // namespace
 
-TEST(SeparateSource, GivesWhatTheOtherProcessReads) {
+TEST(SeparateSource, PassesOnSamplesOfTheOtherProcess) {
     int part = 0;
     SeparateSource source("r.h5", [&] {
         return std::make_unique<ActingSource>([&](Samples& samples) {
@@ -69,19 +69,19 @@ TEST(SeparateSource, GivesWhatTheOtherProcessReads) {
     ASSERT_EQ(all.rows(), 150'000U);
     EXPECT_EQ(all.times[50'001], 1 + 1e-5);
     EXPECT_EQ(all.values[0][149'999], std::sin(49'999));
-    EXPECT_EQ(part, 0); // of this process
+    EXPECT_EQ(part, 0); // in this process
     Samples more;
     EXPECT_FALSE(source.read(more));
 }
 
-TEST(SeparateSource, CrashesAreTold) {
+TEST(SeparateSource, CrashesBecomeErrors) {
     for (const int signal : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGKILL})
         EXPECT_THAT(refusal_of([signal](Samples&) { return std::raise(signal) != 0; }),
                     HasSubstr("r.h5: this file cannot be read; it is damaged"));
     EXPECT_THAT(refusal_of([](Samples&) -> bool { _exit(0); }), HasSubstr("this file cannot be read"));
 }
 
-TEST(SeparateSource, MistakesKeepPlaceAndRemedy) {
+TEST(SeparateSource, ErrorsKeepPlaceAndRemedy) {
     EXPECT_EQ(refusal_of([](Samples&) -> bool {
                   throw InputError(Place{"other.h5", 7, 3}, "a problem", "a remedy");
               }),
@@ -89,7 +89,7 @@ TEST(SeparateSource, MistakesKeepPlaceAndRemedy) {
     EXPECT_THAT(refusal_of([](Samples&) -> bool { throw std::runtime_error("odd"); }), HasSubstr("r.h5: it cannot"));
 }
 
-TEST(SeparateSource, TimeAndMemoryEnd) {
+TEST(SeparateSource, TimeAndMemoryAreLimited) {
     ReadingLimits limits;
     limits.work = 0.2;
     limits.silence = 20;
@@ -107,7 +107,7 @@ TEST(SeparateSource, TimeAndMemoryEnd) {
     limits.silence = 0.2;
     EXPECT_THAT(refusal_of([](Samples&) { return pause() != 0; }, limits), HasSubstr("takes more than 0.2 s"));
     if (sanitized)
-        return; // no limit is set then
+        return; // then no limit is set
     EXPECT_THAT(refusal_of([](Samples& samples) {
                     samples.times.resize(std::size_t{1} << 30);
                     return true;
@@ -115,11 +115,11 @@ TEST(SeparateSource, TimeAndMemoryEnd) {
                 HasSubstr("more than 768 MiB"));
 }
 
-/// What a library that has been taken over could do.
-TEST(SeparateSource, NothingIsWrittenElsewhere) {
+/// A compromised library could try to write files or use open ones.
+TEST(SeparateSource, TheReaderCannotWriteFiles) {
     const TemporaryFolder folder;
     const int first = open((folder / "open").c_str(), O_WRONLY | O_CREAT, 0600);
-    const int open_here = fcntl(first, F_DUPFD, 20); // no number that the other process uses itself
+    const int open_here = fcntl(first, F_DUPFD, 20); // a number that the other process does not use itself
     close(first);
     const std::string made = folder / "made";
     refusal_of([&](Samples&) {
@@ -133,14 +133,14 @@ TEST(SeparateSource, NothingIsWrittenElsewhere) {
     EXPECT_TRUE(!std::filesystem::exists(made) || std::filesystem::file_size(made) == 0);
 }
 
-TEST(SeparateSource, EndsBeforeTheFileDoes) {
+TEST(SeparateSource, CanBeDestroyedBeforeTheEndOfTheFile) {
     const auto begun = std::chrono::steady_clock::now();
     {
         SeparateSource source("r.h5", [] {
             return std::make_unique<ActingSource>([](Samples& samples) {
                 samples.times.assign(16'384, 1);
                 samples.values.assign(1, samples.times);
-                return true; // for ever
+                return true; // never ends
             });
         });
         Samples samples;
@@ -177,7 +177,7 @@ TEST(SeparateSource, ManyThreadsReadAtOnce) {
     EXPECT_EQ(whole, 20);
 }
 
-/// GRAZE_MUTATIONS asks for more of them.
+/// GRAZE_MUTATIONS sets their number.
 TEST(SeparateSource, MutatedRecordsAreReadOrRefused) {
     const TemporaryFolder folder;
     const std::string path = folder / "r.h5";
@@ -202,7 +202,7 @@ TEST(SeparateSource, MutatedRecordsAreReadOrRefused) {
         longest = std::max(longest, std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count());
     }
     EXPECT_GT(refused, count / 20);
-    EXPECT_LT(longest, 30); // of a loaded machine
+    EXPECT_LT(longest, 30); // allows for a loaded machine
     RecordProperty("refused", refused);
     RecordProperty("longest", std::to_string(longest));
 }

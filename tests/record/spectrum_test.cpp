@@ -17,7 +17,7 @@ namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-/// Samples of a mean and of waves with whole numbers of turns.
+/// Samples of a mean and waves with whole numbers of cycles.
 std::vector<double> waves(std::size_t count, double mean, const std::vector<std::pair<int, double>>& parts) {
     std::vector<double> samples(count, mean);
     for (std::size_t i = 0; i < count; ++i)
@@ -30,7 +30,7 @@ std::vector<double> waves(std::size_t count, double mean, const std::vector<std:
 
 } // namespace
 
-TEST(SpectrumTest, FindsTheAmplitudesAtTheirFrequencies) {
+TEST(Spectrum, FindsAmplitudesAndFrequenciesOfWaves) {
     const Spectrum parts = spectrum(waves(60, 5, {{3, 0.25}, {20, 2}}), 6.25);
     EXPECT_NEAR(parts.mean, 5, 60 * 8 * eps);
     ASSERT_EQ(parts.frequencies.size(), 30U);
@@ -42,15 +42,15 @@ TEST(SpectrumTest, FindsTheAmplitudesAtTheirFrequencies) {
     }
 }
 
-TEST(SpectrumTest, CountsTheHighestFrequencyOnce) {
+TEST(Spectrum, CountsTheHighestFrequencyOnce) {
     const Spectrum parts = spectrum(std::vector<double>{4, 2, 4, 2, 4, 2}, 10);
     EXPECT_NEAR(parts.frequencies.back(), 5, 8 * eps);
     EXPECT_NEAR(parts.amplitudes.back(), 1, 64 * eps);
     EXPECT_NEAR(parts.mean, 3, 8 * eps);
 }
 
-// Parseval: the mean square of what is left without the mean is that of the waves.
-TEST(SpectrumTest, KeepsTheMeanSquare) {
+// Parseval: the variance of the samples is that of the waves.
+TEST(Spectrum, KeepsTheMeanSquare) {
     std::vector<double> samples;
     double x = 0.3;
     for (int i = 0; i < 101; ++i)
@@ -65,15 +65,15 @@ TEST(SpectrumTest, KeepsTheMeanSquare) {
     EXPECT_NEAR(sum, squares, 101 * 16 * eps);
 }
 
-TEST(SpectrumTest, SeesNothingInConstantOrTooFewSamples) {
+TEST(Spectrum, IsZeroForConstantOrTooFewSamples) {
     for (const double amplitude : spectrum(std::vector<double>(8, 3.0), 1).amplitudes)
         EXPECT_EQ(amplitude, 0);
     EXPECT_TRUE(spectrum(std::vector<double>{1}, 1).frequencies.empty());
     EXPECT_TRUE(spectrum({}, 1).frequencies.empty());
 }
 
-// Lengths for which the sums are made by way of powers of two, odd and prime ones too.
-TEST(SpectrumTest, IsTheSameForManySamples) {
+// Lengths for Bluestein's algorithm, odd and prime ones too.
+TEST(Spectrum, EqualsTheDirectSumForManySamples) {
     for (const std::size_t count : {513U, 1009U, 1024U, 6000U}) {
         const Spectrum parts = spectrum(waves(count, 5, {{3, 0.25}, {200, 2}}), 6.25);
         ASSERT_EQ(parts.amplitudes.size(), count / 2);
@@ -83,7 +83,7 @@ TEST(SpectrumTest, IsTheSameForManySamples) {
     }
 }
 
-TEST(SpectrumTest, OfLongRecordsIsAveragedAndKeepsAmplitudesAndFrequencies) {
+TEST(Spectrum, AveragedOverALongRecordKeepsAmplitudesAndFrequencies) {
     const double pi = std::numbers::pi;
     const auto wave = [&](double t) { return 1 + 0.5 * std::cos(2 * pi * 125 * t) + 0.1 * std::sin(2 * pi * 250 * t); };
     StoredSamples source(named({"v"}), sampled(1000, 10'000, {wave}), 777);
@@ -92,7 +92,7 @@ TEST(SpectrumTest, OfLongRecordsIsAveragedAndKeepsAmplitudesAndFrequencies) {
     EXPECT_NEAR(parts.mean, 1, 1e-12);
     for (std::size_t k = 1; k <= 128; ++k) {
         EXPECT_NEAR(parts.frequencies[k - 1], 1000.0 * static_cast<double>(k) / 256, 1e-9);
-        // Hann's window shows half of an amplitude beside it.
+        // Hann's window puts half of an amplitude into each neighbouring line.
         const double expected = k == 32              ? 0.5
                                 : k == 31 || k == 33 ? 0.25
                                 : k == 64            ? 0.1
@@ -104,7 +104,7 @@ TEST(SpectrumTest, OfLongRecordsIsAveragedAndKeepsAmplitudesAndFrequencies) {
     EXPECT_THROW(averaged_spectrum(source, 0, 256), InputError) << "nothing is left of it";
 }
 
-TEST(SpectrumTest, NeedsEqualDistancesOfTime) {
+TEST(Spectrum, RefusesSamplesThatAreNotEquidistant) {
     EXPECT_NEAR(sampling_frequency(std::vector<double>{0, 0.1, 0.21, 0.3}), 10, 1e-12);
     EXPECT_THROW(sampling_frequency(std::vector<double>{0, 0.1, 0.3, 0.4}), InputError);
     EXPECT_THROW(sampling_frequency(std::vector<double>{0}), InputError);

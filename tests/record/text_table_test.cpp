@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::size_t most = 1'000'000;
 
-/// A file as it was read, with what was said of it.
+/// A file that was read, with its remarks.
 struct ReadFile {
     RecordHeader header;
     Samples rows;
@@ -73,7 +73,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 } // namespace
 
-TEST(TextTable, MeasurementFilesOfLabview) {
+TEST(TextTable, ReadsMeasurementFilesOfLabview) {
     const ReadFile one =
         read_file(labview_heading + labview_segment + "0.500\t1.25\t-2\ta remark\n0.501\t1.5\t-3\n0.502\t1.75\t-4\t\n");
     EXPECT_THAT(one.names(), ElementsAre("X_Value|s", "Voltage|V", "Current|A"));
@@ -83,7 +83,7 @@ TEST(TextTable, MeasurementFilesOfLabview) {
     EXPECT_TRUE(one.remarks.empty());
 }
 
-TEST(TextTable, LabviewWithoutTimesInRows) {
+TEST(TextTable, ReadsLabviewWithoutTimesInRows) {
     const std::string heading = replaced(labview_heading, "X_Columns\tOne", "X_Columns\tNo");
     const ReadFile no = read_file(heading + labview_segment + "\t1.25\t-2\n\t1.5\t-3\n\t1.75\t-4\n");
     EXPECT_THAT(no.names(), ElementsAre("X_Value|s", "Voltage|V", "Current|A"));
@@ -93,7 +93,7 @@ TEST(TextTable, LabviewWithoutTimesInRows) {
                 HasSubstr("the channels have no common X0"));
 }
 
-TEST(TextTable, LabviewWithDecimalCommas) {
+TEST(TextTable, ReadsLabviewWithDecimalCommas) {
     const std::string heading = replaced(replaced(labview_heading, "Decimal_Separator\t.", "Decimal_Separator\t,"),
                                          "X_Columns\tOne", "X_Columns\tNo");
     const ReadFile file =
@@ -102,16 +102,16 @@ TEST(TextTable, LabviewWithDecimalCommas) {
     EXPECT_THAT(file.rows.values[0], ElementsAre(1.25));
 }
 
-TEST(TextTable, LabviewThatIsNoOneTable) {
+TEST(TextTable, RefusesLabviewWithSeveralTables) {
     EXPECT_THAT(
         refusal_of(replaced(labview_heading, "X_Columns\tOne", "X_Columns\tMulti") + labview_segment + "0\t1\t0\t2\n"),
         HasSubstr("each channel has times of its own"));
     EXPECT_THAT(refusal_of(labview_heading + labview_segment + "0\t1\t2\n1\t1\t2\n\n" + labview_segment + "2\t1\t2\n"),
-                HasSubstr("here another heading begins"));
+                HasSubstr("another heading begins here"));
     EXPECT_THAT(refusal_of(labview_heading), HasSubstr("has no end"));
 }
 
-TEST(TextTable, OscilloscopesOfTektronixWithTheirHeadingBesideTheRows) {
+TEST(TextTable, ReadsTektronixWithTheHeadingBesideTheRows) {
     const ReadFile file = read_file("Record Length,2.500000e+03,,-0.00050000,0.00240,\r\n"
                                     "Sample Interval,4.000000e-07,,-0.00049960,0.00250,\r\n"
                                     "Trigger Point,1.25e+03,,-0.00049920,0.00260,\r\n"
@@ -124,7 +124,7 @@ TEST(TextTable, OscilloscopesOfTektronixWithTheirHeadingBesideTheRows) {
     EXPECT_EQ(file.rows.values[0][6], 0.003);
 }
 
-TEST(TextTable, OscilloscopesOfTektronixWithTheirHeadingAboveTheRows) {
+TEST(TextTable, ReadsTektronixWithTheHeadingAboveTheRows) {
     const ReadFile file = read_file("Model,MSO2024B\nFirmware Version,1.52\n,\nPoint Format,Y,\nHorizontal Units,s,\n"
                                     "Horizontal Scale,4e-06,\nSample Interval,4e-08,\nRecord Length,100000,\n"
                                     "Gating,0.0% to 100.0%,\nProbe Attenuation,1,1\nVertical Units,V,A\nLabel,,\n"
@@ -134,18 +134,17 @@ TEST(TextTable, OscilloscopesOfTektronixWithTheirHeadingAboveTheRows) {
     EXPECT_THAT(file.rows.values[1], ElementsAre(1, 2));
 }
 
-TEST(TextTable, OscilloscopesOfKeysight) {
+TEST(TextTable, ReadsKeysight) {
     const ReadFile file = read_file("x-axis,1,2\nsecond,Volt,Ampere\n-4.9E-04,+1.5E-01,2\n-4.8E-04,+9.9E+37,2\n"
                                     "-4.7E-04,1.7E-01,3\n");
     EXPECT_THAT(file.names(), ElementsAre("x-axis|s", "CH1|V", "CH2|A"));
     EXPECT_THAT(file.rows.times, ElementsAre(-4.9e-4, -4.7e-4));
     EXPECT_THAT(file.rows.values[0], ElementsAre(0.15, 0.17));
     ASSERT_EQ(file.remarks.size(), 1U);
-    EXPECT_THAT(file.remarks[0],
-                HasSubstr("1 of 3 rows are left out, of which a value is missing (the first in line 4)"));
+    EXPECT_THAT(file.remarks[0], HasSubstr("1 of 3 rows are left out, as a value is missing (the first in line 4)"));
 }
 
-TEST(TextTable, OscilloscopesOfLecroy) {
+TEST(TextTable, ReadsLecroy) {
     const ReadFile file = read_file("LECROYWR64Xi,12345,Waveform\nSegments,1,SegmentSize,3\n"
                                     "Segment,TrigTime,TimeSinceSegment1\n#1,14-May-2019 10:22:31,0\nTime,Ampl\n"
                                     "-5e-06,0.0123\n-4.9e-06,0.0125\n");
@@ -154,7 +153,7 @@ TEST(TextTable, OscilloscopesOfLecroy) {
     EXPECT_THAT(file.rows.values[0], ElementsAre(0.0123, 0.0125));
 }
 
-TEST(TextTable, OscilloscopesOfRigol) {
+TEST(TextTable, ReadsRigol) {
     const ReadFile counted = read_file("X,CH1,CH2,Start,Increment,\nSequence,Volt,Volt,-6.000000e-03,1.000000e-05\n"
                                        "0,1.20e+00,4.0e-01,\n1,1.30e+00,5.0e-01,\n2,1.40e+00,6.0e-01,\n");
     EXPECT_THAT(counted.names(), ElementsAre("t|s", "CH1|V", "CH2|V"));
@@ -171,7 +170,7 @@ TEST(TextTable, OscilloscopesOfRigol) {
     EXPECT_THAT(read_file("CH1V,t0 =0s, tInc = 0.5,\n0.25,,\n0.50,,\n").rows.times, ElementsAre(0, 0.5));
 }
 
-/// Times in headings have units: what begins at -30 ms begins at -0.03 s.
+/// Times in headings have units: a start of -30 ms is -0.03 s.
 TEST(TextTable, TimesInHeadingsHaveUnits) {
     for (const char* times : {"t0 =-30ms, tInc = 1ms", "t0 =-0.03s, tInc = 1000us", "t0 =-3e-2, tInc = 1e6 ns"}) {
         const ReadFile file = read_file("CH1V,CH2mV," + std::string(times) + ",\n0.1,1,,\n0.2,2,,\n0.1,3,,\n");
@@ -180,7 +179,7 @@ TEST(TextTable, TimesInHeadingsHaveUnits) {
     }
     const ReadFile counted = read_file("X,CH1,Start,Increment,\nSequence,Volt,-30ms,1ms\n0,0.1,\n1,0.2,\n2,0.1,\n");
     EXPECT_THAT(counted.rows.times, ElementsAre(-0.03, DoubleEq(-0.029), DoubleEq(-0.028)));
-    EXPECT_THAT(refusal_of("CH1V,t0 =-30V, tInc = 1ms,\n0.1,,\n0.2,,\n"), HasSubstr("'-30V' is no time"));
+    EXPECT_THAT(refusal_of("CH1V,t0 =-30V, tInc = 1ms,\n0.1,,\n0.2,,\n"), HasSubstr("'-30V' is not a time"));
 
     const std::string heading = replaced(labview_heading, "X_Columns\tOne", "X_Columns\tNo");
     for (const char* unit : {"ms", "\"ms\""}) {
@@ -195,7 +194,7 @@ TEST(TextTable, TimesInHeadingsHaveUnits) {
                 HasSubstr("the channels have no common X_Unit_Label"));
 }
 
-TEST(TextTable, UnitsAreSpeltInManyWays) {
+TEST(TextTable, UnitsAreUnderstoodInManySpellings) {
     const std::string rows = "\n0,1\n1,2\n";
     for (const auto& [heading, time, channel] :
          {std::tuple{"t [msec], v [Volts]", "t|ms", "v|V"},
@@ -210,13 +209,13 @@ TEST(TextTable, UnitsAreSpeltInManyWays) {
     EXPECT_THAT(read_file("t [ms], g [mS]" + rows).names(), ElementsAre("t|ms", "g|mS"));
 }
 
-TEST(TextTable, CommentsThatMayNameColumnsAreTold) {
+TEST(TextTable, RemedyNamesACommentThatMayNameColumns) {
     EXPECT_THAT(refusal_of("# made by hand\n# t [s], v [V]\n0,1\n1,2\n"),
-                HasSubstr("or say it by --columns; if the comment in line 2 does, by --names-line 2"));
+                HasSubstr("or name them by --columns; if the comment in line 2 does, by --names-line 2"));
     EXPECT_THAT(refusal_of("# made by hand\n0,1\n1,2\n"), Not(HasSubstr("names-line")));
 }
 
-TEST(TextTable, DecimalCommas) {
+TEST(TextTable, ReadsDecimalCommas) {
     for (const char* text : {"t [s];v [V]\n0,5;-1,25e0\n1;2\n", "t [s]\tv [V]\n0,5\t-1,25\n1\t2\n",
                              "Zeit [s] v [V]\n0,5 -1,25\n1,0 2,0\n", "Zeit (s), Uhr\tv\n0,5\t-1,25\n1,0\t2,0\n"}) {
         const ReadFile file = read_file(text);
@@ -227,7 +226,7 @@ TEST(TextTable, DecimalCommas) {
     layout.columns = "t [s], v [V]";
     EXPECT_THAT(read_file("0,5;-1,25\n1,0;2,0\n", layout).rows.values[0], ElementsAre(-1.25, 2));
     EXPECT_THAT(read_file("0,5 -1,25\n1,0 2,0\n", layout).rows.values[0], ElementsAre(-1.25, 2));
-    // Of both signs none is known.
+    // With both signs in use neither is certain.
     EXPECT_THAT(refusal_of("t;v\n0,5;1\n1.5;2\n"), HasSubstr("r.csv:3:"));
     EXPECT_THAT(refusal_of("t;v\n0.5;1\n1,5;2\n"), HasSubstr("has a comma, and numbers before it have decimal points"));
     EXPECT_THAT(refusal_of("t;v\n0,5;1.234,5\n"), HasSubstr("r.csv:2:"));
@@ -239,13 +238,12 @@ TEST(TextTable, MissingValuesAreLeftOutAndCounted) {
     EXPECT_THAT(file.rows.times, ElementsAre(0, 4));
     EXPECT_THAT(file.rows.values[1], ElementsAre(2, 5));
     ASSERT_EQ(file.remarks.size(), 1U);
-    EXPECT_THAT(file.remarks[0],
-                HasSubstr("6 of 8 rows are left out, of which a value is missing (the first in line 3)"));
+    EXPECT_THAT(file.remarks[0], HasSubstr("6 of 8 rows are left out, as a value is missing (the first in line 3)"));
     EXPECT_THAT(read_file("t\tv\tw\n0\t\t2\n1\t1\t2\n").rows.times, ElementsAre(1));
-    EXPECT_THAT(refusal_of("t,v\n0,1\n1,x\n"), HasSubstr("r.csv:3:3: 'x' is no finite number"));
+    EXPECT_THAT(refusal_of("t,v\n0,1\n1,x\n"), HasSubstr("r.csv:3:3: 'x' is not a finite number"));
 }
 
-/// They are no names, though the file has those.
+/// Rows that begin with missing values are not names.
 TEST(TextTable, FirstRowsMayMissValues) {
     for (const char* missing : {"", "nan", "9.9E37", "---", "OVLD", "\u221e", "-\u221e"}) {
         const std::string none(missing);
@@ -254,7 +252,7 @@ TEST(TextTable, FirstRowsMayMissValues) {
         EXPECT_THAT(named.rows.times, ElementsAre(2, 3)) << none;
         ASSERT_EQ(named.remarks.size(), 1U);
         EXPECT_THAT(named.remarks[0],
-                    HasSubstr("2 of 4 rows are left out, of which a value is missing (the first in line 2)"));
+                    HasSubstr("2 of 4 rows are left out, as a value is missing (the first in line 2)"));
         EXPECT_THAT(read_file("Logger 5\n\nTime;Force\ns;N\n0;" + none + "\n1;2\n").names(),
                     ElementsAre("Time|s", "Force|N"));
         if (!none.empty()) {
@@ -264,18 +262,18 @@ TEST(TextTable, FirstRowsMayMissValues) {
     }
 }
 
-TEST(TextTable, TellsWhyAFieldIsNoNumber) {
+TEST(TextTable, SaysWhyAFieldIsNotANumber) {
     EXPECT_THAT(refusal_of("t [s],v [V]\n12:00:00.001,1\n12:00:00.002,2\n"),
                 HasSubstr("r.csv:2:1: '12:00:00.001' is a time of day or a date; write times as numbers"));
     EXPECT_THAT(refusal_of("t;v\n2020-05-14;1\n"), HasSubstr("is a time of day or a date"));
-    EXPECT_THAT(refusal_of("t,v\n0,\"0.1\"\n"), HasSubstr("r.csv:2:3: '\"0.1\"' stands in quotes"));
+    EXPECT_THAT(refusal_of("t,v\n0,\"0.1\"\n"), HasSubstr("r.csv:2:3: '\"0.1\"' is in quotes"));
     EXPECT_THAT(refusal_of("t,v\n0,1\n1,2\nend of data,3\n"), Not(HasSubstr("--skip")));
     EXPECT_THAT(refusal_of("t [\xb5s],v [V]\n0,1\n1,2\n"),
-                HasSubstr("r.csv:1:4: 't [\xef\xbf\xbds]' is no text in UTF-8"));
+                HasSubstr("r.csv:1:4: 't [\xef\xbf\xbds]' is not text in UTF-8"));
 }
 
-/// Of every number at which a file may end none that was cut off is taken for another.
-TEST(TextTable, NoRowThatWasCutOffIsTaken) {
+/// A file may end anywhere: no truncated number is taken for another.
+TEST(TextTable, TruncatedRowsAreLeftOut) {
     const std::string whole = "t,v\n0,1.25\n1,2.375\n2,3.4375\n";
     for (std::size_t size = 5; size <= whole.size(); ++size) {
         ReadFile file;
@@ -294,10 +292,10 @@ TEST(TextTable, NoRowThatWasCutOffIsTaken) {
     EXPECT_THAT(cut.rows.times, ElementsAre(0));
     ASSERT_EQ(cut.remarks.size(), 1U);
     EXPECT_THAT(cut.remarks[0], HasSubstr("line 3, the last one, has no end and may have been cut off"));
-    EXPECT_THAT(read_file("t,v\r\n0,1\r\n1,2\r").rows.times, ElementsAre(0, 1)); // cut within the end of the line
+    EXPECT_THAT(read_file("t,v\r\n0,1\r\n1,2\r").rows.times, ElementsAre(0, 1)); // cut within the line end
 }
 
-TEST(TextTable, LinesThatAreSaid) {
+TEST(TextTable, TakesLinesThatTheLayoutNames) {
     const std::string text = "made by somebody, at 12:03\n1,2\n% t [s], a, b\n(s),(V),(A)\n\n0,1,2\n1,3,4\n";
     RecordLayout layout;
     layout.names_line = 3;
@@ -318,7 +316,7 @@ TEST(TextTable, LinesThatAreSaid) {
                 HasSubstr("r.csv:4:1: this row has 3 columns, and line 3, which should name them, has 2"));
 }
 
-TEST(TextTable, WhatStandsAboveIsPassedOver) {
+TEST(TextTable, SkipsLinesAboveTheNames) {
     const ReadFile file = read_file("Logger 5\nstarted;12.3.2020\nRate;1000\n\nTime;Force;\ns;N;\n0;1;\n0,5;2,5;\n");
     EXPECT_THAT(file.names(), ElementsAre("Time|s", "Force|N"));
     EXPECT_THAT(file.rows.values[0], ElementsAre(1, 2.5));

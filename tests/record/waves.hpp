@@ -8,7 +8,7 @@
 
 namespace graze::testing {
 
-/// A record of functions of time, sampled so often by unit of time.
+/// A record of functions of time, sampled at a given frequency.
 inline Samples sampled(double frequency, std::size_t count, const std::vector<std::function<double(double)>>& functions,
                        double begin = 0) {
     Samples samples;

@@ -313,7 +313,7 @@ TEST_F(RecordRunTest, rows_with_missing_values_are_left_out_and_told) {
         EXPECT_TRUE(report.complete()) << report.problem;
     const ResultFile file(results(), ResultFile::Access::read);
     EXPECT_THAT(file.point("r", 0)->result.outcome.detail,
-                HasSubstr("1 of 3 rows are left out, of which a value is missing (the first in line 3)"));
+                HasSubstr("1 of 3 rows are left out, as a value is missing (the first in line 3)"));
     std::vector<double> times;
     for (const std::vector<double>& row : samples("record"))
         times.push_back(row[0]);

@@ -9,8 +9,8 @@ namespace {
 
 struct Bifurcation {
     const char* name;
-    std::function<std::string(double)> map; ///< of the distance from the bifurcation
-    std::size_t before, after;              ///< period of the stable orbit on either side; 0: none
+    std::function<std::string(double)> map; ///< as a function of the distance from the bifurcation
+    std::size_t before, after;              ///< period of the stable orbit before and after the bifurcation; 0: none
     std::vector<double> starts;
 };
 
@@ -18,7 +18,7 @@ std::string logistic(double r) {
     return fmt::format("{:.17g}*z*(1 - z)", r);
 }
 
-TEST(Approach, orbits_next_to_their_bifurcations_are_found) {
+TEST(Approach, OrbitsNextToTheirBifurcationsAreFound) {
     const std::vector<Bifurcation> cases{
         {"flip", [](double e) { return logistic(3 + e); }, 1, 2, {0.3, 0.12}},
         {"flip of a flip", [](double e) { return logistic(1 + std::sqrt(6.0) + e); }, 2, 4, {0.3, 0.12}},
@@ -40,8 +40,8 @@ TEST(Approach, orbits_next_to_their_bifurcations_are_found) {
                     const PointResult result = settle(iterated(one.map(distance), start));
                     ++all;
                     settled += result.label == Label::periodic ? 1 : 0;
-                    // Within 1e-8 of a flip both orbits are the same to within round-off: no period is better than
-                    // a wrong one.
+                    // Within 1e-8 of a flip both orbits agree to within round-off: no period is better than a wrong
+                    // one.
                     if (result.label == Label::periodic) {
                         EXPECT_EQ(result.period, period) << one.name << " " << distance << " " << start;
                     } else {
@@ -51,7 +51,7 @@ TEST(Approach, orbits_next_to_their_bifurcations_are_found) {
     EXPECT_GE(static_cast<double>(settled), 0.95 * static_cast<double>(all)) << all;
 }
 
-TEST(Approach, where_no_orbit_is_left_none_is_found) {
+TEST(Approach, NoOrbitIsFoundBeyondAFold) {
     // Beyond folds motions linger where the orbit was.
     for (int exponent = 4; exponent <= 9; ++exponent) {
         const double e = std::pow(10, -exponent);

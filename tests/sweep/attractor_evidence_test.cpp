@@ -13,7 +13,7 @@
 namespace graze {
 namespace {
 
-/// Contacts of a motion in each of so many periods.
+/// Returns the contacts of a motion in each of several periods.
 std::vector<std::size_t> contacts_of(const Model& model, const std::vector<double>& state, std::size_t periods,
                                      std::vector<double>* end = nullptr) {
     TransientOptions options;
@@ -42,9 +42,9 @@ std::vector<std::size_t> contacts_of(const Model& model, const std::vector<doubl
     return counts;
 }
 
-TEST(AttractorEvidence, a_motion_that_passes_by_an_orbit_is_not_called_periodic) {
-    // At 7 Hz, below the voltage at which impacts set in, a stable orbit without them lies beside chaos, so close that
-    // the motion comes by every few periods.
+TEST(AttractorEvidence, AMotionThatPassesByAnOrbitIsNotLabelledPeriodic) {
+    // At 7 Hz, below the voltage at which impacts set in, a stable orbit without impacts lies beside a chaotic motion,
+    // so close that the motion passes by every few periods.
     Model model = load_model("electromagnetic-testbed");
     model.set_parameter("f", 7);
     model.set_parameter("V0", 3.68);
@@ -57,16 +57,16 @@ TEST(AttractorEvidence, a_motion_that_passes_by_an_orbit_is_not_called_periodic)
         model.set_parameter("V0", voltage);
         const PointResult result = settle(model, options, state);
         EXPECT_EQ(result.label, Label::chaotic) << voltage;
-        // A simulation of the same motion goes on having contacts.
+        // A simulation of the same motion continues to have contacts.
         const std::vector<std::size_t> contacts = contacts_of(model, state, 600);
         EXPECT_GT(std::count_if(contacts.end() - 100, contacts.end(), [](std::size_t n) { return n > 0; }), 10);
         state = result.state;
     }
 }
 
-TEST(AttractorEvidence, periodic_labels_hold_for_thousands_of_periods) {
-    // Impact oscillators close to where contacts begin, with little damping: what is called periodic repeats its
-    // contacts.
+TEST(AttractorEvidence, PeriodicLabelsHoldForThousandsOfPeriods) {
+    // Impact oscillators close to the onset of contacts, with little damping: a motion labelled periodic must repeat
+    // its contacts.
     Model model = load_model("impact-oscillator");
     std::size_t periodic = 0;
     for (int k = 0; k < 24; ++k) {
@@ -74,7 +74,7 @@ TEST(AttractorEvidence, periodic_labels_hold_for_thousands_of_periods) {
         model.set_parameter("zeta", zeta);
         model.set_parameter("omega", omega);
         model.set_parameter("e", 0.6 + 0.05 * (k % 6));
-        model.set_parameter("sigma", 1.001 / std::abs(1 - omega * omega)); // beyond the free motion's amplitude
+        model.set_parameter("sigma", 1.001 / std::abs(1 - omega * omega)); // above the free motion's amplitude
         AttractorOptions options;
         options.section = "phase0";
         const PointResult result = settle(model, options);
@@ -82,19 +82,19 @@ TEST(AttractorEvidence, periodic_labels_hold_for_thousands_of_periods) {
             continue;
         ++periodic;
         std::vector<std::size_t> contacts = contacts_of(model, result.state, 2000);
-        contacts.pop_back(); // the one that is not over
+        contacts.pop_back(); // the last period is incomplete
         for (std::size_t c = result.period; c < contacts.size(); ++c)
             ASSERT_EQ(contacts[c], contacts[c - result.period]) << omega << " " << c;
     }
     EXPECT_GE(periodic, 6u);
 }
 
-/// A tent that motions leave at a rate of log(slope / 2).
+/// A tent map that motions leave at the rate log(slope / 2).
 Model leaky_tent(double slope, double start) {
     return in_two_pieces(fmt::format("{}*z", slope), fmt::format("{}*(1 - z)", slope), 0.5, start);
 }
 
-TEST(AttractorEvidence, chaos_that_does_not_last_is_told_apart) {
+TEST(AttractorEvidence, TransientChaosIsDistinguished) {
     const double slope = 2.002, rate = std::log(slope / 2);
     AttractorOptions options;
     options.bounds = {{0, 0, 1}};
@@ -112,20 +112,20 @@ TEST(AttractorEvidence, chaos_that_does_not_last_is_told_apart) {
         ++begun;
         chaotic += left.label == Label::chaotic ? 1 : 0;
         EXPECT_EQ(stayed.label, left.label == Label::chaotic ? Label::chaotic : Label::transient);
-        // What is kept is chaotic still, and lies within the tent.
+        // The samples that are kept are chaotic and lie within the tent.
         EXPECT_EQ(stayed.samples.size(), options.keep);
         EXPECT_GT(stayed.state[0], 0);
         EXPECT_LT(stayed.state[0], 1);
         ASSERT_TRUE(stayed.lyapunov);
         EXPECT_NEAR(*stayed.lyapunov, std::log(slope), 2 * *stayed.lyapunov_error + 1e-6);
     }
-    // A share exp(-rate returns) is left of those that were there after the first cycles; three standard errors.
+    // A share exp(-rate returns) of the motions must remain after the first cycles, to within three standard errors.
     const double share = std::exp(-rate * static_cast<double>(options.chaos_cycles));
     const auto all = static_cast<double>(begun);
     EXPECT_NEAR(static_cast<double>(chaotic), share * all, 3 * std::sqrt(all * share * (1 - share)));
 }
 
-/// A spiral map of that multiplier, with something that happens in every return.
+/// A spiral map with this multiplier, with a contact in every return.
 Model spiral(double radius) {
     return parse_model(fmt::format(R"toml(
 name = "spiral"
@@ -156,7 +156,7 @@ mode = "only"
                        "spiral");
 }
 
-TEST(AttractorEvidence, a_motion_that_shrinks_as_a_whole_stays_with_its_orbit) {
+TEST(AttractorEvidence, AMotionThatShrinksAsAWholeStaysWithItsOrbit) {
     // Extents of the returns shrink with the deviation, which must not be measured by them.
     for (const double radius : {0.9, 0.98, 0.99}) {
         const PointResult result = settle(spiral(radius));
@@ -169,8 +169,8 @@ TEST(AttractorEvidence, a_motion_that_shrinks_as_a_whole_stays_with_its_orbit) {
     EXPECT_EQ(settle(spiral(1.5)).label, Label::unbounded);
 }
 
-/// x' = -x falls to `least` after -log(least), where all ends; before, little else than the clock moves.
-TEST(AttractorEvidence, a_motion_that_seems_to_rest_has_its_event_all_the_same) {
+/// x' = -x falls to `least` after -log(least), where the motion ends; before, only the clock moves noticeably.
+TEST(AttractorEvidence, AMotionThatSeemsAtRestStillReachesItsEvent) {
     for (const double least : {1e-3, 1e-12, 1e-20, 1e-60, 1e-100, 1e-160}) {
         const Model model = parse_model(fmt::format(R"toml(
 [states]
@@ -199,8 +199,8 @@ mode = "only"
     }
 }
 
-/// The section's function is exp(-t), and in the end less than any number.
-TEST(AttractorEvidence, what_dies_away_does_not_return_by_its_round_off) {
+/// The section's function is exp(-t), which finally underflows.
+TEST(AttractorEvidence, RoundOffOfADecayedFunctionIsNoReturn) {
     for (const char* rate : {"1", "0.1*x", "v"}) {
         const Model model = parse_model(fmt::format(R"toml(
 [states]
@@ -222,8 +222,8 @@ mode = "only"
     }
 }
 
-/// A ball on a table that comes to rest there, and is released where the table falls away with the ball's weight
-/// (g = 1): what it was before is forgotten each time.
+/// A ball on a table that comes to rest there, and is released where the table's downward acceleration exceeds gravity
+/// (g = 1): its earlier motion is forgotten each time.
 Model ball_at_rest(double restitution, double omega, double amplitude) {
     Model model = load_model("bouncing-ball");
     model.set_parameter("g", 1);
@@ -236,18 +236,18 @@ Model ball_at_rest(double restitution, double omega, double amplitude) {
     return model;
 }
 
-TEST(AttractorEvidence, what_forgets_all_again_and_again_is_not_chaotic) {
-    // Neighbours part between one rest and the next, which are tens to hundreds of returns apart.
+TEST(AttractorEvidence, RepeatedMergingOfNeighboursIsNotChaotic) {
+    // Neighbours separate between one rest and the next, which are tens to hundreds of returns apart.
     for (const double amplitude : {0.754, 0.7874, 0.97, 0.998}) {
         const PointResult result = settle(ball_at_rest(0.8, 1.5, amplitude));
         EXPECT_NE(result.label, Label::chaotic) << amplitude;
-        EXPECT_FALSE(result.lyapunov) << amplitude << ": that of a derivative that is zero";
+        EXPECT_FALSE(result.lyapunov) << amplitude << ": the derivative is zero";
         EXPECT_TRUE(result.label == Label::periodic || result.outcome.detail != "") << amplitude;
     }
 }
 
-TEST(AttractorEvidence, periods_between_two_rests_are_found_however_long) {
-    // Periods counted along simulations of many of them, from one release to the next.
+TEST(AttractorEvidence, LongPeriodsBetweenTwoRestsAreFound) {
+    // Periods are counted along long simulations, from one release to the next.
     const std::vector<std::pair<double, std::size_t>> cases{{1.12, 25}, {1.08, 26}, {1.0, 30}, {0.96, 33}, {0.84, 43}};
     for (const auto& [amplitude, period] : cases) {
         Model model = ball_at_rest(0.5, 2, amplitude);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double golden = 1.618033988749895;
 
-/// States with these lines, rates likewise, beside a clock of rate q whose phase zero is the section.
+/// A model with these states and rates, and a clock of rate q whose phase zero is the section.
 Model beside_a_clock(const std::string& states, const std::string& rates, double q = 1) {
     return parse_model(fmt::format(R"toml(
 name = "m"
@@ -30,7 +30,7 @@ value = 0
                        "m");
 }
 
-/// Jumps once in every unit of time.
+/// A model that jumps once in every unit of time.
 Model jumping(const std::string& states, const std::string& rates, const std::string& jumps) {
     return parse_model(fmt::format(R"toml(
 name = "m"
@@ -58,7 +58,7 @@ direction = "rising"
                        "m");
 }
 
-TEST(AttractorPlane, a_second_clock_that_does_not_return_has_no_period) {
+TEST(AttractorPlane, ASecondClockThatDoesNotReturnHasNoPeriod) {
     // x is the sum of two sines, in closed form.
     for (const double w : {0.98, 1.02, 1.001, 1.0001, 1.00001, 2.02}) {
         const PointResult result =
@@ -78,7 +78,7 @@ TEST(AttractorPlane, a_second_clock_that_does_not_return_has_no_period) {
     }
 }
 
-TEST(AttractorPlane, a_linear_mode_that_grows_is_no_chaos_however_fast_the_clock) {
+TEST(AttractorPlane, AGrowingLinearModeIsNotChaotic) {
     for (const double q : {1.0, 3.0, 7.0, 20.0, 100.0, 1000.0}) {
         for (const auto& [states, rates] :
              {std::pair{"x = 1", "x = \"0.3*x\""}, std::pair{"x = 1\nv = 0", "x = \"v\", v = \"0.2*v - x\""},
@@ -94,18 +94,18 @@ TEST(AttractorPlane, a_linear_mode_that_grows_is_no_chaos_however_fast_the_clock
     }
 }
 
-TEST(AttractorPlane, a_torus_on_an_unstable_plane_is_left_and_not_called_chaotic) {
-    // x is a sum of two sines; y goes to 1 from wherever it is above 0.
+TEST(AttractorPlane, ATorusOnAnUnstablePlaneIsLeft) {
+    // x is a sum of two sines; y converges to 1 from any positive value.
     for (const double y : {0.0, 1e-30, 1e-9}) {
         const PointResult result = settle(
             beside_a_clock(fmt::format("x = 0\ny = {:.17g}\nph = {{ initial = 0, period = \"2*pi\" }}", y),
                            fmt::format("x = \"-x + cos(th) + sin(ph)\", y = \"y - y^3\", ph = {:.17g}", golden)));
-        // The search may end before averages are even enough, but never in chaos.
+        // The search may end before averages are even enough, but not with chaos.
         EXPECT_TRUE(result.label == Label::quasi_periodic || result.label == Label::unsettled)
             << y << " " << name_of(result.label);
         EXPECT_NEAR(result.state[1], 1, 1e-9) << y;
     }
-    // Where nothing is to be disturbed it is not known.
+    // Without a disturbance the behaviour is unknown.
     AttractorOptions still;
     still.disturbance = 0;
     const PointResult result =
@@ -116,8 +116,9 @@ TEST(AttractorPlane, a_torus_on_an_unstable_plane_is_left_and_not_called_chaotic
     EXPECT_NE(result.outcome.detail.find("plane"), std::string::npos);
 }
 
-TEST(AttractorPlane, chaos_on_an_unstable_plane_is_left) {
-    // Two coupled logistic maps in step, of which neighbours are not: the exponent across is 0.35 + log(1 - 2c) > 0.
+TEST(AttractorPlane, ChaosOnAnUnstablePlaneIsLeft) {
+    // Two coupled logistic maps in synchrony, which neighbours leave: the transverse exponent is 0.35 + log(1 - 2c) >
+    // 0.
     const auto coupled = [](double c) {
         return jumping("x = 0.3\ny = 0.3", "x = 0, y = 0",
                        fmt::format("x = \"(1-{0})*3.7*x*(1-x) + {0}*3.7*y*(1-y)\"\n"
@@ -127,14 +128,14 @@ TEST(AttractorPlane, chaos_on_an_unstable_plane_is_left) {
     const PointResult apart = settle(coupled(0.1));
     EXPECT_EQ(apart.label, Label::periodic);
     EXPECT_EQ(apart.period, 4u);
-    // Across it is negative: they come back into step, and are chaotic.
+    // The transverse exponent is negative: neighbours synchronise again, and are chaotic.
     const PointResult together = settle(coupled(0.3));
     EXPECT_EQ(together.label, Label::chaotic);
     EXPECT_NEAR(together.state[0], together.state[1], 1e-9);
     EXPECT_NEAR(*together.lyapunov, 0.35, 0.03);
-    // y = 0 is left for y^2 = 0.5, where x has period 2.
+    // y = 0 is unstable; the motion goes to y^2 = 0.5, where x has period 2.
     for (const double y : {0.0, 1e-118}) {
-        // As in a sweep that carries on what has decayed from 0.1.
+        // As in a sweep that carries on a state that has decayed from 0.1.
         const PointResult left = settle(
             jumping("x = 0.3\ny = 0.1", "x = 0, y = 0", "x = \"(3.9 - 1.6*y^2)*x*(1-x)\"\ny = \"y*(1.5 - y^2)\""), {},
             {0.3, y, 0});
@@ -147,7 +148,7 @@ TEST(AttractorPlane, chaos_on_an_unstable_plane_is_left) {
     }
 }
 
-/// A focus of one rate of growth where x > 0, of another where x < 0: all motions look alike on all scales.
+/// A focus with one growth rate for x > 0 and another for x < 0: all motions look alike on all scales.
 Model two_zones(double left) {
     return parse_model(fmt::format(R"toml(
 name = "m"
@@ -183,8 +184,8 @@ mode = "R"
                        "m");
 }
 
-TEST(AttractorPlane, a_motion_that_shrinks_into_a_corner_is_not_called_periodic) {
-    for (const double left : {-0.6, -0.3, -0.21}) { // the amplitude falls by pi (0.1 + left/2) in each turn
+TEST(AttractorPlane, AMotionThatShrinksIntoACornerIsNotLabelledPeriodic) {
+    for (const double left : {-0.6, -0.3, -0.21}) { // log(amplitude) changes by pi (0.1 + left/2) in each turn
         const PointResult result = settle(two_zones(left));
         EXPECT_TRUE(result.label == Label::equilibrium || result.label == Label::unsettled)
             << left << " " << name_of(result.label);
@@ -193,12 +194,12 @@ TEST(AttractorPlane, a_motion_that_shrinks_into_a_corner_is_not_called_periodic)
     EXPECT_EQ(settle(two_zones(-0.6)).label, Label::equilibrium);
 }
 
-TEST(AttractorPlane, a_ball_that_rides_for_good_is_periodic) {
+TEST(AttractorPlane, ABallAtRestOnAMovingTableIsPeriodic) {
     Model model = load_model("bouncing-ball");
     model.set_parameter("f", 3);
     AttractorOptions options;
     options.section = "phase0";
-    for (const double a : {0.001, 0.005, 0.02}) { // its acceleration is below g: a omega^2 < 7.2
+    for (const double a : {0.001, 0.005, 0.02}) { // the table's acceleration is below g: a omega^2 < 7.2
         model.set_parameter("a", a);
         const PointResult result = settle(model, options);
         ASSERT_EQ(result.label, Label::periodic) << a << " " << name_of(result.label);
@@ -206,13 +207,13 @@ TEST(AttractorPlane, a_ball_that_rides_for_good_is_periodic) {
         EXPECT_NEAR(result.duration, 1.0 / 3, 1e-12);
         EXPECT_EQ(result.signature, "");
         ASSERT_FALSE(result.multipliers.empty());
-        EXPECT_EQ(result.multipliers.front(), 1.0); // of the height that is carried along
+        EXPECT_EQ(result.multipliers.front(), 1.0); // multiplier of the height, which the table determines
         EXPECT_NEAR(result.state[0], 0, 1e-9 * a);
     }
 }
 
-TEST(AttractorPlane, what_slides_back_and_forth_anywhere_is_periodic_wherever_that_is) {
-    // x'' = A cos(t) - 2 zeta x': multipliers are 1, of the place about which it swings, and exp(-2 zeta T).
+TEST(AttractorPlane, MotionsThatSlideBackAndForthAnywhereArePeriodic) {
+    // x'' = A cos(t) - 2 zeta x': the multipliers are 1, for the centre of the oscillation, and exp(-2 zeta T).
     for (const double amplitude : {0.1, 0.2, 0.3, 0.4, 0.5, 0.65, 0.8, 1.0}) {
         const double Omega = 2.2, period = 2 * std::acos(-1.0) / Omega, zeta = 0.02;
         const Model model =

@@ -24,8 +24,9 @@ Model logistic(double r, double start = 0.3) {
     return iterated(fmt::format("{:.17g}*z*(1 - z)", r), start);
 }
 
-TEST(AttractorSearch, logistic_map_has_its_known_periods) {
-    // Period 2 between 3 and 1 + sqrt 6, then 4 up to 3.544090, 8 up to 3.564407; window of 3 from 1 + sqrt 8 on.
+TEST(AttractorSearch, LogisticMapHasItsKnownPeriods) {
+    // Period 2 between 3 and 1 + sqrt 6, then 4 up to 3.544090, 8 up to 3.564407; the window of period 3 begins at 1 +
+    // sqrt 8.
     struct Case {
         double r;
         std::size_t period;
@@ -60,7 +61,7 @@ TEST(AttractorSearch, logistic_map_has_its_known_periods) {
     }
 }
 
-TEST(AttractorSearch, logistic_map_is_chaotic_with_exponent_log_2) {
+TEST(AttractorSearch, LogisticMapIsChaoticWithExponentLog2) {
     AttractorOptions options;
     options.section = "half";
     options.cycles = 4000;
@@ -68,14 +69,14 @@ TEST(AttractorSearch, logistic_map_is_chaotic_with_exponent_log_2) {
     const PointResult result = settle(logistic(4, 0.1234), options);
     EXPECT_EQ(result.label, Label::chaotic);
     ASSERT_TRUE(result.lyapunov && result.lyapunov_error);
-    // The standard deviation of the mean of ln|4 - 8 z| over 3900 values of which each is nearly independent.
+    // The standard deviation of the mean of ln|4 - 8 z| over 3900 nearly independent values.
     EXPECT_NEAR(*result.lyapunov, std::log(2.0), 0.03);
     EXPECT_NEAR(*result.lyapunov, std::log(2.0), 6 * *result.lyapunov_error);
     EXPECT_EQ(result.samples.size(), options.keep);
 }
 
-TEST(AttractorSearch, slow_transients_next_to_a_flip_are_not_called_doubled) {
-    // At 1e-4 before the flip, distances shrink by 1e-4 a step: sample distances suggest period 2 for ever.
+TEST(AttractorSearch, SlowTransientsNextToAFlipAreNotLabelledDoubled) {
+    // At 1e-4 before the flip, distances shrink by 1e-4 in each step: distances of samples suggest period 2 forever.
     AttractorOptions options;
     options.section = "half";
     for (const double r : {2.9999, 2.99999}) {
@@ -85,17 +86,17 @@ TEST(AttractorSearch, slow_transients_next_to_a_flip_are_not_called_doubled) {
     }
 }
 
-TEST(AttractorSearch, a_motion_on_an_unstable_orbit_leaves_it) {
+TEST(AttractorSearch, AMotionOnAnUnstableOrbitLeavesIt) {
     AttractorOptions options;
     options.section = "half";
-    // Started exactly on the fixed point, which is unstable: the cycle of period 2 is the attractor.
+    // The motion starts exactly on the unstable fixed point; the cycle of period 2 is the attractor.
     const PointResult result = settle(logistic(3.2, 1 - 1 / 3.2), options);
     EXPECT_EQ(result.label, Label::periodic);
     EXPECT_EQ(result.period, 2u);
 }
 
-TEST(AttractorSearch, bouncing_ball_doubles_its_period_at_the_closed_form_threshold) {
-    // One impact per period of the table: flight times, impact law and stability give the amplitude of the flip.
+TEST(AttractorSearch, BouncingBallDoublesItsPeriodAtTheClosedFormThreshold) {
+    // One impact per period of the table: flight time, impact law and stability give the amplitude of the flip.
     Model model = load_model("bouncing-ball");
     const double e = 0.5, g = 9.81, omega = 2 * pi * 10;
     model.set_parameter("e", e);
@@ -104,7 +105,7 @@ TEST(AttractorSearch, bouncing_ball_doubles_its_period_at_the_closed_form_thresh
     for (const double factor : {0.9, 0.999, 1.001, 1.01}) {
         const double a = factor * flip;
         model.set_parameter("a", a);
-        // Start close to the orbit: just after the impact, moving up with half a period's gravity.
+        // Start close to the orbit: just after the impact, moving upwards for half a period.
         const double phase = std::acos(g / (omega * omega) * cosine / a);
         AttractorOptions options;
         options.section = "phase0";
@@ -123,9 +124,9 @@ TEST(AttractorSearch, bouncing_ball_doubles_its_period_at_the_closed_form_thresh
     }
 }
 
-TEST(AttractorSearch, linear_impact_oscillator_has_the_exponent_of_its_closed_form) {
-    // Between impacts area shrinks by exp(-2 zeta t), at each impact by e^2. With one impact per period T of the force
-    // the product of the multipliers is e^2 exp(-2 zeta T); as they are complex, each exponent is half its logarithm.
+TEST(AttractorSearch, LinearImpactOscillatorHasTheExponentOfItsClosedForm) {
+    // Between impacts areas shrink by exp(-2 zeta t), at each impact by e^2. With one impact per period T of the force
+    // the product of the multipliers is e^2 exp(-2 zeta T); if they are complex, each exponent is half its logarithm.
     Model model = load_model("impact-oscillator");
     AttractorOptions options;
     options.section = "phase0";
@@ -156,7 +157,7 @@ TEST(AttractorSearch, linear_impact_oscillator_has_the_exponent_of_its_closed_fo
     EXPECT_GE(complex, 2u);
 }
 
-TEST(AttractorSearch, linear_oscillator_without_contact_has_the_exponent_of_its_damping) {
+TEST(AttractorSearch, LinearOscillatorWithoutContactHasTheExponentOfItsDamping) {
     Model model = load_model("impact-oscillator");
     model.set_parameter("zeta", 0.05);
     model.set_parameter("sigma", 50);
@@ -170,8 +171,8 @@ TEST(AttractorSearch, linear_oscillator_without_contact_has_the_exponent_of_its_
     EXPECT_NEAR(*result.lyapunov, -0.05, 1e-12);
 }
 
-TEST(AttractorSearch, exponent_averaged_along_a_motion_equals_that_of_the_multipliers) {
-    // Of the stable orbit of period two, whose search is kept from finding it: largest_period is 1.
+TEST(AttractorSearch, ExponentAlongAMotionEqualsThatOfTheMultipliers) {
+    // For the stable orbit of period two; with largest_period 1 the search does not find it.
     AttractorOptions options;
     options.section = "half";
     options.cycles = 1200;
@@ -184,7 +185,7 @@ TEST(AttractorSearch, exponent_averaged_along_a_motion_equals_that_of_the_multip
     EXPECT_NEAR(*averaged.lyapunov, 0.5 * std::log(std::abs(4 + 2 * r - r * r)), 1e-3);
 }
 
-TEST(AttractorSearch, two_incommensurate_frequencies_are_quasi_periodic) {
+TEST(AttractorSearch, TwoIncommensurateFrequenciesAreQuasiPeriodic) {
     const Model model = parse_model(R"toml(
 name = "rotation"
 [states]
@@ -206,7 +207,7 @@ mode = "only"
     EXPECT_NEAR(*result.lyapunov, 0, 1e-3);
 }
 
-TEST(AttractorSearch, testbed_at_published_values) {
+TEST(AttractorSearch, TestbedHasThePublishedAttractors) {
     Model model = load_model("electromagnetic-testbed");
     model.set_parameter("V0", 4.833);
     AttractorOptions options;
@@ -224,7 +225,7 @@ TEST(AttractorSearch, testbed_at_published_values) {
     EXPECT_EQ(still.signature, "");
     EXPECT_EQ(still.symmetric, true);
     model.set_parameter("V0", 4.833);
-    // Published: the impacting orbit of period three that coexists, in units of the dissertation's chapter 5.
+    // Published: the coexisting impacting orbit of period three, in units of the dissertation's chapter 5.
     model.set_initial("I", 0.1);
     options.cycles = 600;
     const PointResult impacting = settle(model, options);
@@ -237,8 +238,8 @@ TEST(AttractorSearch, testbed_at_published_values) {
     EXPECT_NEAR(*impacting.lyapunov, std::log(0.6128) / (3 / 6.25), 2e-4);
 }
 
-TEST(AttractorSearch, a_reset_makes_a_single_state_superstable) {
-    // Integrate and fire: u' = I - u up to 1, then from 0 on; the period is log(I / (I - 1)).
+TEST(AttractorSearch, AResetMakesASingleStateSuperstable) {
+    // Integrate and fire: u' = I - u up to 1, then reset to 0; the period is log(I / (I - 1)).
     for (const double current : {1.001, 1.5, 20.0}) {
         const PointResult result = settle(parse_model(fmt::format(R"toml(
 name = "integrate and fire"
@@ -270,8 +271,8 @@ direction = "falling"
     }
 }
 
-TEST(AttractorSearch, a_state_that_only_rounding_moves_does_not_keep_others_from_settling) {
-    // The second oscillator is driven by what cancels.
+TEST(AttractorSearch, AStateMovedOnlyByRoundingDoesNotKeepOthersFromSettling) {
+    // The second oscillator is driven by cancelling terms.
     const PointResult result = settle(parse_model(R"toml(
 name = "symmetric"
 [states]
@@ -294,9 +295,9 @@ value = 0
     EXPECT_NEAR(std::abs(result.multipliers.front()), std::exp(-0.15 * 2 * 3.14159265358979), 1e-9);
 }
 
-TEST(AttractorSearch, multipliers_that_are_zero_are_so_exactly) {
+TEST(AttractorSearch, ZeroMultipliersAreExactlyZero) {
     for (const double current : {1.001, 1.1, 1.5, 3.0, 1e3}) {
-        // x' = I - x, set back from 1 to 0: fires every log(I/(I - 1)).
+        // x' = I - x, reset from 1 to 0: period log(I/(I - 1)).
         const Model neuron = parse_model(fmt::format(R"toml(
 name = "neuron"
 [states]
@@ -326,7 +327,7 @@ mode = "only"
         EXPECT_NEAR(result.duration, std::log(current / (current - 1)), 1e-11 * result.duration);
         ASSERT_EQ(result.multipliers.size(), 1u);
         EXPECT_EQ(result.multipliers.front(), 0.0);
-        EXPECT_FALSE(result.lyapunov) << "an exponent of round-off";
+        EXPECT_FALSE(result.lyapunov) << "the exponent would be that of round-off";
     }
 }
 

@@ -9,8 +9,8 @@
 namespace graze {
 namespace {
 
-TEST(Equilibrium, motions_that_come_to_rest_are_called_that_in_any_units) {
-    // Damping ratios of foci, of the critical case and of nodes; from which the exponent follows in closed form.
+TEST(Equilibrium, MotionsThatComeToRestAreLabelledInAnyUnits) {
+    // Damping ratios of foci, of the critical case and of nodes; the exponent follows in closed form.
     std::mt19937 random(1);
     std::uniform_real_distribution<double> uniform(0, 1);
     for (int k = 0; k < 60; ++k) {
@@ -24,14 +24,14 @@ TEST(Equilibrium, motions_that_come_to_rest_are_called_that_in_any_units) {
         ASSERT_EQ(result.label, Label::equilibrium) << k << " " << zeta << " " << length << " " << time;
         const double exponent = zeta <= 1 ? -zeta : -1 / (zeta + std::sqrt(zeta * zeta - 1));
         ASSERT_TRUE(result.lyapunov);
-        // A double eigenvalue is known to the root of the machine epsilon.
+        // A double eigenvalue is known to the square root of the machine epsilon.
         EXPECT_NEAR(*result.lyapunov * time, exponent, zeta == 1 ? 1e-7 : 1e-11) << zeta;
         EXPECT_NEAR(result.state[0] / length, rest, 1e-9);
         EXPECT_EQ(result.samples.size(), 1u);
     }
 }
 
-TEST(Equilibrium, settled_van_der_pol_oscillator_rests) {
+TEST(Equilibrium, SettledVanDerPolOscillatorIsAtRest) {
     for (const auto section : {SectionOf::clock, SectionOf::states})
         for (const double mu : {-0.05, -0.5, -1.5}) {
             const PointResult result = settle(oscillator(fmt::format("{}*(1 - X^2)*V - X", mu), section, 0.5, 0));
@@ -40,7 +40,7 @@ TEST(Equilibrium, settled_van_der_pol_oscillator_rests) {
         }
 }
 
-TEST(Equilibrium, returns_that_take_many_steps_are_waited_for) {
+TEST(Equilibrium, ReturnsMayTakeManySteps) {
     for (const double mu : {8.0, 40.0}) {
         const PointResult result = settle(oscillator(fmt::format("{}*(1 - X^2)*V - X", mu), SectionOf::states, 2, 0));
         EXPECT_EQ(result.label, Label::periodic) << mu;
@@ -48,8 +48,8 @@ TEST(Equilibrium, returns_that_take_many_steps_are_waited_for) {
     }
 }
 
-TEST(Equilibrium, a_limit_cycle_about_a_stable_equilibrium_is_not_taken_for_it) {
-    // r' = -r (1 - r^2) (4 - r^2), turning: r = 0 and r = 2 are stable, r = 1 separates them. Where the motion crosses
+TEST(Equilibrium, ALimitCycleAboutAStableEquilibriumIsDistinguished) {
+    // r' = -r (1 - r^2) (4 - r^2), rotating: r = 0 and r = 2 are stable, r = 1 separates them. Where the motion crosses
     // x = 0 the field may look linear.
     for (const double start : {0.1, 0.9, 1.1, 1.9, 2.5}) {
         const Model model = parse_model(fmt::format(R"toml(
@@ -74,18 +74,18 @@ mode = "only"
     }
 }
 
-TEST(Equilibrium, decay_goes_nowhere_near_the_end_of_the_range_of_numbers) {
+TEST(Equilibrium, DecayEndsWellBeforeUnderflow) {
     for (const auto section : {SectionOf::clock, SectionOf::states}) {
         EXPECT_EQ(settle(first_order("-x", section, 1)).label, Label::equilibrium);
         EXPECT_EQ(settle(first_order("-50*x", section, 1)).label, Label::equilibrium);
-        // Decay that is not exponential: no linear part tells that it is one, but nothing ceases to exist.
+        // Decay that is not exponential: the linear part does not show it, but there is no singularity.
         const Label slow = settle(first_order("-x^3", section, 1)).label;
         EXPECT_TRUE(slow == Label::unsettled || slow == Label::equilibrium) << name_of(slow);
     }
     EXPECT_EQ(settle(first_order("x^2", SectionOf::clock, 1)).label, Label::singular);
 }
 
-TEST(Equilibrium, slow_drift_costs_no_more_than_other_motions) {
+TEST(Equilibrium, SlowDriftCostsNoMoreThanOtherMotions) {
     for (const auto section : {SectionOf::clock, SectionOf::states}) {
         const PointResult result = settle(first_order("-1e-6*x", section, 1));
         EXPECT_EQ(result.label, Label::equilibrium);
@@ -94,7 +94,7 @@ TEST(Equilibrium, slow_drift_costs_no_more_than_other_motions) {
     }
 }
 
-TEST(Equilibrium, what_sits_on_an_unstable_equilibrium_is_displaced_in_any_units) {
+TEST(Equilibrium, MotionsOnAnUnstableEquilibriumAreDisplacedInAnyUnits) {
     for (const double length : {1e-9, 1.0, 1e6})
         for (const auto section : {SectionOf::clock, SectionOf::states}) {
             // A ball between two wells.
@@ -108,7 +108,7 @@ TEST(Equilibrium, what_sits_on_an_unstable_equilibrium_is_displaced_in_any_units
     EXPECT_EQ(cycle.period, 1u);
 }
 
-TEST(Equilibrium, what_must_not_be_displaced_is_not_called_chaotic) {
+TEST(Equilibrium, MotionsThatMustNotBeDisplacedAreNotLabelledChaotic) {
     AttractorOptions options;
     options.disturbance = 0;
     for (const auto section : {SectionOf::clock, SectionOf::states}) {
@@ -123,8 +123,8 @@ TEST(Equilibrium, what_must_not_be_displaced_is_not_called_chaotic) {
     EXPECT_EQ(settle(iterated("4*z*(1 - z)", 0.75), options).label, Label::chaotic);
 }
 
-TEST(Equilibrium, driven_parameters_are_judged_by_multipliers) {
-    // Mathieu's equation about rest: stable away from the tongue at twice the frequency, unstable within.
+TEST(Equilibrium, DrivenParametersAreJudgedByMultipliers) {
+    // Mathieu's equation at rest: stable outside the tongue at twice the natural frequency, unstable inside.
     const auto mathieu = [](double Omega, double x) {
         return oscillator("-0.02*V - (1 + 0.3*cos(theta))*X - X^3", SectionOf::clock, x, 0, Omega);
     };
@@ -135,8 +135,8 @@ TEST(Equilibrium, driven_parameters_are_judged_by_multipliers) {
     EXPECT_GT(std::abs(within.state[0]), 0.01);
 }
 
-/// Stuck to a table that moves up and down by a clock.
-TEST(Equilibrium, what_a_table_carries_does_not_rest) {
+/// A body stuck to a table that a clock moves up and down.
+TEST(Equilibrium, ABodyOnAMovingTableIsNotAtRest) {
     for (const double amplitude : {1e-9, 1e-2, 1e3}) {
         const PointResult result = settle(parse_model(fmt::format(R"toml(
 name = "ride"
@@ -156,8 +156,8 @@ value = 0
     }
 }
 
-TEST(Equilibrium, carried_states_keep_their_signs) {
-    // Above mu = 0 x grows, below it dies out, and never becomes negative: from 0 - the pulses leave it there - too.
+TEST(Equilibrium, CarriedStatesKeepTheirSigns) {
+    // Above mu = 0 x grows, below it decays, and never becomes negative: from 0 - the pulses leave it there - too.
     const auto sweep = [](double mu, double x) {
         return settle(parse_model(fmt::format(R"toml(
 name = "pulses"
@@ -194,8 +194,9 @@ value = 0
     }
 }
 
-TEST(Equilibrium, states_that_only_rounding_moves_have_no_scale_of_their_own) {
-    // Down in a well of Duffing's, in units in which the rounded force there is not zero: no return ever comes.
+TEST(Equilibrium, StatesMovedOnlyByRoundingHaveNoScaleOfTheirOwn) {
+    // At the bottom of a well of Duffing's oscillator, in units in which the rounded force is not zero: there are no
+    // returns.
     for (const double length : {1e-9, 1e-6, 1e-3, 1.0, 7.0, 1e6})
         for (const auto section : {SectionOf::clock, SectionOf::states}) {
             const PointResult result = settle(oscillator("X - X^3 - 0.2*V", section, 1, 0, 1.3, length));
@@ -205,8 +206,8 @@ TEST(Equilibrium, states_that_only_rounding_moves_have_no_scale_of_their_own) {
         }
 }
 
-TEST(Equilibrium, what_rests_at_a_centre_is_left_there) {
-    // Nothing attracts there and nothing repels.
+TEST(Equilibrium, MotionsAtACentreAreNotDisplaced) {
+    // A centre neither attracts nor repels.
     for (const double length : {1e-9, 1.0, 1e6}) {
         const PointResult result = settle(oscillator("X - X^3", SectionOf::clock, 1, 0, 1.3, length));
         EXPECT_EQ(result.label, Label::unsettled) << length << name_of(result.label);
@@ -214,27 +215,27 @@ TEST(Equilibrium, what_rests_at_a_centre_is_left_there) {
     }
 }
 
-TEST(Equilibrium, sweeps_come_back_from_an_equilibrium_that_loses_its_stability) {
-    // x' = x (k - x): zero below k = 0, and k above, however long the sweep has been below.
+TEST(Equilibrium, SweepsLeaveAnEquilibriumThatLosesItsStability) {
+    // x' = x (k - x): the attractor is zero for k < 0 and k for k > 0, however long the sweep has been below.
     for (const double length : {1e-9, 1.0, 1e6}) {
         std::vector<double> state{0.5 * length, 0};
         for (int k = -20; k <= 20; ++k) {
             if (k == 0)
-                continue; // comes closer more slowly than anything can tell
+                continue; // approaches more slowly than can be detected
             const double parameter = 0.05 * k;
             const PointResult result = settle(
                 first_order(fmt::format("x*({:.17g} - x/{:.17g})", parameter, length), SectionOf::clock, 0), {}, state);
             EXPECT_EQ(result.label, Label::equilibrium) << parameter << name_of(result.label);
             EXPECT_NEAR(result.state[0], std::max(parameter, 0.0) * length, 1e-9 * length) << parameter;
-            EXPECT_GT(result.state[0], 1e-40 * length) << "next to nothing, but not less with every point";
+            EXPECT_GT(result.state[0], 1e-40 * length) << "tiny, but not smaller with every point";
             state = result.state;
         }
     }
 }
 
-/// A mass that is pushed to one side of where it can rest slips back by less with every period of the force, whose size
-/// the friction exceeds: the distance d left becomes d - C d^2, and in the limit nothing happens.
-TEST(Equilibrium, slips_that_vanish_in_the_limit_are_no_orbit) {
+/// A mass pushed to one side of its range of rest slips back by less with every period of the force, which friction
+/// exceeds: the remaining distance d becomes d - C d^2, and in the limit nothing moves.
+TEST(Equilibrium, SlipsThatVanishInTheLimitAreNoOrbit) {
     Model model = load_model("dry-friction-oscillator");
     for (const double excess : {0.0, 0.05, 0.3})
         for (const double omega : {0.8, 1.0, 2.0}) {
@@ -247,7 +248,7 @@ TEST(Equilibrium, slips_that_vanish_in_the_limit_are_no_orbit) {
             EXPECT_EQ(result.signature, "");
             EXPECT_TRUE(result.multipliers.empty());
         }
-    // Where the force is stronger by a little, there is an orbit of small slips to either side, and it is found.
+    // With a slightly stronger force there is an orbit of small slips to either side, and it is found.
     model.set_parameter("omega", 2);
     model.set_parameter("friction_static", 0.99);
     model.set_parameter("friction_dynamic", 0.99);

@@ -11,7 +11,7 @@
 namespace graze {
 namespace {
 
-/// Numbers between 0 and 1 that look random.
+/// Pseudorandom numbers between 0 and 1.
 class Draws {
 public:
     double next() {
@@ -23,7 +23,7 @@ private:
     std::uint64_t state_ = 88172645463325252u;
 };
 
-/// Motions that leave at this rate, given up after so many returns.
+/// Lifetimes of motions that leave at this rate, observed for a limited number of returns.
 std::vector<Stay> stays_of(Draws& draws, std::size_t motions, double rate, std::size_t most, std::size_t later = 0) {
     std::vector<Stay> stays;
     for (std::size_t k = 0; k < motions; ++k) {
@@ -33,7 +33,7 @@ std::vector<Stay> stays_of(Draws& draws, std::size_t motions, double rate, std::
     return stays;
 }
 
-TEST(EscapeLaw, rate_of_a_known_law_lies_within_its_error) {
+TEST(EscapeLaw, RateOfAKnownLawLiesWithinItsError) {
     Draws draws;
     int all = 0, within = 0;
     for (const double rate : {0.0005, 0.01, 0.4, 1.5})
@@ -44,11 +44,11 @@ TEST(EscapeLaw, rate_of_a_known_law_lies_within_its_error) {
                     within += std::abs(law->rate - rate) <= law->error ? 1 : 0;
                     EXPECT_NEAR(law->rate, rate, 3 * law->error);
                 }
-    EXPECT_GE(all, 190); // constancy is doubted once in ten cases, and then found later
+    EXPECT_GE(all, 190); // a constant rate is rejected once in ten cases, and then accepted later
     EXPECT_GE(within, 0.9 * all);
 }
 
-TEST(EscapeLaw, what_comes_before_the_law_is_left_out) {
+TEST(EscapeLaw, ReturnsBeforeTheLawAreExcluded) {
     Draws draws;
     // Half of the motions settle at once; the others begin to leave after 30 returns.
     std::vector<Stay> stays = stays_of(draws, 300, 0.002, 5000, 30);
@@ -60,7 +60,7 @@ TEST(EscapeLaw, what_comes_before_the_law_is_left_out) {
     EXPECT_NEAR(law->rate, 0.002, 2 * law->error);
 }
 
-TEST(EscapeLaw, there_is_none_where_some_never_leave_or_few_do) {
+TEST(EscapeLaw, ThereIsNoneIfSomeNeverLeaveOrFewLeave) {
     Draws draws;
     for (int k = 0; k < 20; ++k) {
         std::vector<Stay> stays = stays_of(draws, 200, 0.02, 2000);
@@ -73,8 +73,8 @@ TEST(EscapeLaw, there_is_none_where_some_never_leave_or_few_do) {
     EXPECT_FALSE(escape_law(std::vector<Stay>(50, {2000, false})));
 }
 
-TEST(EscapeLaw, tent_map_is_left_at_the_rate_of_its_closed_form) {
-    // Of all that is spread evenly over [0, 1] a share 2/s is there still after each application of a tent of slope s.
+TEST(EscapeLaw, TentMapIsLeftAtTheRateOfItsClosedForm) {
+    // Of a uniform distribution over [0, 1], a share 2/s remains after each application of a tent map of slope s.
     for (const double slope : {2.1, 2.5, 3.0}) {
         std::vector<Stay> stays;
         AttractorOptions options;
@@ -85,7 +85,7 @@ TEST(EscapeLaw, tent_map_is_left_at_the_rate_of_its_closed_form) {
             const PointResult result = settle(
                 in_two_pieces(fmt::format("{}*z", slope), fmt::format("{}*(1 - z)", slope), 0.5, start), options);
             EXPECT_EQ(result.label, Label::escaped) << slope << " " << start;
-            stays.push_back({result.cycles + 1, true}); // it leaves between two returns
+            stays.push_back({result.cycles + 1, true}); // the motion leaves between two returns
         }
         const auto law = escape_law(stays);
         ASSERT_TRUE(law) << slope;

@@ -5,8 +5,8 @@
 namespace graze {
 namespace {
 
-TEST(Exponent, truth_lies_within_the_stated_error) {
-    // Families with known exponents, in each of which convergence is of another kind.
+TEST(Exponent, KnownValuesLieWithinTheStatedError) {
+    // Families with known exponents, each with another kind of convergence.
     int all = 0, within = 0;
     const auto count = [&](const PointResult& result, double truth, const std::string& name) {
         if (!result.lyapunov || !result.lyapunov_error)
@@ -41,8 +41,8 @@ TEST(Exponent, truth_lies_within_the_stated_error) {
     EXPECT_GE(within, 0.95 * all) << all;
 }
 
-TEST(Exponent, all_cycles_behind_the_transient_count) {
-    // The error falls like the inverse root of the cycles that are asked for.
+TEST(Exponent, AllCyclesAfterTheTransientAreUsed) {
+    // The error decreases like the inverse square root of the requested cycles.
     std::vector<double> errors;
     for (const std::size_t cycles : {150u, 5000u, 40000u}) {
         AttractorOptions options;

@@ -7,7 +7,7 @@
 namespace graze {
 namespace {
 
-TEST(GrowthWatch, linear_oscillators_that_gain_energy_are_unbounded_in_any_units) {
+TEST(GrowthWatch, LinearOscillatorsThatGainEnergyAreUnboundedInAnyUnits) {
     std::mt19937 random(2);
     std::uniform_real_distribution<double> uniform(0, 1);
     for (int k = 0; k < 60; ++k) {
@@ -23,7 +23,7 @@ TEST(GrowthWatch, linear_oscillators_that_gain_energy_are_unbounded_in_any_units
     EXPECT_EQ(settle(first_order("x", SectionOf::states, 1)).label, Label::unbounded);
 }
 
-TEST(GrowthWatch, growth_that_ends_is_not_called_so) {
+TEST(GrowthWatch, GrowthThatEndsIsNotLabelledUnbounded) {
     // From far inside of a limit cycle, through nine decades.
     for (const double start : {1e-3, 1e-9}) {
         const PointResult result = settle(oscillator("0.5*(1 - X^2)*V - X", SectionOf::states, start, 0));
@@ -31,11 +31,11 @@ TEST(GrowthWatch, growth_that_ends_is_not_called_so) {
     }
     // Still growing when the cycles are used up.
     EXPECT_EQ(settle(oscillator("0.002*(1 - X^2)*V - X", SectionOf::states, 1e-6, 0)).label, Label::unsettled);
-    // Resonance without damping grows with time, and may end anywhere for all that is known: neither chaos nor a torus.
+    // Resonance without damping grows linearly in time and may end anywhere: neither chaos nor a torus.
     EXPECT_EQ(settle(oscillator("-X + cos(theta)", SectionOf::clock, 0, 0)).label, Label::unsettled);
 }
 
-/// Grows at the rate a/2 about zero and is damped where |x| > 1.
+/// An oscillator that grows at the rate a/2 about zero and is damped where |x| > 1.
 Model damped_outside(double a, double x, double length = 1) {
     return parse_model(fmt::format(R"toml(
 name = "damped outside"
@@ -82,16 +82,16 @@ mode = "inner"
                        "damped outside");
 }
 
-TEST(GrowthWatch, growth_that_an_event_ahead_ends_is_not_called_so) {
+TEST(GrowthWatch, GrowthThatALaterEventEndsIsNotLabelledUnbounded) {
     for (const double length : {1e-9, 1.0, 1e6}) {
-        // Which comes late, by as many decades as one likes.
+        // The event is later by any number of decades.
         for (const double start : {1e-2, 1e-10, 1e-30})
             EXPECT_EQ(settle(damped_outside(0.3, start, length)).label, Label::periodic) << start << " " << length;
         EXPECT_EQ(settle(damped_outside(0.001, 0.01, length)).label, Label::unsettled) << length;
     }
 }
 
-TEST(GrowthWatch, what_is_ahead_may_be_any_number_of_decades_away) {
+TEST(GrowthWatch, EventsAheadMayBeAnyNumberOfDecadesAway) {
     for (const double length : {1e-9, 1.0, 1e6}) {
         // An event after 43 decades, and a quadratic term after 300.
         EXPECT_EQ(settle(damped_outside(0.3, 1e-43, length)).label, Label::periodic) << length;

@@ -15,14 +15,14 @@
 namespace graze {
 namespace {
 
-/// One motion, followed from outside, and carrying derivatives by all states itself.
+/// One motion that is observed by MotionDerivatives and also propagates derivatives by all states itself.
 class Followed : public Observer {
 public:
     Followed(const Model& model, const std::string& section, const SimulationOptions& options = {})
         : simulation_(model, {section_probe(model, section)}, {}, options), map_(simulation_, 0), modes_(map_),
           maps_(modes_), derivatives(modes_, maps_), trajectory(simulation_, model.parameter_values(), *this) {}
 
-    /// @param scale of each state
+    /// @param scale unit of each state
     void run(const std::vector<double>& state, std::size_t mode, double time, const std::vector<double>& scale) {
         const std::size_t states = state.size(), stride = states + trajectory.parameters().size();
         std::vector<double> seeds(states * stride, 0.0);
@@ -42,7 +42,7 @@ public:
         graze::run(trajectory, jets);
         derivatives.carry();
     }
-    /// By how much the two differ, of each direction relative to its size; both with states in units of their scales.
+    /// Returns the difference of the two, for each direction relative to its size; both in units of the scales.
     double difference(const std::vector<double>& scale) const {
         double worst = 0;
         const std::size_t states = scale.size();
@@ -82,7 +82,7 @@ public:
     int contacts = 0;
 };
 
-TEST(MotionDerivatives, are_those_that_the_trajectory_carries) {
+TEST(MotionDerivatives, EqualThoseOfTheTrajectory) {
     struct Case {
         std::string model, section;
         std::vector<std::pair<std::string, double>> parameters;
@@ -106,14 +106,14 @@ TEST(MotionDerivatives, are_those_that_the_trajectory_carries) {
             motion.run(model.initial_state(), model.initial_mode, one.time, one.scale);
             EXPECT_GE(motion.contacts, one.contacts) << one.model;
             EXPECT_TRUE(motion.derivatives.valid() && !motion.derivatives.broken()) << one.model;
-            // Steps and contacts by the dozen, each with errors of some tolerances.
+            // Dozens of steps and contacts, each with errors of some tolerances.
             EXPECT_LT(motion.difference(one.scale), 100 * tolerance) << one.model << " " << tolerance;
         }
     }
 }
 
-TEST(MotionDerivatives, at_marks_are_those_of_closed_forms) {
-    // A linear oscillator turns, whatever its motion; marks lie within steps.
+TEST(MotionDerivatives, AtMarksEqualClosedForms) {
+    // The tangent of a linear oscillator rotates, whatever its motion; marks are within steps.
     const Model turning = oscillator("-X", SectionOf::clock, 0.3, 0.1, 7.3);
     Followed motion(turning, "s");
     motion.run(turning.initial_state(), 0, 20, {1, 1, 1});
@@ -126,9 +126,8 @@ TEST(MotionDerivatives, at_marks_are_those_of_closed_forms) {
     }
 }
 
-TEST(MotionDerivatives, are_followed_in_parts_where_they_change_faster_than_the_motion) {
-    // Neighbours come back within a hundredth of the time of a step: of a motion that does not move, and of one that is
-    // slow.
+TEST(MotionDerivatives, AreComputedInPartsWhereTheyChangeFasterThanTheMotion) {
+    // Neighbours approach within a hundredth of a step: of a motion at rest, and of a slow one.
     for (const double rate : {3.0, 30.0, 100.0}) {
         const Model resting = first_order(fmt::format("-{}*x", rate), SectionOf::clock, 0);
         Followed rest(resting, "s");
@@ -139,21 +138,21 @@ TEST(MotionDerivatives, are_followed_in_parts_where_they_change_faster_than_the_
     }
 }
 
-TEST(MotionDerivatives, that_would_take_parts_without_end_are_not_valid) {
-    // Neighbours come back within a millionth of a millionth of the time of a step.
+TEST(MotionDerivatives, AreInvalidIfTheyWouldTakeTooManyParts) {
+    // Neighbours approach within 1e-12 of a step.
     const Model resting = first_order("-1e12*x", SectionOf::clock, 0);
     Followed rest(resting, "s");
     rest.run(resting.initial_state(), 0, 3.5, {1, 1});
     EXPECT_FALSE(rest.derivatives.valid());
 }
 
-TEST(MotionDerivatives, of_a_step_do_not_depend_on_those_computed_beside_it) {
+TEST(MotionDerivatives, OfAStepDoNotDependOnOtherLanes) {
     const Model model = load_model("electromagnetic-testbed");
     const Simulation simulation(model, {section_probe(model, "phase0")});
     const SectionMap map(simulation, 0);
     const VariationalModes modes(map);
     ASSERT_TRUE(modes.suit());
-    EXPECT_EQ(modes.directions(), (std::vector<std::size_t>{0, 1, 2})); // not the phase, which nothing disturbs
+    EXPECT_EQ(modes.directions(), (std::vector<std::size_t>{0, 1, 2})); // not the phase, which no state disturbs
     StepMaps together(modes), alone(modes);
     const std::vector<double> scale{1e-3, 0.1, 1, 1}, parameters = model.parameter_values();
     std::vector<std::vector<double>> states;
@@ -161,7 +160,7 @@ TEST(MotionDerivatives, of_a_step_do_not_depend_on_those_computed_beside_it) {
         states.push_back({1e-5 * k, 0.01 * k, 0.1 - 0.01 * k, 0.2 * k});
     together.begin(parameters, scale);
     for (std::size_t k = 0; k < states.size(); ++k)
-        together.add(0, states[k], 1e-4 * static_cast<double>(k * k)); // up to far longer than a series reaches
+        together.add(0, states[k], 1e-4 * static_cast<double>(k * k)); // up to far beyond the radius of convergence
     together.compute();
     for (std::size_t k = 0; k < states.size(); ++k) {
         alone.begin(parameters, scale);
@@ -171,8 +170,8 @@ TEST(MotionDerivatives, of_a_step_do_not_depend_on_those_computed_beside_it) {
     }
 }
 
-TEST(MotionDerivatives, do_not_exist_across_grazing_and_accumulations) {
-    // At its greatest height the motion just touches.
+TEST(MotionDerivatives, DoNotExistAcrossGrazingAndAccumulations) {
+    // At its greatest height the motion just touches the surface.
     const Model grazing = parse_model(R"toml(
 name = "grazing"
 [states]
@@ -206,7 +205,7 @@ mode = "only"
     EXPECT_FALSE(touching.derivatives.valid());
 
     Model ball = load_model("bouncing-ball");
-    ball.set_parameter("a", 0.0005); // carries the ball always
+    ball.set_parameter("a", 0.0005); // the ball stays on the table
     Followed bouncing(ball, "phase0");
     bouncing.run(ball.initial_state(), ball.initial_mode, 5, {1, 1, 1});
     EXPECT_TRUE(bouncing.derivatives.broken());

@@ -11,8 +11,8 @@
 namespace graze {
 namespace {
 
-/// States that rest but for what a map makes of them at each tick of a clock, which is set back; the section is crossed
-/// halfway between.
+/// States that are constant except for a map at each tick of a clock, which is reset; the section is crossed halfway
+/// between ticks.
 Model ticking(const std::string& states, const std::string& rates, const std::string& map) {
     return parse_model(fmt::format(R"toml(
 [states]
@@ -41,7 +41,7 @@ mode = "only"
                        "ticking");
 }
 
-/// A ball that loses nothing, from rest at x = 1 with g = 2: it is back after 2 units of time.
+/// An elastic ball, from rest at x = 1 with g = 2: it returns after 2 units of time.
 Model elastic_ball(const std::string& state, const std::string& rate) {
     return parse_model(fmt::format(R"toml(
 [states]
@@ -78,8 +78,8 @@ void expect_multipliers(const PointResult& result, const std::vector<double>& kn
     EXPECT_EQ(result.outcome.detail.find("multiplier is 1") != std::string::npos, known.front() == 1);
 }
 
-TEST(OrbitFinder, multipliers_are_those_of_the_orbit_and_not_of_what_led_to_it) {
-    // The product of r (1 - 2z) along the orbit, which is as sensitive as it is long.
+TEST(OrbitFinder, MultipliersAreThoseOfTheOrbitNotOfTheTransient) {
+    // The product of r (1 - 2z) along the orbit, which is sensitive for long orbits.
     AttractorOptions options;
     options.largest_period = 12;
     struct Case {
@@ -101,14 +101,14 @@ TEST(OrbitFinder, multipliers_are_those_of_the_orbit_and_not_of_what_led_to_it) 
         }
 }
 
-TEST(OrbitFinder, a_ball_that_loses_nothing_has_the_multiplier_1) {
+TEST(OrbitFinder, AnElasticBallHasTheMultiplierOne) {
     expect_multipliers(settle(elastic_ball("", "")), {1});
-    // y shrinks by a factor e for each unit of time, whether it follows the ball or not.
+    // y shrinks by a factor e in each unit of time, whether or not it follows the ball.
     expect_multipliers(settle(elastic_ball("y = 0.5", ", y = \"x - y\"")), {1, std::exp(-2)});
     expect_multipliers(settle(elastic_ball("y = 0.5", ", y = \"cos(v) - 0.1*y\"")), {1, std::exp(-0.2)});
 }
 
-TEST(OrbitFinder, each_state_that_is_what_it_was_after_two_ticks_has_a_multiplier_1) {
+TEST(OrbitFinder, EachStateThatReturnsAfterTwoTicksHasAMultiplierOne) {
     expect_multipliers(settle(ticking("x = 0.25", "x = 0", "x = \"1 - x\"")), {1});
     expect_multipliers(settle(ticking("x = 0.25\ny = 0.5", "x = 0, y = 0", "x = \"y\"\ny = \"x\"")), {1, 1});
     expect_multipliers(settle(ticking("x = 0.25\ny = 0.5", "x = 0, y = 0", "x = \"y\"\ny = \"-x\"")), {1, 1});
@@ -117,7 +117,7 @@ TEST(OrbitFinder, each_state_that_is_what_it_was_after_two_ticks_has_a_multiplie
         {1, 1, 0.25});
 }
 
-TEST(OrbitFinder, what_rests_whatever_it_is_has_no_multiplier) {
+TEST(OrbitFinder, ConstantStatesHaveNoMultiplier) {
     expect_multipliers(settle(ticking("x = 0.25\nz = 0", "x = 0, z = 0", "z = \"0.5*z + x\"")), {0.5});
 }
 

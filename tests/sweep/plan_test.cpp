@@ -12,7 +12,7 @@
 namespace graze {
 namespace {
 
-/// A few voltages of the testbed, each chain from another initial current.
+/// A few voltages of the testbed; each chain starts with another current.
 struct Setting {
     Model model = load_model("electromagnetic-testbed");
     std::unique_ptr<SearchFactory> searches;
@@ -65,25 +65,25 @@ void expect_same(const std::map<std::size_t, PointResult>& a, const std::map<std
     }
 }
 
-TEST(Plan, results_do_not_depend_on_threads_and_lanes) {
+TEST(Plan, ResultsDoNotDependOnThreadsAndLanes) {
     Setting many(11, 3, true);
     const auto alone = many.run({});
     ASSERT_EQ(alone.size(), 33u);
     for (const int jobs : {2, 3, 11}) {
         ExecutionOptions options;
-        options.jobs = jobs; // eleven threads leave one chain to each, which is run without lanes
+        options.jobs = jobs; // with eleven threads each has one chain, which is run without lanes
         expect_same(alone, many.run(options));
     }
 }
 
-TEST(Plan, a_chain_carries_its_states_along) {
+TEST(Plan, AChainCarriesItsStatesAlong) {
     Setting carried(1, 4, true), fresh(1, 4, false);
     const auto with = carried.run({}), without = fresh.run({});
     EXPECT_EQ(with.at(0).state, without.at(0).state);
     EXPECT_NE(with.at(1).state, without.at(1).state);
 }
 
-TEST(Plan, resumes_anywhere) {
+TEST(Plan, ExecutionResumesAnywhere) {
     Setting setting(2, 4, true);
     const auto whole = setting.run({});
     for (std::size_t done = 0; done <= 4; ++done) {
@@ -101,7 +101,7 @@ TEST(Plan, resumes_anywhere) {
     }
 }
 
-TEST(Plan, stops_when_asked_and_passes_errors_on) {
+TEST(Plan, ExecutionStopsOnRequestAndPassesErrorsOn) {
     Setting setting(8, 3, true);
     ExecutionOptions options;
     options.jobs = 2;
@@ -115,7 +115,7 @@ TEST(Plan, stops_when_asked_and_passes_errors_on) {
                  std::runtime_error);
 }
 
-/// A forced oscillator in front of a wall that the parameter moves in.
+/// A forced oscillator in front of a wall whose position is the parameter.
 Model walled(double start) {
     return parse_model(fmt::format(R"toml(
 name = "walled"
@@ -147,8 +147,8 @@ mode = "only"
                        "walled");
 }
 
-TEST(Plan, a_chain_goes_on_where_a_carried_state_has_become_inadmissible) {
-    // The wall moves in by more than the oscillator keeps away from it.
+TEST(Plan, AChainContinuesWhereACarriedStateIsInadmissible) {
+    // The wall moves by more than the distance of the oscillator from it.
     for (const double start : {-3.0, 0.0}) {
         const Model model = walled(start);
         const auto searches = attractor_searches(model, {.section = "s"}, {}, {}, {});
@@ -170,7 +170,7 @@ TEST(Plan, a_chain_goes_on_where_a_carried_state_has_become_inadmissible) {
         EXPECT_EQ(points, 6u);
         EXPECT_GE(anew, 1u);
     }
-    // A start that nobody carried along is left as it is given.
+    // An initial state that was not carried along is used unchanged.
     const Model model = walled(2);
     const auto searches = attractor_searches(model, {.section = "s"}, {}, {}, {});
     Plan plan;

@@ -7,7 +7,7 @@
 namespace graze {
 namespace {
 
-/// Numbers between 0 and 1 that are spread evenly.
+/// Returns numbers between 0 and 1 that are evenly spread.
 double even_number(int k) {
     const double x = k * 0.6180339887498949;
     return x - std::floor(x);
@@ -17,7 +17,7 @@ std::string circle(double Omega, double K) {
     return fmt::format("z + {:.17g} - {:.17g}/(2*pi)*sin(2*pi*z)", Omega, K);
 }
 
-/// Largest exponent of the circle map, over many iterations: zero unless locked.
+/// Returns the largest exponent of the circle map over many iterations: zero unless locked.
 double exponent_of_circle(double Omega, double K) {
     double z = 0.2, sum = 0;
     constexpr int iterations = 100'000;
@@ -29,7 +29,7 @@ double exponent_of_circle(double Omega, double K) {
     return sum / iterations;
 }
 
-TEST(QuasiPeriodic, circle_maps_that_are_not_locked) {
+TEST(QuasiPeriodic, UnlockedCircleMapsAreLabelled) {
     int unlocked = 0, said = 0;
     for (int k = 1; k <= 60; ++k) {
         const double Omega = 0.05 + 0.9 * even_number(k), K = k % 2 == 0 ? 0.7 : 0.4;
@@ -46,10 +46,10 @@ TEST(QuasiPeriodic, circle_maps_that_are_not_locked) {
         }
     }
     EXPECT_GE(unlocked, 30);
-    EXPECT_GE(said, 0.8 * unlocked); // the others are next to tongues, and wait there for long
+    EXPECT_GE(said, 0.8 * unlocked); // the others are next to tongues, where motions linger
 }
 
-TEST(QuasiPeriodic, forced_van_der_pol_oscillator_away_from_resonance) {
+TEST(QuasiPeriodic, ForcedVanDerPolOscillatorAwayFromResonanceIsLabelled) {
     int said = 0;
     for (int k = 0; k < 15; ++k) {
         const PointResult result =
@@ -60,28 +60,28 @@ TEST(QuasiPeriodic, forced_van_der_pol_oscillator_away_from_resonance) {
     EXPECT_GE(said, 12);
 }
 
-TEST(QuasiPeriodic, conservative_tori) {
+TEST(QuasiPeriodic, ConservativeToriAreLabelled) {
     int said = 0;
     for (int k = 0; k < 10; ++k)
         said += settle(oscillator("-X - X^3", SectionOf::clock, 0.3 + 0.1 * k, 0)).label == Label::quasi_periodic;
-    EXPECT_GE(said, 5); // neighbours part like time, whose logarithm looks like weak chaos for long
+    EXPECT_GE(said, 5); // neighbours separate linearly in time, which resembles weak chaos for long
 }
 
-TEST(QuasiPeriodic, weak_and_banded_chaos_is_never_said_to_be) {
+TEST(QuasiPeriodic, WeakAndBandedChaosIsNotLabelled) {
     for (int k = 0; k < 120; ++k) {
         const double r = 3.6 + 0.4 * (k + 0.5) / 120;
         EXPECT_NE(settle(iterated(fmt::format("{:.17g}*z*(1 - z)", r), 0.2)).label, Label::quasi_periodic) << r;
     }
 }
 
-TEST(QuasiPeriodic, a_focus_that_hardly_attracts_is_none) {
-    // Shrinks by 1e-5 in a return, less than any average shows in a few hundred.
+TEST(QuasiPeriodic, AWeaklyAttractingFocusIsNotLabelled) {
+    // It shrinks by 1e-5 in a return, less than averages over a few hundred returns can show.
     const PointResult result = settle(oscillator("-3.2e-6*V - X", SectionOf::clock, 1e-3, 0, 1.3));
     EXPECT_EQ(result.label, Label::equilibrium);
 }
 
-TEST(QuasiPeriodic, motions_that_grow_are_not_called_so) {
-    // z -> 1.63 z + 1 leads away below -1/0.63, from where 1 - 3.7 z has thrown it: by contacts in every return.
+TEST(QuasiPeriodic, GrowingMotionsAreNotLabelled) {
+    // z -> 1.63 z + 1 grows below -1/0.63, to where 1 - 3.7 z has mapped it: with contacts in every return.
     const PointResult map = settle(in_two_pieces("1.63*z + 1", "-3.7*z + 1", 0, 0.21));
     EXPECT_EQ(map.label, Label::unbounded) << name_of(map.label);
     EXPECT_NE(settle(iterated("-1.05*z", 1)).label, Label::quasi_periodic);

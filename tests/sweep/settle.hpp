@@ -12,7 +12,7 @@
 
 namespace graze {
 
-/// What a model's motion settles on, from its initial state.
+/// Returns the result for a model's motion from its initial state.
 inline PointResult settle(const Model& model, AttractorOptions options = {}, std::vector<double> state = {},
                           const SimulationOptions& simulation = {}) {
     if (options.section.empty())
@@ -33,16 +33,16 @@ inline PointResult settle(const Model& model, AttractorOptions options = {}, std
 }
 
 enum class SectionOf {
-    clock,  ///< whose phase is zero
-    states, ///< where x rises through zero
+    clock,  ///< phase of the clock is zero
+    states, ///< x rises through zero
 };
 
 /// x'' = acceleration in x, v and the clock theta (if there is one), whose rate is Omega.
-/// @param length, time: units in which all is written; nothing but the names of numbers changes with them
+/// @param length, time units in which the model is written; results must not depend on them
 inline Model oscillator(const std::string& acceleration, SectionOf section, double x, double v, double Omega = 1,
                         double length = 1, double time = 1) {
     const bool clock = section == SectionOf::clock;
-    // X and V stand for the states in units of one.
+    // X and V are the states in units of one.
     return parse_model(fmt::format(R"toml(
 name = "oscillator"
 [parameters]

@@ -57,15 +57,15 @@ PointResult simulated(const Model& model, const TransientOptions& options) {
     return std::move(search->result());
 }
 
-TEST(TransientSearch, ends_after_so_many_contacts) {
-    // A quarter of the way and back: the wall at the middle is met after pi/2, then every pi.
+TEST(TransientSearch, EndsAfterTheRequestedContacts) {
+    // The wall at the middle is met after pi/2, then every pi.
     const PointResult result = simulated(oscillator(0), {.contacts = 3, .counted = {0}});
     EXPECT_EQ(result.label, Label::ended);
     EXPECT_NEAR(result.time, 2.5 * std::acos(-1.0), 1e-10);
 }
 
-/// In any unit of time: what is waited for are steps.
-TEST(TransientSearchSlow, gives_up_what_does_not_happen) {
+/// In any unit of time: the limit is a number of steps.
+TEST(TransientSearchSlow, GivesUpEventsThatDoNotHappen) {
     for (const double time : {1.0, 1e-9, 1e9}) {
         const PointResult result = simulated(oscillator(1, time), {.contacts = 3, .counted = {0}});
         EXPECT_EQ(result.label, Label::failed);
@@ -74,11 +74,11 @@ TEST(TransientSearchSlow, gives_up_what_does_not_happen) {
         EXPECT_THAT(result.outcome.detail, ::testing::HasSubstr("no contact that ends the motion"));
         EXPECT_THAT(result.outcome.detail, ::testing::HasSubstr("give a time too"));
     }
-    // A motion at rest is one step, along which only the phase passes.
+    // A motion at rest takes a single step, in which only the phase passes the section.
     Model rest = oscillator(1);
     rest.set_initial("x", 0);
     EXPECT_EQ(simulated(rest, {.section = "turn", .contacts = 3, .counted = {0}}).outcome.ending, Ending::step_limit);
-    // Contacts there are, but too slow ones.
+    // There are contacts, but too slow ones.
     const PointResult slow = simulated(oscillator(0), {.counted = {0}, .greatest_speed = 2});
     EXPECT_EQ(slow.outcome.ending, Ending::step_limit);
     const PointResult skipped =
@@ -87,7 +87,7 @@ TEST(TransientSearchSlow, gives_up_what_does_not_happen) {
     EXPECT_THAT(skipped.outcome.detail, ::testing::HasSubstr("skip a time instead of periods"));
 }
 
-TEST(TransientSearchSlow, waits_as_long_as_it_is_told_to) {
+TEST(TransientSearchSlow, WaitsForTheRequestedTime) {
     const PointResult result = simulated(oscillator(1), {.time = 4e6, .contacts = 3, .counted = {0}});
     EXPECT_EQ(result.label, Label::ended);
     EXPECT_EQ(result.time, 4e6);

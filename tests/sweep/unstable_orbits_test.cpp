@@ -21,7 +21,7 @@ struct Logistic {
           finder(setting.map, setting.field, setting.layout, setting.image, setting.image_modes, &derivatives),
           motion(setting.map, 50, {}), jets(setting.simulation, LaneKind::single) {}
 
-    /// Where a motion that starts at z has come to after some returns.
+    /// Follows a motion that starts at z for some returns.
     void follow(double z, std::size_t returns) {
         Trajectory trajectory(setting.simulation, {}, motion);
         std::vector<double> thresholds(50, 0.0);
@@ -53,10 +53,10 @@ struct Logistic {
     std::vector<double> periods{0, 1};
 };
 
-TEST(UnstableOrbits, explain_returns_of_what_passes_by_them) {
-    for (const double r : {3.7, 4.1}) { // Newton's method goes on to the orbit, or gives up since it is too unstable
+TEST(UnstableOrbits, ExplainRecurrencesOfPassingMotions) {
+    for (const double r : {3.7, 4.1}) { // Newton's method converges to the orbit, or gives up since it is too unstable
         Logistic map(r);
-        map.follow(1 - map.fixed - 1e-4, 3); // to where fixed + 1e-4 leads, from farther away
+        map.follow(1 - map.fixed - 1e-4, 3); // to the image of fixed + 1e-4, from farther away
         map.look_for_orbit(1);
         EXPECT_EQ(map.finder.found(), r < 4);
         EXPECT_EQ(map.finder.clearly_unstable(), r > 4);
@@ -68,15 +68,15 @@ TEST(UnstableOrbits, explain_returns_of_what_passes_by_them) {
         map.follow(1 - map.fixed + 2e-4, 3);
         EXPECT_TRUE(orbits.explain(map.motion, 1, 1e-6)) << r;
         EXPECT_TRUE(orbits.explain(map.motion, 2, 1e-6)) << r;
-        map.follow(1 - map.fixed + 2e-4, 3); // within what one may stay at
+        map.follow(1 - map.fixed + 2e-4, 3); // within the distance at which a motion may stay
         EXPECT_FALSE(orbits.explain(map.motion, 1, 1)) << r;
         orbits.clear();
         EXPECT_FALSE(orbits.explain(map.motion, 1, 1e-6)) << r;
     }
 }
 
-TEST(UnstableOrbits, do_not_explain_a_stable_orbit_nearby) {
-    // Just behind the flip at r = 3 the stable orbit of period two is close to the unstable fixed point.
+TEST(UnstableOrbits, DoNotExplainAStableOrbitNearby) {
+    // Just after the flip at r = 3 the stable orbit of period two is close to the unstable fixed point.
     const double r = 3.001;
     Logistic map(r);
     const double apart = std::sqrt((r + 1) * (r - 3)) / (2 * r);
@@ -88,7 +88,7 @@ TEST(UnstableOrbits, do_not_explain_a_stable_orbit_nearby) {
     orbits.add(map.finder, map.motion);
     map.follow((r + 1) / (2 * r) + apart * 1.01, 9);
     EXPECT_FALSE(orbits.explain(map.motion, 2, 1e-6));
-    // Nor are stable orbits noted.
+    // Stable orbits are not added.
     map.look_for_orbit(2);
     ASSERT_TRUE(map.finder.found());
     EXPECT_LT(std::abs(map.finder.multipliers().front()), 1);

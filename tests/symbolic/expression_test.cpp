@@ -30,7 +30,7 @@ TEST_F(ExpressionTest, EqualExpressionsAreOneNode) {
     EXPECT_EQ(sin(x * y) + exp(z), first);
     EXPECT_EQ(graph->size(), size);
     EXPECT_FALSE(sin(x) == sin(y));
-    EXPECT_FALSE(Graph::create()->symbol("x") == x) << "graphs are apart";
+    EXPECT_FALSE(Graph::create()->symbol("x") == x) << "symbols of different graphs differ";
 }
 
 TEST_F(ExpressionTest, OperandsComeBeforeTheirNodes) {
@@ -46,7 +46,7 @@ TEST_F(ExpressionTest, OperandsComeBeforeTheirNodes) {
     }
 }
 
-TEST_F(ExpressionTest, ArityOfEveryOperation) {
+TEST_F(ExpressionTest, ArityIsKnownForEveryOperation) {
     EXPECT_EQ(arity(Operation::number), 0);
     EXPECT_EQ(arity(Operation::symbol), 0);
     for (const auto operation :
@@ -56,7 +56,7 @@ TEST_F(ExpressionTest, ArityOfEveryOperation) {
     EXPECT_EQ(arity(Operation::erf), 1);
 }
 
-TEST_F(ExpressionTest, NeutralAndAbsorbingConstants) {
+TEST_F(ExpressionTest, NeutralAndAbsorbingConstantsDisappear) {
     EXPECT_EQ(x + 0, x);
     EXPECT_EQ(0 + x, x);
     EXPECT_EQ(x - 0, x);
@@ -88,7 +88,7 @@ TEST_F(ExpressionTest, CommutativeOperandsHaveOneOrder) {
     EXPECT_FALSE(x / y == y / x);
 }
 
-TEST_F(ExpressionTest, SignsAreHandledAlike) {
+TEST_F(ExpressionTest, SignsAreNormalised) {
     EXPECT_EQ(x + -y, x - y);
     EXPECT_EQ(x - -y, x + y);
     EXPECT_EQ(-x + y, y - x);
@@ -105,7 +105,7 @@ TEST_F(ExpressionTest, SignsAreHandledAlike) {
     EXPECT_EQ(-(3 - x), x - 3);
 }
 
-TEST_F(ExpressionTest, ConstantsMergeWhereThatIsSafe) {
+TEST_F(ExpressionTest, ConstantsMergeOnlyWhereThatIsSafe) {
     EXPECT_EQ(2 * (3 * x), 6 * x);
     EXPECT_EQ(2 * (3 / x), 6 / x);
     EXPECT_EQ(6 * x / 2, 3 * x);
@@ -115,16 +115,16 @@ TEST_F(ExpressionTest, ConstantsMergeWhereThatIsSafe) {
     EXPECT_EQ(3 - x + 1, 4 - x);
     EXPECT_EQ(3 - (x + 1), 2 - x);
     EXPECT_EQ(3 - (5 - x), x - 2);
-    // 1e16 + 0.3 rounds to 1e16: near x = -1e16 nothing would be left of 0.3.
+    // 1e16 + 0.3 rounds to 1e16: near x = -1e16 the constant 0.3 would be lost.
     EXPECT_FALSE(x + 1e16 + 0.3 == x + (1e16 + 0.3));
     EXPECT_EQ(Function(std::vector{x}, std::vector{x + 1e16 + 0.3})(std::vector{-1e16})[0], 0.3);
-    // Products that leave the range of normal numbers stay apart.
+    // Products that leave the range of normal numbers are not merged.
     EXPECT_EQ(Function(std::vector{x}, std::vector{1e-200 * (1e-200 * x)})(std::vector{1e300})[0], 1e-100);
     EXPECT_FALSE((1e200 * (1e200 * x)).is_number());
     EXPECT_FALSE((x / 3) == (1.0 / 3) * x);
 }
 
-TEST_F(ExpressionTest, FoldsConstantsAsEvaluationWould) {
+TEST_F(ExpressionTest, ConstantsFoldAsEvaluationWould) {
     EXPECT_EQ(number(0.1) + number(0.2), number(0.1 + 0.2));
     EXPECT_EQ(number(1) / number(3), number(1.0 / 3));
     EXPECT_EQ(pow(number(2), 0.5), number(std::pow(2, 0.5)));
@@ -134,7 +134,7 @@ TEST_F(ExpressionTest, FoldsConstantsAsEvaluationWould) {
     EXPECT_EQ(pow(number(-2), 3), number(-8));
 }
 
-TEST_F(ExpressionTest, NeverHidesAnErrorOfDomain) {
+TEST_F(ExpressionTest, DomainErrorsAreNeverHidden) {
     const Expression undefined[] = {number(1) / number(0),
                                     number(0) / number(0),
                                     log(number(-1)),
@@ -157,7 +157,7 @@ TEST_F(ExpressionTest, NeverHidesAnErrorOfDomain) {
     EXPECT_FALSE(graph->is_undefined(log(x - 5).index()));
 }
 
-TEST_F(ExpressionTest, RefusesMisuse) {
+TEST_F(ExpressionTest, MisuseThrows) {
     EXPECT_THROW(number(std::numeric_limits<double>::infinity()), std::invalid_argument);
     EXPECT_THROW(x * std::numeric_limits<double>::quiet_NaN(), std::invalid_argument);
     EXPECT_THROW(x + Graph::create()->symbol("x"), std::invalid_argument);
@@ -180,7 +180,7 @@ TEST_F(ExpressionTest, KeepsItsGraphAlive) {
     EXPECT_EQ(to_string(kept), "a + 1");
 }
 
-/// The rule that everything else rests on: simplification changes results by round-off at most.
+/// The invariant on which all else relies: simplification changes results by round-off at most.
 TEST_F(ExpressionTest, SimplifiedEqualsUnsimplifiedUpToRoundOff) {
     const std::vector<Expression> symbols{x, y, z};
     std::size_t compared = 0;

@@ -56,7 +56,7 @@ TEST_F(FunctionTest, OutputsThatAreNotGivenAreZeroOrInputs) {
     handed.error_bounds(at, errors, bounds, room);
     EXPECT_EQ(bounds[0], 1e-3);
     EXPECT_EQ(bounds[2], 4e-3);
-    // Only what is used is read into the slots.
+    // Only the inputs that are used are read into slots.
     EXPECT_EQ(Function(inputs, std::vector{y}).workspace(), 1u);
 }
 
@@ -100,16 +100,15 @@ TEST_F(FunctionTest, ErrorBoundsHoldAndAreNotMuchLarger) {
             }
         for (std::size_t i = 0; i < worst.size(); ++i) {
             EXPECT_GE(bounds[i], worst[i] * (1 - 1e-5)) << i;
-            EXPECT_LE(bounds[i], 20 * worst[i] + 1e-14)
-                << i; // operands that depend on one another are taken as independent
+            EXPECT_LE(bounds[i], 20 * worst[i] + 1e-14) << i; // the bound treats dependent operands as independent
         }
     }
-    // Without errors of the inputs, what is left is round-off: also that of terms which cancel.
+    // With exact inputs only round-off is left, including that of cancelling terms.
     function.error_bounds(std::vector{0.3, 1.7}, std::vector{0.0, 0.0}, bounds, work);
     EXPECT_GT(bounds[1], 1e6 * 1e-16);
     EXPECT_LT(bounds[1], 1e6 * 1e-15);
     EXPECT_LT(bounds[3], 1e-15);
-    // At the end of an operation's domain there is a bound all the same.
+    // The bound is finite even at the end of an operation's domain.
     const Function ends(std::vector{x, y}, std::vector{sqrt(x), asin(y)});
     std::vector<double> two(2), room(2 * ends.workspace());
     ends.error_bounds(std::vector{0.0, 1.0}, std::vector{1e-16, 1e-16}, two, room);
@@ -150,7 +149,7 @@ TEST_F(FunctionTest, FollowsIeeeRulesOutsideDomains) {
     EXPECT_TRUE(std::isnan(function(std::vector{-1.0})[1]));
 }
 
-TEST_F(FunctionTest, RefusesMisuse) {
+TEST_F(FunctionTest, MisuseThrows) {
     EXPECT_THROW(Function(std::vector{x}, std::vector{x + y}), std::invalid_argument);
     EXPECT_THROW(Function(std::vector{x, x}, std::vector{x}), std::invalid_argument);
     EXPECT_THROW(Function(std::vector{x + 1}, std::vector{x}), std::invalid_argument);
@@ -159,7 +158,7 @@ TEST_F(FunctionTest, RefusesMisuse) {
     EXPECT_THROW(Function(std::vector{x}, std::vector{x})(std::vector<double>{}), InputError);
 }
 
-TEST_F(FunctionTest, ConstantValue) {
+TEST_F(FunctionTest, ConstantValueNeedsNoSymbols) {
     EXPECT_EQ(constant_value(graph->number(2) * graph->number(3)), 6);
     EXPECT_TRUE(std::isnan(constant_value(log(graph->number(-1)))));
     // Evaluated step by step this would be 1/inf = 0.

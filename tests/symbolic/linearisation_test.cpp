@@ -22,7 +22,7 @@ using testing::multiplied_out;
 using testing::plain_derivatives;
 using testing::plain_linearisation;
 
-/// What is promised of every linearisation.
+/// Checks the order of entries that every linearisation guarantees.
 void expect_order(const Linearisation& linear) {
     std::vector<bool> used(linear.intermediates), changes(linear.intermediates);
     const LinearEntry* last = nullptr;
@@ -43,7 +43,7 @@ void expect_order(const Linearisation& linear) {
     EXPECT_EQ(changes, std::vector<bool>(linear.intermediates, true));
 }
 
-/// @param tolerance of the size of a row, where its products are added up
+/// @param tolerance relative to the size of a row, whose products are added up
 void expect_same(const Linearisation& linear, std::span<const Expression> functions, const SymbolIndex& variables,
                  std::span<const double> at, double tolerance, const std::string& what = "") {
     const std::vector<double> plain = plain_derivatives(functions, variables, at);
@@ -74,8 +74,8 @@ protected:
             total = total + term(x[i]);
         return total;
     }
-    /// Checked at some points against the sparse Jacobian. Derivatives by parameters that follow states are checked
-    /// too.
+    /// Compares the linearisation with the sparse Jacobian at some points, including the derivatives with respect to
+    /// parameters that follow the states.
     Linearisation checked(std::span<const Expression> functions, const SymbolIndex& variables, std::size_t states) {
         Linearisation linear = linearise(functions, variables, states);
         EXPECT_EQ(linear.variables, variables.size());
@@ -85,7 +85,7 @@ protected:
             std::vector<double> at;
             for (std::size_t i = 0; i < variables.size(); ++i)
                 at.push_back(std::uniform_real_distribution<>(0.2, 1.2)(random));
-            // Sums of n terms in two orders; what they are made of is of the order of one.
+            // Sums of n terms in two orders, with terms of order one.
             expect_same(linear, functions, variables, at, 1e-13);
         }
         return linear;
@@ -95,7 +95,7 @@ protected:
     }
 };
 
-TEST_F(LinearisationTest, NothingHasNoEntries) {
+TEST_F(LinearisationTest, EmptyFunctionsHaveNoEntries) {
     make(2);
     const Linearisation none = linearise({}, SymbolIndex(x), 2);
     EXPECT_EQ(none.variables, 2u);
@@ -107,7 +107,7 @@ TEST_F(LinearisationTest, NothingHasNoEntries) {
     EXPECT_TRUE(no_variables.entries.empty());
 }
 
-TEST_F(LinearisationTest, ConstantRowsAreEmptyAndVariablesHaveOnes) {
+TEST_F(LinearisationTest, ConstantRowsAreEmptyAndVariablesHaveCoefficientOne) {
     make(2);
     add("p");
     const std::vector<Expression> functions{parse("3"), x[1], parse("sin(p)"), x[1], parse("1/0")};
@@ -136,7 +136,7 @@ TEST_F(LinearisationTest, APowerIsOneProduct) {
     EXPECT_EQ(linear.cost(), Linearisation::varying_cost);
 }
 
-TEST_F(LinearisationTest, QuotientsPowersAndFunctionsHaveTheirDerivatives) {
+TEST_F(LinearisationTest, CoefficientsOfQuotientsPowersAndFunctionsAreCorrect) {
     make(3);
     for (const char* text : {"x1/x2",
                              "3/x1",
@@ -168,7 +168,7 @@ TEST_F(LinearisationTest, QuotientsPowersAndFunctionsHaveTheirDerivatives) {
         checked(std::vector{parse(text)});
 }
 
-TEST_F(LinearisationTest, DerivativesAreFiniteWherePlainOnesAre) {
+TEST_F(LinearisationTest, CoefficientsAreFiniteWhereThePlainDerivativesAre) {
     make(2);
     const SymbolIndex variables(x);
     // Roots and powers of 0, products of what over- or underflows, powers of negative bases.
@@ -192,7 +192,7 @@ TEST_F(LinearisationTest, DerivativesAreFiniteWherePlainOnesAre) {
     }
 }
 
-TEST_F(LinearisationTest, AChainHasNoIntermediatesAndNoOtherEntriesThanItsJacobian) {
+TEST_F(LinearisationTest, AChainHasTheEntriesOfItsJacobianAndNoIntermediates) {
     constexpr std::size_t oscillators = 200;
     make(2 * oscillators);
     std::vector<Expression> rates;
@@ -211,7 +211,7 @@ TEST_F(LinearisationTest, AChainHasNoIntermediatesAndNoOtherEntriesThanItsJacobi
     EXPECT_EQ(linear.varying_entries(), oscillators);
 }
 
-TEST_F(LinearisationTest, CubicSpringsBetweenNeighboursArePassedOnOnce) {
+TEST_F(LinearisationTest, CubicSpringsHaveTwoIntermediatesEach) {
     constexpr std::size_t masses = 50;
     make(masses);
     std::vector<Expression> forces(masses, graph->number(0));
@@ -221,7 +221,7 @@ TEST_F(LinearisationTest, CubicSpringsBetweenNeighboursArePassedOnOnce) {
         forces[i + 1] = forces[i + 1] - force;
     }
     const Linearisation linear = checked(forces);
-    // Of each spring, extension and force: the one has 2 products, the other has one of series and enters two rows.
+    // The intermediates of each spring are extension (2 products) and force (1 product of series, used in two rows).
     EXPECT_EQ(linear.varying_entries(), masses - 1);
     EXPECT_EQ(linear.entries.size(), 5 * (masses - 1));
 }
@@ -249,9 +249,9 @@ TEST_F(LinearisationTest, QuotientsByPowersOfMeansPassThroughTheMean) {
     EXPECT_LT(linear.entries.size(), 100u);
 }
 
-TEST_F(LinearisationTest, SumsOnTheWayAreNoIntermediates) {
+TEST_F(LinearisationTest, PartialSumsAreNoIntermediates) {
     make(40);
-    // Summed from both ends, to the mean of linear terms: products of numbers only.
+    // The mean of linear terms, summed from both ends: products of numbers only.
     const Expression mean = sum([](const Expression& one) { return 0.3 * one; });
     Expression back = x.back() * 1.5;
     for (std::size_t i = x.size() - 1; i-- > 0;)
@@ -260,7 +260,7 @@ TEST_F(LinearisationTest, SumsOnTheWayAreNoIntermediates) {
     for (const Expression& own : x)
         rates.push_back(mean - 2 * own - 3 * back);
     const Linearisation linear = checked(rates);
-    // Both sums enter every row in one way only: one intermediate is enough, and is found or is not.
+    // Both sums enter every row only through one combination: at most one intermediate is needed.
     EXPECT_LE(linear.intermediates, 2u);
     EXPECT_LE(linear.entries.size(), 5 * x.size());
     EXPECT_EQ(linear.varying_entries(), 0u);
@@ -279,7 +279,7 @@ TEST_F(LinearisationTest, NestedMeansAreIntermediatesOfOneAnother) {
     EXPECT_LE(linear.entries.size(), 5 * x.size() + 2);
 }
 
-TEST_F(LinearisationTest, SumsOfSumsAreAChain) {
+TEST_F(LinearisationTest, SumsOfSumsFormAChain) {
     make(60);
     std::vector<Expression> rates{sin(x[0])};
     for (std::size_t i = 1; i < x.size(); ++i)
@@ -298,7 +298,7 @@ TEST_F(LinearisationTest, EqualFunctionsShareTheirProducts) {
     EXPECT_EQ(linear.varying_entries(), 12u);
 }
 
-TEST_F(LinearisationTest, DenseRowsOfTheirOwnStayAsTheyAre) {
+TEST_F(LinearisationTest, DenseRowsWithoutSharedPartsStayDense) {
     make(8);
     std::vector<Expression> rates;
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -312,7 +312,7 @@ TEST_F(LinearisationTest, DenseRowsOfTheirOwnStayAsTheyAre) {
     EXPECT_EQ(linear.entries.size(), 64u);
 }
 
-TEST_F(LinearisationTest, PartsThatHaveNothingInCommonAreJudgedEachByItself) {
+TEST_F(LinearisationTest, IndependentPartsAreJudgedSeparately) {
     make(20);
     const Expression mean = sum([](const Expression& one) { return sin(one); });
     std::vector<Expression> rates;
@@ -331,7 +331,7 @@ TEST_F(LinearisationTest, PartsThatHaveNothingInCommonAreJudgedEachByItself) {
     EXPECT_EQ(linear.cost(), alone + other.cost());
 }
 
-TEST_F(LinearisationTest, ParametersDecideNothing) {
+TEST_F(LinearisationTest, ParametersDoNotAffectTheChoiceOfIntermediates) {
     make(3);
     std::vector<Expression> variables = x;
     Expression shared = graph->number(1);
@@ -350,16 +350,16 @@ TEST_F(LinearisationTest, ParametersDecideNothing) {
         }
     EXPECT_EQ(by_states, 5u);
     EXPECT_EQ(varying, 2u);
-    // A parameter enters a mean of states through it.
+    // A parameter acts on a mean of states.
     const Expression mean = sum([&](const Expression& one) { return variables[4] * pow(one, 2); });
     const Linearisation through = checked(std::vector(5, mean), SymbolIndex(variables), 3);
     EXPECT_EQ(through.intermediates, 1u);
     EXPECT_EQ(through.entries.size(), 3u + 1u + 5u);
 }
 
-TEST_F(LinearisationTest, WhatCancelsLeavesNothingBehind) {
+TEST_F(LinearisationTest, CancelledDerivativesLeaveNoEntries) {
     make(4);
-    // Neither is seen to be constant before it is differentiated.
+    // Simplification does not recognise either as constant; differentiation does.
     const Expression still = (x[0] - x[1]) + (x[1] - x[0]) + 1, total = sum([](const Expression&one) { return one; });
     std::vector<Expression> rates;
     for (const Expression& own : x)
@@ -368,7 +368,7 @@ TEST_F(LinearisationTest, WhatCancelsLeavesNothingBehind) {
     checked(std::vector{still, still, sin(still)});
 }
 
-TEST_F(LinearisationTest, ForeignVariablesAndWrongNumbersAreRefused) {
+TEST_F(LinearisationTest, ForeignVariablesAndWrongNumbersThrow) {
     make(2);
     const auto other = Graph::create();
     const std::vector<Expression> foreign{other->symbol("x1")}, functions{x[0]};
@@ -380,7 +380,7 @@ TEST_F(LinearisationTest, ForeignVariablesAndWrongNumbersAreRefused) {
     EXPECT_THROW(linearise(std::vector{Expression()}, SymbolIndex(x), 2), std::invalid_argument);
 }
 
-/// Functions that share parts at random: each operation takes any two of what there is already.
+/// Random functions with shared parts: each operation takes any two earlier results.
 std::vector<Expression> random_functions(Graph& graph, std::span<const Expression> leaves, std::mt19937_64& random) {
     std::vector<Expression> parts(leaves.begin(), leaves.end());
     for (const double number : {-1.0, 0.5, 2.0, 3.0})
@@ -396,7 +396,7 @@ std::vector<Expression> random_functions(Graph& graph, std::span<const Expressio
         case 0:
             parts.push_back(graph.apply(of_one[random() % std::size(of_one)], a));
             break;
-        case 1: // without poles
+        case 1: // no poles
             parts.push_back(a / (2 + sin(b)));
             break;
         case 2:
@@ -412,7 +412,7 @@ std::vector<Expression> random_functions(Graph& graph, std::span<const Expressio
     return functions;
 }
 
-TEST(RandomLinearisation, EqualsTheJacobianAndIsSeldomDearer) {
+TEST(RandomLinearisation, EqualsTheJacobianAndIsSeldomMoreExpensive) {
     std::mt19937_64 random(23);
     std::size_t with_intermediates = 0, saved = 0, dearer = 0;
     for (int trial = 0; trial < 600; ++trial) {
@@ -430,20 +430,20 @@ TEST(RandomLinearisation, EqualsTheJacobianAndIsSeldomDearer) {
         for (std::size_t i = 0; i < variables.size(); ++i)
             at.push_back(std::uniform_real_distribution<>(-1, 1)(random));
         expect_same(linear, functions, index, at, 1e-12, "trial " + std::to_string(trial));
-        // For so many directions that coefficients cost nothing.
+        // So many directions that the cost of coefficients does not matter.
         const std::size_t cost = linearise(functions, of_states, states, 1000000).cost(),
                           plain = plain_linearisation(functions, of_states, states).cost();
         dearer += cost > plain ? 1 : 0;
         with_intermediates += linear.intermediates > 0 ? 1 : 0;
         saved += plain - std::min(plain, cost);
     }
-    // Where parts are constant in disguise, as x - (x - 1), what goes through them need not cancel.
+    // Where a part is constant in disguise, as x - (x - 1), its derivatives need not cancel symbolically.
     EXPECT_LT(dearer, 6u);
     EXPECT_GT(with_intermediates, 100u);
     EXPECT_GT(saved, 1000u);
 }
 
-TEST(RandomLinearisation, OfTreesIsFiniteWhereTheJacobianIs) {
+TEST(RandomLinearisation, IsFiniteForTreesWhereTheJacobianIs) {
     testing::RandomOperations trees(5, 3, true);
     int compared = 0;
     for (int trial = 0; trial < 600; ++trial) {
@@ -462,8 +462,8 @@ TEST(RandomLinearisation, OfTreesIsFiniteWhereTheJacobianIs) {
         for (std::size_t row = 0; row < 3; ++row) {
             const auto finite = [](double value) { return std::isfinite(value); };
             const std::span of_plain = std::span(plain).subspan(3 * row, 3);
-            // What is not differentiable has undefined coefficients, which need not cancel where it does not depend
-            // on a variable.
+            /// Coefficients at a singularity are undefined, and need not cancel even where the function does not depend
+            /// on the variable.
             if (!finite(values[row]) || !std::ranges::all_of(of_plain, finite))
                 continue;
             const std::span own = std::span(derivatives.values).subspan(3 * row, 3);

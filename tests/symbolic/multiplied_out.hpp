@@ -11,13 +11,13 @@
 
 namespace graze::testing {
 
-/// Derivatives of functions by variables, in numbers, row by row.
+/// Numerical derivatives of functions with respect to variables, row by row.
 struct DenseDerivatives {
     std::vector<double> values;
-    std::vector<double> sizes; ///< of all products that were added up, in each row the largest
+    std::vector<double> sizes; ///< for each row, the largest of the products that were summed
 };
 
-/// Intermediates put into one another, at some values of the variables.
+/// Eliminates the intermediates numerically, at given values of the variables.
 inline DenseDerivatives multiplied_out(const Linearisation& linear, const SymbolIndex& variables,
                                        std::span<const double> at) {
     std::vector<Expression> coefficients;
@@ -37,7 +37,7 @@ inline DenseDerivatives multiplied_out(const Linearisation& linear, const Symbol
         }
         for (std::size_t column = 0; column < n; ++column) {
             const std::size_t from = (entry.source - n) * n + column;
-            // What does not depend on a variable does not, however large the coefficient is.
+            // A zero derivative stays zero, however large the coefficient is.
             if (sizes[from] != 0) {
                 row[column] += values[i] * all[from];
                 size[column] += std::abs(values[i]) * sizes[from];
@@ -55,7 +55,7 @@ inline DenseDerivatives multiplied_out(const Linearisation& linear, const Symbol
     return result;
 }
 
-/// The same by the sparse Jacobian.
+/// The same derivatives by the sparse Jacobian.
 inline std::vector<double> plain_derivatives(std::span<const Expression> functions, const SymbolIndex& variables,
                                              std::span<const double> at) {
     std::vector<Function::Output> outputs;
@@ -65,7 +65,7 @@ inline std::vector<double> plain_derivatives(std::span<const Expression> functio
     return function(at);
 }
 
-/// The sparse Jacobian as a linearisation.
+/// Returns the sparse Jacobian as a linearisation.
 inline Linearisation plain_linearisation(std::span<const Expression> functions, const SymbolIndex& variables,
                                          std::size_t states) {
     Linearisation plain{variables.size(), functions.size(), 0, {}};

@@ -15,7 +15,7 @@
 
 namespace graze::testing {
 
-/// A value and a first-order bound on its error from rounding each operation once (by a few units).
+/// A value and a first-order bound on its error from rounding each operation once (by a few units in the last place).
 struct Bounded {
     double value = 0;
     double bound = 0;
@@ -24,22 +24,22 @@ struct Bounded {
 inline double error_function(double a) {
     return std::erf(a);
 }
-/// For a complex step, whose higher powers are nothing.
+/// For a complex step, whose square is negligible.
 inline std::complex<double> error_function(std::complex<double> a) {
     return {std::erf(a.real()), a.imag() * 2 / std::sqrt(std::numbers::pi) * std::exp(-a.real() * a.real())};
 }
 
-/// An expression as it was written: operations one after another, evaluated here by code that shares nothing with
-/// the library, and without any simplification. The last one is the result.
+/// An unsimplified expression: a list of operations, evaluated by code that shares nothing with the library. The last
+/// operation is the result.
 struct OperationList {
     struct Item {
         Operation operation;
-        std::size_t left = 0, right = 0; ///< positions; for a symbol, `left` is its number
+        std::size_t left = 0, right = 0; ///< positions; for a symbol, `left` is its index
         double value = 0;
     };
     std::vector<Item> items;
 
-    /// The operations below a node of a graph, which has `symbols` as its first symbols.
+    /// Returns the operations on which a node of a graph depends; the first nodes of the graph are `symbols`.
     static OperationList of(const Expression& expression, std::span<const Expression> symbols) {
         OperationList list;
         for (NodeIndex index = 0; index <= expression.index(); ++index) {
@@ -103,7 +103,7 @@ struct OperationList {
         }
     }
 
-    /// Largest slope of one operation with respect to each operand.
+    /// Returns the largest slope of one operation with respect to each operand.
     static std::pair<double, double> slopes(Operation operation, double a, double b, double value) {
         switch (operation) {
         case Operation::add:
@@ -138,7 +138,7 @@ struct OperationList {
         }
     }
 
-    /// Value and round-off of the last operation; not finite if an operation on the way is not.
+    /// Returns value and round-off of the last operation; not finite if an earlier operation is not.
     Bounded evaluate(std::span<const double> symbols) const {
         std::vector<Bounded> results;
         for (const Item& item : items) {
@@ -157,7 +157,7 @@ struct OperationList {
                     result.value = std::numeric_limits<double>::quiet_NaN();
                 if (a.bound != 0)
                     result.bound += da * a.bound;
-                // A bound to first order means something only far from singularities.
+                // First-order bounds are meaningful only far from singularities.
                 const bool linear = item.operation == Operation::add || item.operation == Operation::subtract ||
                                     item.operation == Operation::multiply || item.operation == Operation::negate;
                 const bool bounded_domain = item.operation == Operation::asin || item.operation == Operation::acos;
@@ -169,7 +169,7 @@ struct OperationList {
                 }
                 if (arity(item.operation) == 2 && b.bound != 0)
                     result.bound += db * b.bound;
-                if (item.operation == Operation::multiply) // where both factors cancel, this is all there is
+                if (item.operation == Operation::multiply) // the first-order terms vanish where both factors cancel
                     result.bound += a.bound * b.bound;
             }
             results.push_back(result);
@@ -177,7 +177,7 @@ struct OperationList {
         return results.back();
     }
 
-    /// Derivative with respect to one symbol by a complex step, which has no cancellation.
+    /// Returns the derivative with respect to one symbol by a complex step, which does not suffer from cancellation.
     double derivative(std::span<const double> symbols, std::size_t symbol) const {
         constexpr double step = 1e-100;
         std::vector<std::complex<double>> results;
@@ -195,7 +195,7 @@ struct OperationList {
         return results.back().imag() / step;
     }
 
-    /// The same expression by the operators of a graph.
+    /// Builds the same expression by the operators of a graph.
     Expression build(Graph& graph, std::span<const Expression> symbols) const {
         std::vector<Expression> results;
         for (const Item& item : items) {
@@ -211,7 +211,7 @@ struct OperationList {
         return results.back();
     }
 
-    /// Text with parentheses around every operation.
+    /// Returns text with parentheses around every operation.
     std::string text(std::span<const Expression> symbols) const {
         std::vector<std::string> results;
         for (const Item& item : items) {
@@ -256,10 +256,10 @@ struct OperationList {
     }
 };
 
-/// A random tree: half of its leaves are symbols, the others numbers that provoke simplifications.
+/// Random trees: half of the leaves are symbols, the others numbers that trigger simplifications.
 class RandomOperations {
 public:
-    /// @param functions how many of the operations after negation may occur (all 13, or none)
+    /// @param functions number of functions that may occur (all 13, or none)
     RandomOperations(unsigned seed, std::size_t symbols, bool functions)
         : engine_(seed), symbols_(symbols), functions_(functions) {}
 

@@ -37,7 +37,7 @@ protected:
             EXPECT_NE(error.remedy().find(remedy), std::string::npos) << text << ": " << error.what();
         }
     }
-    /// For a text that begins in line 7, column 11; `offset` counts characters from its beginning.
+    /// For a text that begins in line 7, column 11; `offset` counts characters from the text's beginning.
     void expect_error_at(std::string_view text, int offset, const std::string& problem, const std::string& remedy) {
         expect_error(text, 7, 11 + offset, problem, remedy);
     }
@@ -47,7 +47,7 @@ protected:
     }
 };
 
-TEST_F(ParserTest, Precedence) {
+TEST_F(ParserTest, PrecedenceAndAssociativityHold) {
     EXPECT_EQ(constant("1 + 2*3"), 7);
     EXPECT_EQ(constant("(1 + 2)*3"), 9);
     EXPECT_EQ(constant("8 - 4 - 2"), 2);
@@ -73,7 +73,7 @@ TEST_F(ParserTest, Precedence) {
     EXPECT_EQ(parse("x - y + 1"), x - y + 1);
 }
 
-TEST_F(ParserTest, NumbersNamesAndFunctions) {
+TEST_F(ParserTest, NumbersNamesAndFunctionsAreRead) {
     EXPECT_EQ(constant("1.5e-3"), 1.5e-3);
     EXPECT_EQ(constant(".5"), 0.5);
     EXPECT_EQ(constant("5."), 5);
@@ -87,12 +87,12 @@ TEST_F(ParserTest, NumbersNamesAndFunctions) {
     EXPECT_EQ(to_string(parse("1 - erf(x/2)*y")), "1 - y*erf(x/2)");
     EXPECT_EQ(parse("V0*amplitude"), scope.at("V0") * scope.at("amplitude"));
     EXPECT_EQ(parse("sin (x)"), sin(x));
-    // Names mean what the scope says, for instance a definition.
+    // A name has the meaning given by the scope, for instance a definition.
     scope.insert_or_assign("gap", x - y);
     EXPECT_EQ(parse("2*gap"), 2 * (x - y));
 }
 
-TEST_F(ParserTest, UnknownNames) {
+TEST_F(ParserTest, UnknownNamesAreRefusedWithTheNearest) {
     expect_error_at("2*ampltude + x", 2, "unknown name 'ampltude'", "did you mean 'amplitude'?");
     expect_error_at("v0", 0, "unknown name 'v0'", "did you mean 'V0'?");
     expect_error_at("x + V", 4, "unknown name 'V'", "did you mean 'V0'?");
@@ -107,7 +107,7 @@ TEST_F(ParserTest, UnknownNames) {
     expect_error_at("a", 0, "unknown name 'a'", "");
 }
 
-TEST_F(ParserTest, RefusedNames) {
+TEST_F(ParserTest, NonAnalyticAndForeignNamesAreRefused) {
     for (const char* name :
          {"abs", "sign", "sgn", "min", "max", "if", "floor", "ceil", "round", "mod", "step", "heaviside", "atan2"}) {
         expect_error_at(std::string("1 + ") + name + "(x, y)", 4, "is not analytic", "event");
@@ -120,7 +120,7 @@ TEST_F(ParserTest, RefusedNames) {
     expect_error_at("x or y", 2, "'or' cannot join", "the mode once more");
 }
 
-TEST_F(ParserTest, Parentheses) {
+TEST_F(ParserTest, UnbalancedParenthesesAreRefused) {
     expect_error_at("(x + y", 0, "this '(' is never closed", "add the missing ')'");
     expect_error_at("x*(x + (y)", 2, "this '(' is never closed", "");
     expect_error_at("((x)", 0, "this '(' is never closed", "");
@@ -135,7 +135,7 @@ TEST_F(ParserTest, Parentheses) {
     expect_error_at("[x]", 0, "unexpected character '['", "write (");
 }
 
-TEST_F(ParserTest, NumberOfArguments) {
+TEST_F(ParserTest, WrongNumbersOfArgumentsAreRefused) {
     expect_error_at("1 + sin()", 4, "'sin' takes one argument, not none", "");
     expect_error_at("1 + sin(x, y)", 4, "'sin' takes one argument, not several", "");
     expect_error_at("sin((x), y)", 0, "'sin' takes one argument, not several", "");
@@ -143,7 +143,7 @@ TEST_F(ParserTest, NumberOfArguments) {
     expect_error_at("1,5*x", 1, "unexpected ','", "point");
 }
 
-TEST_F(ParserTest, MalformedNumbers) {
+TEST_F(ParserTest, MalformedNumbersAreRefused) {
     expect_error_at("x + 1.2.3", 4, "malformed number '1.2.3'", "");
     expect_error_at("1e", 0, "malformed number '1e'", "1e-3");
     expect_error_at("1e+", 0, "malformed number '1e+'", "");
@@ -155,7 +155,7 @@ TEST_F(ParserTest, MalformedNumbers) {
     expect_error_at("1e-999", 0, "outside the range", "scale");
 }
 
-TEST_F(ParserTest, MissingAndSuperfluousParts) {
+TEST_F(ParserTest, MissingAndSuperfluousPartsAreRefused) {
     expect_error_at("", 0, "the expression is empty", "");
     expect_error(" \n ", 7, 11, "the expression is empty", "");
     expect_error_at("x +", 2, "nothing to the right of '+'", "");
@@ -173,15 +173,15 @@ TEST_F(ParserTest, MissingAndSuperfluousParts) {
     expect_error_at("(x > y)", 3, "'>' stands inside parentheses", "");
 }
 
-/// A unit behind a number is no factor: the product would be refused, too.
-TEST_F(ParserTest, UnitsBehindNumbers) {
+/// A unit after a number is not a factor: the remedy must not suggest a product, which would be refused too.
+TEST_F(ParserTest, UnitsAfterNumbersAreRefused) {
     expect_error_at("0.5um", 0, "malformed number '0.5um'", "write 0.5 alone, in the unit that is meant there");
     expect_error_at("169e9 Pa", 6, "an operator is missing before 'Pa'", "write 169e9 alone");
     expect_error_at("2foo", 0, "malformed number '2foo'", "write 2*foo for a product");
     expect_error_at("2 foo", 2, "an operator is missing before 'foo'", "write 2*foo for a product");
 }
 
-TEST_F(ParserTest, OtherSpellings) {
+TEST_F(ParserTest, OtherSpellingsAreRefusedWithAPlainForm) {
     expect_error_at("x**2", 1, "'**' is not an operator", "a^b");
     expect_error_at("x = 2", 2, "unexpected '='", "right-hand side");
     expect_error_at("x == 2", 2, "'==' cannot be tested", "inequality");
@@ -220,7 +220,7 @@ TEST_F(ParserTest, PlacesCountLinesAndCharacters) {
     }
 }
 
-TEST_F(ParserTest, Conditions) {
+TEST_F(ParserTest, ConditionsAreRead) {
     const auto conditions = parse_conditions(*graph, "x > y and x*y <= 2 and -1 < x and x >= 0", scope);
     ASSERT_EQ(conditions.size(), 4u);
     EXPECT_EQ(conditions[0].function, x - y);
@@ -233,7 +233,7 @@ TEST_F(ParserTest, Conditions) {
     EXPECT_FALSE(conditions[3].strict);
 }
 
-TEST_F(ParserTest, MalformedConditions) {
+TEST_F(ParserTest, MalformedConditionsAreRefused) {
     expect_condition_error("", 0, "empty", "");
     expect_condition_error("x", 1, "a condition needs a comparison", "x > 0");
     expect_condition_error("x and y > 0", 2, "a condition needs a comparison", "");
@@ -252,7 +252,7 @@ TEST_F(ParserTest, MalformedConditions) {
     expect_condition_error("x > 0)", 5, "closes no parenthesis", "");
 }
 
-TEST_F(ParserTest, ScopeOfAnotherGraphIsAMistakeOfTheCaller) {
+TEST_F(ParserTest, AScopeOfAnotherGraphThrows) {
     const Scope foreign{{"x", Graph::create()->symbol("x")}};
     EXPECT_THROW(parse_expression(*graph, "x", foreign), std::invalid_argument);
 }
@@ -277,7 +277,7 @@ TEST_F(ParserTest, DeepNestingNeedsNoStack) {
         const auto fresh = Graph::create();
         const Scope names{{"x", fresh->symbol("x")}, {"y", fresh->symbol("y")}};
         const Expression e = parse_expression(*fresh, text, names);
-        EXPECT_LE(fresh->size(), 2 * depth + 2) << "one or two nodes for each level";
+        EXPECT_LE(fresh->size(), 2 * depth + 2) << "at most two nodes for each level";
         EXPECT_EQ(parse_expression(*fresh, to_string(e), names), e);
         const Expression slope = differentiate(e, names.at("x"));
         EXPECT_LE(fresh->size(), 15 * depth);
@@ -296,7 +296,7 @@ TEST_F(ParserTest, LongExpressionsTakeLinearWork) {
     EXPECT_EQ(parse(to_string(e)), e);
 }
 
-TEST(Names, Validity) {
+TEST(Names, OnlyIdentifiersThatAreNotReservedAreValid) {
     for (const char* name : {"x", "V0", "_a", "e", "gap_left", "sin2", "step"})
         EXPECT_TRUE(is_valid_name(name)) << name;
     for (const char* name :

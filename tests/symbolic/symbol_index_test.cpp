@@ -9,7 +9,7 @@
 namespace graze {
 namespace {
 
-TEST(SymbolIndex, FindsEachInItsPlace) {
+TEST(SymbolIndex, FindsEachSymbolAtItsPosition) {
     const auto graph = Graph::create();
     std::vector<Expression> symbols;
     for (int i = 0; i < 100; ++i)
@@ -28,11 +28,11 @@ TEST(SymbolIndex, KnowsItsGraph) {
     const Expression x = graph->symbol("x"), y = other->symbol("y"), z = other->symbol("z");
     EXPECT_TRUE(SymbolIndex(std::vector{x}).are_of(graph));
     EXPECT_FALSE(SymbolIndex(std::vector{x}).are_of(other));
-    EXPECT_FALSE(SymbolIndex(std::vector{x, z}).are_of(graph)) << "of two graphs";
+    EXPECT_FALSE(SymbolIndex(std::vector{x, z}).are_of(graph)) << "symbols of two graphs";
     EXPECT_TRUE(SymbolIndex().are_of(graph));
 }
 
-TEST(SymbolIndex, RefusesWhatIsNoSymbolOrNamedTwice) {
+TEST(SymbolIndex, RefusesRepeatedSymbolsAndOtherExpressions) {
     const auto graph = Graph::create();
     const Expression x = graph->symbol("x");
     EXPECT_THROW(SymbolIndex(std::vector{x, x}), std::invalid_argument);

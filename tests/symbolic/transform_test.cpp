@@ -52,7 +52,7 @@ protected:
     }
 };
 
-TEST_F(TransformTest, DerivativesAlongAVectorAreSumsOfPartialOnes) {
+TEST_F(TransformTest, DirectionalDerivativesAreSumsOfPartialDerivatives) {
     const Expression u = graph->symbol("u"), e = parse("x^2*sin(y) + exp(x*y)/z");
     const std::vector<Component> vector{{x, u}, {z, graph->number(3)}, {y, x * y}};
     const Expression along = differentiate_along(std::vector{e}, vector).front(),
@@ -60,7 +60,7 @@ TEST_F(TransformTest, DerivativesAlongAVectorAreSumsOfPartialOnes) {
     const std::vector<Expression> inputs{x, y, z, u};
     const auto values = Function(inputs, std::vector{along, sum})(std::vector{0.7, -1.2, 1.9, 0.4});
     EXPECT_NEAR(values[0], values[1], 8 * epsilon * std::abs(values[1]));
-    // What does not occur or is zero leaves nothing behind.
+    // Components of symbols that do not occur, and zero components, add no terms.
     EXPECT_EQ(differentiate_along(std::vector{parse("y^2")}, std::vector<Component>{{x, u}, {y, graph->number(0)}})[0],
               graph->number(0));
     EXPECT_TRUE(differentiate_along({}, vector).empty());
@@ -76,7 +76,7 @@ TEST_F(TransformTest, JacobiansHaveTheirPartialDerivativesRowByRow) {
     EXPECT_TRUE(jacobian(expressions, {}).empty());
 }
 
-TEST_F(TransformTest, SparseJacobiansHaveWhatIsNotZero) {
+TEST_F(TransformTest, SparseJacobiansHaveTheNonzeroEntries) {
     const std::vector<Expression> expressions{parse("x*y"), parse("3"), parse("sin(x) + z - z")}, columns{z, y, x};
     const std::vector<JacobianEntry> entries = sparse_jacobian(expressions, SymbolIndex(columns));
     ASSERT_EQ(entries.size(), 3u);
@@ -162,12 +162,12 @@ TEST_F(TransformTest, DerivativesEqualComplexSteps) {
     for (unsigned seed = 0; seed < 10000; ++seed) {
         testing::RandomOperations random(seed, symbols.size(), true);
         const testing::OperationList list = random.next(2 + seed % 8);
-        graph = Graph::create(); // a small one, because operation lists take all nodes of a graph
+        graph = Graph::create(); // a small graph, because operation lists take all nodes of a graph
         symbols = {graph->symbol("x"), graph->symbol("y"), graph->symbol("z")};
         const Expression e = list.build(*graph, symbols);
         const std::vector<double> values{random.uniform(0.2, 2), random.uniform(0.1, 3), random.uniform(0.1, 1)};
         const testing::Bounded original = list.evaluate(values);
-        // A complex power of a negative number is no real number: those are left to the closed forms above.
+        // A complex power of a negative number is not real; the closed forms above cover these cases.
         const double step = list.derivative(values, 0);
         if (!std::isfinite(original.value) || !std::isfinite(step) || original.bound > 1e-6)
             continue;
@@ -193,7 +193,7 @@ TEST_F(TransformTest, MixedDerivativesCommute) {
     const double one = value(differentiate(differentiate(e, x), y), 0.7, 0.4);
     const double other = value(differentiate(differentiate(e, y), x), 0.7, 0.4);
     EXPECT_NEAR(one, other, 200 * epsilon * std::abs(one));
-    // and equal central differences of the first derivative
+    // They also equal central differences of the first derivative
     const Expression by_x = differentiate(e, x);
     const double step = 1e-5;
     EXPECT_NEAR(one, (value(by_x, 0.7, 0.4 + step) - value(by_x, 0.7, 0.4 - step)) / (2 * step), 1e-8);
@@ -206,13 +206,13 @@ TEST_F(TransformTest, DerivativesNearTheEndsOfDomainsAreAccurate) {
     EXPECT_NEAR(value(derivative(parse("acos(x)"), 1), a), -exact, 8 * epsilon * exact);
 }
 
-TEST_F(TransformTest, SeveralDerivativesAtOnce) {
+TEST_F(TransformTest, SeveralExpressionsAreDifferentiatedAtOnce) {
     const auto slopes = differentiate(std::vector{parse("x^2"), parse("y"), parse("x*y")}, x);
     EXPECT_EQ(slopes, (std::vector{parse("2*x"), graph->number(0), y}));
     EXPECT_TRUE(differentiate(std::vector<Expression>{}, x).empty());
 }
 
-TEST_F(TransformTest, SubstitutesAllAtOnce) {
+TEST_F(TransformTest, SubstitutionIsSimultaneous) {
     const Replacement swap[] = {{x, y}, {y, x}};
     EXPECT_EQ(substitute(parse("x - 2*y"), swap), parse("y - 2*x"));
     const Replacement nested[] = {{x, parse("x + 1")}};
@@ -224,13 +224,13 @@ TEST_F(TransformTest, SubstitutesAllAtOnce) {
     EXPECT_TRUE(substitute(std::vector<Expression>{}, constant).empty());
 }
 
-TEST_F(TransformTest, FindsSymbols) {
+TEST_F(TransformTest, SymbolsAreFoundInOrder) {
     EXPECT_EQ(symbols_of(std::vector{parse("z + 1"), parse("sin(x)*z")}), (std::vector{x, z}));
     EXPECT_TRUE(symbols_of(std::vector{graph->number(1)}).empty());
     EXPECT_TRUE(symbols_of(std::vector<Expression>{}).empty());
 }
 
-TEST_F(TransformTest, RefusesMisuse) {
+TEST_F(TransformTest, MisuseThrows) {
     EXPECT_THROW(differentiate(x, parse("x + 1")), std::invalid_argument);
     EXPECT_THROW(differentiate(x, Graph::create()->symbol("x")), std::invalid_argument);
     EXPECT_THROW(differentiate(Expression(), x), std::invalid_argument);
@@ -299,14 +299,14 @@ TEST_F(TransformTest, NumbersKeepAllTheirDigits) {
             EXPECT_EQ(parse(to_string(graph->number(sign * number))), graph->number(sign * number));
 }
 
-TEST_F(TransformTest, RefusesTextsThatWouldNeverEnd) {
+TEST_F(TransformTest, OverlongTextsAreRefused) {
     Expression e = x;
     for (int level = 0; level < 100; ++level)
         e = sin(e * e);
     EXPECT_THROW(to_string(e), std::length_error);
 }
 
-/// Sizes are counted rather than times measured, since the work of every transform is a constant for each node.
+/// Counts nodes instead of measuring times, since the work of every transform is constant for each node.
 TEST_F(TransformTest, LargeGraphsTakeLinearWork) {
     const auto nodes_made = [](std::size_t levels) {
         const auto large = Graph::create();
@@ -337,7 +337,7 @@ TEST_F(TransformTest, SmallExpressionsOfLargeGraphsTakeSmallWork) {
     Expression large = x;
     for (int level = 0; level < 100000; ++level)
         large = large * y + 1;
-    // Each of these would walk the large graph if anything depended on its size: 1e10 steps in all.
+    // Any dependence on the size of the large graph would make this loop take 1e10 steps.
     for (int count = 0; count < 100000; ++count) {
         const Expression small = x * y;
         ASSERT_EQ(differentiate(small, x), y);

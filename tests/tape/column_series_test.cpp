@@ -28,7 +28,7 @@ struct Linearised {
         }
         tape = problem.tape();
     }
-    /// Columns beside the states, as states like others.
+    /// Returns the problem with the columns as additional states.
     Problem grown(std::size_t columns) const {
         Problem all = problem;
         all.outputs.clear();
@@ -47,7 +47,7 @@ struct Linearised {
     Tape tape;
 };
 
-/// Such as a matrix may begin with.
+/// Returns arbitrary initial values of a matrix.
 double start_of(std::size_t entry, int lane) {
     return std::cos(1.0 + 2.3 * static_cast<double>(entry) + 0.1 * lane);
 }
@@ -82,10 +82,11 @@ TEST(ColumnSeries, EqualJetsOfTheVariationalEquations) {
                     for (int k = 0; k <= order; ++k)
                         for (int l = 0; l < width; ++l) {
                             const std::size_t at = static_cast<std::size_t>(k * width + l);
-                            double size = 0; // of this coefficient in the column
+                            double size = 0; // size of this coefficient in the column
                             for (std::size_t r = 0; r < rows; ++r)
                                 size = std::max(size, std::abs(whole->state(rows + i / rows * rows + r)[at]));
-                            // Sums of as many products as the order, of terms that cancel by a few digits.
+                            // The tolerance allows for sums of as many products as the order, whose terms cancel by a
+                            // few digits.
                             ASSERT_NEAR(series.series()[i].first[at], whole->state(rows + i)[at],
                                         1e3 * (k + 1) * eps * size)
                                 << "entry " << i << " order " << k << " lane " << l << " " << name_of(set);
@@ -94,7 +95,7 @@ TEST(ColumnSeries, EqualJetsOfTheVariationalEquations) {
 }
 
 /// x' = y, y' = -x + t: W is a rotation, whatever the state.
-TEST(ColumnSeries, SumUpToTheExponentialOfAConstantMatrix) {
+TEST(ColumnSeries, SumToTheExponentialOfAConstantMatrix) {
     Problem p;
     const Expression x = p.state("x", 0.4), y = p.state("y", -0.3);
     p.rates = {y};
@@ -111,7 +112,7 @@ TEST(ColumnSeries, SumUpToTheExponentialOfAConstantMatrix) {
         std::fill_n(start.begin(), width, 1.0);           // along x
         std::fill_n(&start[(3 + 1) * lanes], width, 1.0); // along y
         for (std::size_t l = 0; l < lanes; ++l)
-            times[l] = 0.5 + 0.01 * static_cast<double>(l); // where the 20th term is below 1e-24
+            times[l] = 0.5 + 0.01 * static_cast<double>(l); // there the 20th term is below 1e-24
         series.compute(start);
         series.evaluate(times, values, slopes);
         for (std::size_t l = 0; l < lanes; ++l) {
@@ -122,7 +123,7 @@ TEST(ColumnSeries, SumUpToTheExponentialOfAConstantMatrix) {
                 EXPECT_NEAR(slopes[i * lanes + l], rates[i], 4 * eps) << i << " " << l;
             }
         }
-        // Rates there follow from the values alone.
+        // Rates at the end depend on the values only.
         ColumnSeries end(*jet, linear.tape, linear.entries, 3, 2, set);
         end.begin(values);
         for (std::size_t i = 0; i < 6; ++i)
@@ -131,8 +132,8 @@ TEST(ColumnSeries, SumUpToTheExponentialOfAConstantMatrix) {
     }
 }
 
-/// x' = a x, whose column is exp(a t): what is said of tails and misfits in closed form, each lane at its own length.
-TEST(ColumnSeries, SayHowFarTheyCanBeFollowed) {
+/// x' = a x has the column exp(a t): tails and misfits in closed form, each lane at its own length.
+TEST(ColumnSeries, TailsAndMisfitsEqualClosedForms) {
     constexpr int order = 6;
     constexpr double rate = 2, factor = 1.5, scale = 3;
     Problem p;
@@ -168,7 +169,7 @@ TEST(ColumnSeries, SayHowFarTheyCanBeFollowed) {
                 EXPECT_EQ(worst[l], std::numeric_limits<double>::infinity());
                 continue;
             }
-            // The slope lacks the last term of the rate, which the value has.
+            // The slope lacks the last term of the rate; the value has it.
             const double h = rate * lengths[l], value = values[l] / factor, missing = h * std::pow(h, 6) / 720;
             EXPECT_NEAR(worst[l] * allowed, missing / (value * (1 + 0.25 * h)), 8 * eps) << l;
         }
@@ -177,7 +178,7 @@ TEST(ColumnSeries, SayHowFarTheyCanBeFollowed) {
     }
 }
 
-TEST(ColumnSeries, TellWhatDoesNotFit) {
+TEST(ColumnSeries, RefuseWrongSizesAndEntries) {
     const Linearised linear(testing::everything());
     const std::size_t rows = linear.problem.states.size();
     const auto jet = make_jet(linear.tape, 5, LaneKind::ensemble), alone = make_jet(linear.tape, 5, LaneKind::single);

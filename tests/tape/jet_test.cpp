@@ -48,7 +48,7 @@ long double tangent_coefficient(int n) {
     long double sum = 0;
     for (int odd = 1999; odd > 0; odd -= 2)
         sum += std::pow(static_cast<long double>(odd), -2 * n);
-    if (n <= 2) // the sum converges slowly here, but is known
+    if (n <= 2) // the sum converges slowly here, but the values are known
         sum = n == 1 ? std::pow(quarter, 2) / 2 : std::pow(quarter, 4) / 6;
     return 2 * sum * std::pow(1 / quarter, 2 * n);
 }
@@ -142,8 +142,8 @@ TEST_P(SeriesOfTime, MatchesClosedForm) {
                 const auto series = testing::output_series(problem, order, set)[0];
                 for (int k = 0; k <= order; ++k) {
                     const long double expected = known.closed_form(k, known.start);
-                    // Round-off grows at most in proportion to the order. Where a coefficient happens to be small,
-                    // it is that of its neighbours.
+                    /// Round-off grows at most in proportion to the order. A coefficient that happens to be small has
+                    /// the round-off of its neighbours.
                     const long double size =
                         std::max({std::abs(expected), std::abs(known.closed_form(k + 1, known.start)),
                                   k > 0 ? std::abs(known.closed_form(k - 1, known.start)) : 0});
@@ -160,7 +160,7 @@ INSTANTIATE_TEST_SUITE_P(Jet, SeriesOfTime, ::testing::ValuesIn(known_series()),
     return name;
 });
 
-TEST(Jet, IdentitiesOfCompositions) {
+TEST(Jet, IdentitiesOfFunctionsHold) {
     const auto near_zero = [](const std::string& name, const Function& identity) {
         for (const auto set : testing::supported_sets()) {
             Problem p;
@@ -189,7 +189,7 @@ TEST(Jet, IdentitiesOfCompositions) {
     near_zero("power of a series", [](auto& g) { return pow(1 + g, g) - exp(g * log(1 + g)); });
     near_zero("division", [](auto& g) { return g / (1 + g) * (1 + g) - g; });
     near_zero("reciprocal", [](auto& g) { return 1 / (1 + g) + g / (1 + g) - 1; });
-    // What is often computed together with its only use.
+    // Kernels that compute an operation together with its only use.
     near_zero("multiple of a product",
               [](auto& g) { return (0.5 - 2 * (g * sin(g))) * g - 0.5 * g + 2 * g * g * sin(g); });
     near_zero("multiple of a square", [](auto& g) { return (0.5 - 2 * (g * g)) * g - 0.5 * g + 2 * pow(g, 3); });
@@ -199,8 +199,8 @@ TEST(Jet, IdentitiesOfCompositions) {
               [](auto& g) { return (g * g - 3 * pow(g, 3)) / (1 + g) * (1 + g) - g * g + 3 * pow(g, 3); });
 }
 
-/// Where it is 1 to the last digit, up to where the square of its argument is no number.
-TEST(Jet, ErrorFunctionOfLargeArguments) {
+/// Where erf is 1 to the last digit, up to arguments whose square overflows.
+TEST(Jet, ErrorFunctionOfLargeArgumentsIsConstant) {
     for (const auto set : testing::supported_sets())
         for (const double start : {7.0, 30.0, 1e3, 1e100, 1e160})
             for (const double sign : {1.0, -1.0}) {
@@ -218,7 +218,7 @@ TEST(Jet, ErrorFunctionOfLargeArguments) {
             }
 }
 
-TEST(Jet, KnownSolutions) {
+TEST(Jet, SeriesOfKnownSolutionsAreExact) {
     for (const auto set : testing::supported_sets()) {
         Problem exponential;
         const Expression x = exponential.state("x", 1.5);
@@ -242,8 +242,8 @@ TEST(Jet, KnownSolutions) {
     }
 }
 
-/// The recurrences written out for one problem in more digits.
-TEST(Jet, PendulumInLongDouble) {
+/// The recurrences for one problem in long double.
+TEST(Jet, PendulumAgreesWithLongDouble) {
     constexpr int order = highest_order;
     long double angle[order + 1] = {0.7L}, speed[order + 1] = {0.4L}, sine[order + 1], cosine[order + 1];
     angle[0] = 0.7;
@@ -288,7 +288,7 @@ TEST(Jet, FreeFlightIsAPolynomial) {
     }
 }
 
-TEST(Jet, BeginningsAgreeWithCoefficients) {
+TEST(Jet, BeginComputesTheFirstTwoCoefficients) {
     const Problem p = testing::everything();
     const Tape tape = p.tape();
     for (const auto set : testing::supported_sets()) {
@@ -308,7 +308,7 @@ TEST(Jet, BeginningsAgreeWithCoefficients) {
     }
 }
 
-TEST(Jet, GoesOnFromItsBeginning) {
+TEST(Jet, ComputeContinuesFromBegin) {
     const Problem p = testing::everything();
     const Tape tape = p.tape();
     std::vector<double> elsewhere = p.state_values;
@@ -336,7 +336,7 @@ TEST(Jet, ComparesEndsOfStepsWithItsOwnTapeOnly) {
                  std::invalid_argument);
 }
 
-TEST(Jet, ComputingAgainGivesTheSame) {
+TEST(Jet, RepeatedComputationsAgree) {
     const Problem p = testing::everything();
     const Tape tape = p.tape();
     const auto jet = make_jet(tape, 12, LaneKind::single);
@@ -352,7 +352,7 @@ TEST(Jet, ComputingAgainGivesTheSame) {
     EXPECT_EQ(first, std::vector<double>(jet->output(9), jet->output(9) + 13));
 }
 
-TEST(Jet, ConstantRatesAndOutputs) {
+TEST(Jet, RatesAndOutputsMayBeConstant) {
     Problem p;
     const Expression a = p.parameter("a", 4);
     p.state("x", 1);
@@ -372,7 +372,7 @@ TEST(Jet, ConstantRatesAndOutputs) {
         }
 }
 
-TEST(Jet, NoStatesAtAll) {
+TEST(Jet, TapesMayHaveNoStates) {
     Problem p;
     p.outputs = {2 * p.parameter("a", 3)};
     const auto outputs = testing::output_series(p, 2, best_instruction_set());
@@ -380,7 +380,7 @@ TEST(Jet, NoStatesAtAll) {
     EXPECT_NO_THROW(make_jet(compile_tape({}, {}, {}, {}), 1, LaneKind::single)->compute({}));
 }
 
-TEST(Jet, RefusesWrongUse) {
+TEST(Jet, MisuseThrows) {
     const Problem p = testing::everything();
     const Tape tape = p.tape();
     EXPECT_THROW(make_jet(tape, 0, LaneKind::single), std::invalid_argument);

@@ -1,4 +1,4 @@
-// That lanes agree with one trajectory, and instruction sets with each other.
+// Ensemble lanes against single trajectories, and instruction sets against each other.
 
 #include "graze/tape/jet.hpp"
 
@@ -13,7 +13,7 @@ using testing::eps;
 using testing::Problem;
 using testing::spread;
 
-/// Coefficients of states and outputs of one lane, one after another.
+/// Returns the coefficients of states and outputs of one lane, one after another.
 std::vector<double> lane(const Jet& jet, const Problem& problem, int lane) {
     std::vector<double> numbers;
     const auto append = [&](const double* series) {

@@ -15,7 +15,7 @@ namespace graze::testing {
 
 inline constexpr double eps = std::numeric_limits<double>::epsilon();
 
-/// A vector field with outputs, and numbers to try it with.
+/// A vector field with outputs, and values of its states and parameters.
 struct Problem {
     std::shared_ptr<Graph> graph = Graph::create();
     std::vector<Expression> states, parameters, rates, outputs;
@@ -40,7 +40,7 @@ inline std::vector<InstructionSet> supported_sets() {
     return sets;
 }
 
-/// Time as a state: of degree 1 for all to see, or such that only its numbers tell.
+/// Time as a state: of degree 1, or written such that its degree is not known from the expressions.
 enum class Time { linear, hidden };
 inline Expression add_time(Problem& problem, Time kind, double start) {
     const Expression time = problem.state("time", start);
@@ -73,7 +73,7 @@ inline std::vector<double> state_series(const Problem& problem, std::size_t stat
     return {jet->state(state), jet->state(state) + order + 1};
 }
 
-/// A problem in which every operation occurs, all of it analytic near the given values.
+/// A problem in which every operation occurs, analytic near the given values.
 inline Problem everything() {
     Problem p;
     const Expression x = p.state("x", 0.3);
@@ -125,7 +125,8 @@ inline Problem everything() {
     return p;
 }
 
-/// The largest coefficient of each order, to which errors are compared. @param series one after another
+/// Returns the largest coefficient of each order, for relative errors. @param series coefficients, one series after
+/// another
 inline std::vector<double> sizes_of(const std::vector<double>& series, int order) {
     std::vector<double> size(static_cast<std::size_t>(order) + 1, 0.0);
     for (std::size_t i = 0; i < series.size(); ++i)
@@ -133,7 +134,7 @@ inline std::vector<double> sizes_of(const std::vector<double>& series, int order
     return size;
 }
 
-/// Copies numbers into lanes: [number * width + lane], lane l changed by `change(number, l)`.
+/// Copies numbers into lanes, [number * width + lane]; lane l is changed by `change(number, l)`.
 template <class Change>
 std::vector<double> spread(const std::vector<double>& numbers, int width, Change&& change) {
     std::vector<double> lanes;

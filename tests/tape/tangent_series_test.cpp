@@ -20,7 +20,7 @@ using testing::eps;
 using testing::Problem;
 using testing::sizes_of;
 
-/// The first variational equations of a problem, as a mode compiles them.
+/// The first variational equations of a problem, compiled as in a mode.
 struct Linear {
     TangentEquations equations;
     Tape tape;
@@ -31,30 +31,30 @@ struct Linear {
         inputs.insert(inputs.end(), p.parameters.begin(), p.parameters.end());
         const Linearisation linearisation = linearise(p.rates, SymbolIndex(inputs), p.states.size());
         equations = {p.states.size(), p.parameters.size(), linearisation.intermediates, {}};
-        std::vector<TapeFollower> followers;
+        std::vector<DeferredExpression> deferred;
         for (const LinearEntry& entry : linearisation.entries) {
-            equations.entries.push_back({entry.row, entry.source, followers.size()});
+            equations.entries.push_back({entry.row, entry.source, deferred.size()});
             const bool by_parameter = entry.source >= p.states.size() && entry.source < inputs.size();
-            followers.push_back({entry.coefficient,
-                                 by_parameter ? 1 + static_cast<std::uint32_t>(entry.source - p.states.size()) : 0U});
+            deferred.push_back({entry.coefficient,
+                                by_parameter ? 1 + static_cast<std::uint32_t>(entry.source - p.states.size()) : 0U});
         }
         for (std::uint32_t group = 0; group <= p.parameters.size(); ++group)
-            if (std::any_of(followers.begin(), followers.end(),
-                            [&](const TapeFollower& f) { return f.group == group; }))
+            if (std::any_of(deferred.begin(), deferred.end(),
+                            [&](const DeferredExpression& f) { return f.group == group; }))
                 groups.push_back(group);
-        tape = compile_tape(p.states, p.parameters, p.rates, p.outputs, followers);
+        tape = compile_tape(p.states, p.parameters, p.rates, p.outputs, deferred);
     }
 
     std::unique_ptr<Jet> jet(const Problem& p, int order, InstructionSet set) const {
         auto jet = make_jet(tape, order, LaneKind::single, set);
         jet->set_parameters(p.parameter_values);
         jet->compute(p.state_values);
-        jet->follow(groups);
+        jet->compute_deferred(groups);
         return jet;
     }
 };
 
-/// Coefficients of all states, one after another.
+/// Returns the coefficients of `count` states from `first` on, one after another.
 std::vector<double> states_of(const Jet& jet, std::size_t first, std::size_t count) {
     std::vector<double> numbers;
     for (std::size_t i = first; i < first + count; ++i)
@@ -62,7 +62,7 @@ std::vector<double> states_of(const Jet& jet, std::size_t first, std::size_t cou
     return numbers;
 }
 
-/// Those of one direction.
+/// Returns the coefficients of one direction.
 std::vector<double> changes_of(const TangentSeries& series, std::size_t states, std::size_t direction) {
     std::vector<double> numbers;
     for (std::size_t i = 0; i < states; ++i)
@@ -71,7 +71,7 @@ std::vector<double> changes_of(const TangentSeries& series, std::size_t states, 
     return numbers;
 }
 
-/// Seeds of the states, then of the parameters, in so many directions.
+/// Initial changes of the states and of the parameters, in several directions.
 struct Seeds {
     std::vector<double> states, parameters;
 };
@@ -86,7 +86,7 @@ Seeds seeds_of(const Problem& p, std::size_t directions) {
 
 constexpr std::array some_directions = {1, 2, 7, 13, 40};
 
-/// One direction, as states of a larger vector field, differentiated by symbols.
+/// Returns the series of one direction, computed as states of a larger vector field with symbolic derivatives.
 std::vector<double> variational(const Problem& p, const Seeds& seeds, std::size_t directions, std::size_t d, int order,
                                 InstructionSet set) {
     Problem larger = p;
@@ -126,7 +126,7 @@ TEST(TangentSeries, SolveTheVariationalEquations) {
                                    found = changes_of(series, p.states.size(), d - first);
                         const auto size = sizes_of(exact, order);
                         ASSERT_EQ(found.size(), exact.size());
-                        // Sums and products come in another sequence, and their round-off goes from order to order.
+                        // Sums and products have another order, and their round-off propagates from order to order.
                         for (std::size_t i = 0; i < found.size(); ++i)
                             ASSERT_NEAR(found[i], exact[i], 1000 * eps * size[i % size.size()])
                                 << "direction " << d << " of " << directions << ", number " << i << ", order " << order
@@ -136,8 +136,8 @@ TEST(TangentSeries, SolveTheVariationalEquations) {
             }
 }
 
-/// Independent of all differentiation by symbols.
-TEST(TangentSeries, MatchDifferences) {
+/// A check that is independent of symbolic differentiation.
+TEST(TangentSeries, AgreeWithFiniteDifferences) {
     const Problem p = testing::everything();
     const Linear linear(p);
     constexpr int order = 12;
@@ -166,10 +166,10 @@ TEST(TangentSeries, MatchDifferences) {
     }
 }
 
-/// What follows is computed by kernels of its own, many orders at once: at every order, with every instruction set, it
-/// has to be what the same expressions are as outputs, which are computed order by order.
-TEST(TangentSeries, FollowersAreWhatOutputsAre) {
-    constexpr double radius = 2; // within that of convergence of all
+/// Deferred expressions have kernels for many orders at once: at every order and with every instruction set, they must
+/// equal the same expressions as outputs, which are computed order by order.
+TEST(TangentSeries, DeferredExpressionsEqualOutputs) {
+    constexpr double radius = 2; // less than all radii of convergence
     for (int order = 1; order <= highest_order; ++order) {
         Problem p;
         const Expression x = p.state("x", 0.3), y = p.state("y", 0.2), a = p.parameter("a", 0.7);
@@ -184,32 +184,32 @@ TEST(TangentSeries, FollowersAreWhatOutputsAre) {
                                              pow(3 + x * y, -3),
                                              sqrt(4 + x * y) / (2 + x)};
         p.outputs = wanted;
-        std::vector<TapeFollower> followers;
+        std::vector<DeferredExpression> deferred;
         for (const Expression& one : wanted)
-            followers.push_back({one, 0});
-        const Tape tape = compile_tape(p.states, p.parameters, p.rates, {}, followers);
+            deferred.push_back({one, 0});
+        const Tape tape = compile_tape(p.states, p.parameters, p.rates, {}, deferred);
         const auto expected = testing::output_series(p, order, InstructionSet::baseline);
         for (const InstructionSet set : testing::supported_sets()) {
             const auto jet = make_jet(tape, order, LaneKind::single, set);
             jet->set_parameters(p.parameter_values);
             jet->compute(p.state_values);
             const std::uint32_t group = 0;
-            jet->follow({&group, 1});
+            jet->compute_deferred({&group, 1});
             for (std::size_t i = 0; i < wanted.size(); ++i) {
                 double size = 0;
                 for (std::size_t k = expected[i].size(); k-- > 0;)
                     size = std::max(size, std::abs(expected[i][k]) * std::pow(radius, static_cast<double>(k)));
                 for (std::size_t k = 0; k < expected[i].size(); ++k)
-                    ASSERT_NEAR(jet->follower(i)[k], expected[i][k],
+                    ASSERT_NEAR(jet->deferred(i)[k], expected[i][k],
                                 100 * eps * size / std::pow(radius, static_cast<double>(k)))
-                        << name_of(set) << ", order " << order << ", follower " << i << ", coefficient " << k;
+                        << name_of(set) << ", order " << order << ", deferred " << i << ", coefficient " << k;
             }
         }
     }
 }
 
-/// Followers change nothing in what they follow, whichever groups are computed; and groups do not depend on others.
-TEST(TangentSeries, FollowersLeaveTheMotionAlone) {
+/// The groups that are requested affect neither the states nor each other.
+TEST(TangentSeries, DeferredExpressionsDoNotAffectTheMotion) {
     const Problem p = testing::everything();
     const Linear linear(p);
     const Tape plain = p.tape();
@@ -226,24 +226,24 @@ TEST(TangentSeries, FollowersLeaveTheMotionAlone) {
                 const auto one = make_jet(linear.tape, order, LaneKind::single, set);
                 one->set_parameters(p.parameter_values);
                 one->begin(p.state_values);
-                one->begin_followers({&group, 1}); // goes on from there
+                one->begin_deferred({&group, 1}); // `compute_deferred` continues from here
                 one->compute(p.state_values);
-                one->follow({&group, 1});
+                one->compute_deferred({&group, 1});
                 for (const TangentEntry& entry : linear.equations.entries) {
                     const bool by_parameter =
                         entry.source >= p.states.size() && entry.source < p.states.size() + p.parameters.size();
                     if ((by_parameter ? 1 + entry.source - p.states.size() : 0) != group)
                         continue;
-                    const bool constant = linear.tape.followers[entry.follower].constant;
+                    const bool constant = linear.tape.deferred[entry.deferred].constant;
                     for (int k = 0; k <= (constant ? 0 : order); ++k)
-                        ASSERT_EQ(one->follower(entry.follower)[k], all->follower(entry.follower)[k]);
+                        ASSERT_EQ(one->deferred(entry.deferred)[k], all->deferred(entry.deferred)[k]);
                 }
             }
         }
 }
 
-/// What begins at the end of a step is what the polynomials' slopes are there: closed forms of x'' = -x.
-TEST(TangentSeries, BeginWhereStepsEnd) {
+/// `begin` at the end of a step agrees with the slopes of the polynomials there: closed forms of x'' = -x.
+TEST(TangentSeries, BeginAgreesWithSlopesAtTheEndOfAStep) {
     Problem p;
     const Expression x = p.state("x", 0.3), y = p.state("y", -0.2);
     p.rates = {y, -x};
@@ -267,7 +267,7 @@ TEST(TangentSeries, BeginWhereStepsEnd) {
             EXPECT_NEAR(sums[width], -std::sin(step), 4 * eps);
             EXPECT_NEAR(there.state(0)[width], slopes[0], 4 * eps);
             EXPECT_EQ(here.find_misfit(there, {1e-12, 0, 1e-100}, step, sums, slopes, 0), 2U);
-            // The last two terms of cos are those of orders 18 and 20.
+            // The last two terms of the cosine have orders 18 and 20.
             EXPECT_NEAR(here.tails(step, {}) * (1 + step * step / 2) / std::pow(step, 20), 1 / std::tgamma(21.0),
                         1 / std::tgamma(19.0));
             slopes[1 * width] += 1e-6;
@@ -275,8 +275,8 @@ TEST(TangentSeries, BeginWhereStepsEnd) {
         }
 }
 
-/// Each square doubles what its derivative is multiplied by: 2^1200 is no number, but the derivative is one.
-TEST(TangentSeries, OfDeepNestingAreFinite) {
+/// Each square doubles the factor of its derivative: 2^1200 overflows, but the derivative is finite.
+TEST(TangentSeries, DeepNestingGivesFiniteDerivatives) {
     Problem p;
     const Expression x = p.state("x", 0.3);
     Expression nested = x;
@@ -289,14 +289,14 @@ TEST(TangentSeries, OfDeepNestingAreFinite) {
         TangentSeries series(linear.tape, linear.equations, *jet, {}, 1, set);
         series.load(std::vector{1.0}, {}, 1, 0, 1);
         series.compute(*jet);
-        // y = y^2 + x / 10, where nesting leads: y' = 0.1 / (1 - 2 y)
+        // y = y^2 + x / 10, the limit of nesting: y' = 0.1 / (1 - 2 y)
         const double root = std::sqrt(1 - 0.4 * 0.3), slope = 0.1 / root;
         EXPECT_NEAR(jet->state(0)[1], (1 - root) / 2, 10 * eps);
         EXPECT_NEAR(series.state(0)[1], slope, 10 * eps) << name_of(set);
     }
 }
 
-TEST(TangentSeries, RefuseWhatDoesNotFit) {
+TEST(TangentSeries, MisuseThrows) {
     Problem p;
     const Expression x = p.state("x", 0.3), a = p.parameter("a", 2);
     p.rates = {a * x * x};
@@ -308,7 +308,7 @@ TEST(TangentSeries, RefuseWhatDoesNotFit) {
     };
     EXPECT_THROW(TangentSeries(linear.tape, linear.equations, *jet, none, 1), InputError);
     for (const auto spoil : {+[](TangentEntry& e) { e.row = 1; }, +[](TangentEntry& e) { e.source = 2; },
-                             +[](TangentEntry& e) { e.follower = 2; }}) {
+                             +[](TangentEntry& e) { e.deferred = 2; }}) {
         TangentEquations wrong = linear.equations;
         spoil(wrong.entries[0]);
         EXPECT_THROW(make(wrong), InputError);
@@ -322,9 +322,9 @@ TEST(TangentSeries, RefuseWhatDoesNotFit) {
     EXPECT_THROW(series.evaluate(0.1, nothing, values), InputError);
     EXPECT_THROW(series.evaluate(0.1, values, nothing), InputError);
     const auto fresh = make_jet(linear.tape, 8, LaneKind::single);
-    EXPECT_THROW(fresh->follow(linear.groups), std::logic_error);
+    EXPECT_THROW(fresh->compute_deferred(linear.groups), std::logic_error);
     const std::uint32_t empty = 7;
-    EXPECT_NO_THROW(jet->follow({&empty, 1}));
+    EXPECT_NO_THROW(jet->compute_deferred({&empty, 1}));
 }
 
 } // namespace

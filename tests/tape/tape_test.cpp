@@ -26,7 +26,7 @@ TEST(Tape, GathersSums) {
     EXPECT_EQ(tape.registers, 3u);
 }
 
-TEST(Tape, ComputesWithConstantsOnce) {
+TEST(Tape, EvaluatesConstantsOnce) {
     Problem p;
     const Expression x = p.state("x", 1);
     const Expression a = p.parameter("a", 1);
@@ -36,20 +36,20 @@ TEST(Tape, ComputesWithConstantsOnce) {
     EXPECT_EQ(tape.code.size(), 1u);
 }
 
-TEST(Tape, RemovesWhatNothingNeeds) {
+TEST(Tape, RemovesUnneededInstructions) {
     Problem p;
     const Expression x = p.state("x", 1);
     p.rates = {p.graph->number(2)};
     p.outputs = {sin(x)};
     const Tape tape = p.tape();
-    // The argument is linear in time: no series of its derivative.
+    // The argument is linear in time, so the series of its derivative is not needed.
     EXPECT_EQ(count(tape, SeriesOperation::derivative), 0);
     EXPECT_EQ(tape.code.size(), 2u);
     EXPECT_EQ(tape.degrees[0], 1u);
     EXPECT_EQ(tape.degrees[tape.outputs[0].index], Tape::unbounded);
 }
 
-TEST(Tape, SharesHelpers) {
+TEST(Tape, SharesHelperSeries) {
     Problem p;
     const Expression x = p.state("x", 1);
     p.rates = {sin(x) + cos(x) + exp(x) + tan(x)};
@@ -61,7 +61,7 @@ TEST(Tape, SharesHelpers) {
     EXPECT_EQ(count(tape, SeriesOperation::divide), 3);
 }
 
-TEST(Tape, IntegerPowersAreProducts) {
+TEST(Tape, IntegerPowersBecomeProducts) {
     Problem p;
     const Expression x = p.state("x", 0);
     p.rates = {pow(x, 5) + pow(x, -4) + pow(x, 0.5) + pow(2 * x, 2)};
@@ -73,7 +73,7 @@ TEST(Tape, IntegerPowersAreProducts) {
     EXPECT_EQ(count(tape, SeriesOperation::sqrt), 1);
 }
 
-TEST(Tape, KnowsDegrees) {
+TEST(Tape, FindsDegrees) {
     Problem p;
     const Expression x = p.state("x", 0);
     const Expression v = p.state("v", 0);
@@ -91,7 +91,7 @@ TEST(Tape, KnowsDegrees) {
     EXPECT_EQ(tape.degrees[tape.outputs[2].index], 0u);
 }
 
-TEST(Tape, PlacesOfRatesAndOutputs) {
+TEST(Tape, FindsLocationsOfRatesAndOutputs) {
     Problem p;
     const Expression x = p.state("x", 0);
     const Expression a = p.parameter("a", 1);

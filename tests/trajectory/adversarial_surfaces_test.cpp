@@ -1,4 +1,4 @@
-// Contacts that are hardly contacts, with surfaces that are curved, narrow or many.
+// Contacts at the limit of detection, with surfaces that are curved, narrow or many.
 
 #include "grazing_cases.hpp"
 
@@ -9,7 +9,7 @@ using namespace graze::testing;
 
 namespace {
 
-/// Straight flight past surfaces whose functions vary much faster than the motion: one mode for each.
+/// Straight flight past surfaces whose functions vary much faster than the motion; each mode has one surface.
 constexpr const char* straight_flight = R"toml(
 name = "straight-flight"
 [parameters]
@@ -77,7 +77,7 @@ struct Flight {
 
 } // namespace
 
-TEST(Adversarial, SurfacesThatVaryFasterThanTheMotion) {
+TEST(Adversarial, FastVaryingSurfacesAreMet) {
     Random random(5);
     Bench bench(model_from(straight_flight), 1e-6, 1e-15, 46);
     Witness witness;
@@ -103,10 +103,10 @@ TEST(Adversarial, SurfacesThatVaryFasterThanTheMotion) {
             size = 2 * (Real(one.x) * one.x + Real(one.y) * one.y) + speed * one.end * one.end;
         } else {
             one.k = surface == 3 ? random.log_uniform(1, 300) : random.log_uniform(1, 1000);
-            if (surface == 1) // further away the bell is no number that a double can hold
+            if (surface == 1) // farther away the bell underflows
                 one.x = -std::min(-one.x, std::sqrt(600 / one.k));
             one.limit = 1 - draw_depth(random);
-            noise = (std::abs(one.x) + one.u * one.end) * std::sqrt(one.k); // of arguments, magnified by slopes
+            noise = (std::abs(one.x) + one.u * one.end) * std::sqrt(one.k); // arguments, amplified by slopes
         }
         if (!(one.height(surface, 0).value < 0))
             continue;
@@ -137,7 +137,7 @@ TEST(Adversarial, SurfacesThatVaryFasterThanTheMotion) {
         tally.expect_clean(2500);
 }
 
-TEST(Adversarial, BallAndShaker) {
+TEST(Adversarial, GrazesOfTheBallAndShakerAreMet) {
     Random random(6);
     Bench bench(load_model("ball-and-shaker"), 1e-6, 1e-15, 46);
     Witness witness;
@@ -185,7 +185,7 @@ TEST(Adversarial, BallAndShaker) {
 
 namespace {
 
-/// Two stops so close together that it is a question of round-off which comes first.
+/// Two stops so close together that round-off decides which is met first.
 constexpr const char* two_barriers = R"toml(
 name = "two-barriers"
 parameters = { first = 1, second = 1 }
@@ -205,7 +205,7 @@ next = "end"
 
 } // namespace
 
-TEST(Adversarial, TheFirstOfSeveralBarriers) {
+TEST(Adversarial, TheFirstOfSeveralBarriersIsMetFirst) {
     Random random(7);
     const Model model = model_from(two_barriers);
     const std::size_t first = *model.find_event("first");

@@ -1,4 +1,4 @@
-// Contacts that are hardly contacts, of the linear impact oscillator in closed form.
+// Contacts at the limit of detection, of the linear impact oscillator in closed form.
 
 #include "grazing_cases.hpp"
 
@@ -7,7 +7,7 @@ using namespace graze::testing;
 
 namespace {
 
-/// Maxima of the height above the surface in (0, end) of a linear oscillator.
+/// Returns the maxima of the height above the surface in (0, end) of a linear oscillator.
 /// @param spacing times the time scale of the motion: less than the distance of maxima
 std::vector<Peak> maxima(const LinearOscillator& oscillator, double surface, Real end, Real spacing, Real& size) {
     const Real fastest = std::max<Real>(1, oscillator.omega());
@@ -54,14 +54,14 @@ OscillatorCase draw_oscillator(Random& random) {
     return one;
 }
 
-/// How the engine does on one case.
+/// Judges the engine's result for one case.
 void judge(Tally& tally, Bench& bench, Witness& witness, const OscillatorCase& one, double end, Real spacing) {
     const LinearOscillator oscillator = one.oscillator();
     Real size = std::abs(Real(one.sigma)) + std::abs(one.amplitude);
     const auto peaks = maxima(oscillator, one.sigma, end, spacing, size);
     const Outcome outcome = bench.run(one.parameters(), one.state(), end, witness);
     Band band = band_of(bench.tolerance(), size, bench.steps);
-    // What is small is told by the size of the gap: no less than it is at the start.
+    // Small is relative to the size of the gap, which is at least its size at the start.
     band.touch = std::min(band.touch, 50 * bench.tolerance() * std::abs(Real(one.sigma) - one.x));
     const auto depth = [&](Real t) {
         const auto motion = oscillator.at(t);
@@ -72,7 +72,7 @@ void judge(Tally& tally, Bench& bench, Witness& witness, const OscillatorCase& o
 
 } // namespace
 
-TEST(Adversarial, GrazesOfTheLinearImpactOscillator) {
+TEST(Adversarial, GrazesOfTheLinearImpactOscillatorAreMet) {
     Random random(1);
     Bench bench(load_model("impact-oscillator"), 1e-6, 1e-15, 46);
     Witness witness;
@@ -83,7 +83,7 @@ TEST(Adversarial, GrazesOfTheLinearImpactOscillator) {
         Real size = 0;
         double end = random.uniform(2, 14) / std::sqrt(std::max(1.0, one.omega));
         const auto peaks = maxima(one.oscillator(), 0, end, 0.15L, size);
-        // A peak that is higher than all before it.
+        // Choose a peak that is higher than all before it.
         std::vector<Peak> records;
         Real highest = one.x;
         for (const Peak& peak : peaks)
@@ -104,7 +104,7 @@ TEST(Adversarial, GrazesOfTheLinearImpactOscillator) {
     tally.expect_clean(60000);
 }
 
-TEST(Adversarial, GrazesJustAfterTheStart) {
+TEST(Adversarial, GrazesJustAfterTheStartAreMet) {
     Random random(2);
     Bench bench(load_model("impact-oscillator"), 1e-6, 1e-15, 46);
     Witness witness;
@@ -130,7 +130,7 @@ TEST(Adversarial, GrazesJustAfterTheStart) {
     tally.expect_clean(30000);
 }
 
-TEST(Adversarial, GrazesJustAfterAnImpact) {
+TEST(Adversarial, GrazesJustAfterAnImpactAreMet) {
     Random random(3);
     Bench bench(load_model("impact-oscillator"), 1e-6, 1e-15, 46);
     Witness witness;
@@ -141,7 +141,7 @@ TEST(Adversarial, GrazesJustAfterAnImpact) {
         bench.draw(random);
         if (std::abs(one.amplitude) < 0.1)
             continue;
-        // Where the force presses towards the stop by `press` and decreases at the rate `relief`, a mass that leaves
+        // If the force presses towards the stop with `press` and decreases at the rate `relief`, a mass that leaves
         // with the speed 3 press^2 / (8 relief) returns to graze.
         const double press = random.log_uniform(1e-4, 0.3);
         one.theta = random.uniform(0.3, 2.8);
@@ -160,7 +160,7 @@ TEST(Adversarial, GrazesJustAfterAnImpact) {
         Real size = std::abs(Real(one.sigma)) + std::abs(one.amplitude);
         const auto peaks = maxima(oscillator, one.sigma, end, 0.025 * end * std::max(1.0, one.omega), size);
         const Outcome outcome = bench.run(one.parameters(), state, end, witness);
-        // The motion has only begun when it grazes: there is no truncation yet, and little round-off.
+        // The graze follows soon after the start: there is no truncation error yet, and little round-off.
         Band band = band_of(end < 1e-3 ? 0 : bench.tolerance(), size, 1);
         band.touch = std::min(band.touch, std::min(1e-3L, Real(bench.tolerance())) * end * speed);
         const auto depth = [&](Real t) { return std::pair(oscillator.x(t) - one.sigma, oscillator.v(t)); };
@@ -169,9 +169,9 @@ TEST(Adversarial, GrazesJustAfterAnImpact) {
     tally.expect_clean(20000);
 }
 
-TEST(Adversarial, SeveralGrazesInOneArc) {
-    // Free vibration without damping comes back to the same height; a force of twice the frequency makes two peaks
-    // with a shallow dip between them that one step may span.
+TEST(Adversarial, SeveralGrazesInOneArcAreMet) {
+    // Free vibration without damping returns to the same height; a force of twice the frequency makes two peaks with a
+    // shallow dip between them, which one step may span.
     Random random(4);
     Bench bench(load_model("impact-oscillator"), 1e-6, 1e-15, 46);
     Witness witness;

@@ -4,7 +4,7 @@
 
 namespace graze::testing {
 
-/// A ball between two walls at 0 and 1: a contact every half unit of time, for ever.
+/// A ball between two walls at 0 and 1, with a contact every half unit of time forever.
 inline Model ball_between_walls(double x) {
     Model model = parse_model(R"(
 [states]

@@ -1,4 +1,4 @@
-// Contacts with a law of Hertz, whose force is a power of the indentation: series end where contacts begin and end.
+// Contacts by Hertz's law, whose force is a power of the indentation: series end where contacts begin and end.
 
 #include "closed_form.hpp"
 #include "simulate.hpp"
@@ -58,7 +58,7 @@ mode = "free"
                                   stiffness, width, p, loss));
 }
 
-/// How long a contact lasts: 2 (d/v) times the integral of (1 - u^(p + 1))^(-1/2), with the deepest indentation d.
+/// Returns the duration of a contact: 2 (d/v) times the integral of (1 - u^(p + 1))^(-1/2), d the largest indentation.
 double contact_time(double stiffness, double p, double v) {
     const double deepest = std::pow((p + 1) * v * v / (2 * stiffness), 1 / (p + 1)), a = 1 / (p + 1);
     return 2 * deepest / v * a * std::sqrt(3.14159265358979323846) * std::exp(std::lgamma(a) - std::lgamma(a + 0.5));
@@ -66,7 +66,7 @@ double contact_time(double stiffness, double p, double v) {
 
 } // namespace
 
-TEST(BranchPoint, ContactsOfHertzBeginAndEnd) {
+TEST(BranchPoint, HertzContactsBeginAndEndOnTime) {
     Random random(3);
     for (int i = 0; i < 40; ++i) {
         const double p = i % 4 == 0 ? 1.5 : random.uniform(1.05, 3.9), v = random.log_uniform(1e-3, 1e3);
@@ -77,10 +77,10 @@ TEST(BranchPoint, ContactsOfHertzBeginAndEnd) {
         const double time = 0.5 * width / v + 5 * round;
         const Outcome outcome = experiment.run_from({0.5 * width, v}, 0, time);
         ASSERT_EQ(outcome.ending, Ending::end_time) << outcome.detail;
-        // In the fifth round the body is at the right wall again, or has just met it.
+        // In the fifth round the body is at the right wall again, or has just touched it.
         const std::size_t contacts = experiment.recorder.contacts().size();
         EXPECT_TRUE(contacts == 20 || contacts == 21) << contacts;
-        // Up to a thousand steps, of which each is right to 1e-12.
+        // Up to a thousand steps, each with an error of 1e-12.
         const double error = 1e-9 * (width + v * contact);
         EXPECT_NEAR(experiment.state()[0], width, error);
         EXPECT_NEAR(experiment.state()[1], v, 1e-10 * v);
@@ -102,8 +102,8 @@ TEST(BranchPoint, AContactEndsWhereItsForceDoes) {
     }
 }
 
-TEST(BranchPoint, DerivativesPassContactsOfHertz) {
-    // Where a body is at a time, by its speed at the start: the closed form by differences.
+TEST(BranchPoint, DerivativesPassHertzContacts) {
+    // The position at a time as a function of the initial speed: differences of the closed form.
     const double p = 1.5, k = 20, width = 1, time = 2.2;
     const auto position = [&](double v) { return width - v * (time - 0.5 * width / v - contact_time(k, p, v)); };
     const Simulation simulation(between_walls(k, width, p));

@@ -1,4 +1,4 @@
-// Many oscillators with a wall each, in one model.
+// Models of many oscillators, each with its own wall.
 
 #include "model/chain.hpp"
 
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double tolerance = 1e-12;
 
-/// The contacts of a trajectory, by their events.
+/// Records the contacts of a trajectory by event.
 class ContactTimes : public Observer {
 public:
     explicit ContactTimes(std::size_t events) : of_event(events) {}
@@ -45,12 +45,12 @@ Motion motion_of(const Model& model, double end) {
     return motion;
 }
 
-/// Where an oscillator of an uncoupled chain begins: such that it meets its wall after a while of its own.
+/// Returns the initial state of an oscillator of an uncoupled chain; each meets its wall after a different time.
 double start_of(std::size_t i, std::size_t n) {
     return -1.6 - static_cast<double>(i) / static_cast<double>(n);
 }
 
-/// Without coupling each oscillator moves as it does alone, whatever the other walls do.
+/// Without coupling each oscillator moves as it does alone, unaffected by the other walls.
 void expect_uncoupled_as_alone(std::size_t n, std::size_t compared_every, double end) {
     Model model = testing::chain(n, 0);
     for (std::size_t i = 0; i < n; ++i)
@@ -62,7 +62,7 @@ void expect_uncoupled_as_alone(std::size_t n, std::size_t compared_every, double
         one.set_initial("x1", start_of(i, n));
         one.set_parameter("F", i == 0 ? 1 : 0);
         const Motion alone = motion_of(one, end);
-        // Errors of steps of either, which impacts magnify by little: they take energy away.
+        // The tolerance allows for errors of steps of both; impacts dissipate energy and amplify errors little.
         constexpr double allowed = 1e3 * tolerance;
         EXPECT_NEAR(together.state[2 * i], alone.state[0], allowed) << i;
         EXPECT_NEAR(together.state[2 * i + 1], alone.state[1], allowed) << i;
@@ -73,17 +73,17 @@ void expect_uncoupled_as_alone(std::size_t n, std::size_t compared_every, double
     }
 }
 
-TEST(Chains, WithoutCouplingMoveAsTheirOscillatorsAlone) {
+TEST(Chains, UncoupledOscillatorsMoveAsTheyDoAlone) {
     expect_uncoupled_as_alone(40, 1, 20);
 }
 
-TEST(Chains, OfAThousandOscillatorsWithAThousandWallsAreSimulated) {
-    // Forced at one end, a contact is far from the other: what a shorter chain does there is the same to round-off.
+TEST(Chains, OfAThousandOscillatorsEqualAShorterChainNearTheForce) {
+    // The chain is forced at one end; far from the other end, a shorter chain has the same contacts to round-off.
     const double end = 2 * std::numbers::pi / 0.9;
     const Motion few = motion_of(testing::chain(40), end), many = motion_of(testing::chain(1000), end);
     EXPECT_GT(few.contacts.count, 0u);
     ASSERT_EQ(many.contacts.count, few.contacts.count);
-    for (std::size_t i = 0; i < 20; ++i) { // the free end makes itself felt in the others
+    for (std::size_t i = 0; i < 20; ++i) { // the others are affected by the end of the shorter chain
         EXPECT_NEAR(many.state[i], few.state[i], 1e3 * tolerance) << i;
         const auto &times = many.contacts.of_event[i], &others = few.contacts.of_event[i];
         ASSERT_EQ(times.size(), others.size());
@@ -92,12 +92,12 @@ TEST(Chains, OfAThousandOscillatorsWithAThousandWallsAreSimulated) {
     }
 }
 
-TEST(ChainsSlow, OfAThousandWithoutCouplingMoveAsTheirOscillatorsAlone) {
+TEST(ChainsSlow, AThousandUncoupledOscillatorsMoveAsTheyDoAlone) {
     expect_uncoupled_as_alone(1000, 50, 4);
 }
 
-/// Derivatives through impacts, by differences.
-TEST(Chains, CarryDerivativesThroughTheImpactsOfEach) {
+/// Derivatives through impacts, against differences.
+TEST(Chains, DerivativesThroughImpactsAgreeWithDifferences) {
     constexpr std::size_t n = 6;
     const double end = 2 * std::numbers::pi / 0.9;
     const Model model = testing::chain(n);
@@ -119,7 +119,7 @@ TEST(Chains, CarryDerivativesThroughTheImpactsOfEach) {
     };
     const auto more = moved(h, 0), less = moved(-h, 0), faster = moved(0, h), slower = moved(0, -h);
     for (std::size_t i = 0; i < 2 * n; ++i) {
-        // Differences leave second derivatives times h^2, and round-off over h.
+        // Differences have errors of the second derivatives times h^2, and of round-off over h.
         EXPECT_NEAR(trajectory.derivative(i, 0), (more[i] - less[i]) / (2 * h), 1e-5) << i;
         EXPECT_NEAR(trajectory.derivative(i, 1), (faster[i] - slower[i]) / (2 * h), 1e-5) << i;
     }

@@ -14,7 +14,7 @@ namespace {
 
 using Real = long double;
 
-/// Keeps the lowest value of every watched event function, and sticking and releases.
+/// Records the lowest value of every watched event function, sticking and releases.
 struct Watcher : Observer {
     double lowest = std::numeric_limits<double>::infinity();
     std::vector<double> crossings, stickings, phases_of_release;
@@ -57,11 +57,11 @@ Model ball_on_floor(double e, double g = 9.81) {
 
 namespace {
 
-/// Heights above a floor with x'' = -(g - b t), in closed form from impact to impact.
+/// Heights above a floor with x'' = -(g - b t), in closed form between impacts.
 struct FadingGravity {
     Real g, b, e;
-    Real time = 0, gap = 0, speed = 0; ///< at the last impact, after it
-    /// Flight to the next impact; none when the motion is pulled away before.
+    Real time = 0, gap = 0, speed = 0; ///< just after the last impact
+    /// Flight to the next impact; none when the motion is pulled away from the floor.
     bool next() {
         const Real pull = g - b * time;
         const Real discriminant = pull * pull / 4 - 2 * speed * b / 3;
@@ -119,7 +119,7 @@ TEST(Chatter, BallsComeToRestAtTheClosedFormTime) {
                 EXPECT_EQ(run.mode(), "rest");
                 EXPECT_EQ(run.trajectory.state()[0], 0);
                 EXPECT_EQ(run.trajectory.state()[1], 0);
-                // Impact n comes at sqrt(2 h / g) (1 + 2 e (1 - e^n) / (1 - e)).
+                // Impact n occurs at sqrt(2 h / g) (1 + 2 e (1 - e^n) / (1 - e)).
                 for (std::size_t n = 0; n < run.watcher.crossings.size(); ++n) {
                     const double fallen = std::sqrt(2 * height / g);
                     const double expected = fallen * (1 + 2 * e * (1 - std::pow(e, n)) / (1 - e));
@@ -165,7 +165,7 @@ TEST(Chatter, CompletelyInelasticBallsRestAtOnce) {
 }
 
 TEST(Chatter, AMotionThatStartsPressedAgainstTheSurfaceSticks) {
-    // A force of cos(theta) presses the mass at sigma = 0.1 against the stop until it is equal to the spring's.
+    // A force cos(theta) presses the mass at sigma = 0.1 against the stop until it equals the spring force.
     for (const double theta : {0.0, 0.3, 1.2, 5.0}) {
         const Watched run(load_model("impact-oscillator"), std::vector{0.1, 0.0, theta}, 2);
         ASSERT_EQ(run.watcher.crossings.size(), 2U) << theta;
@@ -175,7 +175,7 @@ TEST(Chatter, AMotionThatStartsPressedAgainstTheSurfaceSticks) {
     }
     const Watched ball(ball_on_floor(0.5), std::vector{0.0, 0.0, 0.0}, 1);
     EXPECT_EQ(ball.mode(), "rest");
-    // Without alternatives in the transition it is the absence of speed that makes it stick.
+    // Without alternatives in the transition, the zero speed decides that it sticks.
     const Watched fading(model_from(fading_gravity), std::vector{0.0, 0.0, 0.0}, 20);
     EXPECT_EQ(fading.watcher.stickings, std::vector{0.0});
     EXPECT_EQ(fading.trajectory.outcome().ending, Ending::terminal);
@@ -196,14 +196,14 @@ TEST(Chatter, RestOnAVibratingTableEndsWhereItFallsFasterThanGravity) {
             const auto& contact = experiment.recorder.contacts()[k];
             if (experiment.label(k) != "release" || contact.contact.time == 0)
                 continue;
-            // A ball that sticks just where the table lets it go has been at rest for no time.
+            // A ball that sticks just where the table releases it rests for no time.
             const double phase = std::asin(g / (a * omega * omega));
             EXPECT_NEAR(contact.after[2], phase, 1e-11) << contact.contact.time;
         }
     }
 }
 
-TEST(Chatter, AccumulationsUnderFadingGravityCompleteOrAreNotCut) {
+TEST(Chatter, AccumulationsUnderFadingGravityAreCompletedOnlyIfReal) {
     Random random(13);
     const Model model = model_from(fading_gravity);
     std::vector<std::unique_ptr<Simulation>> simulations;
@@ -233,7 +233,7 @@ TEST(Chatter, AccumulationsUnderFadingGravityCompleteOrAreNotCut) {
         graze::run(trajectory, jets);
         const std::string label =
             fmt::format("e={} b={} height={} tol={}", e, b, height, simulation.options().tolerance);
-        // Whether the last impact of many is made at all may hang on the last digit.
+        // Whether the last of many impacts occurs may depend on the last digit.
         if (reference.margin < 1e-4L) {
             ++undecided;
             continue;
@@ -282,9 +282,9 @@ next = "flight"
     }
 }
 
-TEST(Chatter, OtherEventsBetweenTheContactsDoNotHideIt) {
-    // After each impact a second mode governs for a while that is proportional to the speed, as a frame that an impact
-    // makes slip. The flights are those of a plain ball.
+TEST(Chatter, OtherEventsBetweenContactsDoNotHideAnAccumulation) {
+    // After each impact a second mode governs for a time proportional to the speed, like a frame that slips after an
+    // impact. The flights are those of a plain ball.
     const Model model = model_from(R"toml(
 name = "ball-with-slip"
 parameters = { e = 0.7, friction = 5 }
@@ -323,12 +323,12 @@ mode = "flight"
         EXPECT_EQ(run.mode(), "rest");
         ASSERT_EQ(run.watcher.stickings.size(), 1U);
         EXPECT_NEAR(run.watcher.stickings[0], 1.7 / 0.3, 1e-12);
-        // Impact n at the speed 2 e^n makes it slip by (2 e^n)^2 / 10.
+        // Impact n at the speed 2 e^n causes a slip of (2 e^n)^2 / 10.
         EXPECT_NEAR(run.trajectory.state()[3], 0.4 / (1 - 0.49), 0.1 * tolerance + 1e-13);
     }
 }
 
-TEST(Chatter, ImpactsOnAVibratingTableAsSimulatedIndependently) {
+TEST(Chatter, ImpactsOnAVibratingTableEqualAnIndependentSimulation) {
     Random random(14);
     const Real pi = std::numbers::pi_v<Real>;
     int compared = 0, rests = 0;
@@ -340,16 +340,16 @@ TEST(Chatter, ImpactsOnAVibratingTableAsSimulatedIndependently) {
         const double x0 = a * random.uniform(2, 10);
         Experiment experiment(shipped_with("bouncing-ball", {{"e", e}, {"a", a}, {"f", f}}), with_tolerance(1e-15));
         experiment.run_from({x0, 0, 0}, 0, 20 / f);
-        // Parabolas above a table that is less curved than they are: each meets it just once after its top.
+        // Parabolas have more curvature than the table: each meets it just once after its top.
         Real t = 0, x = x0, v = 0;
         for (const auto& record : experiment.recorder.contacts()) {
             if (record.contact.kind == ContactKind::sticking) {
                 ++rests;
-                // Less remains than a few flights at the last speed, which the table hardly changes.
+                // The remaining time is less than a few flights at the last speed, which the table hardly changes.
                 const Real pull = g - a * omega * omega * std::sin(omega * t);
                 const Real speed = v - a * omega * std::cos(omega * t);
                 const Real rest = t + 2 * speed / (pull * (1 - e));
-                // Flights that are as low as round-off of the table's height take this long.
+                // Flights as low as the round-off of the table's height take this long.
                 const double shortest = std::sqrt(8 * epsilon * a / static_cast<double>(pull));
                 worst_rest = std::max(worst_rest, static_cast<double>(std::abs(record.contact.time - rest)) / shortest);
                 break;
@@ -366,7 +366,7 @@ TEST(Chatter, ImpactsOnAVibratingTableAsSimulatedIndependently) {
             while (low > 0 && gap(low).first <= 0)
                 low *= 0.97L;
             if (t > 0 && low < speed / (g * 10))
-                break; // no better than the engine any more
+                break; // the reference is no more accurate than the engine here
             const Real s = root_in(
                 [&](Real r) {
                     const auto [y, slope] = gap(r);
@@ -378,7 +378,7 @@ TEST(Chatter, ImpactsOnAVibratingTableAsSimulatedIndependently) {
             t += s;
             x = a * std::sin(omega * t);
             ++compared;
-            // Round-off of the table's height moves an impact the more, the slower it is.
+            // Round-off of the table's height displaces an impact more, the slower it is.
             const double known = 1e-14 + 16 * epsilon * a / std::abs(record.contact.rate_before);
             worst = std::max(worst, static_cast<double>(std::abs(record.contact.time - t)) / known);
         }

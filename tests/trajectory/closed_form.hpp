@@ -8,7 +8,7 @@
 
 namespace graze::testing {
 
-/// The same numbers everywhere, which the distributions of the standard library do not promise.
+/// Random numbers that are the same on every platform, unlike the distributions of the standard library.
 class Random {
 public:
     explicit Random(std::uint64_t seed) : bits_(seed) {}
@@ -23,8 +23,8 @@ private:
     std::mt19937_64 bits_;
 };
 
-/// x'' + 2 zeta n x' + n^2 x = amplitude cos(phase + omega t) in closed form, with more digits than those under
-/// test. Underdamped, not in resonance without damping.
+/// x'' + 2 zeta n x' + n^2 x = amplitude cos(phase + omega t) in closed form, with more digits than the results under
+/// test. Underdamped, and not in undamped resonance.
 class LinearOscillator {
 public:
     using Real = long double;
@@ -61,7 +61,7 @@ public:
     Real omega() const { return omega_; }
     Real phase() const { return phase_; }
 
-    /// x, v at 0, h, 2h, ... by recurrence.
+    /// Returns x, v at 0, h, 2h, ... by recurrence.
     std::vector<Motion> sample(Real h, std::size_t count) const {
         std::vector<Motion> motions;
         motions.reserve(count);
@@ -86,8 +86,8 @@ private:
     std::complex<Real> response_;
 };
 
-/// A root of f, which changes sign from low to high, to the last digits of long double, by Newton's method inside the
-/// bracket: `f` gives value and slope.
+/// Returns a root of f, which changes sign from low to high, to the accuracy of long double, by Newton's method inside
+/// the bracket. `f` returns value and slope.
 template <class Function>
 long double root_in(Function f, long double low, long double high) {
     const bool rising = f(high).first > 0;

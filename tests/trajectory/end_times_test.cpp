@@ -12,9 +12,9 @@ namespace {
 
 struct Family {
     const char* rate;
-    double power; ///< x' = -+ k x^power; 0: drawn
+    double power; ///< x' = -+ k x^power; 0: random
     double low, high;
-    bool falls; ///< to zero; else it grows without bound
+    bool falls; ///< falls to zero; otherwise grows without bound
 };
 
 constexpr Family families[] = {
@@ -33,7 +33,7 @@ constexpr Family families[] = {
 
 } // namespace
 
-TEST(EndTimes, RootsPowersAndPoles) {
+TEST(EndTimes, OfRootsPowersAndPolesAreExact) {
     Random random(71);
     for (const Family& family : families) {
         SCOPED_TRACE(family.rate);
@@ -50,17 +50,17 @@ TEST(EndTimes, RootsPowersAndPoles) {
             Experiment experiment(model, with_tolerance(tolerance));
             const Outcome outcome = experiment.run_from({x}, 0, time * (random.chance(0.5) ? 2 : 1e5));
             EXPECT_TRUE(outcome.ending == Ending::singular || outcome.ending == Ending::undefined);
-            // Errors of a step are relative to the state at its start, of which a tenth to a hundredth is left; what
-            // vanishes with the power 1/(1 - p) makes less of it.
+            // Errors of a step are relative to the state at its start, of which a tenth to a hundredth is left; where
+            // the remaining time varies with the power 1/(1 - p) of the state, they have less effect.
             EXPECT_NEAR(outcome.time, time, (100 * tolerance + 1e-13) * time)
                 << "p = " << p << ", x = " << x << ", tolerance " << tolerance;
         }
     }
 }
 
-TEST(EndTimes, SnapThrough) {
-    // q'' = (c/2)/q^2 towards a fixed electrode, from rest: q = cos^2(u), t = sqrt(1/c) (u + sin u cos u), gone at
-    // u = pi/2.
+TEST(EndTimes, OfSnapThroughAreExact) {
+    // q'' = (c/2)/q^2 towards a fixed electrode, from rest: q = cos^2(u), t = sqrt(1/c) (u + sin u cos u), contact at u
+    // = pi/2.
     Random random(72);
     for (int i = 0; i < 100; ++i) {
         const double length = random.log_uniform(1e-6, 1e3), time = random.log_uniform(30, 1e5);

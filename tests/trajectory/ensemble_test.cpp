@@ -1,4 +1,4 @@
-// Trajectories in lanes are the same, bit for bit, as when each is run alone.
+// Trajectories in lanes equal those of separate runs bit for bit.
 
 #include "graze/trajectory/ensemble.hpp"
 
@@ -18,7 +18,7 @@ using namespace graze::testing;
 
 namespace {
 
-/// Everything that an observer is told, as bits.
+/// Records all observer calls, as bits.
 struct Transcript : Observer {
     std::vector<std::uint64_t> bits;
     std::size_t contacts = 0;
@@ -57,7 +57,7 @@ struct Task {
     double end_time = 0;
 };
 
-/// What came of one task.
+/// The results of one task.
 struct Result {
     std::vector<std::uint64_t> bits;
     std::vector<double> state;
@@ -114,7 +114,7 @@ std::vector<InstructionSet> supported_sets() {
     return sets;
 }
 
-/// A span of time in which much happens.
+/// Returns a time in which a model has many events.
 double span_of(const std::string& model) {
     if (model == "electromagnetic-testbed")
         return 0.6;
@@ -151,7 +151,7 @@ std::vector<Probe> all_probes(const Model& model) {
 
 } // namespace
 
-TEST(Ensemble, ShippedModelsInLanesAndAlone) {
+TEST(Ensemble, ShippedModelsInLanesEqualSeparateRuns) {
     Random random(21);
     std::size_t contacts = 0;
     for (const CatalogueEntry& entry : catalogue()) {
@@ -173,9 +173,9 @@ TEST(Ensemble, ShippedModelsInLanesAndAlone) {
     EXPECT_GT(contacts, 5000U);
 }
 
-TEST(Ensemble, TrajectoriesThatEndEarlyNextToOthers) {
-    // x' = x^2 is singular at 1/x, 1/(x - 1) is not defined at 1, the square root not below 0; barriers and steps end
-    // others.
+TEST(Ensemble, TrajectoriesThatEndEarlyDoNotAffectOthers) {
+    // x' = x^2 is singular at 1/x, 1/(x - 1) is undefined at 1, the square root below 0; other trajectories end at
+    // barriers or by the limit of steps.
     const Model model = model_from(R"toml(
 name = "ends"
 parameters = { a = 1 }
@@ -204,7 +204,7 @@ initial = { mode = "burst" }
                          mode,
                          random.log_uniform(0.1, 1e4)});
     }
-    tasks[7].state[0] = 2; // not defined from the start
+    tasks[7].state[0] = 2; // undefined at the start
     tasks[7].mode = 1;
     for (const InstructionSet set : supported_sets()) {
         const std::vector<Result> together = run_together(simulation, tasks, set);
@@ -219,7 +219,7 @@ initial = { mode = "burst" }
     }
 }
 
-TEST(Ensemble, MayBeCarriedOnAndUsedAgain) {
+TEST(Ensemble, CanBeContinuedAndReused) {
     const Model model = load_model("bouncing-ball");
     const Simulation simulation(model);
     Random random(23);
@@ -250,8 +250,8 @@ TEST(Ensemble, MayBeCarriedOnAndUsedAgain) {
     ensemble.run({});
 }
 
-// One motion may take longer than anybody waits: alone and in lanes it is left when that is wanted.
-TEST(Ensemble, LeavesMotionsUnfinishedWhenAsked) {
+// A motion may take too long: single and in lanes, it is left unfinished on request.
+TEST(Ensemble, LeavesMotionsUnfinishedOnRequest) {
     const Simulation simulation(load_model("impact-oscillator"));
     Observer observer;
     for (const std::size_t count : {std::size_t{1}, std::size_t{9}}) {
@@ -282,7 +282,7 @@ TEST(Ensemble, RefusesTrajectoriesOfOtherSimulations) {
     EXPECT_THROW(run(trajectories.front(), lanes), std::invalid_argument);
 }
 
-TEST(Ensemble, ThreadsShareASimulation) {
+TEST(Ensemble, ThreadsCanShareASimulation) {
     for (const char* name : {"impact-microactuator", "electromagnetic-testbed"}) {
         const Model model = load_model(name);
         const Simulation simulation(model, all_probes(model));

@@ -7,8 +7,8 @@
 
 #include <memory>
 
-// What the tests of contacts that are hardly contacts have in common: closed-form motions that pass a surface by a
-// chosen small depth, and what must be true of the engine's answer.
+// Common parts of the tests of contacts at the limit of detection: closed-form motions that pass a surface by a chosen
+// small depth, and the criteria for the engine's result.
 namespace graze::testing {
 
 using Real = long double;
@@ -35,7 +35,7 @@ struct Witness : Observer {
     }
 };
 
-/// One model at many tolerances.
+/// Simulations of one model at many tolerances.
 class Bench {
 public:
     Bench(const Model& model, double from, double to, int count) {
@@ -69,25 +69,26 @@ private:
 };
 
 struct Peak {
-    Real time, height, curvature; ///< height > 0 beyond the surface; curvature > 0
+    Real time, height, curvature; ///< height > 0 is beyond the surface; curvature > 0
 };
 
-/// How far from the surface the engine may err.
+/// The allowed error of the engine, as a distance from the surface.
 struct Band {
-    Real contact; ///< a peak that passes the surface by more must make a contact, which must lie no further from it
-    Real touch;   ///< a peak no further from the surface than this must be reported, as contact or as touch
+    Real contact; ///< a peak beyond the surface by more must cause a contact, which must be within this distance of the
+                  ///< surface
+    Real touch;   ///< a peak within this distance of the surface must be reported, as contact or as touch
 };
 
-/// The accuracy that a tolerance promises for a motion of this size: a tenth of the tolerance, and round-off, of which
-/// the values from which a trajectory starts or restarts and each step have their share.
+/// Returns the accuracy that a tolerance promises for a motion of this size: a tenth of the tolerance, plus round-off
+/// of the initial values and of each step.
 inline Band band_of(double tolerance, Real size, std::size_t steps) {
     return {size * (0.1L * tolerance + (64 + 4 * Real(steps)) * epsilon), size * (0.1L * tolerance + 4 * epsilon)};
 }
 
-/// What the engine must do about a motion whose depth beyond the surface has these peaks.
+/// Counts the results for motions with given peaks of depth.
 struct Tally {
     long cases = 0, contacts = 0, inside_band = 0, missed = 0, invented = 0, inaccurate = 0, silent = 0, ended = 0;
-    double worst = 0; ///< smallest band for which all is right, as a multiple of the band
+    double worst = 0; ///< smallest multiple of the band for which all results are right
     std::string first_failure;
 
     template <class Depth>
@@ -108,7 +109,7 @@ struct Tally {
             const Real blur = std::sqrt(4 * band / peak.curvature) + time_noise;
             if (peak.time > until + blur)
                 break;
-            // From where it penetrates on, it must have been seen.
+            // The motion must not be accepted beyond its first penetration.
             if (peak.height > 0 && peak.time < until - blur) {
                 worst = std::max(worst, static_cast<double>(peak.height / band));
                 if (peak.height > band)
@@ -150,7 +151,7 @@ struct Jet2 {
     Real value, slope, curvature;
 };
 
-/// Maxima of a function in (0, end), of which none lie closer together than `spacing`.
+/// Returns the maxima of a function in (0, end), whose distances are at least `spacing`.
 template <class Function>
 std::vector<Peak> maxima(const Function& f, Real end, Real spacing) {
     std::vector<Peak> peaks;
@@ -174,7 +175,7 @@ std::vector<Peak> maxima(const Function& f, Real end, Real spacing) {
     return peaks;
 }
 
-/// Either side, alike at every scale.
+/// Returns a random depth of either sign, with a scale-invariant distribution.
 inline double draw_depth(Random& random) {
     return random.log_uniform(1e-13, 1e-1) * (random.chance(0.5) ? 1 : -1);
 }

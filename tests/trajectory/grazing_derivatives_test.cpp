@@ -1,4 +1,4 @@
-// Derivatives at and near a grazing; touches at and near the distance that is documented.
+// Derivatives at and near a grazing; touches at and near the documented distance.
 
 #include "closed_form.hpp"
 #include "grazing_cases.hpp"
@@ -13,7 +13,7 @@ using namespace graze::testing;
 
 namespace {
 
-/// x'' = g past a surface at `surface`, in any units.
+/// x'' = g past a surface at `surface`, in arbitrary units.
 constexpr const char* parabola = R"toml(
 name = "parabola"
 parameters = { g = 2, e = 0.5, surface = 0, scale = 1 }
@@ -46,11 +46,11 @@ bool valid_after(const Model& model, std::vector<double> state, double end, doub
 
 } // namespace
 
-TEST(GrazingDerivatives, NoneAtAnExactGrazing) {
+TEST(GrazingDerivatives, DoNotExistAtAnExactGrazing) {
     Random random(61);
     for (int i = 0; i < 500; ++i) {
         Model model = model_from(parabola);
-        // Powers of two keep it exact in any units.
+        // Powers of two make it exact in any units.
         const double length = std::exp2(random.integer(-30, 20)), time = std::exp2(random.integer(-20, 20));
         model.set_parameter("g", 2 * length / (time * time));
         model.set_parameter("surface", random.chance(0.5) ? 0 : -length * random.integer(1, 8));
@@ -65,7 +65,7 @@ TEST(GrazingDerivatives, NoneAtAnExactGrazing) {
     }
 }
 
-TEST(GrazingDerivatives, ValidNearAGrazing) {
+TEST(GrazingDerivatives, ExistNearAGrazing) {
     Random random(62);
     for (int i = 0; i < 500; ++i) {
         Model model = model_from(parabola);
@@ -79,7 +79,7 @@ TEST(GrazingDerivatives, ValidNearAGrazing) {
     }
 }
 
-TEST(GrazingDerivatives, SeedsThatAreNoNumbersAreRefused) {
+TEST(GrazingDerivatives, NonFiniteSeedsAreRefused) {
     for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
         Experiment experiment(model_from(parabola));
         experiment.trajectory.start(std::vector{1.0, 0.0}, 0, 0, 1);
@@ -93,14 +93,14 @@ TEST(GrazingDerivatives, SeedsThatAreNoNumbersAreRefused) {
 }
 
 TEST(Touches, AreReportedUpToTheDocumentedDistance) {
-    // Free vibration at the distance b + cos(omega t) from the stop, or cos^3 instead, first far and then close; the
-    // function has been b + 1 large before it is b - 1.
+    // Free vibration at the distance b + cos(omega t) from the stop, or its cube, first far and then close; the
+    // function has been b + 1 large before it becomes b - 1.
     Random random(63);
     int touched = 0, passed = 0;
     for (int i = 0; i < 2000; ++i) {
         const double tolerance = random.log_uniform(1e-13, 1e-6), ratio = random.uniform(0.5, 2);
         if (std::abs(ratio - 1) < 0.03)
-            continue; // how large the function has been is known to some per cent
+            continue; // the largest value of the function is known to a few per cent
         const bool gap_is_cubic = random.chance(0.3);
         const double length = random.log_uniform(1e-9, 1e6), omega = random.log_uniform(1e-6, 1e6);
         const double excess = ratio * 100 * tolerance * 2; // largest: 2
@@ -111,7 +111,7 @@ TEST(Touches, AreReportedUpToTheDocumentedDistance) {
             "\"end\"\n",
             omega * omega, 1 + excess, length, gap_is_cubic ? "gap + (x/unit)^3" : "(gap + x/unit)*unit"));
         Experiment experiment(model, with_tolerance(tolerance));
-        const double phase = random.uniform(-2.5, -0.5); // before the largest distance
+        const double phase = random.uniform(-2.5, -0.5); // before the time of the largest distance
         const Outcome outcome = experiment.run_from({length * std::cos(phase), -length * omega * std::sin(phase)}, 0,
                                                     (3.14159265 * 1.5 - phase) / omega);
         ASSERT_EQ(outcome.ending, Ending::end_time);

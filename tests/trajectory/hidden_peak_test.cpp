@@ -1,4 +1,4 @@
-// High powers of what changes slowly are narrow peaks, of which coefficients far away say nothing.
+// High powers of slowly varying functions are narrow peaks, which coefficients far away do not show.
 
 #include "closed_form.hpp"
 #include "simulate.hpp"
@@ -14,13 +14,13 @@ namespace {
 
 using std::numbers::pi;
 
-/// Powers u^n that have their peak of height 1 at s = centre, with the integral over the whole line or half a period.
+/// Powers u^n with a peak of height 1 at s = centre, and the integral over the whole line or half a period.
 struct Peak {
     std::string text;
     double integral = 0;
-    double half_width = 0; ///< distance from the centre at which it is 1/2
+    double half_width = 0; ///< distance from the centre where the value is 1/2
     double centre = 0;
-    double reach = 0; ///< how far from the centre there is no other peak
+    double reach = 0; ///< distance from the centre without another peak
 };
 
 /// @param kind 0 .. 4
@@ -55,7 +55,7 @@ Peak draw_peak(Random& random, int kind) {
 
 } // namespace
 
-TEST(HiddenPeaks, HighPowersAreIntegrated) {
+TEST(HiddenPeaks, OfHighPowersAreIntegrated) {
     Random random(71);
     for (int i = 0; i < 200; ++i) {
         // Tails reach 1e-15 at a distance of ten half widths.
@@ -68,7 +68,7 @@ TEST(HiddenPeaks, HighPowersAreIntegrated) {
         ASSERT_EQ(outcome.ending, Ending::end_time) << text << " " << outcome.detail;
         if (9 * half_width > reach)
             continue;
-        // What its position is uncertain by counts in half widths, and so does the round-off of a base near one.
+        // Uncertainty of the position is relative to the half width; round-off of a base near one adds to it.
         const double sensitivity = 1 + epsilon / (half_width * half_width * tolerance);
         EXPECT_NEAR(experiment.state()[1], integral, 100 * tolerance * sensitivity * integral) << text;
     }
@@ -90,7 +90,7 @@ TEST(HiddenPeaks, EventsOfHighPowersAreMet) {
     }
 }
 
-TEST(HiddenPeaks, FunctionsThatVanishBeyondTheRangeOfNumbersEndNothing) {
+TEST(HiddenPeaks, FunctionsThatUnderflowDoNotEndTheMotion) {
     Random random(73);
     for (int i = 0; i < 40; ++i) {
         const double steepness = random.log_uniform(100, 1000), at = random.uniform(0.2, 0.6);
@@ -124,7 +124,7 @@ TEST(HiddenPeaks, KinksOfSectionsArePassed) {
             with_tolerance(random.log_uniform(1e-13, 1e-6)));
         const Outcome outcome = experiment.run(1);
         EXPECT_LT(experiment.trajectory.steps(), 500U);
-        if (outcome.ending == Ending::undefined) { // a step has ended on the kink itself, and says so
+        if (outcome.ending == Ending::undefined) { // a step has ended exactly on the kink
             EXPECT_NEAR(outcome.time, at, 1e-15);
             continue;
         }

@@ -1,4 +1,4 @@
-// Events at the end of a period, where the state is set back whose event it is.
+// Events at the end of a period, where the state of the event's function is reset.
 
 #include "simulate.hpp"
 
@@ -33,9 +33,9 @@ next = "running"
 
 } // namespace
 
-// Round-off decides whether an end that is meant to be that of a period comes just before or just after it. The count
-// is that of whole periods in either case.
-TEST(PeriodEnd, IsCountedWhereATrajectoryEndsThereAndGoesOn) {
+// Round-off decides whether the intended end of a period comes just before or just after it. The count must be that of
+// whole periods in either case.
+TEST(PeriodEnd, IsCountedOnceWhereATrajectoryEndsThereAndContinues) {
     Random random(5);
     constexpr int periods = 30;
     for (int trial = 0; trial < 2000; ++trial) {

@@ -10,7 +10,7 @@ namespace {
 using namespace graze::testing;
 using std::numbers::pi;
 
-/// Counts passages and keeps the last time and state of each probe, as runs are long.
+/// Counts passages and stores only the last time and state of each probe, since runs are long.
 class Counter : public Observer {
 public:
     explicit Counter(std::size_t probes) : count(probes), last(probes, -1e300), state(probes) {}
@@ -39,7 +39,7 @@ std::vector<std::size_t> passages(const Model& model, const std::vector<Probe>& 
     return counter.count;
 }
 
-/// A harmonic oscillation x = sin(phase) beside a phase; `rate` may be negative, and `other` is a second phase.
+/// A harmonic oscillation x = sin(phase) with its phase; `rate` may be negative; `other` is the rate of a second phase.
 Model rotor(double rate = 1, double other = 1) {
     Model model = model_from(R"(
 name = "rotor"
@@ -87,7 +87,7 @@ std::vector<Probe> sections(const Model& model, std::initializer_list<const char
     return probes;
 }
 
-TEST(Probe, SectionsGiveProbes) {
+TEST(Probe, SectionsHaveProbes) {
     const Model model = rotor();
     EXPECT_EQ(section_probe(model, "target").kind, Probe::Kind::phase);
     EXPECT_EQ(section_probe(model, "up").direction, Direction::rising);
@@ -100,10 +100,11 @@ TEST(Probe, SectionsGiveProbes) {
     }
 }
 
-TEST(Probe, OnePassageForEachPeriod) {
+TEST(Probe, HasOnePassageInEachPeriod) {
     const std::size_t periods = 100'000;
     const Model model = rotor();
-    // Half a period beyond the last passage. The run starts on `zero`, `up` and `both`, which are not passed then.
+    // The run ends half a period after the last passage. It starts on `zero`, `up` and `both`, which are not passed
+    // then.
     const auto count = passages(model, sections(model, {"zero", "target", "up", "down", "both"}),
                                 2 * pi * static_cast<double>(periods) + 3.5);
     EXPECT_EQ(count[0], periods);
@@ -113,7 +114,7 @@ TEST(Probe, OnePassageForEachPeriod) {
     EXPECT_EQ(count[4], 2 * periods + 1);
 }
 
-TEST(Probe, StepsThatEndOnASection) {
+TEST(Probe, StepsThatEndOnASectionCountOnce) {
     const Model model = rotor();
     for (const int parts : {1, 2, 3, 4, 7, 8, 64}) {
         SimulationOptions options;
@@ -129,13 +130,13 @@ TEST(Probe, StepsThatEndOnASection) {
     }
 }
 
-TEST(Probe, PhasesThatRunBackwards) {
+TEST(Probe, PhasesMayRunBackwards) {
     const std::size_t periods = 20'000;
     const Model model = rotor(-1, -2.5);
     const auto count =
         passages(model, sections(model, {"zero", "target", "second"}), 2 * pi * static_cast<double>(periods) + 3.5);
-    EXPECT_EQ(count[0], periods); // starts on it
-    EXPECT_EQ(count[1], periods); // next after 2 pi - 1
+    EXPECT_EQ(count[0], periods); // the run starts on it
+    EXPECT_EQ(count[1], periods); // the first passage is after 2 pi - 1
     EXPECT_EQ(count[2], static_cast<std::size_t>(std::floor((2.5 * (2 * pi * periods + 3.5) - 2) / 3)) + 1);
     SimulationOptions options;
     options.largest_step = 2 * pi / 8;
@@ -144,8 +145,8 @@ TEST(Probe, PhasesThatRunBackwards) {
     EXPECT_EQ(again[1], 1000u);
 }
 
-TEST(Probe, PhasesThatTurnBack) {
-    // theta' = cos(t): sways over [-1, 1] about a section at 0, and about one at 0.5.
+TEST(Probe, PhasesMayTurnBack) {
+    // theta' = cos(t): theta oscillates in [-1, 1]; sections at 0 and at 0.5.
     Model model = model_from(R"(
 name = "sway"
 [states]
@@ -172,13 +173,14 @@ mode = "only"
     ASSERT_EQ(zero.size(), 200u); // at pi, 2 pi, 3 pi, ...
     for (std::size_t i = 0; i < zero.size(); ++i)
         EXPECT_NEAR(zero[i], static_cast<double>(i + 1) * pi, 1e-11);
-    // sin t = 0.5 at pi/6, 5 pi/6, and sin t = -1, of which 0.5 - 1.5 is the touch at the turning point: no passage.
+    // sin t = 0.5 at pi/6, 5 pi/6; sin t = -1, equal to 0.5 - 1.5, touches the section at the turning point: no
+    // passage.
     ASSERT_GE(half.size(), 201u);
     EXPECT_NEAR(half[0], pi / 6, 1e-12);
     EXPECT_NEAR(half[1], 5 * pi / 6, 1e-12);
 }
 
-TEST(Probe, TimesAndStatesOfPassages) {
+TEST(Probe, TimesAndStatesOfPassagesAreExact) {
     const Model model = rotor();
     Experiment experiment(model, with_tolerance(1e-15), sections(model, {"zero", "up"}));
     experiment.run(200 * pi + 1);
@@ -196,7 +198,7 @@ TEST(Probe, TimesAndStatesOfPassages) {
     }
 }
 
-TEST(Probe, ExtremaOfSmoothMotion) {
+TEST(Probe, ExtremaOfSmoothMotionsAreFound) {
     const Model model = rotor();
     const auto x = [&](Direction direction) {
         return Probe{"x", Probe::Kind::extremum, model.symbol("x"), direction, 0, {}};
@@ -207,7 +209,7 @@ TEST(Probe, ExtremaOfSmoothMotion) {
     std::vector<int> count(3);
     for (const auto& [passage, state] : experiment.recorder.passages()) {
         ++count[passage.probe];
-        // Extrema at pi/2 + n pi; the value is flat there.
+        // Extrema are at pi/2 + n pi; the value is stationary there.
         const double n = std::round(passage.time / pi - 0.5);
         EXPECT_NEAR(passage.time, pi / 2 + n * pi, 2e-13);
         EXPECT_EQ(passage.direction, std::fmod(n, 2) == 0 ? -1 : 1);
@@ -239,12 +241,12 @@ TEST(Probe, ExtremaAtImpactsCountOnce) {
                      model.events[record.contact.event].name == "stop" && record.contact.rate_before < 0;
     EXPECT_GT(crossings, 50u);
     EXPECT_EQ(at_contact, crossings);
-    // Maxima and minima alternate.
+    // Maxima and minima must alternate.
     EXPECT_LE(std::max(at_contact + other_maxima, minima) - std::min(at_contact + other_maxima, minima), 1u);
 }
 
-TEST(Probe, PhaseSetAnewByAJump) {
-    // The model switches at phases 0 and pi and sets the phase there exactly; sections lie on both.
+TEST(Probe, PhasesMayBeSetByAJump) {
+    // The model switches at phases 0 and pi and sets the phase there exactly; a section is at each of them.
     Model model = load_model("mems-switch");
     model.set_parameter("V", 0.1);
     model.set_initial("q", 0);
@@ -258,8 +260,8 @@ TEST(Probe, PhaseSetAnewByAJump) {
     EXPECT_EQ(count, (std::vector<std::size_t>(3, 5000)));
 }
 
-TEST(Probe, PhaseJumpOntoAndPastSections) {
-    // At phase 1 a jump to 2 (past the section at 1.5, which is not passed), at phase 3 back to 0 (onto a section).
+TEST(Probe, PhasesMayJumpOntoAndPastSections) {
+    // At phase 1 a jump to 2 (past the section at 1.5, which is not counted), at phase 3 back to 0 (onto a section).
     const Model model = model_from(R"(
 name = "jumps"
 [states]
@@ -304,7 +306,7 @@ mode = "low"
     EXPECT_EQ(count, (std::vector<std::size_t>{0, 0, 100}));
 }
 
-TEST(Probe, SectionOnTheSurfaceOfABarrier) {
+TEST(Probe, SectionsMayCoincideWithABarrier) {
     // A ball on a floor: every impact reaches the section x = 0, falling, once; it never rises through it.
     Model model = load_model("bouncing-ball");
     model.set_parameter("a", 0);
@@ -321,7 +323,7 @@ TEST(Probe, SectionOnTheSurfaceOfABarrier) {
         EXPECT_EQ(record.passage.direction, -1);
 }
 
-TEST(Probe, StoppingAtPassagesLosesAndDoublesNothing) {
+TEST(Probe, StoppingAtPassagesLosesAndRepeatsNothing) {
     const Model model = rotor();
     const auto probes = sections(model, {"zero", "target", "up", "down", "both", "second"});
     class Stopper : public Recorder {
@@ -344,7 +346,7 @@ TEST(Probe, StoppingAtPassagesLosesAndDoublesNothing) {
     std::size_t stops = 0;
     while (trajectory.outcome().ending == Ending::stopped) {
         ++stops;
-        // Exactly at the passage, to the last bit.
+        // The state is exactly at the passage, to the last bit.
         EXPECT_EQ(trajectory.time(), stopper.passages().back().passage.time);
         EXPECT_EQ(trajectory.outcome().time, trajectory.time());
         EXPECT_EQ(trajectory.state()[0], stopper.passages().back().state[0]);
@@ -370,7 +372,7 @@ TEST(Probe, StoppingAtPassagesLosesAndDoublesNothing) {
     EXPECT_GT(stops, 700u);
 }
 
-TEST(Probe, StoppingAtAPassageBeforeAContact) {
+TEST(Probe, StoppingAtAPassageBeforeAContactKeepsTheContact) {
     // Extending a run that was stopped at each turning point finds the same impacts.
     Model model = load_model("impact-oscillator");
     class Stopper : public Recorder {
@@ -404,7 +406,7 @@ TEST(Probe, StoppingAtAPassageBeforeAContact) {
 }
 
 TEST(CyclicStates, StayWithinTheirPeriodsForAMillionPeriods) {
-    // Phases 2 pi and 3 long, forwards and backwards, and the error of the phase against long double arithmetic.
+    // Periods 2 pi and 3, forwards and backwards; the error of the phase is measured against long double arithmetic.
     class Watch : public Observer {
     public:
         void step(const Step& step) override {
@@ -428,7 +430,7 @@ TEST(CyclicStates, StayWithinTheirPeriodsForAMillionPeriods) {
             const long double turns = (motion - static_cast<long double>(phase)) / static_cast<long double>(period);
             return static_cast<double>(std::abs(turns - std::round(turns)) * static_cast<long double>(period));
         };
-        // Each step may leave half a unit of round-off: as a random walk of some 3e6 steps, 1e-12; half of it, 1e-9.
+        // Each step may add half a unit of round-off: 3e6 steps give 1e-12 as a random walk, 1e-9 in the worst case.
         EXPECT_LT(error(trajectory.state()[2], static_cast<long double>(rate) * static_cast<long double>(end), 2 * pi),
                   1e-11);
         const auto other = static_cast<long double>(0.37 * rate);

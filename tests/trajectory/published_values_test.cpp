@@ -1,5 +1,5 @@
-// Published values of the shipped models by simulation alone: nothing here knows of orbits or branches. Periodic
-// motions that simulation cannot settle on are found by Newton's method on the stroboscopic map, by differences.
+// Published values of the shipped models by simulation only, without orbits or branches. Unstable periodic motions are
+// found by Newton's method on the stroboscopic map, with finite differences.
 
 #include "graze/model/microbeam.hpp"
 #include "trajectory/simulate.hpp"
@@ -20,7 +20,7 @@ namespace {
 using namespace graze::testing;
 using std::numbers::pi;
 
-/// Takes an event out of a model: what would happen if the stop were not there.
+/// Removes an event from a model: the motion without the stop.
 Model without_event(Model model, const char* event) {
     const std::size_t index = model.find_event(event).value();
     for (Mode& mode : model.modes)
@@ -40,7 +40,7 @@ std::size_t contacts_at(const Experiment& experiment, const char* event) {
                                                   [&](const auto& record) { return record.contact.event == index; }));
 }
 
-/// Times of contacts at an event.
+/// Returns the times of contacts at an event.
 std::vector<double> contact_times(const Experiment& experiment, const char* event) {
     const std::size_t index = experiment.simulation.model().find_event(event).value();
     std::vector<double> times;
@@ -50,7 +50,7 @@ std::vector<double> contact_times(const Experiment& experiment, const char* even
     return times;
 }
 
-/// Largest value of a state at passages of a probe after some time.
+/// Returns the largest value of a state at passages of a probe after a time.
 double largest(const Experiment& experiment, std::size_t probe, std::size_t state, double after) {
     double result = -std::numeric_limits<double>::infinity();
     for (const auto& record : experiment.recorder.passages())
@@ -61,7 +61,7 @@ double largest(const Experiment& experiment, std::size_t probe, std::size_t stat
 
 // ---- chapter 6
 
-TEST(MemsSwitch, ImpactsAndSnapThrough) {
+TEST(MemsSwitch, ImpactsAndSnapThroughAreThePublishedOnes) {
     Experiment experiment(load_model("mems-switch"), with_tolerance(1e-14));
     const Outcome outcome = experiment.run(100);
     EXPECT_EQ(outcome.ending, Ending::singular);
@@ -69,7 +69,7 @@ TEST(MemsSwitch, ImpactsAndSnapThrough) {
     const std::vector<double> times = contact_times(experiment, "stop");
     const std::vector<double> published = {6.267394614702, 12.444019629629, 18.420333867640, 24.195342497066};
     ASSERT_GE(times.size(), published.size());
-    // The motion starts on the surface, at the grazing point, where it may count as a contact at no speed.
+    // The motion starts on the surface at the grazing point, which may count as a contact at zero speed.
     const std::size_t first = times.size() - published.size();
     EXPECT_LE(first, 1u);
     for (std::size_t i = 0; i < published.size(); ++i)
@@ -91,21 +91,21 @@ TEST(MemsSwitch, ImpactsReverseAndReduceTheSpeed) {
         EXPECT_NEAR(record.after[1], -0.8 * record.before[1], epsilon);
         EXPECT_NEAR(record.contact.rate_before, record.before[1], 1e-13);
         EXPECT_NEAR(record.contact.rate_after, record.after[1], epsilon);
-        EXPECT_GT(-record.before[1], last); // speeds grow from one impact to the next
+        EXPECT_GT(-record.before[1], last); // speeds grow from impact to impact
         last = -record.before[1];
     }
     EXPECT_EQ(impacts, 4);
 }
 
 TEST(MemsSwitch, SnapThroughTimeDoesNotDependOnTolerance) {
-    // Impacts close to grazing magnify errors: some 1e3 from the first impact to the end.
+    // Impacts close to grazing amplify errors: by about 1e3 from the first impact to the end.
     for (const double tolerance : {1e-10, 1e-12, 1e-16}) {
         Experiment experiment(load_model("mems-switch"), with_tolerance(tolerance));
         EXPECT_NEAR(experiment.run(100).time, 27.31773570163, 1e-11 + 1e5 * tolerance) << tolerance;
     }
 }
 
-/// Loads on modes that they cannot move cancel to round-off, which is no reason to stay at rest.
+/// Loads on modes that they cannot excite cancel to round-off; this must not keep the beam at rest.
 TEST(Microbeam, LeavesRestWithAnyNumberOfModesAndNodes) {
     for (const Quadrature rule : {Quadrature::simpson, Quadrature::gauss})
         for (int modes = 1; modes <= 5; ++modes)
@@ -118,14 +118,14 @@ TEST(Microbeam, LeavesRestWithAnyNumberOfModesAndNodes) {
                 const Outcome outcome = experiment.run(0.3);
                 EXPECT_EQ(outcome.ending, Ending::end_time)
                     << modes << " modes, " << points << " points: " << outcome.detail;
-                // Antisymmetric modes are not moved by a load that is symmetric.
+                // A symmetric load does not excite antisymmetric modes.
                 for (int i = 1; i < modes; i += 2)
                     EXPECT_LT(std::abs(experiment.trajectory.state()[static_cast<std::size_t>(i)]), 1e-15);
                 EXPECT_GT(std::abs(experiment.trajectory.state()[0]), 1e-5);
             }
 }
 
-/// However the electrode arrives, with the voltage on or off, it does not pass the fixed one.
+/// At any speed of the electrode, with the voltage on or off, it does not pass the fixed one.
 TEST(MemsSwitch, ClosureEndsTheMotionInEveryMode) {
     int singular = 0, terminal = 0;
     for (int i = 0; i < 60; ++i) {
@@ -152,7 +152,7 @@ TEST(Microbeam, ClosureEndsTheMotionInEveryMode) {
         closed += outcome.ending == Ending::terminal || outcome.ending == Ending::singular ? 1 : 0;
         const Model& model = experiment.simulation.model();
         const double gap = model.parameters[*model.find_parameter("g0")].value.value();
-        // The first mode is 1.588 at mid-span.
+        // The first mode shape is 1.588 at mid-span.
         EXPECT_LE(1.588 * experiment.trajectory.state()[0], 1.0001 * gap) << i;
     }
     EXPECT_GT(closed, 5);
@@ -160,7 +160,7 @@ TEST(Microbeam, ClosureEndsTheMotionInEveryMode) {
 
 // ---- chapter 4
 
-TEST(BallAndShaker, ImpactsFromRest) {
+TEST(BallAndShaker, ImpactsFromRestAreThePublishedOnes) {
     Experiment experiment(load_model("ball-and-shaker"), with_tolerance(1e-14));
     experiment.run(0.4);
     const double published[][2] = {
@@ -190,7 +190,8 @@ TEST(BallAndShaker, VelocityJumpsGrowAsTheSquareRootOfTheLast) {
         {6, 1.01155084345}, {10, 1.23874262010}, {14, 1.23958271687}, {18, 1.48867209817}, {22, 1.34410718122}};
     for (const auto& [frequency, intercept] : published) {
         EXPECT_NEAR(std::log10(growth_factor(frequency)), intercept, 1e-10);
-        // As amplitude approaches grazing the ratio of a jump to the root of the one before it tends to the factor.
+        // As the amplitude approaches grazing, the ratio of a jump to the root of the previous jump tends to the
+        // factor.
         Model model = shipped_with("ball-and-shaker", {{"f", frequency}, {"a", 0.65 + 1e-11}});
         Experiment experiment(model, with_tolerance(1e-15));
         experiment.run(20 / frequency);
@@ -203,8 +204,8 @@ TEST(BallAndShaker, VelocityJumpsGrowAsTheSquareRootOfTheLast) {
     }
 }
 
-TEST(BallAndShaker, Figure42a) {
-    // Growing impacts, and the ball always ahead of the shaker.
+TEST(BallAndShaker, MotionOfFigure42aHasGrowingImpacts) {
+    // Impacts grow, and the ball stays in front of the shaker.
     SimulationOptions options = with_tolerance(1e-13);
     Experiment experiment(load_model("ball-and-shaker"), options);
     experiment.run(3);
@@ -216,13 +217,13 @@ TEST(BallAndShaker, Figure42a) {
         EXPECT_NEAR(record.before[0], shaker, 1e-14);
     }
     EXPECT_GT(experiment.recorder.contacts().size(), 10u);
-    EXPECT_GT(most, 40); // mm/s: the motion has left the neighbourhood of grazing
+    EXPECT_GT(most, 40); // mm/s: the motion has moved far from grazing
     EXPECT_EQ(model.modes[experiment.trajectory.mode()].name, "free");
 }
 
 // ---- chapter 5
 
-/// Nondimensional displacement, velocity and current.
+/// Returns nondimensional displacement, velocity and current.
 std::array<double, 3> nondimensional(std::span<const double> state) {
     const double length = 1.631e-3, rate = 95.94;
     const double current = std::sqrt(2 * 0.6462 * rate * rate * length * length * length / 1.902e-5);
@@ -276,7 +277,7 @@ TEST(ElectromagneticTestbed, PeriodThreeOrbitIsSymmetric) {
     EXPECT_LT(nearest, 1e-12);
 }
 
-TEST(ElectromagneticTestbed, GrazingVoltages) {
+TEST(ElectromagneticTestbed, GrazingVoltagesAreThePublishedOnes) {
     const std::map<double, double> published = {{6.25, 4.833263260865}, {7, 3.675357252066}, {8, 3.998955699893}};
     const double delta = 0.001106239596;
     for (const auto& [frequency, voltage] : published)
@@ -319,13 +320,13 @@ TEST(ElectromagneticTestbed, LeastGapOverStepsAgreesWithTheExtremum) {
 
 // ---- chapter 2
 
-/// The motion of the impactor in a frame that sticks and that has no front: stroboscopic map over one period of the
-/// force, and the largest displacement, as a function of displacement, velocity and voltage.
+/// The motion of the impactor in a sticking frame without a front stop: the stroboscopic map over one period of the
+/// force and the largest displacement, as functions of displacement, velocity and voltage.
 class StickingFrame {
 public:
     StickingFrame() : model_(without_event(load_model("impact-microactuator"), "front")) {}
 
-    /// Map minus identity, and largest displacement minus clearance.
+    /// Returns the map minus identity, and the largest displacement minus the clearance.
     Eigen::Vector3d operator()(const Eigen::Vector3d& at) {
         if (!experiment_ || at[2] != voltage_) {
             voltage_ = at[2];
@@ -345,7 +346,7 @@ public:
                 ((*this)(at + h * Eigen::Vector3d::Unit(j)) - (*this)(at - h * Eigen::Vector3d::Unit(j))) / (2 * h);
         return result;
     }
-    /// Newton's method for the periodic motion at the voltage of `at`.
+    /// Finds the periodic motion at the voltage of `at` by Newton's method.
     Eigen::Vector3d periodic(Eigen::Vector3d at) {
         for (int i = 0; i < 30; ++i) {
             const Eigen::Vector2d change =
@@ -357,7 +358,7 @@ public:
         ADD_FAILURE() << "no periodic motion found at " << at[2];
         return at;
     }
-    /// The branch of periodic motions from rest up to a voltage.
+    /// Follows the branch of periodic motions from rest up to a voltage.
     Eigen::Vector3d branch(double voltage) {
         Eigen::Vector3d at(0, 0, 0.1);
         for (double v = 0.1; v < voltage; v += std::min(0.02, 0.3 * (0.589 - v))) {
@@ -374,19 +375,19 @@ private:
     double voltage_ = 0;
 };
 
-TEST(ImpactMicroactuator, FlipsOfTheMotionWithoutImpacts) {
+TEST(ImpactMicroactuator, FlipsOfTheMotionWithoutImpactsAreThePublishedOnes) {
     StickingFrame frame;
     for (const double voltage : {0.316674036113019, 0.451075045332847}) {
         const Eigen::Vector3d at = frame.branch(voltage);
         EXPECT_LT(frame(at)[2], 0);
         const Eigen::Matrix2d map = frame.derivative(at).topLeftCorner<2, 2>() + Eigen::Matrix2d::Identity();
-        EXPECT_NEAR(1 + map.trace() + map.determinant(), 0, 1e-9) << voltage; // zero for a multiplier -1
-        // Damping alone contracts areas: exp(-c (1/m2) period).
+        EXPECT_NEAR(1 + map.trace() + map.determinant(), 0, 1e-9) << voltage; // this is zero for a multiplier -1
+        // Only damping contracts areas: by exp(-c (1/m2) period).
         EXPECT_NEAR(map.determinant(), std::exp(-0.04 * pi / 0.9189), 1e-9);
     }
 }
 
-TEST(ImpactMicroactuator, GrazingOfTheMotionWithoutImpacts) {
+TEST(ImpactMicroactuator, GrazingOfTheMotionWithoutImpactsIsThePublishedOne) {
     StickingFrame frame;
     Eigen::Vector3d at = frame.branch(0.58762);
     for (int i = 0; i < 20; ++i) {
@@ -396,7 +397,7 @@ TEST(ImpactMicroactuator, GrazingOfTheMotionWithoutImpacts) {
             break;
     }
     EXPECT_NEAR(at[2], 0.5876212422746997, 1e-8 * 0.59);
-    // It lies behind a fold, where the map has a multiplier above 1: the motion is unstable when it grazes.
+    // The grazing is beyond a fold, where the map has a multiplier above 1: the grazing motion is unstable.
     const Eigen::Matrix2d map = frame.derivative(at).topLeftCorner<2, 2>() + Eigen::Matrix2d::Identity();
     EXPECT_LT(1 - map.trace() + map.determinant(), 0);
     EXPECT_LT(at[2], 0.587638103140046);
@@ -424,7 +425,7 @@ TEST(ImpactMicroactuator, DisturbancesDecayBelowAndAlternateAboveTheFlip) {
     }
 }
 
-TEST(ImpactMicroactuator, StableMotionWithOneImpactAndOneSlip) {
+TEST(ImpactMicroactuator, StableMotionHasOneImpactAndOneSlip) {
     const double period = pi / 0.9189;
     Model model = shipped_with("impact-microactuator", {{"V", 0.865}});
     Experiment experiment(model, with_tolerance(1e-14), {section_probe(model, "phase0")});
@@ -472,12 +473,13 @@ TEST(ImpactMicroactuator, ImpactsKeepMomentumAndLoseEnergy) {
     }
 }
 
-/// The microactuator with one more state: the work of everything but impacts on frame, impactor and spring.
+/// The microactuator with an additional state: the work done on frame, impactor and spring, except by impacts.
 Model with_work(double voltage) {
     Model model = shipped_with("impact-microactuator", {{"V", voltage}});
     const auto s = [&](const char* name) { return model.symbol(name); };
     const Expression attraction = s("alpha") * pow(s("V"), 2.0) * pow(sin(s("x5")), 2.0) / pow(s("d") - s("x3"), 2.0);
-    // The force acts between frame and impactor, at their relative velocity; friction at that of the frame.
+    // The force acts between frame and impactor: its power involves their relative velocity; friction, that of the
+    // frame.
     const Expression inner = (attraction - s("c") * s("x4")) * s("x4");
     const Expression friction = s("mu_d") * s("N") * s("x2");
     State work;
@@ -496,7 +498,7 @@ Model with_work(double voltage) {
     return model;
 }
 
-TEST(ImpactMicroactuator, EnergyBalances) {
+TEST(ImpactMicroactuator, EnergyIsBalanced) {
     for (const double voltage : {0.6, 0.8, 1.0}) {
         Experiment experiment(with_work(voltage), with_tolerance(1e-14));
         experiment.run(1000);
@@ -504,8 +506,8 @@ TEST(ImpactMicroactuator, EnergyBalances) {
         const auto energy = [](const std::vector<double>& x) {
             return 2.5 * x[1] * x[1] + (x[1] + x[3]) * (x[1] + x[3]) / 2 + x[2] * x[2] / 2;
         };
-        // From contact to contact, what is gained is the work done. In contact the impactor takes part in the motion
-        // of the frame, so that the work of friction is all there is.
+        // From contact to contact the gain of energy is the work done. During contact the impactor moves with the
+        // frame, so only friction does work.
         double energy_then = energy(experiment.simulation.model().initial_state()), work_then = 0, worst = 0;
         std::set<std::string> modes;
         for (const auto& [contact, before, after] : experiment.recorder.contacts()) {
@@ -533,7 +535,7 @@ MicrobeamOptions beam(double voltage, double stiffness, int modes = 1) {
     return options;
 }
 
-TEST(Microbeam, GrazingVoltage) {
+TEST(Microbeam, GrazingVoltageIsThePublishedOne) {
     for (const double offset : {-1e-10, -1e-12, 1e-12, 1e-10}) {
         const Model full = microbeam(beam(0.030040810557599 + offset, 100));
         const Model free = without_event(full, "touch");
@@ -550,8 +552,8 @@ TEST(Microbeam, GrazingVoltage) {
     }
 }
 
-TEST(Microbeam, EndOfTheLowPenetrationBranch) {
-    // From grazing upwards in small steps, each starting where the last one ended.
+TEST(Microbeam, LowPenetrationBranchEndsAtThePublishedVoltage) {
+    // From grazing upwards in small steps, each starting from the end of the last one.
     const double grazing = 0.030040810557599;
     const Model free = without_event(microbeam(beam(grazing, 100)), "touch");
     Experiment settled(free, with_tolerance(1e-12));
@@ -579,7 +581,7 @@ TEST(Microbeam, EndOfTheLowPenetrationBranch) {
     EXPECT_GT(penetration_at(0.03282566, 6000), 0.016);
 }
 
-TEST(Microbeam, HigherModesInContactWithAStiffStop) {
+TEST(Microbeam, HigherModesInContactWithAStiffStopHaveThePublishedSizes) {
     std::map<int, double> first_amplitude;
     for (const int modes : {1, 9}) {
         const Model model = microbeam(beam(0.03, 5000, modes));

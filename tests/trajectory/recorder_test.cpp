@@ -11,7 +11,7 @@
 namespace graze {
 namespace {
 
-/// The MEMS switch of chapter 6 until it snaps, watched by an observer.
+/// Runs the MEMS switch of chapter 6 with an observer until snap-through.
 void run_switch(Observer& observer, bool minima = false) {
     SimulationOptions options;
     options.minima = minima;
@@ -46,7 +46,7 @@ TEST(Recorder, KeepsStatesOfContactsAndPassages) {
     EXPECT_TRUE(recorder.contacts().empty());
 }
 
-TEST(Recorder, RelaysToSeveral) {
+TEST(Recorder, RelayForwardsToSeveralObservers) {
     Recorder one, other;
     Relay relay({&one, &other});
     run_switch(relay);
@@ -55,7 +55,7 @@ TEST(Recorder, RelaysToSeveral) {
     EXPECT_EQ(one.passages().size(), other.passages().size());
 }
 
-TEST(Sampler, MeetsTheTimesAskedFor) {
+TEST(Sampler, SamplesAtTheRequestedTimes) {
     const double period = 2 * std::numbers::pi;
     std::vector<double> times;
 

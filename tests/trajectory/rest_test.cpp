@@ -1,5 +1,5 @@
-// Motions that rest on a surface and leave it again, in any units: what round-off and the error of the steps at rest
-// leave of the gap is no penetration.
+// Motions that rest on a surface and leave it again, in any units: round-off of the gap and errors of the steps at rest
+// are not penetrations.
 
 #include "closed_form.hpp"
 #include "simulate.hpp"
@@ -14,15 +14,15 @@ using namespace graze::testing;
 
 namespace {
 
-/// The same gap in different guises, some with terms that cancel.
+/// The same gap in several equivalent forms, some with cancelling terms.
 constexpr std::array gaps{
     "x - a*sin(theta)",         "-(a*sin(theta) - x)",          "(x - a*sin(theta))*scale",
     "x/a - sin(theta)",         "scale*x - scale*a*sin(theta)", "(x + h) - (a*sin(theta) + h)",
     "2*x - (a*sin(theta) + x)", "a*(x/a - sin(theta))",         "x^2 - (a*sin(theta))^2 + (x - a*sin(theta))*3*a"};
 
 /// A ball on a table.
-/// @param lands whether it is put on the table once more where it is released
-/// @param sticks whether a contact without speed leads to rest as well
+/// @param lands whether the jump at the release puts it exactly on the table once more
+/// @param sticks whether a contact at zero speed leads to rest as well
 Model ball(const std::string& gap, bool lands, bool sticks) {
     return model_from(fmt::format(
         R"toml(
@@ -99,7 +99,7 @@ double rounds(const Model& model, double count) {
 
 } // namespace
 
-TEST(Rest, WhatRestsOnATableNeverFallsThroughIt) {
+TEST(Rest, BallsAtRestOnATableNeverFallThroughIt) {
     Random random(41);
     int left = 0;
     for (int i = 0; i < 600; ++i) {
@@ -129,7 +129,7 @@ TEST(Rest, StatesBeyondTheSurfaceAreStillInadmissible) {
         auto state = draw_ball(random, model, draw_units(random));
         const auto parameters = model.parameter_values();
         const double a = parameters[2], h = parameters[5];
-        // Well beyond what the terms of this guise can be told to.
+        // The depth is well beyond the resolution of this form's terms.
         const double resolution = 1e-12 * std::max(a, gap.find('h') == std::string::npos ? 0 : h);
         const double depth = random.log_uniform(1e-12, 0.1) * a;
         if (depth < resolution)
@@ -143,8 +143,8 @@ TEST(Rest, StatesBeyondTheSurfaceAreStillInadmissible) {
     EXPECT_GT(judged, 400);
 }
 
-TEST(Rest, AModeThatLeadsBeyondTheSurfaceIsSeen) {
-    // A mode that should carry the ball, but sinks a thousandth of the table's amplitude in each radian.
+TEST(Rest, AModeThatLeadsBeyondTheSurfaceIsDetected) {
+    // A mode that should move the ball with the table, but sinks a thousandth of the table's amplitude in each radian.
     Model model = ball(gaps[0], false, false);
     model.modes[1].rates[0] = model.modes[1].rates[0] - 1e-3 * model.symbol("a") * model.symbol("omega");
     model.set_parameter("a", 0.01);

@@ -1,4 +1,4 @@
-// Shipped models at random parameters end as they should: at the time asked for, or by snap-through where there is one.
+// Shipped models at random parameters end regularly: at the requested time, or by snap-through where the model has it.
 
 #include "graze/model/catalogue.hpp"
 #include "graze/model/model_file.hpp"
@@ -79,8 +79,8 @@ TEST_P(Robustness, RandomParametersEndRegularly) {
 
 INSTANTIATE_TEST_SUITE_P(ShippedModels, Robustness, ::testing::Range<std::size_t>(0, scenarios().size()));
 
-/// A mass that constant forces pull to a ridge from either side, and that loses speed each time it crosses: like a
-/// block that rocks from edge to edge. Crossings accumulate although no event follows itself.
+/// A mass that constant forces pull to a ridge from either side, and that loses speed at each crossing, like a block
+/// that rocks from edge to edge. Crossings accumulate although no event is followed by itself.
 Model ridge(bool with_rest) {
     std::string text = R"(
 name = "ridge"
@@ -125,8 +125,7 @@ TEST(StandStill, CrossingsThatAccumulateBetweenTwoModesComeToRest) {
         run(trajectory, jets);
         const double fall = std::sqrt(2 * 0.5 / 9.81), expected = fall * (1 + 0.9) / (1 - 0.9);
         EXPECT_EQ(trajectory.outcome().ending, with_rest ? Ending::end_time : Ending::chatter);
-        // Positions are known to 1e-17, so flights of less than 1e-9, of which the sum's last part is made, only
-        // roughly.
+        // Positions are known to 1e-17, so the last part of the sum, flights of less than 1e-9, is known only roughly.
         EXPECT_NEAR(with_rest ? rest.time : trajectory.outcome().time, expected, 1e-10);
     }
 }

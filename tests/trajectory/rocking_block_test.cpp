@@ -1,4 +1,4 @@
-// A block that rocks from edge to edge until it rests: contacts at two events in turn accumulate.
+// A block that rocks from edge to edge until it rests: contacts at two alternating events accumulate.
 
 #include "closed_form.hpp"
 #include "simulate.hpp"
@@ -50,7 +50,7 @@ chatter = { jump = "l", mode = "rest" }
 mode = "pl"
 )toml";
 
-/// Time at which it rests: from the tilt a c, which it reaches with the speed p a s, s^2 = 1 - (1 - c)^2, it falls
+/// Returns the time of rest: from the tilt a c, reached with the speed p a s, s^2 = 1 - (1 - c)^2, the block falls
 /// within acosh(1/(1 - c))/p; each rise takes as long as the fall after it (Housner 1963).
 double time_of_rest(double tilt, double r, double p) {
     double time = std::acosh(1 / (1 - tilt)) / p;
@@ -61,7 +61,7 @@ double time_of_rest(double tilt, double r, double p) {
 
 } // namespace
 
-TEST(RockingBlock, ComesToRestInWhateverUnits) {
+TEST(RockingBlock, ComesToRestInAnyUnits) {
     Random random(81);
     Model model = model_from(block);
     for (int i = 0; i < 2000; ++i) {

@@ -28,22 +28,22 @@ std::vector<double> contacts_of(const LegEnd& first, const LegEnd& second, RunCo
     return seen.times;
 }
 
-TEST(RunControl, CountsContactsThatCountAndShowsTheirLegAlone) {
+TEST(RunControl, CountsSelectedContactsAndShowsOnlyTheirLeg) {
     Seen seen;
-    RunControl control(seen, std::nullopt, {true, false}); // those at the left
+    RunControl control(seen, std::nullopt, {true, false}); // contacts at the left wall count
     LegEnd first, second;
     first.contacts = 2;
     second.contacts = 3;
     double most = 0;
     control.tell([&](std::optional<double> fraction, double) { most = std::max(most, fraction.value_or(0)); });
     const std::vector<double> times = contacts_of(first, second, control, seen);
-    ASSERT_EQ(times.size(), 6U); // three at the left, and as many at the right before them
+    ASSERT_EQ(times.size(), 6U); // three at the left, each preceded by one at the right
     EXPECT_NEAR(times.front(), 2.25, 1e-12);
     EXPECT_NEAR(times.back(), 4.75, 1e-12);
     EXPECT_EQ(most, 1);
 }
 
-TEST(RunControl, EndsWhenToldTo) {
+TEST(RunControl, EndsOnRequest) {
     Seen seen;
     RunControl control(seen, std::nullopt, {true, true});
     LegEnd first;

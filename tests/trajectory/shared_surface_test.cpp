@@ -1,4 +1,4 @@
-// Several events on one surface: relays without hysteresis, pulses, sections where a barrier is.
+// Several events on one surface: relays without hysteresis, pulses, sections that coincide with a barrier.
 
 #include "closed_form.hpp"
 #include "simulate.hpp"
@@ -16,7 +16,7 @@ std::string transition(const std::string& mode, const std::string& event, const 
                        next, jump);
 }
 
-/// u = +1 or -1 as the relay has it; `force` is what drives it.
+/// u = +1 or -1 is the state of the relay; `force` drives it.
 Model relay(const std::string& kind, const std::string& states, const std::string& plus, const std::string& minus) {
     return model_from(fmt::format("name = \"relay\"\nparameters = {{ width = 0, scale = 1 }}\nstates = {{ {} }}\n"
                                   "[events]\n"
@@ -30,7 +30,7 @@ Model relay(const std::string& kind, const std::string& states, const std::strin
 
 } // namespace
 
-TEST(SharedSurface, AnIdealRelayThatHasNowhereToGoMakesNoProgress) {
+TEST(SharedSurface, AnIdealRelayWithoutAdmissibleModeMakesNoProgress) {
     Random random(51);
     for (int i = 0; i < 200; ++i) {
         const std::string kind = random.chance(0.5) ? "section" : "barrier";
@@ -46,7 +46,7 @@ TEST(SharedSurface, AnIdealRelayThatHasNowhereToGoMakesNoProgress) {
 }
 
 TEST(SharedSurface, ARelayWithAndWithoutHysteresisSwitchesAtEachPassage) {
-    // x'' = -1 or 1: half waves of 4 sqrt(...) each; with hysteresis they grow, without they repeat.
+    // x'' = -1 or 1: half waves of 4 sqrt(...) each; with hysteresis they grow, without it they repeat.
     Random random(52);
     for (int i = 0; i < 200; ++i) {
         const std::string kind = random.chance(0.5) ? "section" : "barrier";
@@ -64,8 +64,8 @@ TEST(SharedSurface, ARelayWithAndWithoutHysteresisSwitchesAtEachPassage) {
     }
 }
 
-TEST(SharedSurface, OneFallIsServedOnceThoughTwoSectionsAreThere) {
-    // Two modes hand over at each fall of sin(theta): a section each, with the same function.
+TEST(SharedSurface, OneFallIsHandledOnceByTwoSections) {
+    // Two modes alternate at each fall of sin(theta): each watches its own section, with the same function.
     Random random(53);
     for (int i = 0; i < 100; ++i) {
         const double rate = random.log_uniform(1e-9, 1e9), theta = random.uniform(0, 6.28);
@@ -103,7 +103,7 @@ Model counting_ball(double e, double drag, const std::string& section, bool firs
                     transition("flight", "floor", "flight", "hit"), transition("flight", "below", "flight", "count")));
 }
 
-TEST(SharedSurface, ASectionWhereABarrierIsIsServedAsWell) {
+TEST(SharedSurface, ASectionThatCoincidesWithABarrierIsHandledToo) {
     Random random(54);
     for (int i = 0; i < 3000; ++i) {
         const bool first = random.chance(0.5), starts_at_rest = random.chance(0.5);
@@ -112,20 +112,20 @@ TEST(SharedSurface, ASectionWhereABarrierIsIsServedAsWell) {
         Experiment experiment(counting_ball(e, 0, fmt::format("{:.17g}*x", factor), first),
                               with_tolerance(random.log_uniform(1e-15, 1e-6)));
         const double fall = std::sqrt(2 * height), rest = fall * (1 + e) / (1 - e);
-        const double early = starts_at_rest ? 0 : random.uniform(0.05, 0.3) * fall; // it starts with the speed of then
+        const double early = starts_at_rest ? 0 : random.uniform(0.05, 0.3) * fall; // with the speed of that time
         const double end = random.uniform(0.5, 0.9) * rest;
         const Outcome outcome = experiment.run_from({height - early * early / 2, -early, 0}, 0, end - early);
         ASSERT_EQ(outcome.ending, Ending::end_time) << outcome.detail;
         double hits = 0;
         for (double time = fall, flight = 2 * e * fall; time < end; time += flight, flight *= e)
             ++hits;
-        // Served after the floor's jump, the section no longer falls: that is the documented order.
+        // After the floor's jump the section no longer falls: that is the documented order.
         EXPECT_EQ(experiment.state()[2], first ? hits : 0)
             << fmt::format("{} {} {} {} {} {}", e, height, factor, early, first, end);
     }
 }
 
-TEST(SharedSurface, CurvedSectionsWhereABarrierIsAreServedAsWell) {
+TEST(SharedSurface, CurvedSectionsThatCoincideWithABarrierAreHandledToo) {
     Random random(55);
     for (int i = 0; i < 3000; ++i) {
         const double e = random.uniform(0.3, 0.9), height = random.log_uniform(1e-9, 1e6);
@@ -135,7 +135,7 @@ TEST(SharedSurface, CurvedSectionsWhereABarrierIsAreServedAsWell) {
                                   "{:.17g}*x/(1 + {:.17g}*x)"};
         const std::string section = fmt::format(fmt::runtime(sections[i % 3]), factor, curvature);
         Experiment experiment(counting_ball(e, drag, section, true), with_tolerance(random.log_uniform(1e-15, 1e-6)));
-        // Not up to where flights are so low that such functions cannot tell them from none.
+        // Only until flights become so low that such functions cannot resolve them.
         const double end = fall * (1 + random.uniform(0.1, 0.6) * 2 * e / (1 - e));
         const Outcome outcome = experiment.run_from({height, 0, 0}, 0, end);
         ASSERT_EQ(outcome.ending, Ending::end_time) << outcome.detail;
@@ -164,7 +164,7 @@ TEST(SharedSurface, PressedAgainstTwoBarriersItSticksOnce) {
 namespace {
 
 /// A converter with peak-current control: the current i rises in `on` until it reaches its peak, and falls in `off`
-/// until the clock c ticks. What follows the first tick has modes of its own, if they are wanted.
+/// until the clock c ticks. Optionally, separate modes follow the first tick.
 Model converter(double rise, double fall, bool ends_at_second_tick) {
     const std::string then = ends_at_second_tick ? "later_" : "";
     std::string text =
@@ -185,9 +185,9 @@ const std::vector<std::pair<double, double>> peaks_at_ticks{{0.5, 0.5}, {0.25, 0
 
 } // namespace
 
-TEST(SharedSurface, AnEventThatWasResetAtItsTimeIsDueOnlyAtTheNextZero) {
-    // The peak and the tick fall together at time 1. The tick is served once, the peak in both modes; the clock then
-    // runs for its whole period.
+TEST(SharedSurface, AnEventThatWasResetIsDueOnlyAtTheNextZero) {
+    // The peak and the tick coincide at time 1. The tick is handled once, the peak in both modes; the clock then runs
+    // for its whole period.
     for (const auto& [rise, start] : peaks_at_ticks) {
         Experiment experiment(converter(rise, 1.3, true));
         const Outcome outcome = experiment.run_from({start, 0}, 0, 3.5);
@@ -199,7 +199,7 @@ TEST(SharedSurface, AnEventThatWasResetAtItsTimeIsDueOnlyAtTheNextZero) {
     }
 }
 
-TEST(SharedSurface, AConverterWhosePeakFallsOnATickGoesOn) {
+TEST(SharedSurface, AConverterWhosePeakCoincidesWithATickContinues) {
     // In each period the current rises from i to the peak in (1 - i) / rise, then falls for the rest.
     for (const auto& [rise, start] : peaks_at_ticks) {
         const double fall = 0.6 * rise;
@@ -214,9 +214,9 @@ TEST(SharedSurface, AConverterWhosePeakFallsOnATickGoesOn) {
     }
 }
 
-TEST(SharedSurface, WhatAJumpHasTakenOffItsSurfaceIsNotDueAfterAThirdEvent) {
-    // Three clocks strike together. The jump of the first sets back itself and the second; the third then hands over
-    // to a mode that watches the second alone.
+TEST(SharedSurface, AnEventMovedOffItsSurfaceByAJumpIsNotDueAfterAThirdEvent) {
+    // Three clocks strike together. The jump of the first resets itself and the second; the third then switches to a
+    // mode that watches only the second.
     const Model model = model_from(
         "name = \"clocks\"\nstates = { a = 0, b = 0, c = 0 }\n[events]\nfirst = \"1 - a\"\nsecond = \"1 - b\"\n"
         "third = \"1 - c\"\n[jumps]\nback = { a = 0, b = 0.25 }\n[modes]\n"

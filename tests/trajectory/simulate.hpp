@@ -20,7 +20,7 @@ inline constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 using Settings = std::vector<std::pair<std::string, double>>;
 
-/// A shipped model with other parameters.
+/// Returns a shipped model with other parameters.
 inline Model shipped_with(const std::string& name, const Settings& settings = {}) {
     Model model = load_model(name);
     for (const auto& [parameter, value] : settings)
@@ -28,7 +28,7 @@ inline Model shipped_with(const std::string& name, const Settings& settings = {}
     return model;
 }
 
-/// Parameters of one model with one of them changed.
+/// Returns the parameters of a model with some of them changed.
 inline std::vector<double> parameters_with(Model model, const Settings& settings) {
     for (const auto& [parameter, value] : settings)
         model.set_parameter(parameter, value);
@@ -66,7 +66,7 @@ public:
         return trajectory.outcome();
     }
     std::vector<double> state() const { return {trajectory.state().begin(), trajectory.state().end()}; }
-    /// Label of a contact's transition.
+    /// Returns the label of a contact's transition.
     const std::string& label(std::size_t contact) const {
         return simulation.model().transitions[recorder.contacts()[contact].contact.transition].label;
     }
@@ -82,7 +82,7 @@ public:
     Trajectory trajectory;
 };
 
-/// A model from text in TOML.
+/// Returns the model of a TOML text.
 inline Model model_from(const std::string& text) {
     return parse_model(text, "test.toml");
 }

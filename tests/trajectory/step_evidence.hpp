@@ -7,22 +7,22 @@
 #include <map>
 #include <memory>
 
-// Motions in closed form that choose the steps of Taylor series badly: whose coefficients vanish where they are looked
-// at, or that are steep where nothing foretells it. Each family draws its own cases.
+// Motions in closed form for which steps chosen from the last coefficients are wrong: coefficients vanish, or the
+// motion is steep without warning. Each family draws its own cases.
 namespace graze::testing {
 
-/// One motion: where it starts, and what is true at its end.
+/// One motion: its start, and the exact state at its end.
 struct ClosedMotion {
     std::string label;
     std::vector<double> parameters, state;
     double end = 0;
-    std::size_t judged = 0; ///< the state that is compared
-    double exact = 0;       ///< its value at the end
-    double size = 0;        ///< the largest that it had
-    double sensitivity = 1; ///< how much errors of earlier values are magnified
+    std::size_t judged = 0; ///< index of the compared state
+    double exact = 0;       ///< its exact value at the end
+    double size = 0;        ///< its largest value
+    double sensitivity = 1; ///< amplification of earlier errors
 };
 
-/// A model for which motions are drawn.
+/// A model and a generator of motions.
 struct Family {
     std::string name;
     std::string model;
@@ -107,7 +107,7 @@ rates = {{ y = "{}", s = 1 }}
                 one.end = random.uniform(0.5, 3);
                 const long double from = k * (-1.0L - c), to = k * (-1.0L + one.end - c);
                 one.exact = static_cast<double>((integral(to) - integral(from)) / k);
-                one.size = one.end; // rates are of order one
+                one.size = one.end; // the rates are of order one
                 one.label = fmt::format("k={} c={}", k, c);
                 return one;
             }};
@@ -133,7 +133,7 @@ inline std::vector<Family> all_families() {
     families.push_back(steep(
         "logistic", "1/(1 + exp(-k*(s - c)))",
         [](Long a) { return a > 0 ? a + std::log1p(std::exp(-a)) : std::log1p(std::exp(a)); },
-        300)); // beyond, exp(-k (s - c)) is no number
+        300)); // beyond this, exp(-k (s - c)) overflows
     families.push_back(
         steep("switch", "atan(k*(s - c))", [](Long a) { return a * std::atan(a) - std::log1p(a * a) / 2; }));
     families.push_back(steep("error function", "erf(k*(s - c))", [](Long a) {

@@ -1,4 +1,4 @@
-// That steps are believed only where they are right: closed forms that mislead a choice of steps by last coefficients.
+// Steps are accepted only where they are accurate: closed forms that mislead the choice of steps by last coefficients.
 
 #include "step_evidence.hpp"
 
@@ -12,7 +12,7 @@ using namespace graze::testing;
 
 namespace {
 
-/// Errors of some dozen steps, each of a fraction of the tolerance, and of their round-off.
+/// Allowed errors: some dozen steps, each with a fraction of the tolerance, and their round-off.
 constexpr double most_tolerances = 20;
 
 struct Counts {
@@ -59,10 +59,10 @@ void judge_all_states(int cases_each) {
     EXPECT_GE(counts.cases, 700L * cases_each);
 }
 
-/// The first fall through zero of an event's function of s = start + t.
+/// An event's function of s = start + t that falls through zero.
 struct FallFamily {
     std::string name, function;
-    /// Draws parameters k, c, a and the start; gives the time and the function's slope there.
+    /// Draws parameters k, c, a and the start; returns the time of the first fall and the function's slope there.
     std::function<void(Random&, std::vector<double>& parameters, double& start, double& time, double& slope)> draw;
 };
 
@@ -70,7 +70,7 @@ double error_slope(double at) {
     return 2 / std::sqrt(std::numbers::pi) * std::exp(-at * at);
 }
 
-/// From the left, by Newton's method, which does not overshoot there. @param value from 0 to 0.95
+/// Newton's method from the left, where it does not overshoot. @param value from 0 to 0.95
 double inverse_error_function(double value) {
     double at = 0;
     for (int i = 0; i < 50; ++i)
@@ -106,7 +106,7 @@ std::vector<FallFamily> fall_families() {
             start = -1;
             time = c - start + offset(a) / k;
             slope = k * slope_at(a);
-            if (time <= 0) { // the start lies behind it
+            if (time <= 0) { // the start is after the fall
                 parameters[1] = 1;
                 time = 2 + offset(a) / k;
             }
@@ -176,21 +176,21 @@ void judge_all_falls(int cases_each) {
 
 } // namespace
 
-TEST(StepEvidence, StatesInClosedForm) {
+TEST(StepEvidence, StatesAgreeWithClosedForms) {
     judge_all_states(8);
 }
-TEST(StepEvidenceSlow, StatesInClosedForm) {
+TEST(StepEvidenceSlow, StatesAgreeWithClosedForms) {
     judge_all_states(110);
 }
-TEST(StepEvidence, FallsInClosedForm) {
+TEST(StepEvidence, FallsAgreeWithClosedForms) {
     judge_all_falls(8);
 }
-TEST(StepEvidenceSlow, FallsInClosedForm) {
+TEST(StepEvidenceSlow, FallsAgreeWithClosedForms) {
     judge_all_falls(100);
 }
 
-/// x'' = -x^p from x = 0, where x^p has no coefficient that a short series sees; also where a jump has put it there.
-TEST(StepEvidence, EnergyOfSteepSprings) {
+/// x'' = -x^p from x = 0, where a short series has no nonzero coefficient of x^p; also after a jump to x = 0.
+TEST(StepEvidence, SteepSpringsConserveEnergy) {
     Random random(37);
     for (int p = 3; p <= 15; p += 2) {
         const Model model = model_from(fmt::format(R"toml(
@@ -222,8 +222,9 @@ transitions = [{{ mode = "one", event = "due", jump = "reset", next = "one" }}]
     }
 }
 
-/// A chain of lags that starts at zero: state n is the probability that n events of a Poisson process have happened.
-TEST(StepEvidence, ChainsThatStartAtZero) {
+/// A chain of first-order lags that starts at zero: state n is the probability that n events of a Poisson process have
+/// happened.
+TEST(StepEvidence, ChainsThatStartAtZeroAreAccurate) {
     for (const int n : {10, 30, 60}) {
         std::string states, rates;
         for (int i = 1; i <= n; ++i) {
@@ -246,7 +247,8 @@ TEST(StepEvidence, ChainsThatStartAtZero) {
                 EXPECT_NEAR(trajectory.state()[static_cast<std::size_t>(n) - 1], static_cast<double>(1 - sum),
                             most_tolerances * (tolerance + 16 * epsilon))
                     << n << " lags, tolerance " << tolerance << " rate " << rate;
-                // About one for each lag, and those until states have sizes; before, their number's square over eight.
+                // About one step for each lag, after those until states have sizes; formerly the square of their number
+                // over eight.
                 if (tolerance == 1e-12) {
                     EXPECT_LE(trajectory.steps(), static_cast<std::size_t>(n) + 60) << n << " rate " << rate;
                 }
@@ -254,8 +256,8 @@ TEST(StepEvidence, ChainsThatStartAtZero) {
     }
 }
 
-/// Derivatives with respect to where something steep lies: dy/dc = f(start) - f(end) where y' = f(k (s - c)).
-TEST(StepEvidence, DerivativesOfSteepMotions) {
+/// Derivatives with respect to the location of a steep place: dy/dc = f(start) - f(end) where y' = f(k (s - c)).
+TEST(StepEvidence, DerivativesOfSteepMotionsAreAccurate) {
     Random random(41);
     using Value = double (*)(double);
     const std::pair<const char*, Value> functions[] = {
@@ -283,8 +285,8 @@ TEST(StepEvidence, DerivativesOfSteepMotions) {
             run(trajectory, jets);
             ASSERT_EQ(trajectory.outcome().ending, Ending::end_time) << trajectory.outcome().detail;
             const double exact = value(k * (-1 - c)) - value(k * (-1 + end - c));
-            // Derivatives have a hundred times the tolerance of the states. They come to what they are as a difference
-            // of slopes that are k times as large.
+            // Derivatives have a hundred times the tolerance of the states. They arise as a difference of slopes that
+            // are k times as large.
             EXPECT_NEAR(trajectory.tangents()[0], exact, 200 * (1 + k * end) * (tolerance + 4 * epsilon))
                 << text << " k = " << k << " c = " << c << " end " << end << " tolerance " << tolerance;
         }

@@ -11,15 +11,15 @@
 namespace graze {
 namespace {
 
-/// Stops at passages of the first probe, if it is to.
+/// Stops at passages of the first probe, on request.
 struct Stopper : Observer {
     bool stops = false, passed = false;
     void passage(const Passage&) override { passed = stops; }
     bool stop() override { return std::exchange(passed, false); }
 };
 
-TEST(Stop, at_a_passage_where_a_clock_switches_loses_nothing) {
-    // The pulse begins where the phase begins its period: the section and the event are the same surface.
+TEST(Stop, AtAPassageWhereAClockSwitchesLosesNothing) {
+    // The pulse begins where the phase begins its period: the section and the event have the same surface.
     for (const char* name : {"microbeam", "mems-switch"}) {
         const Model model = load_model(name);
         const Simulation simulation(model, {section_probe(model, "phase0")});

@@ -15,7 +15,7 @@ namespace {
 
 using Real = long double;
 
-/// A run that carries derivatives with respect to all states and parameters.
+/// A run with derivatives with respect to all states and parameters.
 class Differentiated {
 public:
     Differentiated(const Model& model, std::vector<double> state, std::size_t mode, double end_time,
@@ -31,7 +31,7 @@ public:
         JetSet jets(simulation_, LaneKind::single);
         graze::run(trajectory_, jets);
     }
-    /// Derivative of a state with respect to one of the initial states, or (counted on) of the parameters.
+    /// Returns the derivative of a state with respect to an initial state, or (higher columns) a parameter.
     double operator()(std::size_t state, std::size_t column) const {
         return trajectory_.tangents()[state * columns_ + column];
     }
@@ -67,14 +67,14 @@ std::vector<Number> difference(Function f, Number h) {
 /// zeta, omega, amplitude, sigma, e; then x, v, theta.
 using OscillatorInput = std::array<Real, 8>;
 
-/// The linear impact oscillator from impact to impact in closed form.
+/// The linear impact oscillator in closed form between impacts.
 std::vector<Real> impact_oscillator(const OscillatorInput& in, Real end, int* impacts = nullptr) {
     Real time = 0, x = in[5], v = in[6];
     for (;;) {
         LinearOscillator oscillator(in[0], in[1], in[2]);
         oscillator.start(x, v, in[7] + in[1] * time);
         const Real spacing = 0.02L / std::max<Real>(1, in[1]);
-        Real s = 1e-9L; // behind the impact
+        Real s = 1e-9L; // just after the impact
         while (s < end - time && oscillator.x(s) < in[3])
             s += spacing;
         if (s >= end - time && !(oscillator.x(end - time) >= in[3])) {
@@ -96,7 +96,7 @@ std::vector<Real> impact_oscillator(const OscillatorInput& in, Real end, int* im
 
 } // namespace
 
-TEST(Tangents, LinearImpactOscillatorInClosedForm) {
+TEST(Tangents, OfTheLinearImpactOscillatorAreExact) {
     Random random(31);
     int impacts = 0;
     double worst = 0;
@@ -116,7 +116,7 @@ TEST(Tangents, LinearImpactOscillatorInClosedForm) {
         int made = 0;
         impact_oscillator(in, end, &made);
         if (static_cast<std::size_t>(made) != run.contacts())
-            continue; // rests, or grazes
+            continue; // at rest, or grazing
         impacts += made;
         for (std::size_t k = 0; k < 8; ++k) {
             const auto expected = difference(
@@ -142,14 +142,14 @@ TEST(Tangents, LinearImpactOscillatorInClosedForm) {
     EXPECT_LT(worst, 1e-10);
 }
 
-/// A motion that follows a slow force takes long steps, over which its disturbances oscillate several times.
-TEST(Tangents, OscillateWhereTheMotionIsSlow) {
+/// A motion that follows a slow force takes long steps, during which disturbances oscillate several times.
+TEST(Tangents, AreAccurateWhereTheMotionIsSlow) {
     Model model = load_model("impact-oscillator");
     const double zeta = 0.02, omega = 0.02, amplitude = 0.1;
     model.set_parameter("sigma", 0.5);
     model.set_parameter("amplitude", amplitude);
     model.set_parameter("omega", omega);
-    // On the particular solution A cos(theta) + B sin(theta).
+    // The motion is the particular solution A cos(theta) + B sin(theta).
     const double detuning = 1 - omega * omega, damping = 2 * zeta * omega;
     const double denominator = detuning * detuning + damping * damping;
     const double A = amplitude * detuning / denominator, B = amplitude * damping / denominator;
@@ -165,8 +165,8 @@ TEST(Tangents, OscillateWhereTheMotionIsSlow) {
     }
 }
 
-TEST(Tangents, TimeShiftsAlongAutonomousFlows) {
-    // What starts a little later on the same trajectory is that much later for ever: through impacts, slips and rests.
+TEST(Tangents, PropagateTimeShiftsAlongAutonomousFlows) {
+    // A start slightly later on the same trajectory stays later by the same time: through impacts, slips and rests.
     for (const auto& [name, end] : std::vector<std::pair<std::string, double>>{{"impact-oscillator", 40},
                                                                                {"impact-microactuator", 25},
                                                                                {"electromagnetic-testbed", 1},
@@ -208,7 +208,7 @@ TEST(Tangents, TimeShiftsAlongAutonomousFlows) {
 
 namespace {
 
-/// The end of a run, and what happened.
+/// The final state of a run, and its sequence of contacts.
 struct End {
     std::vector<double> state;
     std::vector<std::size_t> transitions;
@@ -230,7 +230,7 @@ End end_of(const Simulation& simulation, JetSet& jets, const std::vector<double>
 
 } // namespace
 
-TEST(Tangents, ShippedModelsAgainstDifferences) {
+TEST(Tangents, OfShippedModelsAgreeWithDifferences) {
     struct Case {
         std::string name;
         double end, step;
@@ -276,7 +276,7 @@ TEST(Tangents, ShippedModelsAgainstDifferences) {
                 continue;
             ++compared;
             for (std::size_t i = 0; i < n; ++i) {
-                // In units of the states and of the parameter.
+                // Errors in units of the states and of the parameter.
                 const double unit = (std::abs(plain.state[i]) + 1e-3) / scale;
                 double size = unit;
                 for (std::size_t j = 0; j < n; ++j)
@@ -292,8 +292,8 @@ TEST(Tangents, ShippedModelsAgainstDifferences) {
     }
 }
 
-TEST(Tangents, ThroughCompletedChatterToRest) {
-    // At rest the ball has the height and velocity of the table, whatever came before.
+TEST(Tangents, PassCompletedChatterToRest) {
+    // At rest the ball has the height and velocity of the table, independent of its earlier motion.
     const double a = 0.002, f = 10, omega = 2 * std::numbers::pi * f;
     const Model model = shipped_with("bouncing-ball", {{"a", a}, {"f", 10}, {"e", 0.4}, {"g", 25}});
     const Differentiated run(model, {0.01, 0, 0.3}, 0, 0.42);
@@ -313,7 +313,7 @@ TEST(Tangents, ThroughCompletedChatterToRest) {
     EXPECT_NEAR(run.by_parameter(0, "f"), a * std::cos(theta) * 2 * std::numbers::pi * 0.42, 1e-10);
 }
 
-TEST(Tangents, TheTimeOfRestInClosedForm) {
+TEST(Tangents, OfTheTimeOfRestAreExact) {
     // A second state counts the time since rest: its derivatives are minus those of sqrt(2 h / g) (1 + e) / (1 - e).
     const Model model = model_from(R"toml(
 name = "ball-and-clock"
@@ -341,12 +341,13 @@ mode = "flight"
         EXPECT_NEAR(run(2, 0), -rest / (2 * h), 1e-9);
         EXPECT_NEAR(run(2, 1), -1 / g, 1e-9);
         EXPECT_NEAR(run.by_parameter(2, "g"), rest / (2 * g), 1e-9);
-        // The effect of e on the flights that are taken at once, which last for some sqrt(tolerance), is left out.
+        // The effect of e on the flights that are completed at once, which last for about sqrt(tolerance), is
+        // neglected.
         EXPECT_NEAR(run.by_parameter(2, "e"), -std::sqrt(2 * h / g) * 2 / ((1 - e) * (1 - e)), std::sqrt(tolerance));
     }
 }
 
-TEST(Tangents, AreNotValidAfterAGraze) {
+TEST(Tangents, AreInvalidAfterAGraze) {
     const Differentiated pressed(load_model("impact-oscillator"), {0.1, 0, 0.3}, 0, 0.2);
     EXPECT_GT(pressed.contacts(), 0U);
     EXPECT_FALSE(pressed.trajectory().tangents_valid());
@@ -354,7 +355,7 @@ TEST(Tangents, AreNotValidAfterAGraze) {
     EXPECT_TRUE(clear.trajectory().tangents_valid());
 }
 
-TEST(Tangents, MultipliersOfTheSmoothGrazingOrbit) {
+TEST(Tangents, GiveTheMultipliersOfTheSmoothGrazingOrbit) {
     const Model model = shipped_with("mems-switch", {{"V", 0.2013662121541341}, {"delta", 10}});
     const Differentiated run(model, {-0.6, 0, 0.7306205700512591}, 0, 2 * std::numbers::pi, 1e-16);
     EXPECT_NEAR(run.state()[0], -0.6, 1e-11);
@@ -365,7 +366,7 @@ TEST(Tangents, MultipliersOfTheSmoothGrazingOrbit) {
     EXPECT_NEAR(determinant, std::exp(-0.08 * std::numbers::pi), 1e-13);
 }
 
-TEST(Tangents, MultipliersOfTheImpactingPeriodThreeOrbit) {
+TEST(Tangents, GiveTheMultipliersOfTheImpactingPeriodThreeOrbit) {
     const Model model = load_model("electromagnetic-testbed");
     const double beta2 = 1.631e-3, w0 = 95.94;
     const double current = std::sqrt(2 * 0.6462 * w0 * w0 * beta2 * beta2 * beta2 / 1.902e-5);
@@ -385,7 +386,7 @@ TEST(Tangents, MultipliersOfTheImpactingPeriodThreeOrbit) {
         return a * (b * c - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * c - m[1][2] * m[2][0]) +
                m[0][2] * (m[1][0] * m[2][1] - b * m[2][0]);
     };
-    // A change of sign between the neighbours of the last digit.
+    // The published value is bracketed by a change of sign between the neighbours of its last digit.
     for (const double multiplier : {0.6128, 0.1126})
         EXPECT_LT(characteristic(multiplier - 5e-5) * characteristic(multiplier + 5e-5), 0) << multiplier;
     EXPECT_NEAR(m[0][0] + m[1][1] + m[2][2], 0.6128 + 0.1126, 1e-3);

@@ -21,7 +21,7 @@ public:
     using Number = long double;
     Number zeta, omega, sigma, e;
 
-    /// Position and velocity a time s after (x, v) at time t.
+    /// Returns position and velocity a time s after (x, v) at time t.
     std::pair<Number, Number> at(Number t, Number x, Number v, Number s) const {
         const auto [p0, q0] = forced(t);
         const auto [p, q] = forced(t + s);
@@ -30,7 +30,7 @@ public:
         const Number c = std::cos(own * s), d = std::sin(own * s);
         return {p + decay * (a * c + b * d), q + decay * ((-zeta * a + own * b) * c - (zeta * b + own * a) * d)};
     }
-    /// Duration until the first impact after s = 0, where the motion leaves the stop or is clear of it.
+    /// Returns the time to the first impact after s = 0, from a motion that leaves the stop or is clear of it.
     Number flight(Number t, Number x, Number v) const {
         const Number mesh = 2 * std::numbers::pi_v<Number> / omega / 4000;
         Number low = mesh / 1000;
@@ -45,7 +45,7 @@ public:
     }
 
 private:
-    /// The forced oscillation and its rate.
+    /// Returns the forced oscillation and its rate.
     std::pair<Number, Number> forced(Number t) const {
         const Number real = 1 - omega * omega, imaginary = 2 * zeta * omega;
         const Number size = real * real + imaginary * imaginary;
@@ -61,7 +61,7 @@ TEST(ImpactOscillator, FollowsItsClosedFormOverAThousandImpacts) {
     Experiment experiment(model, with_tolerance(1e-15));
     std::vector<double> start = {-0.5, 0, 0};
     experiment.run_from(start, 0, 5000);
-    // Where it has settled on an orbit, the closed form is started from the state after an impact.
+    // After the motion has settled on an orbit, the closed form starts from the state after an impact.
     const auto& contacts = experiment.recorder.contacts();
     ASSERT_GT(contacts.size(), 1400u);
     const std::size_t first = 300;
@@ -78,10 +78,10 @@ TEST(ImpactOscillator, FollowsItsClosedFormOverAThousandImpacts) {
         worst_speed = std::max(worst_speed, std::abs(static_cast<double>(contacts[i].before[1] - speed)));
         v = -exact.e * speed;
     }
-    // Times near 5000 are known to half a unit of 1e-12.
+    // Times near 5000 have a resolution of 1e-12.
     EXPECT_LT(worst_time, 1e-11);
     EXPECT_LT(worst_speed, 1e-11);
-    EXPECT_NEAR(contacts[first + 1000].before[1], contacts[first + 998].before[1], 1e-10); // an orbit it is
+    EXPECT_NEAR(contacts[first + 1000].before[1], contacts[first + 998].before[1], 1e-10); // the motion is periodic
 }
 
 // ---- convergence
@@ -98,7 +98,7 @@ double distance(const std::vector<double>& one, const std::vector<double>& other
     return sum;
 }
 
-/// Errors at falling tolerances must stay below `factor` times the tolerance, plus round-off.
+/// Errors at decreasing tolerances must stay below `factor` times the tolerance, plus round-off.
 void expect_convergence(const Model& model, double end_time, const std::vector<double>& reference, double factor,
                         double roundoff) {
     double last = 1e300;
@@ -112,21 +112,21 @@ void expect_convergence(const Model& model, double end_time, const std::vector<d
     }
 }
 
-TEST(Convergence, KeplerOrbit) {
-    // Eccentricity 0.6: after whole periods the planet is back at its perihelion.
+TEST(Convergence, HoldsForAKeplerOrbit) {
+    // With eccentricity 0.6, after whole periods the planet is at its perihelion again.
     const Model model = from_rates("x = 0.4\ny = 0\nu = 0\nv = 2",
                                    "x = \"u\", y = \"v\", u = \"-x/(x^2+y^2)^1.5\", v = \"-y/(x^2+y^2)^1.5\"");
     expect_convergence(model, 2 * pi * 5, {0.4, 0, 0, 2}, 3e4, 2e-12);
 }
 
-TEST(Convergence, DuffingOscillator) {
+TEST(Convergence, HoldsForADuffingOscillator) {
     const Model model = from_rates("x = 1\nv = 0", "x = \"v\", v = \"-x - x^3\"");
     Experiment reference(model, with_tolerance(1e-16));
     reference.run(30);
     expect_convergence(model, 30, reference.state(), 3e3, 1e-12);
 }
 
-TEST(Convergence, ThroughImpacts) {
+TEST(Convergence, HoldsThroughImpacts) {
     const Model model = shipped_with("impact-oscillator", {{"omega", 2.8}, {"sigma", 0}, {"zeta", 0.05}});
     Experiment reference(model, with_tolerance(1e-16));
     reference.run(40);
@@ -134,7 +134,7 @@ TEST(Convergence, ThroughImpacts) {
     expect_convergence(model, 40, reference.state(), 1e3, 1e-13);
 }
 
-TEST(Convergence, OverLargestStepsAndOrders) {
+TEST(Convergence, HoldsForAllLargestStepsAndOrders) {
     const Model model = shipped_with("impact-oscillator", {{"omega", 2.8}, {"sigma", 0}, {"zeta", 0.05}});
     Experiment reference(model, with_tolerance(1e-16));
     reference.run(40);
@@ -150,7 +150,7 @@ TEST(Convergence, OverLargestStepsAndOrders) {
         }
 }
 
-TEST(Reversal, RunsBackToTheStart) {
+TEST(Reversal, ReturnsToTheStart) {
     const Model forth = from_rates("x = 1\nv = 0.3", "x = \"v\", v = \"-x - x^3\"");
     const Model back = from_rates("x = 1\nv = 0.3", "x = \"-v\", v = \"x + x^3\"");
     Experiment one(forth, with_tolerance(1e-15)), other(back, with_tolerance(1e-15));
@@ -159,8 +159,8 @@ TEST(Reversal, RunsBackToTheStart) {
     EXPECT_LT(distance(other.state(), {1, 0.3}), 1e-11);
 }
 
-TEST(Reversal, ThroughElasticImpacts) {
-    // Reversing the velocity retraces elastic bounces.
+TEST(Reversal, RetracesElasticImpacts) {
+    // With reversed velocity, elastic bounces are retraced.
     Model model = shipped_with("bouncing-ball", {{"a", 0}, {"e", 1}});
     Experiment experiment(model, with_tolerance(1e-15));
     experiment.run_from({0.05, 0.1, 0}, 0, 10);
@@ -208,7 +208,7 @@ mode = "free"
 )";
 }
 
-TEST(Simultaneous, EventsAreServedInTheOrderOfTheWatchList) {
+TEST(Simultaneous, EventsAreHandledInTheOrderOfTheWatchList) {
     for (const auto& [order, labels] : {std::pair{"\"left\", \"floor\"", "LF"}, {"\"floor\", \"left\"", "FL"}}) {
         Experiment experiment(model_from(corner(order)));
         experiment.run(1);
@@ -224,8 +224,9 @@ TEST(Simultaneous, EventsAreServedInTheOrderOfTheWatchList) {
     }
 }
 
-TEST(Simultaneous, CornerHitWithinRoundOff) {
-    // Both orders of walls, with times that differ by 0, 1, 2, ... units of round-off, must all turn the ball round.
+TEST(Simultaneous, CornersHitWithinRoundOffReverseTheBall) {
+    // In both orders of walls, with times that differ by 0, 1, 2, ... units of round-off, all impacts must reverse the
+    // ball.
     for (const char* order : {"\"left\", \"floor\"", "\"floor\", \"left\""})
         for (int units = -20; units <= 20; ++units) {
             const double x = 0.3, y = 0.6 * (1 + units * epsilon);
@@ -238,7 +239,7 @@ TEST(Simultaneous, CornerHitWithinRoundOff) {
         }
 }
 
-TEST(Simultaneous, TheEarlierComesFirstWhenTimesCanBeTold) {
+TEST(Simultaneous, EarlierEventsComeFirstIfTimesAreResolved) {
     for (const double offset : {1e-13, 1e-12, 1e-10}) {
         for (const bool left_first : {true, false}) {
             const double x = left_first ? 0.25 : 0.25 + offset, y = left_first ? 0.5 + 2 * offset : 0.5;
@@ -271,7 +272,7 @@ TEST(Start, OnABarrierMovingOutIsNoContact) {
     experiment.run(0.9);
     EXPECT_TRUE(experiment.recorder.contacts().empty());
     EXPECT_NEAR(experiment.state()[0], 0.9 - 0.81, 1e-15);
-    experiment.run(1.1); // comes back at 1
+    experiment.run(1.1); // returns at 1
     ASSERT_EQ(experiment.recorder.contacts().size(), 1u);
     EXPECT_NEAR(experiment.recorder.contacts()[0].contact.time, 1, 4 * epsilon);
 }
@@ -310,7 +311,7 @@ TEST(Start, AtRestOnABarrierWithoutForceStays) {
     EXPECT_EQ(experiment.state(), (std::vector<double>{0, 0}));
 }
 
-TEST(Start, TwiceGivesTheSameBits) {
+TEST(Start, RepeatedGivesTheSameBits) {
     const Model model = load_model("electromagnetic-testbed");
     Experiment experiment(model, {}, {section_probe(model, "phase0")});
     experiment.run(3);
@@ -319,7 +320,7 @@ TEST(Start, TwiceGivesTheSameBits) {
     for (const auto& record : experiment.recorder.contacts())
         times.push_back(record.contact.time);
     const std::size_t steps = experiment.trajectory.steps();
-    experiment.run(1.7); // something else in between
+    experiment.run(1.7); // another run in between
     experiment.run(3);
     EXPECT_EQ(std::memcmp(experiment.state().data(), state.data(), state.size() * sizeof(double)), 0);
     EXPECT_EQ(experiment.trajectory.steps(), steps);
@@ -328,7 +329,7 @@ TEST(Start, TwiceGivesTheSameBits) {
         EXPECT_EQ(experiment.recorder.contacts()[i].contact.time, times[i]);
 }
 
-TEST(Start, RefusesWhatMakesNoSense) {
+TEST(Start, RefusesInvalidInput) {
     const Model model = load_model("bouncing-ball");
     Experiment experiment(model);
     const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -367,7 +368,7 @@ TEST(Options, AreValidated) {
     with([](auto& o) { o.contacts_at_once = 0; });
 }
 
-TEST(Extend, ContinuesAsIfNothingHadHappened) {
+TEST(Extend, ContinuesWithoutAnyEffectOnTheMotion) {
     const Model model = shipped_with("impact-oscillator", {{"omega", 2}, {"sigma", 0}, {"zeta", 0.05}});
     Experiment whole(model, with_tolerance(1e-15), {section_probe(model, "phase0")}),
         parts(model, with_tolerance(1e-15), {section_probe(model, "phase0")});
@@ -382,8 +383,8 @@ TEST(Extend, ContinuesAsIfNothingHadHappened) {
     EXPECT_LT(distance(parts.state(), whole.state()), 1e-11);
 }
 
-TEST(Extend, FromAnEndAtAContact) {
-    // The end is exactly the time of an impact: it happens once.
+TEST(Extend, FromAnEndAtAContactRepeatsNoContact) {
+    // The end is exactly the time of an impact, which must occur once.
     Experiment experiment(floor_model("1", "-1", "0", sticks));
     experiment.run(1);
     experiment.go_on(1);
@@ -426,7 +427,7 @@ mode = "flight"
 }
 
 TEST(Guards, ChooseTheFirstAlternativeWhoseConditionsHold) {
-    // Conditions are judged after the jump: v = 1.
+    // Conditions are evaluated after the jump: v = 1.
     struct Case {
         const char* next;
         const char* mode;
@@ -455,7 +456,7 @@ TEST(Endings, HaveStableNames) {
     EXPECT_FALSE(is_regular(Ending::undefined));
 }
 
-TEST(Endings, Terminal) {
+TEST(Endings, TerminalTransitionsEndTheMotion) {
     Experiment experiment(model_from(guarded("\"end\"")));
     const Outcome outcome = experiment.run(5);
     EXPECT_EQ(outcome.ending, Ending::terminal);
@@ -477,22 +478,22 @@ void expect_ending(const Model& model, Ending ending, double time, std::initiali
         EXPECT_TRUE(std::isfinite(x));
 }
 
-TEST(Endings, NoTransition) {
+TEST(Endings, NoConditionHoldsAfterAnEvent) {
     expect_ending(model_from(guarded(R"([{ when = "v > 3", mode = "slow" }])")), Ending::no_transition, 1,
                   {"landing", "flight", "floor"});
 }
 
-TEST(Endings, Inadmissible) {
+TEST(Endings, ViolatedBarriersAreInadmissible) {
     expect_ending(floor_model("-0.1", "1", "-2"), Ending::inadmissible, 0, {"floor", "flight"});
-    // By a jump.
+    // By a jump beyond the barrier.
     Model model = floor_model("1", "-1", "0", sticks);
     model.jumps[model.find_jump("impact").value()].map[0] = model.graph->number(-0.25);
     expect_ending(model, Ending::inadmissible, 1, {"floor", "-0.25"});
 }
 
-TEST(Endings, NoSeparation) {
+TEST(Endings, BarriersStillApproachedAreReported) {
     Model model = floor_model("1", "-1", "0", sticks);
-    model.jumps[model.find_jump("impact").value()].map[1] = model.symbol("v") * 0.5; // does not reverse
+    model.jumps[model.find_jump("impact").value()].map[1] = model.symbol("v") * 0.5; // does not reverse the speed
     expect_ending(model, Ending::no_separation, 1, {"floor", "flight"});
 }
 
@@ -504,7 +505,7 @@ TEST(Endings, ChatterWithoutASticking) {
     EXPECT_NEAR(sticking.recorder.contacts().back().contact.time, 3, 1e-11);
 }
 
-TEST(Endings, NoProgress) {
+TEST(Endings, EndlessEventsAtOneTimeMakeNoProgress) {
     const Model model = model_from(R"(
 name = "circle"
 [states]
@@ -533,31 +534,31 @@ mode = "one"
     expect_ending(model, Ending::no_progress, 1, {"one", "circle"});
     Experiment experiment(model);
     experiment.run(10);
-    EXPECT_EQ(experiment.recorder.contacts().size(), 101u); // none is kept from the observer
+    EXPECT_EQ(experiment.recorder.contacts().size(), 101u); // all are reported to the observer
 }
 
-TEST(Endings, UndefinedAtTheStart) {
+TEST(Endings, UndefinedRatesAtTheStartAreReported) {
     expect_ending(from_rates("x = 0\ny = 1", "x = 1, y = \"1/x\""), Ending::undefined, 0, {"'y'", "only"});
     expect_ending(from_rates("x = -1\ny = 1", "x = 1, y = \"log(x)\""), Ending::undefined, 0, {"'y'", "only"});
     expect_ending(from_rates("x = -1\ny = 1", "x = 1, y = \"sqrt(x)\""), Ending::undefined, 0, {"'y'", "only"});
     expect_ending(from_rates("x = 2\ny = 1", "x = \"asin(x)\", y = 1"), Ending::undefined, 0, {"'x'", "only"});
 }
 
-TEST(Endings, UndefinedEventFunction) {
+TEST(Endings, UndefinedEventFunctionsAreReported) {
     Model model = floor_model("1", "-1", "0", sticks);
     model.events[0].function = log(model.symbol("x") - 2);
     expect_ending(model, Ending::undefined, 0, {"'floor'", "flight"});
 }
 
-TEST(Endings, UndefinedInTheModeAfterAJump) {
-    // The contact is announced all the same.
+TEST(Endings, UndefinedRatesInTheModeAfterAJumpAreReported) {
+    // The contact is reported nevertheless.
     Model model = floor_model("1", "-1", "0", sticks);
     model.jumps[model.find_jump("impact").value()].map[0] = model.graph->number(0.5);
     model.modes[0].rates[1] = log(-model.symbol("v"));
     expect_ending(model, Ending::undefined, 1, {"'v'", "flight"}, 1);
 }
 
-TEST(Endings, UndefinedAfterAJump) {
+TEST(Endings, UndefinedStatesAfterAJumpAreReported) {
     Model model = floor_model("1", "-1", "0", sticks);
     model.jumps[model.find_jump("impact").value()].map[1] = 1 / model.symbol("x");
     Experiment experiment(model);
@@ -569,25 +570,25 @@ TEST(Endings, UndefinedAfterAJump) {
     expect_ending(log_model, Ending::undefined, 1, {"impact", "'v'"});
 }
 
-TEST(Endings, SingularAtAPole) {
+TEST(Endings, PolesAreSingular) {
     // x' = x^2 from 1: x = 1/(1 - t).
     expect_ending(from_rates("x = 1\ny = 0", "x = \"x^2\", y = 1"), Ending::singular, 1, {}, 1e-12);
     // y = -log(1 - t) through 1/x with x = 1 - t.
     expect_ending(from_rates("x = 1\ny = 0", "x = -1, y = \"1/x\""), Ending::singular, 1, {}, 1e-12);
 }
 
-TEST(Endings, SingularWhereAFunctionEnds) {
+TEST(Endings, UndefinedRatesBeyondAZeroAreSingular) {
     expect_ending(from_rates("x = 1\ny = 0", "x = -1, y = \"log(x)\""), Ending::singular, 1, {}, 1e-12);
-    // Rates that stay finite are no end of the solution, but of what the model says.
+    // Where rates stay finite the solution does not end, but the model is undefined beyond.
     expect_ending(from_rates("x = 1\ny = 0", "x = -1, y = \"sqrt(x)\""), Ending::undefined, 1, {"'y'", "root"}, 1e-12);
     expect_ending(from_rates("x = 1\ny = 0", "x = -1, y = \"x^1.5\""), Ending::undefined, 1, {"'y'", "power"}, 1e-12);
     expect_ending(from_rates("x = 1\ny = 0", "x = \"-1/x\", y = \"sqrt(x)\""), Ending::singular, 0.5, {}, 1e-12);
-    // x^2 = 1 - 2 t: an infinite rate at t = 1/2.
+    // x^2 = 1 - 2 t has an infinite rate at t = 1/2.
     expect_ending(from_rates("x = 1", "x = \"-1/x\""), Ending::singular, 0.5, {}, 1e-12);
 }
 
-TEST(Endings, ARootThatReachesZeroSmoothly) {
-    // The series of (1 - t/2)^2 does not notice that the rate -sqrt(x) ends at t = 2.
+TEST(Endings, RootsThatReachZeroSmoothlyAreDetected) {
+    // The series of (1 - t/2)^2 does not show that the rate -sqrt(x) is undefined after t = 2.
     const Model model = from_rates("x = 1\ny = 0", "x = \"-sqrt(x)\", y = \"cos(y)\"");
     Experiment experiment(model);
     const Outcome outcome = experiment.run(100);
@@ -596,7 +597,7 @@ TEST(Endings, ARootThatReachesZeroSmoothly) {
     EXPECT_NEAR(outcome.time, 2, 1e-11);
     EXPECT_EQ(experiment.run(1.9).ending, Ending::end_time);
     EXPECT_EQ(experiment.run(2.1).ending, Ending::undefined);
-    // Roots of what stays positive are no matter.
+    // Roots of positive radicands have no effect.
     for (const double tolerance : {1e-2, 1e-4, 1e-9, 1e-16}) {
         Experiment pendulum(from_rates("x = 1\nv = 0", "x = \"v\", v = \"-x*sqrt(1 + x^2) - x*(2 + v)^0.3\""),
                             with_tolerance(tolerance));
@@ -604,8 +605,8 @@ TEST(Endings, ARootThatReachesZeroSmoothly) {
     }
 }
 
-TEST(Endings, AnEventComesBeforeTheSingularity) {
-    // Draining a tank: x = (1 - t/2)^2 while x > 0; the event at the bottom ends it.
+TEST(Endings, AnEventBeforeTheSingularityEndsTheMotion) {
+    // Draining a tank: x = (1 - t/2)^2 while x > 0; the event at the bottom ends the motion.
     const Model model = model_from(R"toml(
 name = "tank"
 [states]
@@ -625,7 +626,7 @@ mode = "draining"
     expect_ending(model, Ending::terminal, 2 * (1 - 1e-3), {}, 1e-11);
 }
 
-TEST(Endings, StepLimit) {
+TEST(Endings, TooManyStepsReachTheLimit) {
     SimulationOptions options;
     options.step_limit = 20;
     Experiment experiment(from_rates("x = 1\nv = 0", "x = \"v\", v = \"-x\""), options);
@@ -635,7 +636,7 @@ TEST(Endings, StepLimit) {
     EXPECT_NE(outcome.detail.find("20 steps"), std::string::npos);
 }
 
-TEST(Endings, StoppedByTheObserver) {
+TEST(Endings, TheObserverCanStopTheMotion) {
     class Stopper : public Observer {
     public:
         void contact(const Contact&) override { ++contacts; }
@@ -652,14 +653,15 @@ TEST(Endings, StoppedByTheObserver) {
     EXPECT_EQ(stopper.contacts, 3);
     Experiment whole(model);
     whole.run(1000);
-    EXPECT_EQ(trajectory.time(), whole.recorder.contacts()[2].contact.time); // the arc that follows has not begun
+    EXPECT_EQ(trajectory.time(), whole.recorder.contacts()[2].contact.time); // the next arc has not begun
     EXPECT_EQ(trajectory.state()[1], whole.recorder.contacts()[2].after[1]);
 }
 
 // ---- singular ends
 
-TEST(Singular, TimesOfKnownBlowUps) {
-    // x' = 1 + x^2: tangent, at pi/2. Also far from t = 0, where the resolution of time is less.
+TEST(Singular, TimesOfKnownBlowUpsAreExact) {
+    // x' = 1 + x^2 has the solution tan t, singular at pi/2. Also far from t = 0, where the resolution of time is
+    // lower.
     for (const double start : {0.0, 1000.0}) {
         const Model model = from_rates("x = 0", "x = \"1 + x^2\"");
         Simulation simulation(model, {}, {}, with_tolerance(1e-14));
@@ -673,8 +675,8 @@ TEST(Singular, TimesOfKnownBlowUps) {
     }
 }
 
-TEST(Singular, FastMotionAtALateTimeIsNot) {
-    // Steps are short against the time that has passed, but they do not shrink.
+TEST(Singular, FastMotionAtALateTimeIsNotSingular) {
+    // Steps are short relative to the time, but do not shrink.
     const Model model = from_rates("x = 1\nv = 0", "x = \"1e6*v\", v = \"-1e6*x\"");
     Simulation simulation(model, {}, {}, with_tolerance(1e-14));
     Observer nobody;

@@ -1,5 +1,5 @@
-// Models written without a look at the engine, whose answers are known in closed form: each kind of event, jump and
-// guard in a combination that no shipped model has.
+// Models that the engine was not developed with, with answers in closed form: each kind of event, jump and guard in a
+// combination that no shipped model has.
 
 #include "simulate.hpp"
 
@@ -20,7 +20,7 @@ std::vector<double> times_of(const Experiment& experiment, ContactKind kind) {
     return times;
 }
 
-/// A forced oscillator with a wall, in units of length and time that the model can choose.
+/// A forced oscillator with a wall, in units of length and time chosen by the model.
 Model oscillator_in_units(double length, double time) {
     return model_from(fmt::format(R"toml(
 [parameters]
@@ -48,7 +48,7 @@ next = "free"
 
 } // namespace
 
-TEST(UnseenModels, UnitsDoNotMatter) {
+TEST(UnseenModels, UnitsHaveNoEffect) {
     for (const double tolerance : {1e-8, 1e-12}) {
         Experiment reference(oscillator_in_units(1, 1), with_tolerance(tolerance));
         reference.run(140);
@@ -62,14 +62,15 @@ TEST(UnseenModels, UnitsDoNotMatter) {
             ASSERT_EQ(times.size(), expected.size());
             for (std::size_t i = 0; i < times.size(); ++i)
                 EXPECT_NEAR(times[i] / time, expected[i], 1e-11 * expected[i]);
-            // The mass turns round far from the wall, which is no touch in whatever units its speed is a large number.
+            // The mass reverses far from the wall, which is no touch even in units in which its speed is a large
+            // number.
             EXPECT_TRUE(times_of(experiment, ContactKind::touch).empty()) << length << ' ' << time << ' ' << tolerance;
         }
     }
 }
 
-TEST(UnseenModels, NothingIsSeenBehindTheZeroOfARoot) {
-    // Torricelli: the vessel is empty at t = 2, but (1 - t/2)^2 rises again and would reach 5 at t = 6.47.
+TEST(UnseenModels, NothingIsSeenBeyondTheZeroOfARoot) {
+    // Torricelli's law: the vessel is empty at t = 2, but (1 - t/2)^2 rises again and would reach 5 at t = 6.47.
     Experiment experiment(model_from(R"toml(
 [states]
 level = 1
@@ -173,7 +174,7 @@ chatter = { jump = "settle", mode = "rest" }
 mode = "right"
 )toml"));
     ASSERT_EQ(experiment.run(30).ending, Ending::end_time);
-    // From rate w the block comes back after (2/p) atanh(w/(p alpha)), p = 2.
+    // From rate w the block returns after (2/p) atanh(w/(p alpha)), p = 2.
     const std::vector<double> times = times_of(experiment, ContactKind::crossing);
     double time = 0;
     std::size_t impact = 0;
@@ -188,7 +189,7 @@ mode = "right"
     EXPECT_NEAR(rests[0], time, 1e-12 * time);
 }
 
-TEST(UnseenModels, PhaseThatRunsBackwardsPassesEachSection) {
+TEST(UnseenModels, APhaseThatRunsBackwardsPassesEachSection) {
     Model model = model_from(R"toml(
 [states]
 a = { initial = 0.5, period = 3 }

@@ -11,43 +11,47 @@
 
 namespace graze {
 
+/// What an acquisition is doing; `walking` is the repetition of earlier levels without records.
 enum class AcquisitionStage { walking, setting, settling, recording };
 
+/// State of a running acquisition, passed to AcquisitionOptions::progress.
 struct AcquisitionProgress {
     AcquisitionStage stage = AcquisitionStage::setting;
     Level level;
     std::size_t levels = 0, recorded = 0;
-    double time = 0; ///< s, of what is going on
+    double time = 0; ///< duration of the present stage so far, in s
 };
 
+/// Callbacks of `acquire`; all may be empty.
 struct AcquisitionOptions {
+    /// Called some twenty times a second while waiting; returning true ends the acquisition.
     std::function<bool()> interrupted{};
     std::function<void(const AcquisitionProgress&)> progress{};
     /// Called before the first setting is sent: from then on the generator may be in any state.
     std::function<void()> begun{};
-    /// Told of each record as soon as it counts.
+    /// Called after each record has been committed.
     std::function<void(const RecordEntry&)> recorded{};
 };
 
-/// What became of an experiment.
+/// Result of `acquire`.
 struct AcquisitionReport {
     AcquisitionEnding ending = AcquisitionEnding::complete;
-    std::string detail;         ///< in one line; empty when complete
-    std::size_t before = 0;     ///< records that were there
-    std::size_t recorded = 0;   ///< that have been added
-    std::size_t unsettled = 0;  ///< of these, without sections that repeat
-    bool safe = true;           ///< the generator itself has told its safe amplitude
-    std::string unsafe_because; ///< where it has not
-    bool off = false;           ///< where it has not: it has told that its output is switched off instead
+    std::string detail;         ///< why it ended, in one line; empty when complete
+    std::size_t before = 0;     ///< number of records that existed before
+    std::size_t recorded = 0;   ///< number of records that were added
+    std::size_t unsettled = 0;  ///< number of these whose sections did not repeat
+    bool safe = true;           ///< the generator has confirmed the safe amplitude
+    std::string unsafe_because; ///< why it has not
+    bool off = false;           ///< if not safe: the generator has confirmed that its output is switched off instead
 };
 
-/// Steps a generator from level to level, waits, records, until all records are there; those that are there already are
-/// passed over. Whatever happens, an exception included, the generator is brought to the safe amplitude before this
-/// returns, or it is said that it could not be.
+/// Runs an experiment: steps a generator from level to level, waits, and records, until all records exist; existing
+/// records are kept. Whatever happens, even an exception, the generator is brought to the safe amplitude before this
+/// returns, or the report says that this failed.
 ///
-/// To go on in the middle, a device that can (SampleDevice::return_to) is brought back to how it was; with others the
-/// levels before are walked through again, so that the system comes to the next one from the side that it would have.
-/// @param options of the generator's are those of the experiment, except for the interruption
+/// To resume an experiment, the device is returned to its stored state if it can (SampleDevice::return_to); otherwise
+/// the earlier levels are repeated without records, so that the system approaches the next one from the same side.
+/// @param options the generator's other options are those of the experiment
 /// @throws InputError when a record cannot be written, or the device lacks a channel
 AcquisitionReport acquire(const Experiment& experiment, InstrumentLine& generator, SampleDevice& device,
                           RecordFolder& folder, const AcquisitionOptions& options = {});

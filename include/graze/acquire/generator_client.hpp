@@ -10,69 +10,69 @@
 
 namespace graze {
 
-/// What must never leave a generator, in volts at a load of GeneratorOptions::load.
+/// Limits of the generator's output, in volts at the load GeneratorOptions::load.
 struct GeneratorLimits {
-    double amplitude = 0; ///< largest, in V from peak to peak
-    double offset = 0;    ///< largest of either sign, in V
+    double amplitude = 0; ///< largest amplitude, in V peak to peak
+    double offset = 0;    ///< largest magnitude of the offset, in V
     double least_frequency = 0, greatest_frequency = std::numeric_limits<double>::infinity(); ///< in Hz
 };
 
+/// Options of `GeneratorClient`.
 struct GeneratorOptions {
     GeneratorLimits limits;
-    double load = 50;        ///< ohm, at the output; infinity: one of high impedance
-    double timeout = 2;      ///< s, for each answer
-    int attempts = 3;        ///< at each setting, where lines are lost or garbled
-    double tolerance = 1e-3; ///< of what it tells of a setting, relative to it
-    std::string identity{};  ///< what it answers to *IDN? must have this in it
-    double reopen = 5;       ///< s, for which a lost line is tried again so that the output becomes safe
+    double load = 50;        ///< load of the output in ohm; infinity: high impedance
+    double timeout = 2;      ///< longest wait for an answer, in s
+    int attempts = 3;        ///< attempts for each setting if lines are lost or garbled
+    double tolerance = 1e-3; ///< relative tolerance when a setting is read back
+    std::string identity{};  ///< text that its answer to *IDN? must contain
+    double reopen = 5;       ///< time in s for which a lost line is reopened in order to make the output safe
     std::function<bool()> interrupted{};
 };
 
-/// A function generator at the end of a line, spoken to in SCPI. What is set is asked for again, and so are errors: a
-/// setting counts when the generator itself tells it.
+/// Controls a function generator by SCPI over a line. Every setting is read back, and so are errors: a setting is
+/// accepted only when the generator itself reports it.
 ///
-/// A number of volts means nothing before it is known what the generator takes it for. Unit, wave shape, load and the
-/// switches of modulations are set and asked for again before the first level is sent, and asked for anew before and
-/// after each of them. Where they are not as they should be no level is sent.
+/// A number of volts is ambiguous until unit, wave shape, load and modulations are known. These are set and read back
+/// before the first level is sent, and read again before and after each level. If they are wrong, no level is sent.
 class GeneratorClient {
 public:
-    /// @param line must outlive this
+    /// @param line must outlive this object
     GeneratorClient(InstrumentLine& line, GeneratorOptions options) : line_(&line), options_(std::move(options)) {}
 
-    /// Asks what it is. Nothing is set before, neither here nor in order to become safe. @throws InstrumentError
+    /// Checks the generator's identity. Nothing is set before that, not even to make the output safe. @throws
+    /// InstrumentError
     void identify();
-    /// Takes it under remote control, switches its output off (where it has a switch; else the amplitude goes to its
-    /// least one), makes it a plain sine in volts from peak to peak at the load, sets its levels, and switches it on.
-    /// All of that is asked for again directly before the output is switched on and directly after; what is not as it
-    /// was told switches it off at once. `amplitude` is a safe one.
-    /// @throws InstrumentError, here and below, when it does not answer, refuses, or gives something else;
-    ///         InputError for what is beyond the limits, of which nothing is sent
+    /// Takes remote control, switches the output off (without a switch: sets the least amplitude), sets a plain sine in
+    /// volts peak to peak at the load and the levels, and switches the output on.
+    /// @throws InstrumentError, here and below, when the generator does not answer, refuses, or reports another
+    /// setting; InputError for values beyond the limits, which are never sent
     void begin(double frequency, double amplitude, double offset);
-    /// Before it and after it all else that makes up the level is asked for, too.
-    /// @return what the generator says that it gives
+    /// Sets the amplitude. All other settings are read back before and after it.
+    /// @return the amplitude that the generator reports
     double set_amplitude(double amplitude);
-    /// Asks for the amplitude, too, before anything else: a larger one than was told silences the output at once.
+    /// Sets the frequency. The amplitude is read back first of all: a larger one than was set silences the output at
+    /// once.
     double set_frequency(double frequency);
-    /// What it gives now. Unit, shape, load, modulations, offset and frequency are asked for, too.
+    /// Returns the present amplitude. Unit, shape, load, modulations, offset and frequency are read back, too.
     double amplitude();
     double frequency();
-    /// What it answers to *IDN?.
+    /// The generator's answer to *IDN?.
     const std::string& identity() const { return identity_; }
 
-    /// Brings the output to a safe amplitude without offset, whatever has happened before; opens a lost line again.
-    /// A generator that no longer stands as `begin` has left it is switched off besides, if it has a switch.
-    /// Nobody can interrupt it. @return whether the generator says that it is there; if not, `problem` says why
+    /// Brings the output to a safe amplitude without offset from any state; reopens a lost line. A generator that is no
+    /// longer as `begin` left it is switched off as well, if it has a switch. Cannot be interrupted. @return whether
+    /// the generator reports that amplitude; if not, `problem` says why
     bool make_safe(double amplitude, std::string& problem) noexcept;
-    /// Where it could not be made safe: switches the output off once more. Nobody can interrupt it.
-    /// @return whether the generator itself says that its output is off
+    /// Switches the output off if it could not be made safe. Cannot be interrupted.
+    /// @return whether the generator reports that its output is off
     bool is_switched_off() noexcept;
 
 private:
-    struct Setting; // of a number
-    /// Among words, or of a load.
+    struct Setting; // a numeric setting
+    /// A setting chosen from words, or a load.
     struct Choice {
-        std::string command, value;                       ///< what is sent
-        std::function<bool(const std::string&)> is_right; ///< about the answer, in capitals
+        std::string command, value;                       ///< command and value that are sent
+        std::function<bool(const std::string&)> is_right; ///< checks the answer, in capitals
     };
     std::string asked(std::string_view question);
     double asked_number(std::string_view question);
@@ -104,13 +104,13 @@ private:
     std::string identity_;
     bool identified_ = false;
     bool making_safe_ = false;
-    std::vector<Choice> chosen_; ///< what makes it a plain sine in volts, as far as the generator knows of it
-    bool has_switch_ = false;    ///< of its output
-    bool plain_ = false;         ///< all that was chosen has been told by the generator
-    bool is_on_ = false;         ///< its switch
-    bool silenced_ = false;      ///< it has given too much
-    double least_ = 0;           ///< in V from peak to peak: what it gives before the first level
-    double amplitude_ = 0, offset_ = 0, frequency_ = 0; ///< as they were told last, in V and Hz
+    std::vector<Choice> chosen_; ///< settings that make a plain sine in volts, as far as the generator has them
+    bool has_switch_ = false;    ///< the output has a switch
+    bool plain_ = false;         ///< all of `chosen_` has been read back
+    bool is_on_ = false;         ///< its switch is on
+    bool silenced_ = false;      ///< it was silenced, as it gave too much
+    double least_ = 0;           ///< V peak to peak: amplitude before the first level
+    double amplitude_ = 0, offset_ = 0, frequency_ = 0; ///< values set last, in V and Hz
 };
 
 } // namespace graze

@@ -11,20 +11,20 @@ namespace graze {
 
 /// How an experiment ended.
 enum class AcquisitionEnding {
-    complete,    ///< all records are there
-    interrupted, ///< by who asked for it
-    line_lost,   ///< a connection is closed
-    no_answer,   ///< an instrument does not answer in time
-    garbled,     ///< it answers what cannot be understood
-    foreign,     ///< at the end of the generator's line is another instrument
-    refused,     ///< the generator refuses a setting
-    clipped,     ///< the generator gives something else than it was told
-    samples,     ///< the device of samples does not do what it should
+    complete,    ///< all records exist
+    interrupted, ///< ended by the caller
+    line_lost,   ///< a connection was closed
+    no_answer,   ///< an instrument did not answer in time
+    garbled,     ///< an answer was not understood
+    foreign,     ///< another instrument is connected to the generator's line
+    refused,     ///< the generator refused a setting
+    clipped,     ///< the generator reports another setting than it was given
+    samples,     ///< the device that takes samples failed
 };
 /// Stable name for tables and files, such as "line-lost".
 std::string_view name_of(AcquisitionEnding ending);
 
-/// An instrument does not do what it should. `what()` is one line.
+/// Thrown when an instrument fails. `what()` is one line.
 class InstrumentError : public std::runtime_error {
 public:
     InstrumentError(AcquisitionEnding ending, const std::string& what) : std::runtime_error(what), ending_(ending) {}
@@ -34,7 +34,7 @@ private:
     AcquisitionEnding ending_;
 };
 
-/// A connection to an instrument that speaks in lines of text.
+/// A connection to an instrument that exchanges lines of text.
 class InstrumentLine {
 public:
     InstrumentLine() = default;
@@ -42,22 +42,24 @@ public:
     InstrumentLine(const InstrumentLine&) = delete;
     InstrumentLine& operator=(const InstrumentLine&) = delete;
 
-    /// Sends a line; its terminator is added. @throws InstrumentError when the connection is closed, or takes nothing
+    /// Sends a line and its terminator. @throws InstrumentError when the connection is closed, or accepts nothing
     virtual void send(std::string_view line) = 0;
-    /// The next line without its terminator. @param wait seconds @return nothing when none has come whole until then
+    /// Returns the next line without its terminator. @param wait seconds @return nothing when no complete line has
+    /// arrived by then
     /// @throws InstrumentError when the connection is closed, or a line is longer than `longest_line`
     virtual std::optional<std::string> receive(double wait) = 0;
-    /// What has come and was not asked for is passed over. @throws InstrumentError when the connection is closed
+    /// Discards lines that have arrived. @throws InstrumentError when the connection is closed
     virtual void discard() = 0;
-    /// Opens the connection again, as at first. @throws InstrumentError when it cannot be
+    /// Opens the connection again. @throws InstrumentError when that fails
     virtual void reopen() = 0;
 
     static constexpr std::size_t longest_line = 65536;
 };
 
-/// The next line. @param timeout seconds; @param interrupted asked some twenty times a second; may be empty
-/// @param who for messages, as "the generator"; @param question what it was asked, for messages; may be empty
-/// @throws InstrumentError when none comes in time, or somebody interrupts; InputError for a timeout that is no number
+/// Waits for the next line. @param timeout seconds; @param interrupted called some twenty times a second; may be empty
+/// @param who sender, for messages, such as "the generator"; @param question what it was asked, for messages; may be
+/// empty
+/// @throws InstrumentError when none arrives in time, or when interrupted; InputError for a timeout that is not finite
 std::string awaited_line(InstrumentLine& line, double timeout, const std::function<bool()>& interrupted,
                          std::string_view who, std::string_view question = {});
 

@@ -10,26 +10,26 @@
 
 namespace graze {
 
-/// What is known of a record besides its samples.
+/// Properties of a record in the list of records.
 struct RecordEntry {
     Level level;
-    double told = 0; ///< amplitude that the generator has told
+    double told = 0; ///< amplitude reported by the generator
     bool settled = false;
-    double settling = 0; ///< s, from the setting to the record
+    double settling = 0; ///< time from the setting to the record, in s
     std::size_t samples = 0;
     std::uint64_t bytes = 0;
 };
 
-/// A folder with an experiment's records and their list, manifest.txt. A record and its line in the list come into
-/// being together, whenever the process or the machine stops: the list is written first, and a record that is whole but
-/// has not got its name yet gets it when the folder is finished or opened again. What was begun and does not count goes
-/// with the object.
+/// A folder with an experiment's records and their list, manifest.txt. A record and its line in the list are committed
+/// together, even if the process or the machine stops: the list is written first, and a complete record that has not
+/// been renamed yet is renamed when the folder is finished or opened again. A record that was begun and not committed
+/// is removed by the destructor.
 class RecordFolder {
 public:
-    /// Opens a folder, and makes it where there is none. Nobody else can use it as long as this lives, nor can copies
-    /// of this process that outlive it be overlooked.
-    /// @param wait s, for somebody else who is about to end
-    /// @throws InputError when it cannot be made or written, is in use, or has records of another experiment
+    /// Opens a folder, and creates it if necessary. It is locked for as long as this object, or a copy of this process,
+    /// lives.
+    /// @param wait time in s to wait for another process to release it
+    /// @throws InputError when it cannot be created or written, is in use, or has records of another experiment
     RecordFolder(std::string path, const Experiment& experiment, double wait = 10);
     ~RecordFolder();
     RecordFolder(const RecordFolder&) = delete;
@@ -38,15 +38,15 @@ public:
     bool has(const Level& level) const { return entries_.contains(level.number); }
     const std::map<std::size_t, RecordEntry>& entries() const { return entries_; }
     std::string path_of(const Level& level) const;
-    /// A number that belongs to this experiment in this folder; others hardly have it.
+    /// Returns a hash of this experiment and this folder.
     std::uint64_t identity() const;
 
-    /// Begins a record under a name that does not count.
+    /// Begins a record under a temporary name.
     /// @throws InputError, here and below, when it cannot be written
     std::unique_ptr<RecordWriter> begin(const Level& level, const RecordHeader& header);
-    /// The record that was begun, and closed, counts from now on.
+    /// Commits the record that was begun and has been closed.
     void commit(RecordEntry entry);
-    /// For a copy of the process that used the folder and has ended, whenever that was: makes list and records agree.
+    /// Makes list and records agree, for a copy of the process that used the folder and has ended at any point.
     void finish();
 
 private:
@@ -60,7 +60,7 @@ private:
     std::string path_;
     const Experiment* experiment_;
     int lock_ = -1;
-    std::string begun_; ///< name of a record that does not count yet
+    std::string begun_; ///< name of the record that is not committed yet
     std::map<std::size_t, RecordEntry> entries_;
 };
 

@@ -11,8 +11,8 @@
 
 namespace graze {
 
-/// What takes samples of an experiment: a converter with what measures before it. All of its functions throw
-/// InstrumentError when it does not do what it should.
+/// A device that takes the samples of an experiment: a converter with its sensors. All functions throw InstrumentError
+/// when the device fails.
 class SampleDevice {
 public:
     SampleDevice() = default;
@@ -21,31 +21,32 @@ public:
     SampleDevice& operator=(const SampleDevice&) = delete;
 
     virtual const RecordHeader& header() const = 0;
-    /// @param rate samples in a second
+    /// @param rate samples per second
     virtual void set_rate(double rate) = 0;
-    /// Begins to take so many samples, from now on, without gaps.
-    /// @param block so many are read at once; a device whose time stands still while nobody reads takes no more than
-    ///              those before the next ones are read. 0: as many as are there
+    /// Begins to take samples, from now on and without gaps.
+    /// @param block samples per read; a device whose time stands still while nobody reads takes no more before the next
+    /// read. 0: no limit
     virtual void begin(std::size_t count, std::size_t block = 0) = 0;
-    /// Replaces `samples` by the next ones, with times from the first that was taken.
-    /// @return false when all that were asked for have been given
+    /// Replaces `samples` by the next ones, with times counted from the first one.
+    /// @return false when all requested ones have been returned
     virtual bool read(Samples& samples) = 0;
-    /// Ends before its time what has been begun.
+    /// Stops taking samples early.
     virtual void stop() = 0;
-    /// Keeps the state of the whole experiment under a number, and makes it so again, where that can be done: of a
-    /// simulated one. @return false where it cannot
+    /// Stores, or restores, the state of the whole experiment under a number, which only a simulated one can do.
+    /// @return false if it is not possible
     virtual bool mark(std::uint64_t) { return false; }
     virtual bool return_to(std::uint64_t) { return false; }
 };
 
-/// A device that speaks the text protocol of docs/experiment.md, over whatever line.
+/// A device with the text protocol of docs/experiment.md, over any line.
 class TextSampleDevice : public SampleDevice {
 public:
-    /// Ends what somebody else may have begun, and asks for the channels.
-    /// @param line must outlive this; @param timeout s, for each answer, and for each row besides its time
-    /// @param interrupted asked while anything is waited for
-    /// @param patience how many times as long as samples last they may take to come; and `timeout`
-    /// @throws InstrumentError when it does not answer as the protocol has it
+    /// Stops any acquisition that another client has begun, and asks for the channels.
+    /// @param line must outlive this object; @param timeout longest wait in s for each answer, and for each row in
+    /// addition to its time
+    /// @param interrupted called while waiting; returning true ends the wait
+    /// @param patience samples may take this many times their duration, plus `timeout`, to arrive
+    /// @throws InstrumentError when it does not answer by the protocol
     TextSampleDevice(InstrumentLine& line, double timeout, std::function<bool()> interrupted, double patience = 10);
 
     const RecordHeader& header() const override { return header_; }
@@ -72,7 +73,7 @@ private:
     std::size_t wanted_ = 0, given_ = 0, block_ = 0;
     double last_time_ = -std::numeric_limits<double>::infinity();
     bool running_ = false;
-    std::chrono::steady_clock::time_point latest_; ///< when all of what was begun has to be there
+    std::chrono::steady_clock::time_point latest_; ///< deadline for all requested samples
 };
 
 } // namespace graze

@@ -9,18 +9,19 @@
 
 namespace graze {
 
-/// Whether sections repeat, one after the other as they come: with every period from 1 to some number of them it is
-/// looked whether the last ones differ from those a period before by no more than a tolerance.
+/// Detects whether a sequence of sections has become periodic: for each period from 1 to a longest one it compares the
+/// latest sections with those one period before, within tolerances.
 class RepeatWatch {
 public:
-    /// @param tolerances of each value of a section; @param repeats so many in a row have to; @param period the longest
-    /// @throws InputError for none of them, for more than 100,000 sections, and for tolerances that are negative or no
-    ///         numbers
+    /// @param tolerances one for each value of a section; @param repeats number of consecutive repetitions required;
+    /// @param period the longest
+    /// @throws InputError for no repeats or periods, for more than 100,000 sections, and for tolerances that are
+    /// negative or not finite
     RepeatWatch(std::vector<double> tolerances, std::size_t repeats, std::size_t period);
-    /// @param section as many values as there are tolerances. @throws InputError for another number of them, or what is
-    ///        no number
+    /// @param section one value for each tolerance. @throws InputError for another number of them, or values that are
+    /// not finite
     void add(std::vector<double> section);
-    /// After how many sections they repeat; 0: they do not.
+    /// Returns the period, in sections; 0: they do not repeat.
     std::size_t period() const;
 
 private:
@@ -28,18 +29,19 @@ private:
 
     std::vector<double> tolerances_;
     std::size_t repeats_, longest_;
-    std::vector<std::vector<double>> last_; ///< so many as the longest period has, the newest at the end
-    std::vector<std::size_t> runs_;         ///< for each period: how many in a row have repeated
+    std::vector<std::vector<double>> last_; ///< the latest sections, as many as the longest period, newest last
+    std::vector<std::size_t> runs_;         ///< for each period: number of consecutive repetitions
 };
 
+/// Result of `settle`.
 struct Settled {
-    bool settled = false; ///< or was given up after the longest time
-    double time = 0;      ///< s
+    bool settled = false; ///< false: given up after the longest time
+    double time = 0;      ///< time waited, in s
 };
 
-/// Waits, by reading samples and passing them over.
-/// @param progress told how many seconds have passed; may be empty
-/// @throws InstrumentError of the device; InputError for channels that it does not have
+/// Waits until the system has settled, while reading samples and discarding them.
+/// @param progress called with the time passed, in s; may be empty
+/// @throws InstrumentError of the device; InputError for unknown channels
 Settled settle(SampleDevice& device, const SettlingOptions& options, double rate,
                const std::function<void(double)>& progress);
 

@@ -9,17 +9,18 @@ namespace graze {
 
 inline constexpr std::size_t longest_name = 100;
 
-/// Whether a name that somebody else has chosen can be a file's, a table's and a title's: letters, digits, '.', '_' and
-/// '-' of ASCII, not '.' or '-' at the start, and no more than `longest_name`. It then leads out of no folder, is no
-/// option of a command, and needs no quotes anywhere.
+/// Returns whether a name chosen by a user is safe as the name of a file, a table or a picture's title: at most
+/// `longest_name` ASCII letters, digits, '.', '_' and '-', not starting with '.' or '-'. Such a name cannot lead out of
+/// a folder, is never read as a command's option, and needs no quotes anywhere.
 bool is_file_name(std::string_view name);
 
-/// @param what as in "name of a run"
-/// @throws InputError unless it is one
+/// Checks that `is_file_name(name)`.
+/// @param what names the thing in the message, as in "name of a run"
+/// @throws InputError if the name is not safe
 void require_file_name(std::string_view name, std::string_view what, const Place& place);
 
-/// Titles, units, labels and the like: one line of at most 10000 bytes in which nothing acts (printable.hpp).
-/// @throws InputError unless it is one
+/// Checks a title, unit, label or the like: one line of at most 10000 bytes that passes `is_plain_line`.
+/// @throws InputError if the text is longer or not plain
 void require_plain_line(std::string_view text, std::string_view what, const Place& place);
 
 } // namespace graze

@@ -11,17 +11,17 @@ struct Place {
     int line = 0;
     int column = 0;
 
-    /// `file:line:column`, leaving out what is not known.
+    /// Returns `file:line:column`, leaving out the parts that are not known.
     std::string text() const;
 };
 
-/// What a user wrote cannot be used. `what()` is one line: `file:line:col: what is wrong; what to do`.
+/// An error in a user's input. `what()` is one line: `file:line:col: what is wrong; what to do`.
 class InputError : public std::runtime_error {
 public:
     /// @param problem what is wrong
     /// @param remedy  what to do about it (may be empty)
     InputError(Place place, const std::string& problem, const std::string& remedy);
-    /// Without a place, as for values given from C++ or on a command line.
+    /// Without a place, for values given from C++ or on a command line.
     InputError(const std::string& problem, const std::string& remedy);
 
     const Place& place() const { return place_; }

@@ -7,27 +7,27 @@
 
 namespace graze {
 
-/// Several mistakes of one text. As an InputError it is the first of them.
+/// Several mistakes of one text. When caught as an InputError it stands for the first of them.
 class InputErrors : public InputError {
 public:
     /// @param all two or more
     explicit InputErrors(std::vector<InputError> all) : InputError(all.front()), all_(std::move(all)) {}
 
-    /// In the order of their places.
+    /// All mistakes, ordered by their places.
     const std::vector<InputError>& all() const { return all_; }
 
 private:
     std::vector<InputError> all_;
 };
 
-/// Mistakes that are noted while reading goes on, for all of them to be told at once.
+/// Collects mistakes while reading goes on, so that the user sees all of them at once.
 class Mistakes {
 public:
-    /// So many are enough: each may cost a search for names that are alike.
+    /// Reading stops at this many mistakes: each may cost a search for similar names.
     static constexpr std::size_t most = 100;
 
-    /// Does something, and notes the mistake that it finds. @return whether it found none
-    /// @throws InputErrors when there are as many as are wanted
+    /// Runs `work` and notes the InputError or InputErrors that it throws. @return true when it threw neither
+    /// @throws InputErrors once `most` mistakes have been noted
     template <class Work>
     bool attempt(const Work& work) {
         try {
@@ -44,12 +44,12 @@ public:
         return false;
     }
     bool none() const { return all_.empty(); }
-    /// In the order of their places, those of one file after those of another.
-    /// @throws InputError for the one that has been noted, or InputErrors; returns when there is none
+    /// Throws the noted mistakes, grouped by file and ordered by place; returns when there are none.
+    /// @throws InputError for a single mistake, InputErrors for several
     void throw_noted();
 
 private:
-    /// Unless the same has been noted: several readers may meet one mistake.
+    /// Adds a mistake unless it is already there: several readers may meet the same one.
     void note(const InputError& error);
 
     std::vector<InputError> all_;

@@ -7,30 +7,31 @@
 
 namespace graze {
 
-/// A unit such as "um^2", "kg/m^3" or "Pa s": a multiple of the unit of the SI with its dimension.
+/// A unit such as "um^2", "kg/m^3" or "Pa s": factor * 10^exponent times the coherent unit of its dimension.
 struct PhysicalUnit {
-    int exponent = 0;               ///< of ten, in units of m, kg, s, A
-    std::array<int, 5> dimension{}; ///< powers of m, kg, s, A and degree
-    double factor = 1;              ///< beside the power of ten: 60 of a minute
+    int exponent = 0;               ///< power of ten, relative to m, kg, s, A
+    std::array<int, 5> dimension{}; ///< exponents of m, kg, s, A and degree
+    double factor = 1;              ///< further factor: 60 for a minute
 
     bool operator==(const PhysicalUnit&) const = default;
 };
 
-/// The symbol of a unit that is written as a word: "seconds" is s, "msec" and "mSec" ms, "Volts" V, "millivolt" mV,
-/// "hours" h. All else stays: symbols mean by their case what they do in the SI, where mS is millisiemens.
+/// Returns the symbol of a unit written as a word: "s" for "seconds", "ms" for "msec" and "mSec", "V" for "Volts", "mV"
+/// for "millivolt", "h" for "hours". Other texts are returned unchanged; symbols are case-sensitive as in the SI, where
+/// mS is millisiemens.
 std::string unit_symbol(std::string_view text);
 
-/// Units m, g, s, A, Hz, N, Pa, J, W, V, F, ohm, H, Wb, T, S, rad (which is 1) and deg, with the prefixes f, p, n, u
-/// (or the Greek letter), m, c, k, M and G, besides min and h, and words for them (see above), with whole powers, as
-/// factors between blanks or stars; behind a slash all that follow divide.
-/// @throws InputError (without a place) for anything else
+/// Parses a unit: a product of whole powers, separated by blanks or '*'; all factors behind a '/' divide. Known units
+/// are m, g, s, A, Hz, N, Pa, J, W, V, F, ohm, H, Wb, T, S, rad (equal to 1) and deg, with the prefixes f, p, n, u (or
+/// the Greek letter), m, c, k, M and G; min and h without prefixes; and the words of `unit_symbol`.
+/// @throws InputError (without a place) if the text is not such a unit
 PhysicalUnit physical_unit(std::string_view text);
-/// The same, and nothing for what is no unit.
+/// Parses a unit as `physical_unit` does; returns nothing if the text is not a unit.
 std::optional<PhysicalUnit> known_unit(std::string_view text);
-/// The same, and nothing for a text that says none.
+/// Parses a unit as `known_unit` does; returns nothing for an empty text too.
 std::optional<PhysicalUnit> told_unit(std::string_view text);
 
-/// A value in another unit, rounded once. @throws InputError where the units measure different things
+/// Converts a value to another unit, rounding once. @throws InputError if the dimensions differ
 double converted(double value, const PhysicalUnit& from, const PhysicalUnit& to);
 
 } // namespace graze

@@ -6,7 +6,7 @@
 
 namespace graze {
 
-/// Checks of what is handed to the library from C++: cheap where all is well, an InputError that names it where not.
+/// Checks of arguments handed to the library from C++: cheap when they pass, an InputError naming the argument if not.
 
 namespace require_detail {
 [[noreturn]] void refuse_size(std::size_t given, std::size_t needed, std::string_view what);
@@ -14,22 +14,22 @@ namespace require_detail {
 [[noreturn]] void refuse_value(double value, std::string_view what);
 } // namespace require_detail
 
-/// @param what in the plural, such as "states". @throws InputError unless exactly as many are given as are needed
+/// @param what names the items in the plural, such as "states". @throws InputError unless given == needed
 inline void require_size(std::size_t given, std::size_t needed, std::string_view what) {
     if (given != needed)
         require_detail::refuse_size(given, needed, what);
 }
-/// @throws InputError when there is less room than is needed
+/// @throws InputError if a buffer of `given` items is smaller than `needed`
 inline void require_room(std::size_t given, std::size_t needed, std::string_view what) {
     if (given < needed)
         require_detail::refuse_size(given, needed, what);
 }
-/// @param what in the singular, such as "mode". @throws InputError unless index < size
+/// @param what names the item in the singular, such as "mode". @throws InputError unless index < size
 inline void require_index(std::size_t index, std::size_t size, std::string_view what) {
     if (index >= size)
         require_detail::refuse_index(index, size, what);
 }
-/// @throws InputError for NaN and infinities
+/// @throws InputError for NaN and infinities. @param what names the value in the message
 void require_finite(double value, std::string_view what);
 void require_finite(std::span<const double> values, std::string_view what);
 

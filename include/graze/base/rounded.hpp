@@ -2,8 +2,8 @@
 
 namespace graze {
 
-/// The number nearest to the decimal of so many significant digits that is nearest to `value`: 0.30000000000000004 is
-/// 0.3 to 13 digits. What is not finite stays. @param digits 1 to 17
+/// Returns `value` rounded to `digits` significant decimal digits: 0.30000000000000004 becomes 0.3 with 13 digits. NaN
+/// and infinities are returned unchanged. @param digits 1 to 17
 double rounded(double value, int digits);
 
 } // namespace graze

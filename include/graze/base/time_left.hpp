@@ -6,18 +6,18 @@
 
 namespace graze {
 
-/// How long work will take that consists of many points, from what those have taken that were done.
+/// Estimates the remaining time of a computation of many points from the time that the computed points took.
 class TimeLeft {
 public:
     struct Estimate {
         double seconds = 0;
-        bool at_least = false; ///< it may be more: points have begun to take longer, or there is work of unknown length
+        bool at_least = false; ///< a lower bound: points have become slower, or some work is of unknown length
     };
 
-    /// So many points have been computed after so many seconds, which both rise from call to call.
+    /// Notes that `computed` points took `seconds` in total. Both rise from call to call.
     void note(std::size_t computed, double seconds);
-    /// For so many points that are left. It does not climb: where points turn out to take longer, it is what they take
-    /// at least. None while too little has been done to tell.
+    /// Estimates the time for the points that are left. The estimate never rises from call to call: where points become
+    /// slower, the earlier value is kept and marked as a lower bound. None until enough points have been computed.
     std::optional<Estimate> of(std::size_t points_left);
 
 private:
@@ -25,10 +25,10 @@ private:
         std::size_t computed;
         double seconds;
     };
-    /// Of one point: what the slower of all and of those of late took.
+    /// Returns the time of one point: the larger of the mean over all points and the mean over the recent ones.
     std::optional<double> seconds_of_a_point() const;
 
-    std::deque<Moment> moments_; ///< of late, a few
+    std::deque<Moment> moments_; ///< recent calls of `note`, a few
     Moment now_{0, 0};
     std::optional<double> shown_;
 };

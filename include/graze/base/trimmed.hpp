@@ -4,7 +4,7 @@
 
 namespace graze {
 
-/// A part of the text, which lives no longer than it: without the blanks at both ends.
+/// Returns the text without the blanks at both ends, as a view of the same characters.
 std::string_view trimmed(std::string_view text, std::string_view blanks = " \t");
 
 } // namespace graze

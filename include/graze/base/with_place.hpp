@@ -6,9 +6,9 @@
 
 namespace graze {
 
-/// Does some work: an InputError that has no file for a place gets this place.
-/// @param about begins its problem then, such as "run 'a': "
-/// @return what the work returns
+/// Calls `work()` and gives this place to any InputError that names no file.
+/// @param about is then put before the error's problem, such as "run 'a': "
+/// @return what `work` returns
 template <class Work>
 auto with_place(const Place& place, const Work& work, const std::string& about = {}) {
     try {

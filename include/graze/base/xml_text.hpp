@@ -5,12 +5,12 @@
 
 namespace graze {
 
-/// A text as a part of a document of XML: what means something there is escaped, and what XML has no place for (control
-/// characters, bytes that are no UTF-8, the two codes that are no characters) is U+FFFD.
+/// Returns the text for use inside an XML document: special characters are escaped, and characters that XML forbids
+/// (control characters, bytes that are not UTF-8, the two noncharacters) become U+FFFD.
 std::string xml_text(std::string_view text);
 
-/// A document of XML as another program has written it: what XML has no place for is U+FFFD, and what would end a
-/// section of it is escaped; all else stays.
+/// Returns an XML document written by another program so that it can be embedded in a CDATA section: characters that
+/// XML forbids become U+FFFD, and "]]>" is escaped; the rest is unchanged.
 std::string well_formed(std::string_view document);
 
 } // namespace graze

@@ -6,19 +6,20 @@
 
 namespace graze {
 
-/// The device as a model, in the folder of a design.
+/// File name of the device's model in the folder of a design.
 constexpr const char* device_model_name = "device.toml";
-/// A file that is in the folder of a design from the beginning of the work on it to its end: as long as it is there,
-/// other files are none of that design, or not all.
+/// Name of a file that is in the folder of a design while the design is being computed: as long as it exists, the other
+/// files belong to an earlier run or are incomplete.
 constexpr const char* unfinished_name = "design-unfinished.txt";
 
-/// What that file says.
+/// Returns the content of that file.
 std::string unfinished_text(const Design& design);
-/// The first line of `device.toml`, a comment by which it is known whose device it is.
+/// Returns the first line of `device.toml`, a comment that identifies the design.
 std::string device_heading(const Design& design);
+/// Checks that a folder holds the device of a design.
 /// @param place where the folder was named
-/// @throws InputError where the folder has no device, one of a design whose work has not come to its end, or one of
-/// another design; of a device without a heading nobody can tell
+/// @throws InputError when the folder has no device, that of an unfinished run, or that of another design; a device
+/// without a heading is accepted
 void require_device_of(const Design& design, const std::string& folder, const Place& place);
 
 } // namespace graze

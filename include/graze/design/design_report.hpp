@@ -17,27 +17,30 @@
 
 namespace graze {
 
-/// How the trip value depends on one parameter.
+/// Sensitivity of the trip value to one parameter.
 struct Sensitivity {
     std::string name, unit;
     ParameterId parameter;
     double value = 0;
-    double derivative = 0;          ///< of the trip value, exactly
-    std::optional<double> relative; ///< percents of the trip value for one of the parameter; none where it is zero
+    double derivative = 0; ///< exact derivative of the trip value
+    /// Percent of the trip value per percent of the parameter; empty if the trip value is 0.
+    std::optional<double> relative;
 };
 
+/// The trip value over one dimension.
 struct DimensionCurve {
-    std::size_t dimension = 0; ///< of the design
+    std::size_t dimension = 0; ///< index of the dimension
     std::vector<MappedValue> points;
 };
+/// The trip value over two dimensions.
 struct DimensionPlane {
-    std::size_t across = 0, up = 0; ///< dimensions of the design
+    std::size_t across = 0, up = 0; ///< indices of the dimensions
     std::vector<MappedValue> points;
 };
 
-/// All that is known of one device.
+/// All results for one device.
 struct DesignReport {
-    double value = 0; ///< at which it trips
+    double value = 0; ///< trip value
     std::vector<Sensitivity> sensitivities;
     TripClass found;
     TripTimes times;
@@ -46,35 +49,36 @@ struct DesignReport {
     std::vector<DimensionCurve> curves;
     std::vector<DimensionPlane> planes;
     std::optional<Tuning> tuning;
-    std::string no_tuning; ///< why there is none, if one was asked for
+    std::string no_tuning; ///< why there is no tuning curve, if one was requested
     std::optional<Yield> yield;
-    std::string no_yield; ///< why there is none, if tolerances were given
+    std::string no_yield; ///< why there is no yield, if tolerances were given
     YieldSettings yield_settings;
-    std::optional<MetWishes> wishes; ///< that led to this device, if the design wants anything
+    std::optional<MetWishes> wishes; ///< result of the search that led to this device, if the design has requirements
     bool interrupted = false;
 };
 
+/// Options of `report_of`.
 struct DesignReportOptions {
     int jobs = 1;
-    std::function<bool()> interrupted;                     ///< asked from any thread
-    std::function<void(const std::string& what)> progress; ///< what is being done; called from the calling thread
+    std::function<bool()> interrupted;                     ///< called from any thread; returning true interrupts
+    std::function<void(const std::string& what)> progress; ///< called with the present task, from the calling thread
 };
 
-/// Works out everything at a trip point.
-/// @throws InputError where the trip value does not follow from the other parameters
+/// Computes the report at a trip point.
+/// @throws InputError when the trip value is not determined by the other parameters
 DesignReport report_of(const Design& design, const TripPoint& trip, const DesignReportOptions& options = {});
 
-/// A table with the name of the file that it goes to.
+/// A table with the name of its file.
 struct NamedTable {
     std::string name;
     Table table;
 };
-/// What the report says in rows: the facts, derivatives, earlier points, trip times, curves, planes, tuning, devices.
-/// Facts have the columns quantity, value, unit and meaning.
+/// Returns the report as tables: facts, derivatives, earlier points, trip times, curves, planes, tuning, devices. Facts
+/// have the columns quantity, value, unit and meaning.
 Table facts_of(const Design& design, const TripPoint& trip, const DesignReport& report);
 std::vector<NamedTable> tables_of(const Design& design, const TripPoint& trip, const DesignReport& report);
 
-/// The model of a device at its trip value, beginning on the orbit that touches: for other commands.
+/// Returns the model of a device at its trip value, with the touching orbit as initial state, for other commands.
 Model model_of_device(const TripPoint& trip);
 
 } // namespace graze

@@ -8,7 +8,8 @@
 
 namespace graze {
 
-/// Where a device trips; its way there is kept in the file. @return none when interrupted
+/// Finds the trip point of a device, and stores the branch that leads there in the file. @return nothing when
+/// interrupted
 std::optional<TripPoint> locate_trip(const Design& design, const std::string& path, const DesignReportOptions& options);
 
 } // namespace graze

@@ -11,38 +11,40 @@
 
 namespace graze {
 
+/// Options of `meet_wishes`.
 struct WishesOptions {
-    std::size_t evaluations = 2000; ///< devices that are tried at most
-    int jobs = 1;                   ///< threads for the devices of a yield, on which nothing depends
+    std::size_t evaluations = 2000; ///< largest number of devices that are evaluated
+    int jobs = 1;                   ///< threads for the devices of a yield; the results do not depend on their number
     std::function<bool()> interrupted;
-    std::function<void(std::size_t devices)> progress; ///< how many have been tried
+    std::function<void(std::size_t devices)> progress; ///< called with the number of evaluated devices
 };
 
-/// What was wanted, and what was found.
+/// Requirements of a design, and the device that was found.
 struct MetWishes {
-    WishList list; ///< without callbacks: dimensions, names and limits
+    WishList list; ///< dimensions, names and limits; without callbacks
     FoundDesign found;
-    std::optional<double> trip_value; ///< of the device found, which follows from that of the first
+    std::optional<double> trip_value; ///< trip value of the device found
 
-    std::vector<double> values() const; ///< of the dimensions
+    std::vector<double> values() const; ///< values of the dimensions
 };
 
-/// Finds the dimensions that a design wants: of each device a Newton solve from the trip point, with the trip value's
-/// exact gradient. The trip value, distances from earlier points, a reset value and sensitivities are numbers; of the
-/// class it is the least projection of a contact, measured by what the leading multiplier leaves and in units of the
-/// largest one, which decides between "trips" (negative) and "persists"; of a trip time the time by the map and
-/// simulation. Those of which no gradient is known are followed by differences. A yield is brought to what is wanted by
-/// the deviation that derivatives give, as if trip values were normal, and then corrected by devices that are made.
-/// @param trip of the first device
-/// @throws InputError for wants that the device cannot have at all, such as a reset value of one that does not return
+/// Finds the dimensions that meet the requirements of a design. Each device is a Newton solve from the trip point, with
+/// the exact gradient of the trip value. Trip value, distances from earlier points, reset value and sensitivities are
+/// used as they are. The class is replaced by the least projection of a contact, normalised by the decay of the leading
+/// multiplier and by the largest projection: "trips" if negative, otherwise "persists". A trip time is computed by the
+/// map and simulation. Values without a known gradient are differentiated by differences. A yield is first estimated by
+/// derivatives, as if trip values were normally distributed, and then corrected by counting devices that are drawn with
+/// the tolerances.
+/// @param trip trip point of the first device
+/// @throws InputError for requirements that the device cannot have at all, such as a reset value if it does not reset
 MetWishes meet_wishes(const Design& design, const TripPoint& trip, const WishesOptions& options = {});
 
-/// What a device has of what its design wants, without a search: outcome met or unmet.
-/// @param trip of the device, within the ranges of the dimensions or not
+/// Evaluates the requirements at a device, without a search: outcome met or unmet.
+/// @param trip trip point of the device, within the ranges of the dimensions or not
 /// @throws InputError as meet_wishes does
 MetWishes wishes_at(const Design& design, const TripPoint& trip, const WishesOptions& options = {});
 
-/// The design whose first device is another one: its dimensions have these values.
+/// Returns the design with other values of its dimensions for the first device.
 /// @throws InputError unless there is a finite value for each dimension
 Design with_values(const Design& design, const std::vector<double>& values);
 

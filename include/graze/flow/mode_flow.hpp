@@ -1,6 +1,6 @@
 #pragma once
 
-#include "graze/flow/late_states.hpp"
+#include "graze/flow/dormant_states.hpp"
 #include "graze/flow/mode_jets.hpp"
 #include "graze/flow/step_check.hpp"
 #include "graze/flow/step_size.hpp"
@@ -15,41 +15,42 @@
 
 namespace graze {
 
-/// The smooth flow of one mode over a given time, which may be negative, whatever events it passes: what multiple
-/// shooting asks for. With derivatives with respect to the start and chosen parameters.
+/// The smooth flow of one mode over a given time, which may be negative; events do not end it. Multiple shooting uses
+/// it. Optionally with derivatives with respect to initial states and chosen parameters.
 class ModeFlow {
 public:
-    /// @param tolerance of each step, as of SimulationOptions; @param order of the series, 0: chosen by the tolerance
-    /// @param free independent parameters with respect to which there are derivatives
-    /// @param starts states of the start with respect to which there are derivatives; all unless they are given
-    /// @throws InputError for a tolerance, order, parameter or state that is out of range
+    /// @param tolerance of each step, as in SimulationOptions; @param order of the series, 0: chosen from the tolerance
+    /// @param free independent parameters with respect to which derivatives are computed
+    /// @param starts initial states with respect to which derivatives are computed; by default all
+    /// @throws InputError for a tolerance, order, parameter or state out of range
     ModeFlow(const System& system, double tolerance, int order = 0, std::vector<ParameterId> free = {},
              std::optional<std::vector<std::size_t>> starts = std::nullopt);
 
     const System& system() const { return system_; }
     const std::vector<ParameterId>& free() const { return free_; }
     const std::vector<std::size_t>& starts() const { return starts_; }
-    /// To be called before `run`. @throws InputError unless there are as many as the system has
+    /// To be called before `run`. @throws InputError for a wrong number of parameters
     void set_parameters(std::span<const double> parameters);
-    /// None before they are set.
+    /// Empty before parameters are set.
     std::span<const double> parameters() const { return parameters_; }
 
     enum class Ending { done, singular, undefined, too_long };
-    /// One step: series in s from its start, which is `time` after the arc's; states, then watched events.
+    /// Receives one step: the series, in the time since its start, of states, then watched events; the start is `time`
+    /// after the start of the arc.
     using StepVisitor = std::function<void(const Jet& jet, double time, double length)>;
 
-    /// The state after a time. @param state start, replaced by the end
-    /// @throws InputError, here and below, for a mode or numbers that do not fit the system
+    /// Computes the state after a time. @param state initial state, replaced by the final one
+    /// @throws InputError, here and below, for a mode or numbers that do not match the system
     Ending run(std::size_t mode, std::span<double> state, double duration, const StepVisitor& visit = {});
-    /// @param watched what the mode's events do on the way
+    /// @param watched receives the series of the mode's events along the arc
     Ending run(std::size_t mode, std::span<double> state, double duration, WatchedSeries& watched);
-    /// The same with derivatives. @param derivatives of the end at fixed time with respect to the states of the start
-    /// and the free parameters, states x (starts + free) row by row
-    /// @param watched what the mode's events do on the way, unless null
+    /// The same with derivatives. @param derivatives of the final state at fixed time with respect to the initial
+    /// states `starts()` and the parameters `free()`: states x (starts + free), row by row
+    /// @param watched receives the series of the mode's events along the arc, unless null
     Ending run(std::size_t mode, std::span<double> state, double duration, std::span<double> derivatives,
                WatchedSeries* watched = nullptr);
 
-    std::size_t steps() const { return steps_; } ///< since it was made
+    std::size_t steps() const { return steps_; } ///< since construction
 
 private:
     double step_of(std::size_t mode, const Jet& jet, double remaining, bool watched);
@@ -62,12 +63,12 @@ private:
     std::size_t states_, directions_;
     StepSize step_size_;
     StepCheck step_check_;
-    LateStates late_states_;
+    DormantStates dormant_states_;
     ModeJets jets_;
     TangentSteps tangents_;
     EndAllowance allowance_;
     std::vector<double> parameters_, parameter_seeds_, sums_, slopes_, guarded_;
-    double seen_ = 0;                   ///< length of a step whose end is in `sums_`; 0: none
+    double seen_ = 0;                   ///< length of the step whose final state is in `sums_`; 0: none
     std::vector<double> matrix_, next_; ///< states x directions, row by row
     double previous_ = 0;
     std::size_t steps_ = 0;

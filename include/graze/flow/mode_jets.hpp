@@ -10,20 +10,20 @@
 
 namespace graze {
 
-/// Jets for the modes of a system, made when first needed: two of each, in turn that of a step and that of the
-/// next, of which looking at the step's end makes the beginning.
+/// Jets for the modes of a system, made when first needed. Each mode has two, which are used in turn: checking the end
+/// of a step computes the beginning of the next one in the other jet.
 class ModeJets {
 public:
     /// @param order of the series
     ModeJets(const System& system, int order, LaneKind kind, InstructionSet set = best_instruction_set());
-    /// From now on jets can be followed by derivatives (see System::linear): what has been computed is forgotten, and
-    /// jets that have been handed out are gone. Again, it does nothing.
+    /// Adds the variational equations to the jets (see System::linear). Jets made before are destroyed, and computed
+    /// series lost. Has no effect if called again.
     void add_tangents();
     bool has_tangents() const { return has_tangents_; }
-    /// The jet of a mode. @throws InputError, here and below, when there is no such mode
+    /// Returns the jet of a mode. @throws InputError, here and below, when there is no such mode
     Jet& operator()(std::size_t mode) { return made(jets_, mode); }
-    /// The jet of a mode, computed from states, which becomes the present one: the next one has begun there if the
-    /// states are those at the end of the last step.
+    /// Returns the jet of a mode computed from states. If the states are those at the end of the last step, the jet
+    /// from `next` continues from there.
     Jet& computed(std::size_t mode, std::span<const double> states) {
         require_index(mode, jets_.size(), "mode");
         if (next_jets_[mode])
@@ -32,11 +32,11 @@ public:
         jet.compute(states);
         return jet;
     }
-    /// That of the next step, to be begun where the step ends.
+    /// Returns the jet for the next step, to be begun at the end of the present one.
     Jet& next(std::size_t mode) { return made(next_jets_, mode); }
-    /// Parameters [parameter * width + lane] for all modes, also those made later.
+    /// Sets parameters [parameter * width + lane] for all modes, including jets made later.
     void set_parameters(std::span<const double> parameters);
-    /// The same for the jets of one mode alone.
+    /// The same for the jets of one mode only.
     void set_parameters(std::size_t mode, std::span<const double> parameters);
     int width() const { return width_; }
     int order() const { return order_; }

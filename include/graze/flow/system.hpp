@@ -14,47 +14,47 @@
 
 namespace graze {
 
-/// A model that is frozen and compiled: a tape for each mode, functions for jumps, conditions and derivatives. What
-/// computes shares one, from any number of threads; copies are handles of the same. Parameters are its inputs, not part
-/// of it.
+/// A model, frozen and compiled: a tape for each mode, functions for jumps, conditions and derivatives. All
+/// computations share one system, from any number of threads; copies are handles to the same object. Parameters are
+/// inputs, not part of the system.
 ///
 /// Functions take the states followed by the independent parameters as inputs.
 class System {
 public:
-    /// Compiles a copy of the model: what happens to the model later has no effect. Threads may compile one model at
-    /// once. Implicit, so that whatever takes a system can be given a model.
+    /// Compiles a copy of the model: later changes of the model have no effect. Several threads may compile one model
+    /// at once. The constructor is implicit, so that a model can be passed where a system is expected.
     /// @throws InputError when the model is not valid (Model::validate)
     System(const Model& model); // NOLINT(google-explicit-constructor)
 
-    /// The derivatives of a function with respect to states that are not zero throughout.
+    /// The derivatives of a function with respect to states that are not identically zero.
     struct CompiledGradient {
-        std::vector<std::size_t> states; ///< by which they are, rising
+        std::vector<std::size_t> states; ///< with respect to which the derivatives are taken, rising
         Function values;
     };
     struct CompiledMode {
         Tape tape;                ///< outputs: the watched events in their order, then the observed expressions
         Function rates;           ///< the vector field alone
         Function events;          ///< the watched event functions alone
-        Function evidence;        ///< rates, watched event functions, observed expressions: by which series are judged
-        Function event_gradients; ///< and their derivatives with respect to the states, row by row
-        std::vector<CompiledGradient> gradients; ///< the same, of each watched event by itself
+        Function evidence;        ///< rates, watched event functions, observed expressions: values for StepCheck
+        Function event_gradients; ///< derivatives of the watched event functions with respect to the states, row by row
+        std::vector<CompiledGradient> gradients; ///< the same, separately for each watched event
         std::vector<std::size_t> watched;
-        std::vector<std::size_t> transitions; ///< of each watched event
-        bool polynomial = false;              ///< all series end by themselves: whatever their length, steps are exact
-        bool has_roots = false;               ///< sqrt or powers that are not whole, which have two branches at zero
-        Function roots;                       ///< of those in the rates: what stands under one, and the exponent
+        std::vector<std::size_t> transitions; ///< transition of each watched event
+        bool polynomial = false;              ///< all series are finite: steps of any length are exact
+        bool has_roots = false;               ///< the rates contain sqrt or non-integer powers, which branch at zero
+        Function roots;                       ///< for each of these: its radicand (base), and the exponent
     };
-    /// A map of states. In terms of the states that it changes: all others stay, and have derivatives of the identity.
+    /// A map of states. Stored for the states that it changes; all others stay, with the derivatives of the identity.
     struct CompiledJump {
         struct Entry {
             std::size_t row = 0;    ///< a state that is changed
             std::size_t column = 0; ///< a state, or the number of states plus an independent parameter
         };
         bool identity = false;
-        Function map;                     ///< of all states
+        Function map;                     ///< image of all states
         std::vector<std::size_t> changed; ///< states, rising
-        std::vector<Entry> entries;       ///< derivatives that are not zero throughout, row by row
-        Function jacobian;                ///< their values
+        std::vector<Entry> entries;       ///< derivatives that are not identically zero, row by row
+        Function jacobian;                ///< values of the entries
     };
     struct CompiledAlternative {
         Function conditions; ///< one output per condition
@@ -66,57 +66,58 @@ public:
         std::vector<CompiledAlternative> next;
     };
 
-    /// The same system whose tapes also give series of further expressions along the flow, in every mode.
+    /// Returns the same system, with tapes that also compute series of further expressions along the flow, in every
+    /// mode.
     /// @param expressions in the model's symbols, of any graph
     /// @throws InputError for a symbol that the model does not have
     System observing(std::span<const Expression> expressions) const;
 
-    /// The smooth motion of the modes alone, in which no event happens.
+    /// Returns the same system without events: the smooth motion of each mode.
     System without_events() const;
 
     // @throws InputError, here and below, for an index that is out of range
 
-    /// The model that was compiled. It cannot grow: for new expressions, copy it.
+    /// Returns the compiled model. Its graph cannot grow: for new expressions, copy it.
     const Model& model() const { return parts_->model; }
     std::size_t states() const { return parts_->states; }
     std::size_t parameters() const { return parts_->parameters; }
     std::size_t observed() const { return observed_.size(); }
     const CompiledMode& mode(std::size_t index) const { return at((*modes_), index, "mode"); }
-    /// The first variational equations of a mode: compiled when first asked for, by whichever thread it is.
+    /// Returns the first variational equations of a mode. They are compiled at the first call; thread-safe.
     const LinearMode& linear(std::size_t mode) const;
     const CompiledJump& jump(std::size_t index) const { return at(parts_->jumps, index, "jump"); }
     const CompiledTransition& transition(std::size_t index) const {
         return at(parts_->transitions, index, "transition");
     }
-    /// A symmetry's map of states.
+    /// Returns a symmetry's map of states.
     const CompiledJump& symmetry(std::size_t index) const { return at(parts_->symmetries, index, "symmetry"); }
-    /// An event's function: value, then derivatives with respect to states and parameters.
+    /// Returns an event's function: value, then derivatives with respect to states and parameters.
     const Function& event(std::size_t index) const { return at(parts_->events, index, "event"); }
-    /// A section's function likewise; of a phase section, the state less the value. Of the image of the state under a
-    /// symmetry, if one is given.
+    /// Returns a section's function in the same form; for a phase section, the state less its value. With a symmetry,
+    /// it is the function of the image of the state.
     const Function& section(std::size_t index, std::optional<std::size_t> symmetry = std::nullopt) const {
         if (symmetry)
             require_index(*symmetry, parts_->symmetries.size(), "symmetry");
         return at(parts_->sections, index, "section")[symmetry ? 1 + *symmetry : 0];
     }
-    /// Periods of the cyclic states (0 for others), from the parameters alone.
+    /// Returns the periods of the cyclic states (0 for others), as a function of the parameters.
     const Function& periods() const { return parts_->periods; }
-    /// Their derivatives, row by row: states x parameters.
+    /// Returns their derivatives, row by row: states x parameters.
     const Function& period_gradients() const { return parts_->period_gradients; }
-    /// Initial state, from the parameters alone; not yet within the periods.
+    /// Returns the initial state as a function of the parameters; not yet reduced to the periods.
     const Function& initial() const { return parts_->initial; }
-    /// Compiles one more function of states and parameters. @param expressions in the model's symbols, of any graph
+    /// Compiles another function of states and parameters. @param expressions in the model's symbols, of any graph
     /// @throws InputError for a symbol that the model does not have
     Function function_of(std::span<const Expression> expressions) const;
-    /// The same of the parameters alone.
+    /// The same for a function of the parameters only.
     Function function_of_parameters(std::span<const Expression> expressions) const;
-    /// The same of one expression: value, then derivatives with respect to states and parameters.
+    /// The same for one expression: value, then derivatives with respect to states and parameters.
     Function with_gradient(const Expression& expression) const;
-    /// Largest workspace of the system's own functions.
+    /// Returns the largest workspace of the system's own functions.
     std::size_t workspace() const { return workspace_; }
-    /// Largest number of entries of the jacobian of a jump or symmetry.
+    /// Returns the largest number of entries of the Jacobian of a jump or symmetry.
     std::size_t jacobian_entries() const { return parts_->jacobian_entries; }
-    /// Operations of all functions and tapes together: by what memory and the time to compile go.
+    /// Returns the number of operations of all functions and tapes: memory and compile time are proportional to it.
     std::size_t operations() const { return operations_; }
 
 private:
@@ -133,14 +134,14 @@ private:
         std::vector<CompiledJump> jumps, symmetries;
         std::vector<CompiledTransition> transitions;
         std::vector<Function> events;
-        std::vector<std::vector<Function>> sections; ///< of each: as it is, then under each symmetry
+        std::vector<std::vector<Function>> sections; ///< for each section: its function, then that under each symmetry
         Function periods, period_gradients, initial;
     };
     std::shared_ptr<const Parts> parts_;
     struct LinearModes;
     std::shared_ptr<const std::vector<CompiledMode>> modes_;
-    std::shared_ptr<LinearModes> linear_; ///< of these modes
-    std::vector<Expression> observed_;    ///< in a graph that does not grow
+    std::shared_ptr<LinearModes> linear_; ///< variational equations of these modes
+    std::vector<Expression> observed_;    ///< observed expressions, in a frozen graph
     std::size_t workspace_ = 0, operations_ = 0;
 };
 

@@ -14,51 +14,52 @@ class Couplings;
 class ModeCouplings;
 class TangentSeries;
 
-/// Carries derivatives of a flow in several directions along its steps. The flow's own series are computed once a step;
-/// directions are convolved with them side by side, as many at once as registers hold, or one alone.
+/// Propagates derivatives of a flow in several directions along its steps. The series of the flow are computed once per
+/// step; directions are convolved with them side by side, as many as registers hold, or a single one.
 ///
-/// The error of a direction's component is measured against the component's size, or, where that is less, against what
-/// the direction's other components make of it within the response time of the flow (see docs/method.md): errors that
-/// these are allowed come to as much there. A component that has only begun to differ from zero, such as the motion of
-/// the far end of a chain of oscillators, therefore needs no shorter steps than the others.
+/// The error of a direction's component is measured against the component's size, or, if larger, against the size to
+/// which the direction's other components can bring it within the response time of the flow (see docs/method.md): the
+/// errors allowed in those cause as much error there. A component that has only begun to differ from zero, such as the
+/// motion of the far end of a chain of oscillators, therefore needs no shorter steps than the others.
 ///
 /// Matrices are row by row, [row * directions + direction].
 class TangentSteps {
 public:
-    /// What derivatives are allowed of the tolerance of the states: what is cut off is far smaller than the last terms.
+    /// Tolerance of derivatives in units of that of the states: the truncation error is far below the last terms.
     static constexpr double allowance = 50;
-    /// Parts of a step that directions may need which are faster than the motion.
+    /// Largest number of parts of a step for directions that are faster than the motion.
     static constexpr int most_parts = 200'000;
 
-    /// How many of so many directions are computed side by side.
+    /// Returns how many of `directions` directions are computed side by side.
     static std::size_t together(std::size_t directions);
 
-    /// @param tolerance of the states; @param directions any number of them
-    /// @param whole share of a step below which derivatives take parts of it: where what is left over takes as much
-    /// work as the step did, tails alone are no reason to leave a few percent of it
+    /// @param tolerance of the states; @param directions number of directions
+    /// @param whole share of a step from which on tails alone are no reason to take the step in parts: the rest of a
+    /// step takes as much work as the whole, which is not worthwhile for a few percent
     TangentSteps(const System& system, double tolerance, std::size_t directions, double whole = 1);
     ~TangentSteps();
     TangentSteps(TangentSteps&&) noexcept;
     TangentSteps& operator=(TangentSteps&&) noexcept;
 
-    /// @param seeds of the parameters in the directions, parameters x directions
+    /// Sets parameters. @param seeds changes of the parameters in the directions, parameters x directions
     void set_parameters(std::span<const double> parameters, std::span<const double> seeds);
 
-    /// A step begins.
-    /// @param jet single jet with tangents (see ModeJets) that has been computed from the state, and stays as it is
-    /// @param state, matrix where the step begins, which stay as they are
+    /// Begins a step.
+    /// @param jet single jet with tangents (see ModeJets), computed from the state; must not change during the step
+    /// @param state, matrix at the beginning of the step; must not change during the step
     void begin(Jet& jet, std::size_t mode, std::span<const double> state, std::span<const double> matrix);
-    /// Carries all directions along the step, or along a part of it, as far as all may be carried at once.
-    /// @param next another jet of the mode, which is begun at the end; @param length of the step, which may be negative
-    /// @param after the matrix at the end; @param end the state at the end of the whole step, if it is known
-    /// @return how far
+    /// Propagates all directions along the step, or along the longest part for which all series are accurate.
+    /// @param next another jet of the mode, which is begun at the end; @param length of the step, may be negative
+    /// @param after the matrix at the end; @param end the state at the end of the whole step, if known
+    /// @return the length of the part
     double carry(Jet& next, double length, std::span<double> after, std::span<const double> end = {});
-    /// Where `carry` has led to.
+    /// Returns the state at the end of the last `carry`.
     std::span<const double> state() const { return state_; }
 
-    /// Derivatives of a watched event's function where `carry` has led to: `next` and `after` as it left them.
+    /// Computes the derivatives of a watched event's function at the end of the last `carry`; `next` and `after` as it
+    /// left them.
     void event_at_end(Jet& next, std::span<const double> after, std::size_t watched, std::span<double> row) const;
-    /// Derivatives of coefficient k (at most 2) of the series that a watched event's function has on the step.
+    /// Computes the derivatives of coefficient k (at most 2) of a watched event's series on the step.
     void event_coefficient(std::size_t watched, std::size_t k, std::span<double> row);
 
 private:
@@ -78,18 +79,18 @@ private:
     std::size_t states_, directions_;
     double tolerance_, whole_;
     std::vector<double> parameter_seeds_;
-    std::vector<char> moving_;          ///< of each parameter, whether some direction changes it
-    std::vector<std::uint32_t> groups_; ///< of followers that are needed
-    std::vector<Lanes> lanes_;          ///< of modes, made when first needed
-    // Of the present step
+    std::vector<char> moving_;          ///< for each parameter, whether any direction changes it
+    std::vector<std::uint32_t> groups_; ///< groups of deferred expressions that are needed
+    std::vector<Lanes> lanes_;          ///< for each mode, made when first needed
+    // State of the present step
     Jet* jet_ = nullptr;
     std::size_t mode_ = 0, first_ = 0;
     bool loaded_ = false; ///< the directions from `first_` on have been computed
     std::span<const double> place_, matrix_;
-    double at_ = 0; ///< where `state_` is along it
+    double at_ = 0; ///< time of `state_` since the beginning of the step
     std::vector<double> state_, sums_, slopes_;
     std::unique_ptr<ModeCouplings> couplings_;
-    const Couplings* measured_ = nullptr; ///< what they are at its beginning, once it has been asked for
+    const Couplings* measured_ = nullptr; ///< couplings at the beginning of the step, if they have been needed
     std::vector<double> floors_, noise_;  ///< [state * width + direction]
 };
 

@@ -8,21 +8,22 @@
 
 namespace graze {
 
-/// What the watched events of a mode do along an arc: the series of their functions, step by step.
+/// The series of the watched event functions of a mode along an arc, step by step.
 class WatchedSeries {
 public:
     struct Step {
-        double time = 0;   ///< at which it begins, after the arc's start
+        double time = 0;   ///< time of its beginning since the start of the arc
         double length = 0; ///< with the sign of the arc's duration
     };
 
-    /// Forgets all. @param events how many there are
+    /// Clears the series. @param events number of watched events
     void begin(std::size_t events) {
         events_ = events;
         steps_.clear();
         coefficients_.clear();
     }
-    /// Takes the series of the next step from a jet at its start, lane 0, before it is known how long the step is.
+    /// Stores the series of the next step from lane 0 of a jet at its start; the length of the step follows by
+    /// `end_step`.
     void note(const Jet& jet) {
         const auto width = static_cast<std::size_t>(jet.width());
         terms_ = static_cast<std::size_t>(jet.order()) + 1;
@@ -34,7 +35,7 @@ public:
                 coefficients_[to++] = from[k * width];
         }
     }
-    /// And how long it is.
+    /// Stores the beginning and length of the step.
     void end_step(double time, double length) { steps_.push_back({time, length}); }
 
     std::span<const Step> steps() const { return steps_; }

@@ -8,18 +8,18 @@
 
 namespace graze {
 
-/// Successive peaks on one side of an oscillation that dies out, one a period.
+/// Successive maxima of a decaying oscillation, one a period, and the damped sine through its samples.
 struct DecayPeaks {
-    std::vector<double> times, heights; ///< above the rest position
-    double rest = 0, rest_error = 0;    ///< where the oscillation comes to rest, with its standard error
-    DecayWave wave{};                   ///< through all samples of these periods
+    std::vector<double> times, heights; ///< times of the maxima, and their heights above the rest position
+    double rest = 0, rest_error = 0;    ///< position at which the oscillation comes to rest, with its standard error
+    DecayWave wave{};                   ///< least-squares fit to all samples of these periods
 };
 
-/// The first peaks of a channel after it has first risen through the position where it is in the end, each by a
-/// polynomial that fits the samples around it by least squares. The rest position is that of a damped sine through all
-/// samples of these periods, likewise. Peaks that do not stand out from the noise are left out, with all behind them.
-/// @param most of them
-/// @throws InputError when there are fewer than two
+/// Finds the first peaks of a channel, from its first rise through the final position on. Each peak is the maximum of a
+/// polynomial fitted to the samples around it by least squares. The rest position is that of a damped sine fitted to
+/// all samples of these periods. The list ends before the first peak that does not stand out from the noise.
+/// @param most largest number of peaks
+/// @throws InputError when fewer than two peaks are found
 DecayPeaks decay_peaks(SampleSource& source, std::size_t channel, std::size_t most);
 
 } // namespace graze

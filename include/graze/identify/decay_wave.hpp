@@ -4,13 +4,14 @@
 
 namespace graze {
 
-/// An oscillation c + exp(-decay t) (a cos(turn t) + b sin(turn t)) through the samples of a release by least squares.
+/// A damped sine c + exp(-decay t) (a cos(turn t) + b sin(turn t)), fitted by least squares to the samples of a
+/// release.
 struct DecayWave {
-    double turn = 0, decay = 0;                   ///< in radians, and as a rate, by unit of time
-    double turn_variance = 0, decay_variance = 0; ///< squares of standard errors
-    double covariance = 0;                        ///< of the two
-    double freedom = 0;                           ///< samples less unknowns
-    ResidualTest left{};                          ///< whether the samples are such an oscillation
+    double turn = 0, decay = 0; ///< angular frequency of the damped oscillation, and decay rate, per unit of time
+    double turn_variance = 0, decay_variance = 0; ///< squared standard errors of `turn` and `decay`
+    double covariance = 0;                        ///< covariance of `turn` and `decay`
+    double freedom = 0;                           ///< degrees of freedom: samples less unknowns
+    ResidualTest residual_test{};                 ///< test of whether the samples are a damped sine with random noise
 };
 
 } // namespace graze

@@ -11,31 +11,34 @@
 
 namespace graze {
 
-/// What the estimates of section 5.3.1 of B. E. Wilcox's dissertation are made with: names of channels, and what is
-/// known beforehand, in the units of the records.
+/// Options of the estimates below (section 5.3.1 of B. E. Wilcox's dissertation): names of channels, and quantities
+/// that are known beforehand, in the units of the records. Each field says which estimates use it.
 struct IdentificationSettings {
-    std::string channel = "v";                        ///< velocity, of decrements and restitutions
-    std::string displacement = "";                    ///< of couplings (q if it is empty); of restitutions: for times
-    std::string voltage = "V", current = "I";         ///< of impedances; of couplings the current
-    std::size_t peaks = 10;                           ///< of each release
-    ImpactWindow impacts{};                           ///< of restitutions
-    std::optional<double> gap{}, stiffness{};         ///< of couplings; the gap also of leakage inductances
-    double gap_error = 0, stiffness_error = 0;        ///< standard errors
-    double displacement_noise = 0, current_noise = 0; ///< of couplings, see CouplingSettings
-    bool one_load_a_record = false;                   ///< couplings: a record is an equilibrium, otherwise each row is
-    std::optional<double> frequency{};                ///< about that of the voltage, in cycles by unit of time
-    std::optional<Estimate> beta1{}, beta2{};         ///< of couplings found before: for the leakage inductance
-    double clamped = 0;                               ///< displacement at which the mass is held
-    std::string asked_as{}; ///< what stands before names of settings in messages, such as "--"
+    std::string channel = "v"; ///< velocity channel (decrement, restitution)
+    /// Displacement channel: coupling (empty: q); restitution: optional, for the times of impacts.
+    std::string displacement = "";
+    std::string voltage = "V", current = "I";  ///< voltage (impedance) and current (impedance, coupling) channels
+    std::size_t peaks = 10;                    ///< largest number of peaks of each release (decrement)
+    ImpactWindow impacts{};                    ///< restitution, see ImpactSettings
+    std::optional<double> gap{}, stiffness{};  ///< coupling, see CouplingSettings; the gap also for leakage inductance
+    double gap_error = 0, stiffness_error = 0; ///< standard errors of gap and stiffness
+    double displacement_noise = 0, current_noise = 0; ///< coupling, see CouplingSettings
+    /// Coupling: true: the means of a record are one equilibrium; false: each row is one.
+    bool one_load_a_record = false;
+    /// Impedance: initial guess of the voltage's frequency, in cycles per unit of time.
+    std::optional<double> frequency{};
+    std::optional<Estimate> beta1{}, beta2{}; ///< result of a coupling, for the leakage inductance
+    double clamped = 0;                       ///< impedance: displacement at which the mass is clamped
+    std::string asked_as{};                   ///< prefix of option names in messages, such as "--"
 };
 
-/// What has been found from records, and how well it says what was measured.
+/// Estimates from records, with warnings about the records and curves to plot.
 struct Identification {
     struct Value {
         std::string name, unit;
         Estimate estimate;
     };
-    /// Of one record: what was measured, what should have been, and the difference.
+    /// Points of a curve.
     struct Curve {
         std::vector<double> x, y;
     };
@@ -43,24 +46,25 @@ struct Identification {
         Curve measured, fitted, left;
     };
     std::vector<Value> values;
-    std::vector<double> covariance;    ///< of the values, row by row; 0 where nothing is known
-    std::vector<std::string> warnings; ///< what calls for a look at the record
-    Channel x, y;                      ///< what is shown over what
-    std::vector<Shown> shown;          ///< a curve for each record, or one for all
+    std::vector<double> covariance;    ///< covariance matrix of the values, row by row; 0 where unknown
+    std::vector<std::string> warnings; ///< reasons to distrust the estimates
+    Channel x, y;                      ///< labels and units of the axes of `shown`
+    std::vector<Shown> shown; ///< measured and fitted values and residuals: one entry for each record, or one for all
 };
 
-/// Hands out records one after the other, with what they are called. Numbers of several records are put together in the
-/// units of the first: others are converted, and refused where they measure something else or one of them says none.
+/// Calls a function with the name and the samples of each record in turn. Numbers from several records are combined in
+/// the units of the first: the others are converted, or refused if they have another dimension or no unit.
 using EachRecord = std::function<void(const std::function<void(const std::string& name, SampleSource& record)>&)>;
 
-/// Natural frequency and damping ratio: a record for each release.
-/// @throws InputError here and below for channels that are not there, and as logarithmic_decrement, ... do
+/// Estimates natural frequency and damping ratio; each record is a release.
+/// @throws InputError here and below for missing channels, and for the reasons of logarithmic_decrement, restitution,
+/// coupling and impedance
 Identification identify_decrement(const EachRecord& records, const IdentificationSettings& settings);
-/// Coefficient of restitution: a record for each set of conditions.
+/// Estimates the coefficient of restitution; each record is a set of conditions.
 Identification identify_restitution(const EachRecord& records, const IdentificationSettings& settings);
-/// Constants of an electromagnet, from equilibria.
+/// Estimates the constants of an electromagnet from equilibria.
 Identification identify_coupling(const EachRecord& records, const IdentificationSettings& settings);
-/// Resistance and inductance of a coil whose mass is held.
+/// Estimates resistance and inductance of a coil whose mass is clamped.
 Identification identify_impedance(const EachRecord& records, const IdentificationSettings& settings);
 
 } // namespace graze

@@ -8,26 +8,27 @@
 
 namespace graze {
 
-/// A coil with its mass clamped, under a sinusoidal voltage.
+/// Impedance of a coil under a sinusoidal voltage, with its mass clamped.
 struct Impedance {
-    double frequency = 0;                        ///< w, in radians by unit of time
-    Harmonic voltage, current;                   ///< about the middle of the record
-    Estimate magnitude;                          ///< V0/I0
-    Estimate lag;                                ///< phi, in radians
-    Estimate resistance;                         ///< R
-    Estimate inductance;                         ///< L, all of it
-    ResidualTest voltage_left{}, current_left{}; ///< whether they are sines
+    double frequency = 0;      ///< w, in radians per unit of time
+    Harmonic voltage, current; ///< sines fitted to the channels; phases refer to the middle of the record
+    Estimate magnitude;        ///< V0/I0
+    Estimate lag;              ///< phase phi by which the current lags, in radians
+    Estimate resistance;       ///< R
+    Estimate inductance;       ///< total inductance L
+    ResidualTest voltage_test{}, current_test{}; ///< tests of whether the channels are sines with random noise
 };
 
-/// From amplitudes and phase of voltage and current: R = V0/I0 cos(phi), w L = V0/I0 sin(phi), which is Eqs. (5.17) to
-/// (5.19) of B. E. Wilcox's dissertation solved for both. All samples tell them, by least squares, at the frequency
-/// that both channels have together.
-/// @param guess of the frequency, in radians by unit of time; 0: from the crossings of the voltage's mean
-/// @throws InputError when there are less than two periods, or no current
+/// Estimates the impedance from amplitudes and phases of voltage and current: R = V0/I0 cos(phi), w L = V0/I0 sin(phi),
+/// which is Eqs. (5.17) to (5.19) of B. E. Wilcox's dissertation solved for both. Sines with a common frequency are
+/// fitted to all samples of both channels by least squares.
+/// @param guess initial guess of the frequency, in radians per unit of time; 0: from the spectrum of the voltage
+/// @throws InputError when there are fewer than two periods, or no current
 Impedance impedance(std::span<const double> times, std::span<const double> voltage, std::span<const double> current,
                     double guess = 0);
 
-/// Ll = L - beta1/(beta2 + d - q), Eq. (5.3), with the errors of the constants.
+/// Returns the leakage inductance L - beta1/(beta2 + d - q), Eq. (5.3), with its error from those of the constants.
+/// @throws InputError for an air gap beta2 + d - q that is not positive
 Estimate leakage_inductance(const Estimate& inductance, const Estimate& beta1, const Estimate& beta2, double gap,
                             double displacement);
 

@@ -7,38 +7,40 @@
 
 namespace graze {
 
-/// Whether what an estimate leaves of readings is noise. Intervals are made for noise that is independent from reading
-/// to reading; of anything else they are too narrow, and lie elsewhere.
+/// Test of whether the residuals of an estimate are random noise. Confidence intervals assume noise that is independent
+/// from reading to reading; with any other residuals they are too narrow or misplaced.
 struct ResidualTest {
-    double deviation = 0;             ///< root of the mean of the squares
-    double correlation = 0;           ///< of neighbours
-    std::vector<std::string> reasons; ///< why it is no noise, in words; empty: it may be noise
-    /// By which standard errors are to be multiplied where what is left is no noise, but so small (round-off, steps of
-    /// a converter) that it only limits how well the estimate is known: all of it may point the same way.
+    double deviation = 0;   ///< root mean square of the residuals
+    double correlation = 0; ///< correlation of neighbouring residuals
+    /// Reasons why the residuals are not random noise, in words; empty: no test fails.
+    std::vector<std::string> reasons;
+    /// Factor for the standard errors where the residuals are not random but tiny (round-off, steps of a converter):
+    /// they only limit the accuracy of the estimate, and in the worst case all act in the same direction.
     double widening = 1;
 
     bool is_noise() const { return reasons.empty(); }
-    /// The reasons in one line.
+    /// Returns the reasons in one line.
     std::string text() const;
 };
 
-/// Tests residuals in the order of time: the correlation of neighbours, and the number of runs of one sign (A. Wald and
-/// J. Wolfowitz, Ann. Math. Stat. 11 (1940) 147), both to four standard deviations; the largest line of the periodogram
-/// (R. A. Fisher, Proc. R. Soc. A 125 (1929) 54), to one chance in 10^5; residuals beyond six standard deviations, by
-/// their median; the size in the first half over that in the second, of residuals that are given with their readings,
-/// to four standard deviations; and readings that stand at the end of their range, as where an instrument clips them.
-/// @param left readings less what they should be
-/// @param readings the same number of them; empty: nothing is said about clipping
-/// @throws InputError when the numbers of readings differ, or a number is not finite
+/// Tests residuals in the order of time: the correlation of neighbours, and the number of runs of equal sign (A. Wald
+/// and J. Wolfowitz, Ann. Math. Stat. 11 (1940) 147), both at four standard deviations; the largest line of the
+/// periodogram (R. A. Fisher, Proc. R. Soc. A 125 (1929) 54), at a level of 1e-5; outliers beyond six standard
+/// deviations, estimated from the median; if readings are given, the ratio of the residuals' sizes in the two halves,
+/// at four standard deviations, and readings at the limits of the range, as where an instrument clips them.
+/// @param left residuals, readings less fitted values
+/// @param readings as many as residuals; empty: clipping and changes of size are not tested
+/// @throws InputError when the sizes differ, or a number is not finite
 ResidualTest test_residuals(std::span<const double> left, std::span<const double> readings = {});
 
-/// How many readings stand at the least or greatest value of all of them, far more than beside it; 0: no more.
+/// Returns how many readings equal the smallest or the largest one, if these are far more than at the next value;
+/// otherwise 0.
 std::size_t clipped_readings(std::span<const double> readings);
 
-/// The chance that what is left falls by as much as it does when further columns may explain it, if there is nothing
-/// in them: an F test.
-/// @param left residuals of a fit by least squares; @param columns of that fit, and `further` ones, of the same length
-/// @return 1 when there are too few residuals to tell, or none of the further columns is independent
+/// Returns the p value of an F test: the probability that `further` columns reduce the residuals this much if they have
+/// no influence.
+/// @param left residuals of a least-squares fit; @param columns of that fit, and `further` ones, all as long as `left`
+/// @return 1 when there are too few residuals, or when no further column is independent of `columns`
 double chance_of_fit(std::span<const double> left, const std::vector<std::vector<double>>& columns,
                      const std::vector<std::vector<double>>& further);
 

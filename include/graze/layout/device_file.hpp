@@ -14,37 +14,39 @@
 
 namespace graze {
 
-/// What the sections [device], [process], [rules], [spread] and [wafer] of a design file say; the other sections are
-/// the designer's.
+/// Content of the sections [device], [process], [rules], [spread] and [wafer] of a design file; the other sections
+/// belong to the design itself.
 struct DeviceFile {
     std::string name, text, file;
-    std::string model = "mems-switch-device"; ///< a shipped one, or a path: whose parameters the device has
+    /// Shipped model or path of a model, whose parameters the device determines.
+    std::string model = "mems-switch-device";
     DeviceDimensions device;
     ProcessData process;
-    ProcessConditions conditions; ///< of [process], too
+    ProcessConditions conditions; ///< also from [process]
     RuleLimits rules;
     ProcessSpread spread;
     WaferPlan wafer;
-    std::map<std::string, Place, std::less<>> places; ///< of all that is given, as "device.gap"
+    std::map<std::string, Place, std::less<>> places; ///< places of all given keys, such as "device.gap"
 
-    /// Where a key is given, or else its section, or the file's first line.
+    /// Place of a key, or else of its section, or the first line of the file.
     Place place(const std::string& key) const;
 };
 
-/// Lengths in micrometres in the place of those of the file: of [device], of [process] as "process.NAME".
+/// Lengths in micrometres that override those of the file: of [device] by name, of [process] as "process.NAME".
 using GivenLengths = std::vector<std::pair<std::string, double>>;
 
-/// The value of such a number from a text with or without a unit, "12 um" or "2*8 GPa", in its own unit.
+/// Parses such a number with or without a unit, such as "12 um" or "2*8 GPa", and returns it in its own unit.
 /// @throws InputError with the place
 double dimension_of_text(const std::string& name, const std::string& text, const Place& place);
 
-/// Reads the sections from a design's TOML text; docs/layout.md describes them. A length is a number in micrometres, an
-/// expression, or either with nm, um, mm, cm or m behind it, and is rounded to the grid. What is not given is as in a
-/// default-constructed DeviceDimensions.
-/// @param file the name to use in messages
-/// @throws InputErrors with the places of all that is wrong, or InputError for the only one
+/// Reads the sections from a design's TOML text, whose format docs/layout.md describes. A length is a number in
+/// micrometres, an expression, or either followed by nm, um, mm, cm or m; it is rounded to the grid. Missing dimensions
+/// have the defaults of DeviceDimensions.
+/// @param file name for messages
+/// @throws InputErrors with places for several errors, InputError for a single one
 DeviceFile parse_device_file(std::string_view text, const std::string& file, const GivenLengths& given = {});
-/// The design of this name or in this file. @throws InputError when there is neither, or something is wrong with it
+/// Loads the sections of a shipped design by name, or of a design file. @throws InputError when neither exists, or it
+/// is invalid
 DeviceFile load_device_file(const std::string& name_or_path, const GivenLengths& given = {});
 
 } // namespace graze

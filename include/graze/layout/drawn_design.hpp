@@ -10,29 +10,31 @@
 
 namespace graze {
 
-/// What a design has found, and the drawing that gives it.
+/// A designed device, and the drawing that realises it.
 struct DesignedDevice {
-    Design own;   ///< as the file has it
-    Model device; ///< that was found, at its trip value
+    Design own;   ///< design as in the file
+    Model device; ///< model of the device that was found, at its trip value
     MatchedDrawing matched;
 };
 
-/// What a drawn device is beside what was designed.
+/// Comparison of a drawn device with the designed one.
 struct DrawnDesign {
-    Table table;     ///< quantity, designed, drawn, percent, unit, meaning: numbers, trip value, class, time, wishes
-    bool met = true; ///< the drawing is as designed, and the device has what is wanted
+    /// Columns: quantity, designed, drawn, percent, unit, meaning; rows: numbers, trip value, class, time,
+    /// requirements.
+    Table table;
+    bool met = true; ///< the drawing agrees with the design, and the device meets the requirements
 };
 
-/// Gives what is drawn back to the design: where it trips, how fast, and what it has of what is wanted.
-/// @param results file for the way to the trip point, made if need be
-/// @return none when interrupted
+/// Evaluates the drawn device as a design: its trip value, trip time and requirements.
+/// @param results result file for the branch to the trip point, created if necessary
+/// @return nothing when interrupted
 /// @throws InputError as locate_trip and wishes_at do
 std::optional<DrawnDesign> drawn_design(const DesignedDevice& designed, const std::string& results,
                                         const DesignReportOptions& options);
 
-/// The numbers of the drawing that were solved for, for the drawing's own file.
+/// Returns the numbers of the drawing that were solved for, for its own file.
 ParameterFile solved_numbers(const DesignedDevice& designed);
-/// The parameters of the model that the drawn device has, after the etch.
+/// Returns the model parameters of the drawn device after the etch.
 ParameterFile drawn_parameters(const DesignedDevice& designed);
 
 } // namespace graze

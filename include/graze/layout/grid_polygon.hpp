@@ -8,7 +8,7 @@
 
 namespace graze {
 
-/// In whole nanometres.
+/// A point in whole nanometres.
 struct GridPoint {
     std::int64_t x = 0, y = 0;
     friend bool operator==(const GridPoint&, const GridPoint&) = default;
@@ -20,45 +20,44 @@ struct GridBox {
     std::int64_t width() const { return right - left; }
     std::int64_t height() const { return top - bottom; }
     GridBox moved(GridPoint by) const { return {left + by.x, bottom + by.y, right + by.x, top + by.y}; }
-    /// Grown to each side.
+    /// Expands the box on each side.
     GridBox grown(std::int64_t by_x, std::int64_t by_y) const {
         return {left - by_x, bottom - by_y, right + by_x, top + by_y};
     }
-    GridBox with(const GridBox& other) const; ///< the least box that has both
+    GridBox with(const GridBox& other) const; ///< smallest box that contains both
     bool contains(const GridBox& other) const;
-    /// Whether they have a point in common, if only of their edges.
+    /// Whether they share a point, including points on their edges.
     bool meets(const GridBox& other) const {
         return left <= other.right && other.left <= right && bottom <= other.top && other.bottom <= top;
     }
     friend bool operator==(const GridBox&, const GridBox&) = default;
 };
 
-/// Corners one after the other; the last is joined to the first, which is not repeated.
+/// Consecutive corners; the last is joined to the first, which is not repeated.
 using GridPolygon = std::vector<GridPoint>;
 
 GridPolygon polygon_of(const GridBox& box);
 GridBox bounding_box(std::span<const GridPoint> corners);
-/// Square micrometres, positive; exact before it is rounded to a double, for sides up to two metres.
+/// Area in square micrometres, positive; computed exactly before rounding to a double, for sides up to two metres.
 double area_of(std::span<const GridPoint> corners);
 double total_area(std::span<const GridPolygon> polygons);
 
-/// The distance along x between two polygons with sides along the axes where they face each other: the least one
-/// between an upright edge of each that have a part of y in common, and the length of what of them is so near.
+/// Distance along x between two axis-parallel polygons where they face each other: the smallest one between vertical
+/// edges with a common part in y, and the length over which it occurs.
 struct Facing {
     std::int64_t distance = 0, length = 0; ///< nanometres
 };
-/// @return none where they nowhere face each other
+/// @return nothing if they do not face each other
 std::optional<Facing> facing(std::span<const GridPoint> left, std::span<const GridPoint> right);
 
-/// Why a polygon cannot be made, and where.
+/// Why a polygon cannot be fabricated, and where.
 struct PolygonFault {
     std::string text;
     GridPoint at;
 };
-/// @param least of a polygon's edges; shorter ones are accidents
-/// @return none for a polygon that has an area, does not meet itself and has no acute angle, straight corner or edge
-/// that
-///         is too short
+/// @param least shortest allowed edge; shorter ones are accidental
+/// @return nothing for a polygon that has an area, does not intersect itself, and has no acute angle, straight corner
+/// or too short edge
 std::optional<PolygonFault> polygon_fault(std::span<const GridPoint> corners, std::int64_t least);
 
 } // namespace graze

@@ -10,13 +10,13 @@
 
 namespace graze {
 
-/// A layer of GDSII with its datatype.
+/// A GDSII layer with its datatype.
 struct MaskLayer {
     int layer = 0, datatype = 0;
     auto operator<=>(const MaskLayer&) const = default;
 };
 
-/// Layers of drawings. Polygons on those of the masks are what is etched; the others are for people and programs.
+/// Layers of drawings. Polygons on the masks' layers are etched; the others are for information.
 namespace mask_layers {
 constexpr MaskLayer back{1, 0}, back_letters{1, 1}, back_marks{1, 2};    ///< mask 1: chambers, seen from the front
 constexpr MaskLayer front{2, 0}, front_letters{2, 1}, front_marks{2, 2}; ///< mask 2: etched through
@@ -24,9 +24,9 @@ constexpr MaskLayer mass{10, 0}, beams{10, 1}, trusses{10, 2}, electrode{11, 0},
 constexpr MaskLayer die{20, 0}, notes{20, 1}, wafer{21, 0}, usable{21, 1};
 } // namespace mask_layers
 
-/// What a layer has, for people. Empty for one that is not drawn on.
+/// Description of a layer; empty for an unused one.
 std::string_view layer_text(MaskLayer layer);
-/// In the order of their numbers.
+/// Returns all layers in the order of their numbers.
 std::vector<MaskLayer> all_layers();
 
 struct CellShape {
@@ -41,7 +41,7 @@ struct CellText {
     double height = 0; ///< micrometres
 };
 
-/// A cell within another: mirrored first, if it is, from y to -y, then turned counterclockwise, then moved.
+/// A placement of a cell in another: first mirrored (if so) from y to -y, then rotated counterclockwise, then moved.
 struct CellReference {
     std::string cell;
     GridPoint at;
@@ -49,6 +49,7 @@ struct CellReference {
     double degrees = 0;
 };
 
+/// A cell: polygons, texts and placements of other cells.
 struct LayoutCell {
     std::string name;
     std::vector<CellShape> shapes;
@@ -64,7 +65,7 @@ struct LayoutCell {
     }
 };
 
-/// Cells, each before those that refer to it.
+/// A library of cells; each cell precedes those that refer to it.
 struct LayoutLibrary {
     std::string name;
     std::vector<LayoutCell> cells;
@@ -73,21 +74,21 @@ struct LayoutLibrary {
     bool has(std::string_view cell) const { return find(cell) != nullptr; }
 };
 
-/// A polygon as it comes to lie in a cell, to the nanometre.
+/// A polygon in the coordinates of a cell, rounded to the nanometre.
 struct PlacedShape {
     MaskLayer layer;
     GridPolygon polygon;
 };
-/// All polygons of a cell and of what is in it. @throws std::out_of_range when there is no such cell
-/// @throws InputError unless each cell of the library stands after those that it contains, under a name of its own
+/// Returns all polygons of a cell and of the cells in it. @throws std::out_of_range for an unknown cell
+/// @throws InputError unless each cell of the library follows those that it contains, and names are unique
 std::vector<PlacedShape> flattened(const LayoutLibrary& library, std::string_view cell);
-/// Square micrometres of what is drawn in a cell and in those in it, by layer; what overlaps counts twice.
+/// Returns the drawn area of a cell and of the cells in it by layer, in square micrometres; overlaps count twice.
 std::map<MaskLayer, double> areas_of(const LayoutLibrary& library, std::string_view cell);
 
-/// @throws InputError unless each cell stands after those that it contains, under a name of its own
+/// @throws InputError unless each cell follows those that it contains, and names are unique
 void require_order_of_cells(const LayoutLibrary& library);
 
-/// Letters, digits and underscores: as names of cells may be. At most 28 of them.
+/// Converts a text to a valid cell name: at most 28 letters, digits and underscores.
 std::string cell_name(std::string_view text);
 
 } // namespace graze

@@ -7,17 +7,17 @@
 
 namespace graze {
 
-constexpr std::int64_t letter_columns = 5, letter_rows = 7; ///< of squares, of which a letter is made
+constexpr std::int64_t letter_columns = 5, letter_rows = 7; ///< size of a letter, in squares
 
-/// Whether the letters of a text can all be drawn: letters of English, small ones drawn as capitals, digits, blanks
+/// Whether a text consists of available characters: letters of English (small ones drawn as capitals), digits, blanks
 /// and . , - + = / _ : ( ).
 bool can_be_drawn(std::string_view text);
 
-/// Of a text with letters of a height. Nanometres.
+/// Width of a text for a height of letters. Nanometres.
 std::int64_t letters_width(std::string_view text, std::int64_t height);
 
-/// Letters as boxes that do not overlap and touch along edges only, for a mask. The first one's lower left corner is
-/// the origin. @param height nanometres, of which whole sevenths are used
+/// Returns the letters of a text as boxes for a mask, which do not overlap and touch along edges only. The lower left
+/// corner of the first one is the origin. @param height nanometres, rounded down to a multiple of seven
 std::vector<GridBox> letter_boxes(std::string_view text, std::int64_t height);
 
 } // namespace graze

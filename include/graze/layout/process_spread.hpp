@@ -9,27 +9,29 @@
 
 namespace graze {
 
-/// How one number of the process differs from its nominal value, which it has in the middle of a mean wafer.
+/// Variation of one number of the process about its nominal value.
 struct SpreadParts {
-    double wafer = 0;  ///< standard deviation of what a wafer has in common
-    double radial = 0; ///< what the edge of each wafer has more than its middle; grows with the square of the distance
-    double device = 0; ///< standard deviation of what differs over a wafer
+    double wafer = 0; ///< standard deviation from wafer to wafer
+    /// Systematic excess at the edge of each wafer; proportional to the squared distance from the middle.
+    double radial = 0;
+    double device = 0; ///< standard deviation within a wafer
 };
 
 struct ProcessSpread {
-    SpreadParts bias;       ///< um
-    SpreadParts thickness;  ///< um, of what moves
-    SpreadParts taper;      ///< deg
-    SpreadParts stop_gap;   ///< um, besides what the others make of it
-    double correlation = 0; ///< um, over which what differs over a wafer does; 0: from device to device
-    bool tuned = false;     ///< whether each device is driven in the nominal proportion to its own frequency
+    SpreadParts bias;      ///< um
+    SpreadParts thickness; ///< um, of moving parts
+    SpreadParts taper;     ///< deg
+    SpreadParts stop_gap;  ///< um, in addition to the effect of the other numbers
+    /// Correlation length of the variation within a wafer, in um; 0: independent from device to device.
+    double correlation = 0;
+    bool tuned = false; ///< whether each device is driven at the nominal ratio to its own natural frequency
 
     bool is_empty() const;
 };
 
-/// What one device has more than the nominal one.
+/// Deviation of one device from the nominal one.
 struct ProcessDeparture {
-    double bias = 0, thickness = 0, taper = 0, stop_gap = 0; ///< units as above
+    double bias = 0, thickness = 0, taper = 0, stop_gap = 0; ///< in the units above
 };
 
 struct DepartureField {
@@ -41,12 +43,12 @@ struct DepartureField {
 std::span<const DepartureField> departure_fields();
 
 struct SitePlace {
-    double x = 0, y = 0; ///< um, from the wafer's middle
+    double x = 0, y = 0; ///< um, from the centre of the wafer
 };
 
-/// Departures of the devices of a wafer. What differs over it is a normal field with the correlation
-/// exp(-(distance/length)^2/2); all depends on the seed, the wafer's number and the sites alone.
-/// @throws InputError for more than 2000 sites with a correlation length, whose correlations would have to be factored
+/// Draws the deviations of the devices of a wafer. The variation within a wafer is a normal field with the correlation
+/// exp(-(distance/length)^2/2); results depend only on the seed, the wafer's number and the sites.
+/// @throws InputError for more than 2000 sites with a correlation length, whose correlation matrix must be factored
 std::vector<ProcessDeparture> departures_of(const ProcessSpread& spread, std::span<const SitePlace> sites,
                                             double wafer_radius, std::uint64_t seed, std::size_t wafer);
 

@@ -8,11 +8,12 @@
 
 namespace graze {
 
-/// One row for each device, with the dimensions that were drawn at its site in the last columns.
-/// @param wafer that was drawn; @param model in whose units the parameters are; @param control whose value trips it
+/// Returns one row for each device, with the drawn dimensions of its site in the last columns.
+/// @param wafer drawn wafer; @param model gives the units of parameters; @param control parameter whose value trips the
+/// device
 Table wafer_device_table(const WaferYield& yield, const Layout& wafer, const Model& model, const std::string& control);
 
-/// The statistics: quantity, value, unit, meaning.
+/// Returns the statistics with the columns quantity, value, unit, meaning.
 Table wafer_fact_table(const WaferYield& yield, const Model& model, const std::string& control, std::size_t wafers);
 
 } // namespace graze

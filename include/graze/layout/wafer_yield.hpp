@@ -13,54 +13,57 @@
 
 namespace graze {
 
+/// Options of `wafer_yield_of`.
 struct WaferYieldSettings {
     std::size_t wafers = 25;
     std::uint64_t seed = 1;
-    int jobs = 1;                                      ///< threads, on which nothing depends
-    std::function<bool()> interrupted;                 ///< asked from any thread
-    std::function<void(std::size_t devices)> progress; ///< called from the calling thread
+    int jobs = 1;                      ///< threads; the results do not depend on their number
+    std::function<bool()> interrupted; ///< called from any thread; returning true interrupts
+    std::function<void(std::size_t devices)>
+        progress; ///< called from the calling thread with the number of devices done
 };
 
 /// One device of one wafer.
 struct WaferDevice {
-    std::size_t wafer = 0, site = 0; ///< from 1
+    std::size_t wafer = 0, site = 0; ///< counted from 1
     SitePlace place;
     ProcessDeparture departure;
-    std::optional<LumpedModel> lumped; ///< none: the etch leaves nothing of a part
+    std::optional<LumpedModel> lumped; ///< empty: the etch removes a part completely
     DeviceOutcome outcome = DeviceOutcome::not_made;
-    double value = 0;                                 ///< at which it trips, if found
+    double value = 0;                                 ///< trip value, if found
     GrazingOutcome found = GrazingOutcome::undecided; ///< class, if found
-    std::optional<double> trip_time; ///< in the model's unit, so far beyond the trip value as is asked for
-    std::string problem;             ///< why it cannot be made
+    std::optional<double> trip_time;                  ///< in the model's unit, at WaferYield::overshoot
+    std::string problem;                              ///< why it cannot be made
 };
 
-/// What one number of the process does to the trip value, as far as that is linear in it.
+/// Linear effect of one number of the process on the trip value.
 struct SpreadEffect {
     std::string name, unit;
-    double deviation = 0;  ///< of the number, over wafers and devices
-    double derivative = 0; ///< of the trip value of the nominal device, by the number
-    double effect = 0;     ///< standard deviation that it alone causes, with the sign of the derivative
+    double deviation = 0;  ///< standard deviation of the number over wafers and devices
+    double derivative = 0; ///< derivative of the nominal trip value by the number
+    double effect = 0; ///< standard deviation of the trip value that it alone causes, with the sign of the derivative
 };
 
+/// Trip values of the devices of all wafers, with statistics.
 struct WaferYield {
     Yield yield;                      ///< in the order of `devices`
     std::vector<WaferDevice> devices; ///< wafer by wafer
     std::vector<SpreadEffect> effects;
-    double linear_deviation = 0;                                 ///< of all effects together
-    std::optional<double> overshoot;                             ///< for which times are asked; none: nothing is
-    std::vector<std::pair<GrazingOutcome, std::size_t>> classes; ///< how many devices have each
+    double linear_deviation = 0;     ///< standard deviation of all effects together
+    std::optional<double> overshoot; ///< overshoot of the trip times; empty: none are computed
+    std::vector<std::pair<GrazingOutcome, std::size_t>> classes; ///< number of devices of each class
 };
 
-/// The design with the numbers of its drawn and etched device in its model, and the drive beside its frequency if that
-/// is tuned; without dimensions that may be chosen.
+/// Returns the design with the parameters of its drawn and etched device in its model, and with the drive at the
+/// nominal ratio to its frequency if that is tuned; without free dimensions.
 /// @throws InputError for a model that lacks a parameter
 Design design_of_device(const Design& design, const DeviceFile& file);
 
-/// Makes wafers of devices: departures of the process become outlines that have receded otherwise, these other numbers
-/// of the model, these another trip value by Newton's method (yield_of), and that a class by the map of the cycle and a
-/// time by simulation.
+/// Simulates the fabrication of wafers: deviations of the process change the outlines, these the parameters of the
+/// model, these the trip value by Newton's method (yield_of), with the class by the map of the cycle and the trip time
+/// by simulation.
 /// @param trip of design_of_device; @param wafer drawn by draw_wafer_layout
-/// @throws InputError where nothing is spread, or the trip value does not follow from the device's numbers
+/// @throws InputError when no number varies, or the trip value is not determined by the device's numbers
 WaferYield wafer_yield_of(const Design& design, const DeviceFile& file, const Layout& wafer, const TripPoint& trip,
                           const WaferYieldSettings& settings = {});
 

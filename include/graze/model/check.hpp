@@ -7,14 +7,15 @@
 
 namespace graze {
 
-/// Things that are allowed but probably not meant: an event that nobody watches, a mode that nothing leads to,
-/// a watched section without a transition, an unused parameter, definition or jump, conditions that may all fail or
-/// never matter, a start beyond a barrier or where rates are not finite, a symmetry that does not hold, ...
-/// @param model a valid one
+/// Returns warnings about things that are allowed but probably mistakes: an event that no mode watches, a mode that
+/// cannot be reached, a watched section without a transition, an unused parameter, definition or jump, conditions that
+/// may all fail or are never tested, an initial state beyond a barrier or where rates are not finite, a symmetry that
+/// does not hold, ...
+/// @param model a valid model
 /// @throws InputError when the model is not valid
 std::vector<std::string> model_warnings(const Model& model);
 
-/// The same with the part of the model that each is about, such as "events.stop"; empty where it is no single one.
+/// A warning and the part of the model that it is about, such as "events.stop"; empty if it is about no single part.
 struct ModelWarning {
     std::string part, text;
 };

@@ -8,23 +8,23 @@
 
 namespace graze {
 
-/// How a parameter may change while the motion goes on.
+/// How a parameter changes during the motion.
 enum class DriveKind {
-    shift, ///< it is its own value plus a new state, whose rate is a new parameter: a ramp, or steps from outside
-    wave,  ///< it is its own value plus amplitude * sin(phase), with a new state that turns at a new frequency
+    shift, ///< parameter + s with a new state s, whose rate is a new parameter: a ramp, or steps from outside
+    wave,  ///< parameter + amplitude * sin(phase), with a new amplitude, phase (a state) and angular frequency
 };
 
-/// A model in which one parameter has become a function of time, exactly: of a further state, the last one, which
-/// nothing else changes. With the new parameters zero it is the model that it was made from.
+/// A model in which one parameter has become an exact function of time through one further state, the last one, which
+/// nothing else changes. With the new parameters equal to zero, the motion is that of the original model.
 struct DrivenParameter {
     Model model;
-    std::string state;     ///< name of the new one: the shift, or the phase in [0, 2 pi)
+    std::string state;     ///< name of the new state: the shift, or the phase in [0, 2 pi)
     std::string rate;      ///< of the new parameter: rate of the shift, or angular frequency of the phase
-    std::string amplitude; ///< of the further new parameter of a wave; empty: none
-    Expression value;      ///< of the driven parameter now
+    std::string amplitude; ///< of the amplitude's parameter for a wave; empty for a shift
+    Expression value;      ///< the driven parameter as a function of the new state
 
-    /// An expression in symbols of the model from which this was made, of any graph, in terms of this one's, with the
-    /// parameter as it is now. @throws InputError for symbols that the model does not have
+    /// Returns an expression of the original model (from any graph) in terms of this model's symbols, with the
+    /// parameter replaced by its driven value. @throws InputError for symbols that the original model does not have
     Expression of(const Expression& expression) const;
 
 private:
@@ -33,9 +33,10 @@ private:
     std::string parameter_;
 };
 
-/// Initial states keep to the parameter's own value. Symmetries are left out, since a driven motion has none.
-/// @throws InputError for an unknown or dependent parameter, and for one on which a period or the place of a phase
-///         section depends
+/// Drives a parameter. Initial states still use the parameter's own value. Symmetries are left out, since a driven
+/// motion has none.
+/// @throws InputError for an unknown or dependent parameter, and for one on which a period or the value of a phase
+/// section depends
 DrivenParameter drive_parameter(const Model& model, std::string_view parameter, DriveKind kind);
 
 } // namespace graze

@@ -25,7 +25,7 @@ struct Parameter {
 struct State {
     std::string name{}, unit{}, text{};
     Expression initial{};               ///< in terms of parameters
-    std::optional<Expression> period{}; ///< of a cyclic state, in terms of parameters; kept in [0, period)
+    std::optional<Expression> period{}; ///< of a cyclic state, in terms of parameters; its value is kept in [0, period)
     bool drifting = false;              ///< orbits are periodic up to a translation of this state
 };
 
@@ -37,11 +37,11 @@ struct Definition {
 struct Mode {
     std::string name{}, text{};
     std::vector<Expression> rates{};    ///< time derivative of each state
-    std::vector<std::size_t> watched{}; ///< events, in the order in which simultaneous ones are served
+    std::vector<std::size_t> watched{}; ///< events; simultaneous ones are handled in this order
 };
 
-/// A barrier is positive on the admissible side, and must not be crossed; a section may have either sign.
-/// Either happens when its function falls through zero.
+/// A barrier is positive on the admissible side and must not be crossed; a section may have either sign. Both occur
+/// when their function falls through zero.
 enum class EventKind { barrier, section };
 
 struct Event {
@@ -52,26 +52,26 @@ struct Event {
 
 struct Jump {
     std::string name{}, text{};
-    StateMap map{}; ///< each state after, in terms of states before
+    StateMap map{}; ///< each state after the jump, in terms of the states before
 };
 
-/// One way in which a transition can go on, taken when all conditions hold in the state after the jump.
+/// One possible continuation of a transition, taken when all its conditions hold in the state after the jump.
 struct Alternative {
     std::vector<Condition> when{};
     std::string when_text{};           ///< as the user wrote it; empty when unconditional
-    std::optional<std::size_t> mode{}; ///< none: the trajectory ends here
+    std::optional<std::size_t> mode{}; ///< next mode; none: the trajectory ends
 };
 
-/// Where the motion goes when contacts accumulate: infinitely many in a finite time (Budd and Dux 1994).
+/// The continuation at an accumulation of contacts: infinitely many in a finite time (Budd and Dux 1994).
 struct Sticking {
     std::size_t jump; ///< applied at the time of accumulation
     std::size_t mode;
 };
 
 struct Transition {
-    std::string label{}; ///< for signatures, such as J1; "mode:event" when the user gave none
+    std::string label{}; ///< name in signatures, such as J1; by default "mode:event"
     std::size_t mode = 0, event = 0, jump = 0;
-    std::vector<Alternative> next{}; ///< the first whose conditions hold is taken
+    std::vector<Alternative> next{}; ///< the first alternative whose conditions hold is taken
     std::optional<Sticking> chatter{};
 };
 
@@ -83,11 +83,11 @@ struct Section {
     std::string name{}, text{};
     Expression function{};                 ///< empty for a phase section
     std::optional<std::size_t> state{};    ///< cyclic state of a phase section
-    Expression value{};                    ///< of that state, in terms of parameters
-    Direction direction = Direction::both; ///< of `function`; a phase section is passed as the phase moves
+    Expression value{};                    ///< value of that state, in terms of parameters
+    Direction direction = Direction::both; ///< of the crossings of `function`; a phase section follows its phase
 };
 
-/// A map of states that takes solutions to solutions.
+/// A map of states that maps solutions to solutions.
 struct Symmetry {
     std::string name{}, text{};
     std::vector<Expression> map{};
@@ -99,7 +99,7 @@ struct Quantity {
     Expression value{}; ///< in terms of states, parameters and definitions
 };
 
-/// What a model consists of. All expressions belong to its graph.
+/// The parts of a model. All expressions belong to its graph.
 struct ModelItems {
     std::shared_ptr<Graph> graph;
     std::string name, text, source;
@@ -117,11 +117,9 @@ struct ModelItems {
     std::size_t initial_mode = 0;
 };
 
-/// A hybrid dynamical system, ready to be compiled. Expressions are in terms of the symbols of states,
-/// parameters and definitions; `expand` leaves only states and independent parameters.
-/// Jump 0 is always the identity.
-/// A copy has a graph of its own, so that threads may each work on one. What is compiled (System) no longer depends on
-/// the model.
+/// A hybrid dynamical system, ready to be compiled. Expressions are in terms of the symbols of states, parameters and
+/// definitions; `expand` reduces them to states and independent parameters. Jump 0 is always the identity. A copy has
+/// its own graph, so that each thread can work on a copy. A compiled System does not depend on the model.
 struct Model : ModelItems {
     Model();
     Model(const Model& other);
@@ -133,30 +131,30 @@ struct Model : ModelItems {
     Expression number(double value) const { return graph->number(value); }
     Expression symbol(std::string_view item) const { return graph->symbol(item); }
     std::vector<Expression> state_symbols() const;
-    /// Symbols of the independent parameters, in the order of `parameters`.
+    /// Returns symbols of the independent parameters, in the order of `parameters`.
     std::vector<Expression> parameter_symbols() const;
-    /// What functions of a state are functions of: states, then independent parameters.
+    /// Returns the inputs of all compiled functions: the states, then the independent parameters.
     std::vector<Expression> inputs() const;
-    /// Values of the independent parameters, in that order.
+    /// Returns the values of the independent parameters, in the order of `parameters`.
     std::vector<double> parameter_values() const;
-    /// Replaces definitions and dependent parameters by what they stand for. Appends to the graph, into which
-    /// expressions of other graphs are taken over by the names of their symbols.
-    /// @throws InputError when they refer to one another in a circle
+    /// Replaces definitions and dependent parameters by their expressions. Appends to the graph; expressions of other
+    /// graphs are adopted, their symbols matched by name.
+    /// @throws InputError when definitions or dependent parameters are circular
     Expression expand(const Expression& expression);
     std::vector<Expression> expand(std::span<const Expression> expressions);
-    /// @throws InputError, with the nearest name, when expressions have other symbols than these
+    /// @throws InputError, with the nearest name, when the expressions contain other symbols than `inputs`
     void require_known(std::span<const Expression> inputs, std::span<const Expression> expressions) const;
-    /// From now on the graph cannot grow. Copies can.
+    /// Forbids the graph to grow. Graphs of copies can grow.
     void freeze();
 
-    /// Names of the independent parameters, in the order of `parameters`.
+    /// Returns the names of the independent parameters, in the order of `parameters`.
     std::vector<std::string> independent_parameters() const;
-    /// Which of them has this name.
+    /// Returns the independent parameter of this name, if there is one.
     std::optional<ParameterId> find_independent_parameter(std::string_view item) const;
-    /// The same. @throws InputError for a dependent parameter, and for an unknown name (with the nearest)
+    /// Returns it. @throws InputError for a dependent parameter, and for an unknown name (with the nearest)
     ParameterId independent_parameter(std::string_view item) const;
 
-    /// Index of the named item.
+    /// Return the index of the named item.
     std::optional<std::size_t> find_parameter(std::string_view item) const; ///< among `parameters`
     std::optional<std::size_t> find_state(std::string_view item) const;
     std::optional<std::size_t> find_mode(std::string_view item) const;
@@ -167,27 +165,27 @@ struct Model : ModelItems {
     const Transition* find_transition(std::size_t mode, std::size_t event) const;
 
     /// Sets an independent parameter.
-    /// @throws InputError unknown name (with the nearest), dependent parameter, value not finite
+    /// @throws InputError for an unknown name (with the nearest), a dependent parameter, or a value that is not finite
     void set_parameter(std::string_view item, double value);
     /// Sets the initial value of a state. @throws InputError as above
     void set_initial(std::string_view item, double value);
-    /// @throws InputError unknown name (with the nearest)
+    /// @throws InputError for an unknown name (with the nearest)
     void set_initial_mode(std::string_view item);
-    /// Values of the initial state at the present parameters, cyclic states within their period.
+    /// Returns the initial state at the present parameters, cyclic states within their period.
     /// @throws InputError when a value is not finite or a period not positive
     std::vector<double> initial_state() const;
 
-    /// Expressions in the model's symbols, of any graph, as functions of states and independent parameters.
+    /// Compiles expressions in the model's symbols, of any graph, to a function of states and independent parameters.
     /// @throws InputError for a symbol that the model does not have
     Function function_of(std::span<const Expression> expressions) const;
-    /// The same of expressions in parameters, as functions of the independent ones.
+    /// Compiles expressions in parameters only to a function of the independent parameters.
     Function function_of_parameters(std::span<const Expression> expressions) const;
-    /// Values of expressions in parameters at the present ones; not finite where an operation is outside its domain.
+    /// Returns values of expressions in parameters at the present values; not finite outside an operation's domain.
     std::vector<double> values_of(std::span<const Expression> expressions) const;
-    /// Periods of the states at the present parameters, 0 for those that are not cyclic.
+    /// Returns the period of each state at the present parameters; 0 if the state is not cyclic.
     std::vector<double> periods() const;
 
-    /// Checks everything that a compiled model relies on: sizes, indices, names, symbols, circular definitions,
+    /// Checks everything on which a compiled model relies: sizes, indices, names, symbols, circular definitions,
     /// finite parameters, periods positive. @throws InputError naming the first thing wrong
     void validate() const;
 };

@@ -9,11 +9,11 @@ namespace graze {
 
 /// Reads a model from TOML text; docs/model-format.md describes it.
 /// @param file the name to use in messages
-/// @throws InputError with the place of the first thing wrong
+/// @throws InputError with the place for one mistake, InputErrors for several
 Model parse_model(std::string_view text, const std::string& file);
 /// Reads a model file. @throws InputError also when the file cannot be read
 Model read_model(const std::string& path);
-/// Writes a model as a file that reads back to the same model.
+/// Returns the text of a model file that reads back to the same model.
 /// @throws InputError when the model is not valid
 std::string write_model(const Model& model);
 

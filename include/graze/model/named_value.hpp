@@ -8,18 +8,18 @@
 
 namespace graze {
 
-/// Something of a state that a user asks for: a state, quantity, parameter or definition by its name, or an expression.
+/// A value that a user asks for: a state, quantity, parameter or definition by name, or an expression.
 struct NamedValue {
     std::string name, unit, text;
-    Expression value; ///< in states and independent parameters, of a graph of its own
+    Expression value; ///< in states and independent parameters; belongs to its own graph
 };
 
-/// @param place of the text, for messages
-/// @throws InputError with the place when it is no expression
+/// Returns the named value, or the expression, given by `text`.
+/// @throws InputError with the place when the text is neither a name nor an expression. @param place of the text
 NamedValue named_value(const Model& model, const std::string& text, const Place& place);
 
-/// Value of a number or expression in the model's parameters, at their present values.
-/// @throws InputError when it is no expression or not finite
+/// Returns the value of a number, or of an expression in parameters, at the model's present values.
+/// @throws InputError when the text is not an expression, or its value is not finite
 double value_of_text(const Model& model, std::string_view text, const Place& place);
 
 } // namespace graze

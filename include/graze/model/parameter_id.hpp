@@ -5,16 +5,16 @@
 
 namespace graze {
 
-/// Which of a model's independent parameters is meant: Model::independent_parameter tells it by the name. No index of
-/// anything else becomes one by itself, as that of Model::find_parameter, which counts dependent parameters too.
+/// Identifies an independent parameter of a model; Model::independent_parameter finds it by name. Other indices do not
+/// convert to it implicitly, for example that of Model::find_parameter, which counts dependent parameters too.
 class ParameterId {
 public:
-    /// The first.
+    /// The first independent parameter.
     constexpr ParameterId() = default;
-    /// @param place among the independent parameters, in the model's order
+    /// @param place index among the independent parameters, in the model's order
     explicit constexpr ParameterId(std::size_t place) : place_(place) {}
 
-    /// Where its value stands among those of the independent parameters, as in Model::parameter_values and
+    /// Returns the index of its value among those of the independent parameters, as in Model::parameter_values and
     /// Orbit::parameters.
     constexpr std::size_t place() const { return place_; }
 

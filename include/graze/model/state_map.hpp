@@ -11,9 +11,9 @@
 
 namespace graze {
 
-/// What each state becomes, in terms of the states before: like a vector of expressions, one for each state. Copies
-/// share what they have in common, so that maps that each change one state of thousands take little room if they are
-/// made from copies of one that changes none:
+/// The image of each state in terms of the states before: a vector of expressions, one for each state. Copies share
+/// their common part, so that many maps that each change one of thousands of states need little memory if they are
+/// copies of an identity map:
 ///
 ///     const StateMap stays(model.state_symbols());
 ///     StateMap impact = stays;
@@ -27,9 +27,9 @@ public:
 
     std::size_t size() const { return shared_ ? shared_->size() : 0; }
     bool empty() const { return size() == 0; }
-    // @throws InputError, here and below, for a state that there is not
+    /// @throws InputError, here and below, for an index that is not a state's
     const Expression& operator[](std::size_t state) const;
-    /// To be assigned to; holds until another one is asked for.
+    /// Returns a reference for assignment; it is valid until the next call.
     Expression& operator[](std::size_t state);
     Expression& back() { return (*this)[size() - 1]; }
     void push_back(const Expression& image);
@@ -37,16 +37,17 @@ public:
     void clear() { *this = {}; }
     friend bool operator==(const StateMap& one, const StateMap& other);
 
-    /// What has been assigned to since the map was copied or made, by rising state.
+    /// Images that have been assigned since the map was made or copied, by rising state.
     struct Change {
         std::size_t state = 0;
         Expression image{};
     };
     std::span<const Change> changes() const { return changes_; }
-    /// All the rest, in the places of all states: the same for copies of one map. Null for an empty one.
+    /// Returns the images of all states that are not among the changes; the same vector for copies of one map. Null if
+    /// empty.
     const std::shared_ptr<const std::vector<Expression>>& shared() const { return shared_; }
-    /// Replaces both; the changes are those that there are, in other words.
-    /// @throws std::invalid_argument unless the rest has as many places as before
+    /// Replaces the shared images and passes each changed image to `visit_change` for modification.
+    /// @throws std::invalid_argument unless `shared` has as many images as before
     void replace(std::shared_ptr<const std::vector<Expression>> shared,
                  const std::function<void(Expression&)>& visit_change);
 

@@ -10,26 +10,27 @@
 
 namespace graze {
 
-/// What a channel's readings mean: factor * reading + offset.
+/// Calibration of a channel: the quantity is factor * reading + offset.
 struct Calibration {
     std::size_t channel = 0;
     double factor = 1, offset = 0;
-    std::optional<std::string> unit{}; ///< of the result; none: the channel keeps its own
+    std::optional<std::string> unit{}; ///< unit of the result; empty: the channel keeps its own
 };
 
+/// Calibrations of channels, and the part of the record that is kept.
 struct CalibratedSettings {
     std::vector<Calibration> calibrations{};
-    double begin = -std::numeric_limits<double>::infinity(); ///< rows before are left out,
-    double end = std::numeric_limits<double>::infinity();    ///< and so are those behind
+    double begin = -std::numeric_limits<double>::infinity(); ///< time before which rows are left out
+    double end = std::numeric_limits<double>::infinity();    ///< time after which rows are left out
 };
 
-/// A part of a source, with its readings turned into what they mean.
+/// A part of a source, with its readings converted by calibrations.
 class Calibrated : public SampleSource {
 public:
-    /// @param source must outlive this. @throws InputError for settings without meaning
+    /// @param source must outlive this object. @throws InputError for invalid settings
     Calibrated(SampleSource& source, CalibratedSettings settings);
     const RecordHeader& header() const override { return header_; }
-    /// @throws InputError when a result is too large for a number
+    /// @throws InputError when a result exceeds the range of a double
     bool read(Samples& samples) override;
 
 private:

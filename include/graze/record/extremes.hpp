@@ -6,7 +6,7 @@
 
 namespace graze {
 
-/// The least and the greatest value of a channel within a period, and when they are there.
+/// The least and the greatest value of a channel within a period, with their times.
 struct Extremes {
     double least = 0, least_time = 0;
     double greatest = 0, greatest_time = 0;
@@ -14,7 +14,8 @@ struct Extremes {
     double peak_to_peak() const { return greatest - least; }
 };
 
-/// Between samples a parabola through three of them says it, unless there is a jump beside them.
+/// Finds the extremes of a channel. Between samples it uses a parabola through three of them, unless there is a jump
+/// next to them.
 /// @throws InputError when there is no such channel
 Extremes extremes(const Period& period, std::size_t channel);
 

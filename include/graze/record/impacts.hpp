@@ -10,27 +10,31 @@
 
 namespace graze {
 
-/// A jump of the velocity in a record.
+/// An impact found in a record: a jump of the velocity.
 struct RecordedImpact {
     double time = 0, time_error = 0;
     double before = 0, before_error = 0; ///< velocity just before, with its standard error
-    double after = 0, after_error = 0;   ///< and just after
-    double covariance = 0;               ///< of both velocities: an error of the time moves both
+    double after = 0, after_error = 0;   ///< velocity just after, with its standard error
+    double covariance = 0; ///< covariance of both velocities, from the error of the time, which shifts both
 };
 
-/// Which samples beside an impact tell the velocities before and after it.
+/// The part of ImpactSettings that does not depend on the channels of a record.
 struct ImpactWindow {
-    std::size_t window = 12;    ///< samples on each side that parabolas are fitted to: least_window ... most_window
-    std::size_t transition = 0; ///< samples on each side that the impact itself disturbs, and that are left out
-    double least_jump = 0;      ///< changes of the velocity below this are no impacts; 0: only noise is excluded
+    /// Samples before and after an impact to which velocities are fitted, least_window ... most_window; fewer find
+    /// impacts that follow one another closely, more reduce noise.
+    std::size_t window = 12;
+    /// Samples before and after an impact that are ignored, as the impact itself disturbs them.
+    std::size_t transition = 0;
+    double least_jump = 0; ///< smaller jumps of the velocity are ignored
 
     static constexpr std::size_t least_window = 5, most_window = 100'000;
 };
 
+/// Options of `ImpactFinder`.
 struct ImpactSettings : ImpactWindow {
-    std::size_t velocity = 0;                  ///< channel
-    std::optional<std::size_t> displacement{}; ///< channel whose corners tell the times of impacts; none: see below
-    double significance = 6;                   ///< how many standard errors of its noise a jump exceeds
+    std::size_t velocity = 0;                  ///< velocity channel
+    std::optional<std::size_t> displacement{}; ///< displacement channel; if given, impacts are timed by its corners
+    double significance = 6; ///< a jump must exceed its standard error by this factor; raise it against false impacts
 };
 /// The settings for a record's channels of these names. @param displacement its name; empty: there is none
 /// @param asked_as what stands before names of settings in messages, such as "--"
@@ -38,23 +42,24 @@ struct ImpactSettings : ImpactWindow {
 ImpactSettings impact_settings(const RecordHeader& header, const std::string& velocity, const std::string& displacement,
                                const ImpactWindow& window, const std::string& asked_as = "");
 
-/// Finds jumps of a noisy velocity. To the samples on both sides of each place parabolas are fitted by least squares; a
-/// jump is where their values differ by more than noise and their own misfit explain, and more than beside it. The
-/// noise is what third differences of the velocity have in the median, or the step in which numbers of few digits go.
-/// Then parabolas, or polynomials of higher degree where the next terms stand out of the noise, are fitted to samples
-/// that have no other impact between them and this one, and continued to the time of the impact: the middle between two
-/// samples, with their distance over the square root of 12 as its error, or where such polynomials through the
-/// displacement meet. Impacts that follow one another by fewer samples than the window may be missed.
+/// Finds impacts, which are jumps of a noisy velocity. At each place parabolas are fitted by least squares to the
+/// samples on both sides. An impact is where their values differ by more than noise and misfit explain, and by more
+/// than at neighbouring places. The noise is estimated from the median of third differences, or from the step of
+/// numbers with few digits. Then polynomials are fitted to the samples up to the neighbouring impacts (parabolas, or
+/// higher degrees if the next terms are significant) and extrapolated to the time of the impact: the middle between two
+/// samples, with their distance over the square root of 12 as its error; or, with a displacement channel, the time at
+/// which the polynomials through the displacement meet. Impacts closer to one another than the window may be missed.
 class ImpactFinder {
 public:
-    /// @param source must outlive this
-    /// @throws InputError for settings without meaning
+    /// @param source must outlive this object
+    /// @throws InputError for invalid settings
     ImpactFinder(SampleSource& source, const ImpactSettings& settings);
     ~ImpactFinder();
     ImpactFinder(const ImpactFinder&) = delete;
     ImpactFinder& operator=(const ImpactFinder&) = delete;
-    /// The next ones, in the order of time. @return false when there are no more; `impacts` may be empty before
-    /// @throws InputError when the samples are not at equal distances of time
+    /// Finds the next impacts, in the order of time. @return false at the end of the record; `impacts` may be empty
+    /// before
+    /// @throws InputError when the samples are not equidistant in time
     bool next(std::vector<RecordedImpact>& impacts);
 
 private:
@@ -62,7 +67,7 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// All of them. @throws InputError when there are more than a million
+/// Returns all impacts of a source. @throws InputError when there are more than a million
 std::vector<RecordedImpact> find_impacts(SampleSource& source, const ImpactSettings& settings);
 
 } // namespace graze

@@ -7,25 +7,27 @@
 
 namespace graze {
 
+/// Options of `LowPass`.
 struct LowPassSettings {
-    double pass = 0, stop = 0; ///< frequencies up to which all passes, and from which nothing does; 0: see LowPass
-    double attenuation = 80;   ///< in dB, of what must not pass; what passes changes by no more either
-    std::size_t every = 1;     ///< of how many samples one is kept: decimation
+    /// End of the pass band, and start of the stop band, in cycles per unit of time; 0: see LowPass.
+    double pass = 0, stop = 0;
+    double attenuation = 80; ///< attenuation of the stop band in dB; it also bounds the ripple of the pass band
+    std::size_t every = 1;   ///< decimation: one of this many samples is kept
 };
 
-/// A source without what is faster than some frequency, and with fewer samples: a symmetric filter of finite length,
-/// which delays nothing (a sinc under Kaiser's window; J. F. Kaiser, Proc. IEEE Int. Symp. Circuits and Systems (1974)
-/// 20). When samples are dropped and nothing is said, all passes up to 0.35 of the new sampling frequency, and nothing
-/// from half of it, so that no frequency appears as another. Without dropping one has to say `pass`; `stop` is 1.5
-/// times that. Rows at both ends, of which the filter would need others outside of the record, are left out.
+/// A source filtered by a low pass, and optionally decimated. The filter is symmetric and finite, so it causes no delay
+/// (a sinc with Kaiser's window; J. F. Kaiser, Proc. IEEE Int. Symp. Circuits and Systems (1974) 20). For decimation
+/// the default bands are: pass up to 0.35 of the new sampling frequency, stop from half of it, so that nothing is
+/// aliased. Without decimation `pass` is required, and `stop` is 1.5 times that by default. Rows at both ends, for
+/// which the filter would need samples outside the record, are left out.
 class LowPass : public SampleSource {
 public:
-    /// @param source must outlive this
-    /// @throws InputError for settings without meaning
+    /// @param source must outlive this object
+    /// @throws InputError for invalid settings
     LowPass(SampleSource& source, const LowPassSettings& settings);
     ~LowPass() override;
     const RecordHeader& header() const override;
-    /// @throws InputError when the samples are not at equal distances of time, or the record is shorter than the filter
+    /// @throws InputError when the samples are not equidistant in time, or the record is shorter than the filter
     bool read(Samples& samples) override;
 
 private:

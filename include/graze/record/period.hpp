@@ -9,38 +9,39 @@
 
 namespace graze {
 
-/// One period of the reference channel, from one of its rising crossings to the next, with all that was recorded.
+/// One period of the reference channel, from one of its upward crossings of a level to the next, with all channels.
 struct Period {
     std::size_t number = 0; ///< in the record, from 0
     double begin = 0, end = 0;
-    Samples samples; ///< from a few rows before the beginning to a few after the end
+    Samples samples; ///< rows of the period, and a few before and after it
 
     double duration() const { return end - begin; }
 };
 
+/// Options of `PeriodSplitter`.
 struct PeriodSettings {
-    std::size_t reference = 0; ///< channel
-    double level = 0;          ///< that it crosses
-    /// How far below the level and then above it the reference has to be for a crossing to count, so that noise is
-    /// none. 0: a tenth of its range at the record's beginning.
+    std::size_t reference = 0; ///< reference channel
+    double level = 0;          ///< level whose upward crossings separate periods
+    /// A crossing counts only if the reference was this far below the level and then rises this far above it, so that
+    /// noise makes no crossings. 0: a tenth of its range at the beginning of the record. In the unit of the reference.
     double hysteresis = 0;
 };
 
-/// Cuts a record into the periods of a reference channel: its time is counted anew from each rising crossing of a
-/// level. Where exactly that is, a cubic polynomial says that fits the samples near the crossing by least squares. In
-/// memory there is one period and what was read with it.
+/// Cuts a record into periods, at the upward crossings of a level by a reference channel. The time of a crossing is the
+/// root of a cubic polynomial fitted to the nearby samples by least squares. Memory holds one period and the samples
+/// read with it.
 class PeriodSplitter {
 public:
-    /// @throws InputError for settings without meaning
+    /// @throws InputError for invalid settings
     PeriodSplitter(SampleSource& source, const PeriodSettings& settings);
-    /// The next whole period. @return false when there is none any more
+    /// Finds the next whole period. @return false when there are no more
     /// @throws InputError when the reference does not cross its level for 4 million samples
     bool next(Period& period);
 
 private:
     struct Crossing {
         double time = 0;
-        std::size_t row = 0; ///< in the buffer, the last one before
+        std::size_t row = 0; ///< the last row of the buffer before it
     };
     bool read_more();
     bool next_crossing(Crossing& crossing);
@@ -49,23 +50,23 @@ private:
     SampleSource* source_;
     PeriodSettings settings_;
     Samples buffer_, part_;
-    std::size_t scanned_ = 0; ///< rows of the buffer
-    std::size_t below_ = 0;   ///< of these the last far enough below
-    bool armed_ = false;      ///< whether there is one since the last crossing
+    std::size_t scanned_ = 0; ///< rows of the buffer that have been searched
+    std::size_t below_ = 0;   ///< the last of them that was far enough below the level
+    bool armed_ = false;      ///< whether there is such a row since the last crossing
     bool begun_ = false, has_last_ = false;
     Crossing last_;
     std::size_t number_ = 0;
 };
 
-/// A straight line through the times of crossings, which are as far from one another as a period is long.
+/// A straight line fitted to the times of crossings, which are one period apart.
 struct PeriodFit {
     std::size_t crossings = 0;
-    double period = 0, period_error = 0; ///< with standard error
-    double begin = 0, begin_error = 0;   ///< of the first period
+    double period = 0, period_error = 0; ///< period with standard error
+    double begin = 0, begin_error = 0;   ///< beginning of the first period, with standard error
     double jitter = 0;                   ///< standard deviation of the crossings about the line
 };
 
-/// Least squares. Errors are 0 for two crossings. @throws InputError for fewer than two
+/// Fits the line by least squares. Errors are 0 for two crossings. @throws InputError for fewer than two
 PeriodFit fit_period(std::span<const double> crossings);
 
 } // namespace graze

@@ -12,30 +12,31 @@
 
 namespace graze {
 
-/// What is done to a record before anything is made of it, in this order: units, the part that is wanted, filter,
-/// derivative. Channels go by their names, since no record may have been opened yet.
+/// How a record is processed before it is used, in this order: scaling, selection of a part, filter, derivative.
+/// Channels are given by name, since the record may not have been opened yet.
 struct RecordProcessing {
+    /// Calibration of a channel: factor * reading + offset.
     struct Scale {
         std::string channel{};
         double factor = 1, offset = 0;
-        std::optional<std::string> unit{}; ///< none: the channel keeps its own
+        std::optional<std::string> unit{}; ///< empty: the channel keeps its own
     };
     RecordLayout layout{};
     std::vector<Scale> scales{};
     double begin = -std::numeric_limits<double>::infinity(), end = std::numeric_limits<double>::infinity();
-    double pass = 0, stop = 0;  ///< of the filter; 0: see LowPassSettings
-    std::size_t every = 1;      ///< of how many samples one is kept
-    std::string derivative{};   ///< channel; empty: none is added
-    std::size_t half_width = 0; ///< of the derivative
-    std::string asked_as{};     ///< what stands before `scale` and `derivative` in messages, such as "--"
+    double pass = 0, stop = 0;  ///< filter, see LowPassSettings; both 0 and `every` 1: no filter
+    std::size_t every = 1;      ///< decimation, see LowPassSettings
+    std::string derivative{};   ///< channel whose derivative is added; empty: none
+    std::size_t half_width = 0; ///< see DerivativeSettings
+    std::string asked_as{};     ///< prefix of option names in messages, such as "--"
 
     static constexpr std::size_t most_every = 1'000'000, least_half_width = 4, most_half_width = 100'000;
 };
 
-/// A source with all that is done to it. Reading it to its end is refused where it has given no rows.
+/// A source with all its processing. Reading it to the end throws if it has no rows.
 class ProcessedRecord {
 public:
-    /// @throws InputError for channels that are not there, and settings without meaning
+    /// @throws InputError for unknown channels, and invalid settings
     ProcessedRecord(std::unique_ptr<SampleSource> source, const RecordProcessing& processing);
     /// The record of a file. @throws InputError also when it cannot be read
     ProcessedRecord(const std::string& path, const RecordProcessing& processing)
@@ -44,7 +45,7 @@ public:
     const RecordHeader& header() const { return stages_.back()->header(); }
 
 private:
-    std::vector<std::unique_ptr<SampleSource>> stages_; ///< each reads from the one before
+    std::vector<std::unique_ptr<SampleSource>> stages_; ///< each stage reads from the one before
 };
 
 } // namespace graze

@@ -8,15 +8,15 @@
 
 namespace graze {
 
-/// What all periods of a record tell together.
+/// Summary of all periods of a record.
 struct RecordPeriods {
     std::size_t count = 0;
-    double amplitude = 0; ///< of the reference, averaged over the periods: what diagrams are drawn over
+    double amplitude = 0; ///< amplitude of the reference, averaged over the periods: the abscissa of diagrams
 };
 
-/// Hands out the periods of a record, one after the other.
-/// @param asked_as what stands before names of settings in messages, such as "--"
-/// @throws InputError as PeriodSplitter does, and where there is no whole period
+/// Calls `take` for each period of a record in turn.
+/// @param asked_as prefix of option names in messages, such as "--"
+/// @throws InputError as PeriodSplitter does, and if there is no whole period
 RecordPeriods each_period(SampleSource& source, const PeriodSettings& settings,
                           const std::function<void(const Period&)>& take, const std::string& asked_as = "");
 

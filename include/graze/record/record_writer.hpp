@@ -10,8 +10,8 @@
 
 namespace graze {
 
-/// Writes a record part by part, as open_record reads it: as HDF5 where the name of the file ends in .h5 or .hdf5, and
-/// otherwise as text with commas and numbers that lose nothing.
+/// Writes a record in parts, in a format that open_record reads: HDF5 if the file's name ends in .h5 or .hdf5,
+/// otherwise text with commas and numbers that are read back exactly.
 class RecordWriter {
 public:
     /// @throws InputError when the file cannot be written
@@ -19,17 +19,16 @@ public:
     ~RecordWriter();
     RecordWriter(const RecordWriter&) = delete;
     RecordWriter& operator=(const RecordWriter&) = delete;
-    /// @throws InputError when it cannot be written, is closed, or for samples that are no finite numbers or not as
-    /// many
-    ///         as the channels
+    /// @throws InputError when the file cannot be written or is closed, for numbers that are not finite, and when the
+    /// number of channels differs from the header's
     void write(const Samples& samples);
-    /// Before this the file is not complete. @throws InputError when it cannot be written, or is closed already
+    /// Completes the file. @throws InputError when it cannot be written, or is closed already
     void close();
 
     class Target;
 
 private:
-    std::unique_ptr<Target> target_; ///< none once it is closed
+    std::unique_ptr<Target> target_; ///< null once it is closed
     std::size_t channels_ = 0;
 };
 

@@ -7,39 +7,39 @@
 
 namespace graze {
 
-/// What a column of a record holds.
+/// Name and unit of a column of a record.
 struct Channel {
-    std::string name, unit; ///< the unit is empty where nobody said it
+    std::string name, unit; ///< the unit is empty if it is unknown
 };
 
-/// What is known of a record before its samples: the time and the channels that are recorded against it.
+/// Names and units of a record's time and channels.
 struct RecordHeader {
     Channel time{"t", ""};
     std::vector<Channel> channels;
 
-    /// Index of a channel. @param asked who asks, as in "--reference"
-    /// @throws InputError when there is none of that name, with the nearest
+    /// Returns the index of a channel. @param asked the option that names it, such as "--reference", for messages
+    /// @throws InputError for an unknown channel, with the nearest name
     std::size_t channel(std::string_view name, std::string_view asked) const;
     /// Indices of the channels of these names; of all channels where there are no names. @throws InputError likewise
     std::vector<std::size_t> chosen_channels(const std::vector<std::string>& names, std::string_view asked) const;
 };
 
-/// Rows of a record, column by column: a part of it or all.
+/// Rows of a record, column by column: all of them, or a part.
 struct Samples {
-    std::vector<double> times;               ///< strictly rising
+    std::vector<double> times;               ///< strictly increasing
     std::vector<std::vector<double>> values; ///< one vector for each channel, each as long as `times`
 
     std::size_t rows() const { return times.size(); }
-    /// No rows of so many channels.
+    /// Removes all rows, and sets the number of channels.
     void clear(std::size_t channels);
-    /// Rows first ... last - 1 of others. @throws InputError where there are not so many, or other channels
+    /// Appends rows first ... last - 1 of others. @throws InputError for fewer rows, or other channels
     void append(const Samples& others, std::size_t first, std::size_t last);
     void append(const Samples& others) { append(others, 0, others.rows()); }
-    /// The first rows go. @throws InputError where there are not so many
+    /// Removes the first rows. @throws InputError for fewer rows
     void drop_front(std::size_t rows);
 };
 
-/// Where samples come from, part by part: a file, or a stage that makes them from those of another source.
+/// A source of samples, read in parts: a file, or a stage that processes the samples of another source.
 class SampleSource {
 public:
     SampleSource() = default;
@@ -48,17 +48,17 @@ public:
     SampleSource& operator=(const SampleSource&) = delete;
 
     virtual const RecordHeader& header() const = 0;
-    /// Replaces `samples` by the next ones, some ten thousands at a time.
-    /// @return false when there are no more; `samples` then has none
-    /// @throws InputError for what is no record
+    /// Replaces `samples` by the next ones, at most some ten thousand rows.
+    /// @return false at the end; `samples` then has no rows
+    /// @throws InputError for invalid data
     virtual bool read(Samples& samples) = 0;
 };
 
-/// A record that is in memory already.
+/// A record in memory, as a source.
 class StoredSamples : public SampleSource {
 public:
-    /// @param part rows that are handed out at a time
-    /// @throws InputError unless there is a value of each channel at each of strictly rising times, all of them finite
+    /// @param part rows that one call of `read` returns
+    /// @throws InputError unless each channel has a finite value at each time, and times strictly increase
     StoredSamples(RecordHeader header, Samples samples, std::size_t part = 65536);
     const RecordHeader& header() const override { return header_; }
     bool read(Samples& samples) override;
@@ -69,8 +69,8 @@ private:
     std::size_t part_, next_ = 0;
 };
 
-/// All that is left of a source. @param most rows
-/// @throws InputError when there are more
+/// Reads a source to its end. @param most largest number of rows
+/// @throws InputError for more rows
 Samples read_all(SampleSource& source, std::size_t most);
 
 } // namespace graze

@@ -7,32 +7,32 @@
 
 namespace graze {
 
-/// What was recorded at one phase of a period.
+/// Values of all channels at one phase of a period.
 struct SectionPoint {
-    std::size_t period = 0; ///< its number
+    std::size_t period = 0; ///< number of the period
     double phase = 0;       ///< part of the period, from 0 to 1
     double time = 0;
-    std::vector<double> values; ///< of all channels
-    bool image = false;         ///< whether it is the symmetric image of what was recorded
+    std::vector<double> values; ///< values of all channels
+    bool image = false;         ///< whether it is the symmetric image of a recorded point
 };
 
-/// All channels at a part of the period, between samples by interpolate.
+/// Returns all channels at a phase of a period, interpolated between samples (see interpolate).
 /// @param phase from 0 to 1. @throws InputError when it is not
 SectionPoint section(const Period& period, double phase);
 
-/// A symmetry of what is recorded: the motion that another one becomes when some channels change their sign and a part
-/// of the period passes. Of the electromagnetic testbed it is the current, and half a period (Eq. (5.11) of B. E.
-/// Wilcox's dissertation).
+/// A symmetry of the recorded motion: another motion results when some channels change their sign and the phase is
+/// shifted. For the electromagnetic testbed it is the current, and half a period (Eq. (5.11) of B. E. Wilcox's
+/// dissertation).
 struct RecordSymmetry {
-    std::vector<std::size_t> negated; ///< channels
-    double shift = 0.5;               ///< part of the period
+    std::vector<std::size_t> negated; ///< channels that change their sign
+    double shift = 0.5;               ///< shift of the phase, as a part of the period
 };
 
-/// The image of what was recorded at a phase: signs change, and it belongs to a phase that is by the shift earlier.
-/// What was recorded half a period after the section therefore becomes a point of the section.
+/// Returns the symmetric image of a point: signs change, and its phase is earlier by the shift. With a shift of half a
+/// period, a point recorded half a period after the section thus becomes a point of the section.
 /// @throws InputError when there is no such channel
 SectionPoint image_of(const SectionPoint& point, const RecordSymmetry& symmetry);
-/// The point of a section that is an image: of what was recorded later by the shift. @throws InputError likewise
+/// Returns the point of a section that is the image of the one recorded later by the shift. @throws InputError likewise
 SectionPoint image_section(const Period& period, double phase, const RecordSymmetry& symmetry);
 
 } // namespace graze

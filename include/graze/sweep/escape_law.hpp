@@ -6,26 +6,27 @@
 
 namespace graze {
 
-/// How long one of many motions has stayed where motions are chaotic, or wherever else they leave by chance.
+/// The lifetime of one of many motions in a chaotic transient, or in another region that motions leave at random.
 struct Stay {
-    std::size_t cycles = 0; ///< returns seen
-    bool left = false;      ///< at the end of these; otherwise it was there still
+    std::size_t cycles = 0; ///< number of observed returns
+    bool left = false;      ///< true if the motion left after these; false if it was still there
 };
 
-/// Motions leave a chaotic transient at a rate that does not depend on how long they have been there: the share that is
-/// left decays exponentially (Kantz and Grassberger 1985; Lai and Tel, Transient Chaos, 2011, section 1.2).
+/// The law of escape from a chaotic transient: motions leave at a rate that does not depend on the time they have
+/// stayed, so that the remaining share decays exponentially (Kantz and Grassberger 1985; Lai and Tel, Transient Chaos,
+/// 2011, section 1.2).
 struct EscapeLaw {
-    double rate = 0;           ///< per return: the share that stays decays like exp(-rate * returns)
-    double error = 0;          ///< within which it lies in 19 of 20 cases
-    std::size_t from = 0;      ///< returns after which the law holds
-    std::size_t left = 0;      ///< motions that left later
-    std::size_t remaining = 0; ///< and that had not left when they were given up
+    double rate = 0;           ///< per return: the remaining share decays like exp(-rate * returns)
+    double error = 0;          ///< half width of the 95 % confidence interval of the rate
+    std::size_t from = 0;      ///< number of returns after which the law holds
+    std::size_t left = 0;      ///< number of motions that left later
+    std::size_t remaining = 0; ///< number of motions that had not left at the end of their observation
 };
 
-/// The greatest likelihood estimate from motions of which some have been given up before they left. Those that leave
-/// first, before the law holds, are left out: as few as possible.
-/// @return nothing where fewer than ten leave by a law, or the times at which they do contradict a constant rate: for
-///         one, since some never leave
+/// Returns the maximum likelihood estimate from motions some of which were observed only for a limited time (censored).
+/// As few as possible of the motions that leave first, before the law holds, are excluded.
+/// @return nothing if fewer than ten motions leave by the law, or if their times contradict a constant rate, for
+/// example because some never leave
 std::optional<EscapeLaw> escape_law(std::span<const Stay> stays);
 
 } // namespace graze

@@ -11,52 +11,52 @@
 
 namespace graze {
 
-/// Where a point begins.
+/// The initial values of a point.
 struct PointStart {
-    std::vector<double> parameters; ///< of the model, in its order
-    std::vector<double> state;      ///< not used when it is carried over from the point before
+    std::vector<double> parameters; ///< independent parameters, in the order of the model
+    std::vector<double> state;      ///< not used if the state is carried over from the point before
     std::size_t mode = 0;
 };
 
-/// The points of a sweep, basin or ensemble: chains of equal length, within which states may be carried along.
-/// Points are numbered chain after chain, and are made when they are needed.
+/// The points of a sweep, basin or ensemble: chains of equal length, within which states may be carried along. Points
+/// are numbered chain after chain, and are generated when needed.
 struct Plan {
     std::size_t chains = 1;
     std::size_t chain_length = 1;
-    /// Each point of a chain begins where the one before ended, if that was regular. Where that state violates a
-    /// barrier the point begins at its start or, where that does too, at the nearest admissible state, and its outcome
-    /// says so.
+    /// If true, each point of a chain starts at the final state of the point before, if that ended regularly. If this
+    /// state violates a barrier, the point starts at its own initial state or, if that violates a barrier too, at the
+    /// nearest admissible state; its outcome reports this.
     bool carry = false;
-    /// @param point number; must give the same whenever asked, from any thread
+    /// @param point number; the function must be deterministic and callable from any thread
     std::function<PointStart(std::size_t point)> start;
 
     std::size_t points() const { return chains * chain_length; }
 };
 
-/// What has been done of one chain in an earlier, interrupted execution.
+/// The state of one chain after an earlier, interrupted execution.
 struct ChainProgress {
-    std::size_t done = 0;      ///< points
-    bool regular = false;      ///< whether the last can be carried on from
-    std::vector<double> state; ///< at its end
+    std::size_t done = 0;      ///< number of completed points
+    bool regular = false;      ///< whether the last point can be carried on from
+    std::vector<double> state; ///< final state of the last point
     std::size_t mode = 0;
 };
 
 struct ExecutionOptions {
-    int jobs = 1; ///< threads
+    int jobs = 1; ///< number of threads
     InstructionSet instruction_set = best_instruction_set();
-    const std::atomic<bool>* stop = nullptr; ///< looked at between points and legs of points
-    /// Also asked; called from any thread.
+    const std::atomic<bool>* stop = nullptr; ///< stops the execution when true; read between points and legs of points
+    /// The same as a function; called from any thread.
     std::function<bool()> interrupted{};
 };
 
-/// Whether the next point of a chain can begin where this one ended.
+/// Returns whether the next point of a chain can start from the final state of this one.
 bool can_be_carried_on(const PointResult& result);
 
 /// Runs the points of a plan on several threads, and in SIMD lanes within each. Results do not depend on either.
-/// @param progress for each chain what is done already; empty: nothing
-/// @param sink receives results, in order within each chain; called from one thread at a time, with the numbers of
-///        the point and the start it had
-/// @return false when it was stopped
+/// @param progress the completed part of each chain; empty: nothing is completed
+/// @param sink receives results, in order within each chain; called by one thread at a time, with the number of the
+/// point and its initial values
+/// @return false if the execution was stopped
 /// @throws what `sink` throws, after all threads have ended
 bool execute(const Plan& plan, const SearchFactory& searches, std::span<const ChainProgress> progress,
              const ExecutionOptions& options,

@@ -9,26 +9,26 @@
 
 namespace graze {
 
-/// Where along a motion values are taken.
+/// Specifies where values are sampled along a motion.
 struct Sampling {
     enum class At {
         section, ///< passages of a section of the model
         extremum,
-        contact, ///< impacts and the like, from the state just before; of sticking, from that of the accumulation
+        contact, ///< contacts, with the state just before; for sticking, with the state at the accumulation
     };
     std::string name;
     At at = At::section;
     std::string section;                   ///< name of the section
-    Expression expression;                 ///< whose extrema
-    Direction direction = Direction::both; ///< of extrema: falling = maxima, rising = minima
-    std::vector<std::size_t> events;       ///< whose contacts
-    std::optional<std::size_t> symmetry;   ///< values are those of the image under Model::symmetries[symmetry]
+    Expression expression;                 ///< its extrema are sampled
+    Direction direction = Direction::both; ///< for extrema: falling = maxima, rising = minima
+    std::vector<std::size_t> events;       ///< events whose contacts are sampled
+    std::optional<std::size_t> symmetry;   ///< values are taken at the image under Model::symmetries[symmetry]
 };
 
-/// Values taken along a motion, in the order of time.
+/// Samples along a motion, in the order of time.
 struct SampleSet {
-    std::size_t width = 0;              ///< values of each sample
-    std::vector<std::size_t> samplings; ///< which Sampling each comes from
+    std::size_t width = 0;              ///< number of values of each sample
+    std::vector<std::size_t> samplings; ///< index of the Sampling of each sample
     std::vector<double> times;          ///< since the point's start
     std::vector<double> values;         ///< [sample * width + value]
 

@@ -40,7 +40,8 @@ enum class Operation : std::uint8_t {
     erf,
 };
 
-/// 0 for leaves, 1 for functions and negation, 2 for arithmetic. @throws std::invalid_argument for no operation at all
+/// Returns the number of operands: 0 for leaves, 1 for functions and negation, 2 for arithmetic.
+/// @throws std::invalid_argument for a value that is not an Operation
 int arity(Operation operation);
 
 /// Index of a node in its graph. Operands always have smaller indices than the node that uses them, so that a
@@ -55,30 +56,31 @@ struct Node {
 };
 
 /// Owner of expressions: an append-only, hash-consed graph in which equal subexpressions exist once.
-/// Not safe to append to from several threads at once; reading is, and copying.
+/// Reading and copying from several threads at once is safe, appending is not.
 class Graph : public std::enable_shared_from_this<Graph> {
 public:
     static std::shared_ptr<Graph> create();
-    /// Another graph with the same nodes at the same indices, which is not frozen.
+    /// Returns another graph with the same nodes at the same indices, which is not frozen.
     std::shared_ptr<Graph> copy() const;
-    /// From now on nothing can be appended, so that threads may share it: std::logic_error is thrown instead.
+    /// Forbids appending, so that threads may share the graph: an attempt to append then throws std::logic_error.
     void freeze() { frozen_ = true; }
     bool is_frozen() const { return frozen_; }
-    /// The same expression in this graph, by the names of its symbols. @throws std::invalid_argument for an empty one
+    /// Returns the same expression in this graph; symbols are matched by name.
+    /// @throws std::invalid_argument for an empty expression
     Expression adopt(const Expression& foreign);
 
-    /// @throws std::invalid_argument when the value is not finite. The zeros of both signs are one number.
+    /// @throws std::invalid_argument when the value is not finite. +0 and -0 are one node.
     Expression number(double value);
-    /// The symbol of this name; the same one each time it is asked for.
+    /// Returns the symbol of this name; the same node for each call.
     Expression symbol(std::string_view name);
     /// Applies one operation, with the simplifications described in docs/expressions.md: results are equal to
     /// those of the unsimplified expression up to round-off.
-    /// @throws std::invalid_argument for operands of other graphs, or as many as the operation does not take
+    /// @throws std::invalid_argument for operands of another graph, or a wrong number of operands
     Expression apply(Operation operation, const Expression& operand);
     Expression apply(Operation operation, const Expression& left, const Expression& right);
 
     std::size_t size() const { return nodes_.size(); }
-    /// @throws InputError, here and below, for what the graph does not have
+    /// @throws InputError, here and below, when the graph has no such index
     const Node& node(NodeIndex index) const {
         require_index(index, nodes_.size(), "node");
         return nodes_[index];
@@ -87,8 +89,8 @@ public:
         require_index(node.left, names_.size(), "name");
         return names_[node.left];
     }
-    /// Whether the node has no value whatever the values of its symbols, as 1/0, log(-1) + x or 1e308*10.
-    /// Such expressions are kept as they were written.
+    /// True when the node has no finite value for any values of its symbols, as 1/0, log(-1) + x or 1e308*10. Such
+    /// expressions are kept unsimplified.
     bool is_undefined(NodeIndex index) const {
         require_index(index, undefined_.size(), "node");
         return undefined_[index];
@@ -120,9 +122,9 @@ private:
 /// exactly if their indices are equal. Operators throw std::invalid_argument for operands of different graphs.
 class Expression {
 public:
-    /// Names nothing; only assignment and `empty` may be used.
+    /// An empty expression: only assignment and `empty` may be used.
     Expression() = default;
-    /// @throws std::invalid_argument for a node that the graph does not have
+    /// @throws std::invalid_argument for an index that the graph does not have
     Expression(std::shared_ptr<Graph> graph, NodeIndex index) : graph_(std::move(graph)), index_(index) {
         if (!graph_ || index >= graph_->size())
             refuse_node();
@@ -141,7 +143,7 @@ public:
     bool is_number() const { return operation() == Operation::number; }
     bool is_number(double value) const { return is_number() && node().value == value; }
     bool is_symbol() const { return operation() == Operation::symbol; }
-    /// Name of a symbol. @throws std::invalid_argument for any other expression
+    /// Returns the name of a symbol. @throws std::invalid_argument for any other expression
     const std::string& name() const {
         if (!is_symbol())
             refuse_name();

@@ -11,7 +11,7 @@
 
 namespace graze {
 
-/// Expressions compiled for evaluation in double precision: a straight list of operations over inputs.
+/// Expressions compiled for evaluation in double precision: a flat list of operations over inputs.
 class Function {
 public:
     Function() = default;
@@ -20,40 +20,42 @@ public:
     Function(std::span<const Expression> inputs, std::span<const Expression> outputs);
     Function(const SymbolIndex& inputs, std::span<const Expression> outputs);
 
-    /// One of many outputs of which most are 0, or inputs handed through.
+    /// One given output: its value and its index among all outputs.
     struct Output {
         std::size_t place = 0;
         Expression value{};
     };
-    /// What outputs are that are not given: 0, or the inputs in the same places.
+    /// The value of outputs that are not given: 0, or the input of the same index.
     enum class Others { zero, inputs };
-    /// Room and the time to make it go by the size of what is given, not by the number of outputs.
-    /// @param outputs their number; @param given by rising place
-    /// @throws std::invalid_argument as above, and for places that do not rise, or outputs that are no inputs
+    /// Compiles a function most of whose outputs are 0 or copies of inputs; time and memory are proportional to the
+    /// size of the given outputs, not to the number of all outputs.
+    /// @param outputs number of all outputs; @param given outputs by rising place
+    /// @throws std::invalid_argument as above, when places do not rise, or when a copied output has no input of its
+    /// index
     Function(const SymbolIndex& inputs, std::size_t outputs, std::span<const Output> given, Others others);
 
     std::size_t inputs() const { return inputs_; }
     std::size_t outputs() const { return output_count_; }
-    /// Number of operations.
+    /// Returns the number of operations.
     std::size_t operations() const { return steps_.size(); }
-    /// Number of doubles that `evaluate` needs to work in.
+    /// Returns the number of doubles that `evaluate` needs as workspace.
     std::size_t workspace() const { return slots_; }
 
     /// Evaluates without allocating. The result follows IEEE rules: not finite outside an operation's domain.
-    /// @throws InputError, here and below, when there are fewer numbers than these
-    /// @param inputs  as many as inputs()
-    /// @param results as many as outputs(); may be the same memory as the inputs
+    /// @throws InputError, here and below, when a span is shorter than stated
+    /// @param inputs  inputs() values
+    /// @param results outputs() values; may be the same memory as the inputs
     /// @param work    at least workspace(); its contents afterwards are unspecified
     void evaluate(std::span<const double> inputs, std::span<double> results, std::span<double> work) const;
-    /// How far results may be from those of exact arithmetic, to first order: each operation rounds, and passes on
-    /// what its operands are uncertain by. What cancels in a result does not hide there. Infinite or NaN where a
+    /// Bounds the distance of the results from those of exact arithmetic, to first order: each operation adds its
+    /// rounding and propagates the uncertainty of its operands, so that cancellation shows. Infinite or NaN where a
     /// result is.
-    /// @param errors of the inputs, absolute, as many as inputs()
-    /// @param bounds as many as outputs()
+    /// @param errors absolute errors of the inputs, inputs() values
+    /// @param bounds outputs() values
     /// @param work   at least 2 workspace()
     void error_bounds(std::span<const double> inputs, std::span<const double> errors, std::span<double> bounds,
                       std::span<double> work) const;
-    /// Convenience that allocates.
+    /// The same with allocation: returns the outputs.
     std::vector<double> operator()(std::span<const double> inputs) const;
 
 private:
@@ -69,16 +71,16 @@ private:
     std::size_t slots_ = 0;
     std::size_t output_count_ = 0;
     Others others_ = Others::zero;
-    std::vector<std::uint32_t> used_; ///< inputs, in the first slots; empty where those are all inputs
+    std::vector<std::uint32_t> used_; ///< indices of the inputs in the first slots; empty if all inputs are used
     bool uses_all_ = true;
     std::vector<std::pair<std::uint32_t, double>> numbers_;
     std::vector<Step> steps_;
     std::vector<std::uint32_t> outputs_; ///< slots of the outputs that are given
-    std::vector<std::uint32_t> places_;  ///< of those among all; empty where all are given
+    std::vector<std::uint32_t> places_;  ///< their indices among all outputs; empty if all are given
 };
 
-/// Value of an expression without symbols; NaN outside an operation's domain.
-/// @throws std::invalid_argument when symbols remain
+/// Returns the value of an expression without symbols; NaN outside an operation's domain.
+/// @throws std::invalid_argument when the expression contains a symbol
 double constant_value(const Expression& expression);
 
 } // namespace graze

@@ -9,40 +9,41 @@
 
 namespace graze {
 
-/// One product of a row: coefficient times what the source changes by.
+/// One term of a row: coefficient times the change of the source.
 struct LinearEntry {
     std::size_t row = 0, source = 0;
     Expression coefficient{};
-    bool varies = false; ///< whether a state is in the coefficient; otherwise it is constant along a motion
+    bool varies = false; ///< the coefficient depends on a state; otherwise it is constant along a motion
 };
 
-/// The derivatives of functions along any direction, as sums of products. Rows 0 .. intermediates-1 are those of
-/// intermediate quantities, each made of sources before it; then come the functions. Sources 0 .. variables-1 are the
-/// variables, then come the intermediates.
+/// The directional derivatives of functions as sums of products. Rows 0 .. intermediates-1 belong to intermediate
+/// quantities, each a combination of earlier sources; the rows of the functions follow. Sources 0 .. variables-1 are
+/// the variables; the intermediates follow.
 struct Linearisation {
-    /// What products cost, in products of numbers: one with a coefficient that varies is one of series. And what an
-    /// intermediate costs besides its products, as it has to be kept.
+    /// Costs of a product with a varying coefficient (a product of series), of a product with a constant coefficient,
+    /// and of storing an intermediate, in units of one multiplication of numbers.
     static constexpr std::size_t varying_cost = 8, constant_cost = 1, intermediate_cost = 2;
 
     std::size_t variables = 0, functions = 0, intermediates = 0;
-    std::vector<LinearEntry> entries{}; ///< by rising row, then by rising source; none is zero throughout
+    std::vector<LinearEntry> entries{}; ///< by rising row, then by rising source; none is identically zero
 
-    /// Entries whose coefficient varies.
+    /// Returns the number of entries whose coefficient varies.
     std::size_t varying_entries() const;
-    /// Of one direction, by the costs above.
+    /// Returns the cost of one direction, in the units above.
     std::size_t cost() const;
 };
 
-/// Derivatives of functions with respect to variables, in terms of variables. Quantities that many states enter, and
-/// that enter many functions, become intermediates where directions in states then cost less, coefficients counted in:
-/// n functions of a mean of n states take 2n products then, not n^2. Elsewhere entries are those of the sparse
-/// Jacobian. Time and room go by the size of the functions where few of their parts are shared.
-/// @param functions rates of states, say
+/// Differentiates functions with respect to variables. A quantity on which many states act and that acts on many
+/// functions becomes an intermediate if this reduces the cost of directions in state space, coefficients included: n
+/// functions of a mean of n states then need 2n products, not n^2. The other entries are those of the sparse Jacobian.
+/// Time and memory are proportional to the size of the functions if few of their parts are shared.
+/// @param functions for example the rates of states
 /// @param variables states, then parameters
-/// @param states    number of states among them. Parameters decide nothing about intermediates
-/// @param directions that share coefficients, which take products of series to be formed, fewer with intermediates
-/// @throws std::invalid_argument for functions of several graphs, a variable of another, more states than variables, or
-///         no directions, or more than a million
+/// @param states number of states among the variables. Parameters do not affect the choice of intermediates
+/// @param directions number of directions that share the coefficients; forming coefficients costs products of series,
+/// and intermediates need fewer of them
+/// @throws std::invalid_argument for functions of several graphs, a variable of another graph, more states than
+/// variables, or a number of directions outside 1 .. 10^6
 Linearisation linearise(std::span<const Expression> functions, const SymbolIndex& variables, std::size_t states,
                         std::size_t directions = 8);
 

@@ -11,19 +11,19 @@
 
 namespace graze {
 
-/// Symbols in an order, in which the place of each is found at once, however many they are. Made once for many
-/// functions of the same inputs, so that the work for each goes by its own size.
+/// A list of symbols with constant-time lookup of their positions. Made once and shared by many functions of the same
+/// inputs, so that the work for each function depends on its own size only.
 class SymbolIndex {
 public:
     SymbolIndex() = default;
-    /// @throws std::invalid_argument when one is empty or no symbol, or named twice
+    /// @throws std::invalid_argument when an expression is empty or not a symbol, or a symbol occurs twice
     explicit SymbolIndex(std::span<const Expression> symbols);
 
     std::size_t size() const { return symbols_.size(); }
     const std::vector<Expression>& symbols() const { return symbols_; }
-    /// Place of a symbol of the graph to which all of them belong.
+    /// Returns the position of a symbol, given that it belongs to the same graph as the list.
     std::optional<std::size_t> find(NodeIndex symbol) const;
-    /// Whether all of them belong to this graph.
+    /// True when all symbols belong to this graph.
     bool are_of(const std::shared_ptr<Graph>& graph) const;
 
 private:

@@ -11,39 +11,39 @@
 
 namespace graze {
 
-/// Exact partial derivative; may be applied any number of times. Time linear in the size of the graph below.
+/// Returns the exact partial derivative. Time is linear in the number of nodes on which the expression depends.
 Expression differentiate(const Expression& expression, const Expression& symbol);
-/// The same for several expressions, visiting shared parts once.
+/// The same for several expressions; shared nodes are visited once.
 std::vector<Expression> differentiate(std::span<const Expression> expressions, const Expression& symbol);
 
-/// All partial derivatives with respect to several symbols, row by row: expressions x symbols.
-/// @throws std::invalid_argument for a symbol that is named twice
+/// Returns all partial derivatives with respect to several symbols, row by row: expressions x symbols.
+/// @throws std::invalid_argument when a symbol occurs twice
 std::vector<Expression> jacobian(std::span<const Expression> expressions, std::span<const Expression> symbols);
-/// A partial derivative that is not 0 throughout.
+/// A partial derivative that is not identically 0.
 struct JacobianEntry {
-    std::size_t row = 0;    ///< of the expression
-    std::size_t column = 0; ///< of the symbol
+    std::size_t row = 0;    ///< index of the expression
+    std::size_t column = 0; ///< index of the symbol
     Expression value{};
 };
-/// Those of several expressions, row by row, by rising column. Time goes by the size of each expression times the
-/// number of symbols in it, not by that of all symbols.
+/// Returns the nonzero partial derivatives, row by row, by rising column. Time is proportional to the size of each
+/// expression times the number of symbols in it, not to the number of all symbols.
 std::vector<JacobianEntry> sparse_jacobian(std::span<const Expression> expressions, const SymbolIndex& symbols);
-/// The derivative along a vector: the sum of the partial derivatives with respect to symbols, times the component of
-/// each. Shared parts are visited once, whatever the number of components.
+/// Returns the directional derivatives: the sum over symbols of the partial derivative times the component of the
+/// vector. Shared nodes are visited once, whatever the number of components.
 using Component = std::pair<Expression, Expression>; ///< symbol, component of the vector (any expression)
 std::vector<Expression> differentiate_along(std::span<const Expression> expressions, std::span<const Component> vector);
 
-/// Replaces symbols by expressions, all at once (replacements are not searched again).
+/// Replaces symbols by expressions, all at once (replacements are not searched for symbols again).
 using Replacement = std::pair<Expression, Expression>; ///< symbol, what replaces it
 Expression substitute(const Expression& expression, std::span<const Replacement> replacements);
 std::vector<Expression> substitute(std::span<const Expression> expressions, std::span<const Replacement> replacements);
 
-/// The symbols that occur in the expressions, in the order of their indices.
+/// Returns the symbols that occur in the expressions, by rising index.
 std::vector<Expression> symbols_of(std::span<const Expression> expressions);
 
-/// Infix text that parses back to the same expression (numbers with as many digits as they need), given that the
-/// names of its symbols are valid. Time is linear in the length of the text, in which shared parts are repeated.
-/// @throws std::length_error when that would be about 1e9 characters
+/// Returns infix text that parses back to the same expression, provided that the names of its symbols are valid;
+/// numbers have as many digits as they need. Time is linear in the length of the text, which repeats shared parts.
+/// @throws std::length_error when the text would have about 1e9 characters
 std::string to_string(const Expression& expression);
 
 } // namespace graze

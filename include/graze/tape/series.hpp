@@ -4,7 +4,7 @@
 
 namespace graze {
 
-/// Coefficients of a power series where a jet left them: those of one lane are as many numbers apart as it has lanes.
+/// Coefficients of a power series of one lane, in the memory of a jet; `stride` is the jet's number of lanes.
 struct Series {
     const double* first = nullptr;
     std::size_t stride = 1;

@@ -5,16 +5,16 @@
 
 namespace graze {
 
-/// A product in the first variational equations of a mode: a coefficient that goes with the motion, times the change
-/// of what it depends on.
+/// A term of the first variational equations of a mode: a coefficient that varies along the motion, times the change of
+/// its source.
 struct TangentEntry {
-    std::size_t row = 0;      ///< intermediate quantities first, then states, whose rates change
+    std::size_t row = 0;      ///< intermediate quantities first, then the rates of states
     std::size_t source = 0;   ///< states first, then parameters, then intermediate quantities
-    std::size_t follower = 0; ///< of the mode's tape, whose series the coefficient is
+    std::size_t deferred = 0; ///< index of the coefficient among the deferred expressions of the mode's tape
 };
 
-/// The first variational equations of a mode: how rates change with states and parameters, by way of intermediate
-/// quantities where these save products. An intermediate quantity has sources before it alone.
+/// The first variational equations of a mode: the change of each rate with states and parameters, through intermediate
+/// quantities where these save products. An intermediate quantity depends only on sources before it.
 struct TangentEquations {
     std::size_t states = 0, parameters = 0, intermediates = 0;
     std::vector<TangentEntry> entries; ///< by rising row

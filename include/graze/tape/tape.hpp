@@ -17,7 +17,7 @@ enum class SeriesOperation : std::uint8_t {
     divide,         ///< left / right
     square,         ///< left^2
     reciprocal,     ///< 1 / left
-    sqrt,           ///< of left
+    sqrt,           ///< of `left`
     power_constant, ///< left^c; right: the constant c, which is not an integer (nor a half-integer) known beforehand
     derivative,     ///< k a_k with a = left: the series of t a'(t)
     // y(a) with y' = a' w (cos: -a' w). left: the `derivative` of a (unused where a has degree 1 or less); right: w,
@@ -58,44 +58,45 @@ struct ConstantInstruction {
 struct Tape {
     std::uint32_t states = 0;     ///< registers 0 .. states-1 are the states
     std::uint32_t parameters = 0; ///< constants 0 .. parameters-1 are the parameters
-    std::uint32_t registers = 0;  ///< series
-    std::uint32_t constants = 0;  ///< numbers: parameters, literals, results of `constant_code`
+    std::uint32_t registers = 0;  ///< number of registers, each holds a series
+    std::uint32_t constants = 0;  ///< number of constants: parameters, literals, results of `constant_code`
     std::vector<std::pair<std::uint32_t, double>> literals; ///< constant, value
     std::vector<ConstantInstruction> constant_code;
     std::vector<Instruction> code;
     std::vector<Term> terms; ///< of the linear combinations
     /// For each register, the degree of the polynomial in time that it is known to be, or `unbounded`: coefficients
-    /// above it are 0. A phase, whose rate is constant, has degree 1.
+    /// above the degree are 0. A phase, whose rate is constant, has degree 1.
     std::vector<std::uint32_t> degrees;
     static constexpr std::uint32_t unbounded = 0xffffffff;
     static constexpr std::uint32_t highest_degree = 4; ///< other than unbounded
-    /// Where a rate or output is found: in a register, or in a constant (then its higher coefficients are 0).
+    /// Where a rate or output is stored: a register, or a constant (whose higher coefficients are 0).
     struct Location {
         bool constant = false;
         std::uint32_t index = 0;
     };
     std::vector<Location> rates;   ///< one per state
-    std::vector<Location> outputs; ///< event functions and whatever else is wanted along the flow
-    /// What is computed from all that only when it is asked for, and on which neither states nor outputs depend.
-    std::vector<Location> followers;
-    /// Instructions for the followers: of group 0; of several other groups; then of each other group alone.
-    std::vector<std::vector<Instruction>> follower_code;
+    std::vector<Location> outputs; ///< event functions and other expressions along the flow
+    /// Expressions computed from the others only on request; neither states nor outputs depend on them.
+    std::vector<Location> deferred;
+    /// Instructions for the deferred expressions: of group 0; shared by other groups; then of each other group alone.
+    std::vector<std::vector<Instruction>> deferred_code;
 };
 
-/// An expression that is wanted along the flow now and then, together with the others of its group.
-struct TapeFollower {
+/// An expression along the flow that is computed only on request, together with the others of its group.
+struct DeferredExpression {
     Expression value;
-    std::uint32_t group = 0; ///< what other groups share with group 0 is not computed again: it has to come first
+    std::uint32_t group = 0; ///< group 0 is computed before every other group, which may use its results
 };
 
-/// Equal subexpressions are computed once, those of parameters only once per change of parameters, and what nothing
-/// needs not at all. Sums are gathered into linear combinations; integer powers become products (finite at 0), other
-/// constant powers obey a y' = c a' y (at a = 0 not finite, even if c happens to be a parameter equal to an integer).
-/// @param states, parameters symbols; all else may contain no others
-/// @param followers change nothing in how rates and outputs are computed, bit for bit
-/// @throws std::invalid_argument when they do
+/// Compiles expressions to a tape. Equal subexpressions are computed once, expressions of parameters once per change of
+/// parameters, unneeded ones never. Sums are gathered into linear combinations; integer powers become products (finite
+/// at 0), other constant powers obey a y' = c a' y (not finite at a = 0, even if c is a parameter with an integer
+/// value).
+/// @param states, parameters symbols; the expressions may contain no others
+/// @param deferred do not affect the code for rates and outputs, bit for bit
+/// @throws std::invalid_argument when an expression contains another symbol
 Tape compile_tape(std::span<const Expression> states, std::span<const Expression> parameters,
                   std::span<const Expression> rates, std::span<const Expression> outputs,
-                  std::span<const TapeFollower> followers = {});
+                  std::span<const DeferredExpression> deferred = {});
 
 } // namespace graze

@@ -5,7 +5,7 @@
 
 namespace graze {
 
-/// Jets for the modes of a simulation, on which its trajectories run.
+/// The jets of a simulation's modes, with the order of its options.
 class JetSet : public ModeJets {
 public:
     JetSet(const Simulation& simulation, LaneKind kind, InstructionSet set = best_instruction_set())

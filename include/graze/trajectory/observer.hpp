@@ -12,11 +12,11 @@ struct Step {
     double start = 0, length = 0;
     std::size_t mode = 0;
     int order = 0;
-    std::span<const Series> states;   ///< order + 1 coefficients each
-    std::span<const Series> events;   ///< of the watched events of the mode
-    std::span<const Series> observed; ///< of the observed expressions
+    std::span<const Series> states;   ///< order + 1 coefficients each, in powers of s
+    std::span<const Series> events;   ///< watched event functions of the mode
+    std::span<const Series> observed; ///< observed expressions
 
-    /// Unchecked, since asked at every step: a state, or series, that the step has.
+    /// Value of a state or series at s. Arguments are not checked, since this is called at every step.
     double state(std::size_t index, double s) const { return value(states[index], s); }
     double value(const Series& series, double s) const {
         return evaluate_polynomial(series, static_cast<std::size_t>(order) + 1, s);
@@ -24,26 +24,26 @@ struct Step {
 };
 
 enum class ContactKind {
-    crossing, ///< the event function falls through zero; the transition is made
-    touch,    ///< it comes within the contact tolerance of zero without falling through: nothing happens
-    sticking, ///< accumulation of contacts, or contact without speed: the transition's `chatter` is made
+    crossing, ///< the event function falls through zero: the transition is made
+    touch,    ///< a minimum within the touch distance of zero, without falling through: nothing happens
+    sticking, ///< accumulation of contacts, or contact at zero speed: the transition's `chatter` is made
 };
 
-/// Something that happened at an event's surface.
+/// A contact: an occurrence at the surface of an event, where its function is zero.
 struct Contact {
     ContactKind kind = ContactKind::crossing;
     double time = 0;
     std::size_t event = 0;
     std::size_t transition = 0; ///< index in Model::transitions
     std::size_t mode_before = 0, mode_after = 0;
-    double rate_before = 0;                ///< of the event function along the flow: minus the approach speed
-    double rate_after = 0;                 ///< of the same function just after, by the flow of the next mode
-    double value = 0;                      ///< of the event function (least value, for a touch)
+    double rate_before = 0;                ///< rate of the event function along the flow: minus the approach speed
+    double rate_after = 0;                 ///< rate of the same function just after, along the flow of the next mode
+    double value = 0;                      ///< value of the event function (its minimum, for a touch)
     bool simultaneous = false;             ///< at the same time as the contact before
     std::span<const double> before, after; ///< states; valid during the call
 };
 
-/// A probe's surface is passed, or its expression has an extremum.
+/// The crossing of a probe's surface, or an extremum of its expression.
 struct Passage {
     std::size_t probe = 0;
     double time = 0;
@@ -53,28 +53,28 @@ struct Passage {
     std::span<const double> state; ///< valid during the call
 };
 
-/// Least value of a watched event function over a step.
+/// The least value of a watched event function over a step.
 struct StepMinimum {
     std::size_t event = 0;
     double time = 0;
     Minimum minimum; ///< `at` counts from the start of the step
 };
 
-/// Receives what happens along a trajectory, in the order of time within each kind. Any call may be left out.
+/// Receives what happens along a trajectory, in the order of time within each kind. Any function may be left undefined.
 class Observer {
 public:
     virtual ~Observer() = default;
-    /// Each step, after its length is known.
+    /// Called for each step, after its length is known.
     virtual void step(const Step&) {}
     virtual void contact(const Contact&) {}
     virtual void passage(const Passage&) {}
     virtual void minimum(const StepMinimum&) {}
-    /// Before the step or contact is told of: the motion meets a surface without speed, to within round-off, and
-    /// derivatives do not exist from there on. Only for those who ask.
+    /// Called before the step or contact is reported: the motion meets a surface at zero speed, to within round-off,
+    /// and derivatives do not exist from there on. Only called if follows_derivatives().
     virtual void grazing() {}
-    /// Whether `grazing` is wanted, which takes time at every contact.
+    /// Returns whether `grazing` is wanted; it costs time at each contact.
     virtual bool follows_derivatives() const { return false; }
-    /// Asked after every step: true ends the trajectory with Ending::stopped.
+    /// Called after each step: true ends the trajectory with Ending::stopped.
     virtual bool stop() { return false; }
 };
 

@@ -5,15 +5,15 @@
 
 namespace graze {
 
-/// How a trajectory ended, or that it goes on.
+/// How a trajectory ended, or `running`.
 enum class Ending {
     running,
-    end_time,      ///< the time asked for is reached
+    end_time,      ///< the requested end time is reached
     stopped,       ///< the observer asked to stop (a count of periods, events, ... is reached)
     terminal,      ///< a transition whose next mode is "end"
     singular,      ///< the solution ceases to exist at a finite time, as when a gap closes by snap-through
     undefined,     ///< the vector field has no finite value at the present state
-    inadmissible,  ///< a barrier is violated at the start, or a jump led beyond one
+    inadmissible,  ///< a barrier is violated at the start or after a jump
     no_transition, ///< no alternative's conditions hold after an event
     chatter,       ///< contacts accumulate and no sticking mode is declared
     no_separation, ///< after its jump, a barrier is still being approached
@@ -23,14 +23,14 @@ enum class Ending {
 
 /// Stable name for tables and files, such as "end-time".
 std::string_view name_of(Ending ending);
-/// Whether the run came to an end that its user asked for or that the system itself has (end_time, stopped,
-/// terminal, singular), rather than to one that calls for a change of the model or of the options.
+/// Returns true for ends that the user requested or that belong to the system (end_time, stopped, terminal, singular);
+/// the others call for a change of the model or of the options.
 bool is_regular(Ending ending);
 
 struct Outcome {
     Ending ending = Ending::running;
-    double time = 0;    ///< of the end; for `singular`, of the singularity
-    std::string detail; ///< what happened and what to do, in one line; empty for regular ends
+    double time = 0;    ///< end time; for `singular`, the time of the singularity
+    std::string detail; ///< one line: what happened and what to do; empty for regular ends
 };
 
 } // namespace graze

@@ -8,7 +8,7 @@
 
 namespace graze {
 
-/// Something to be located along a trajectory without disturbing it.
+/// A crossing, extremum or phase to be located along a trajectory, without influence on the motion.
 struct Probe {
     enum class Kind {
         crossing, ///< `expression` passes zero
@@ -17,13 +17,13 @@ struct Probe {
     };
     std::string name;
     Kind kind = Kind::crossing;
-    Expression expression;                 ///< of crossing and extremum
+    Expression expression;                 ///< for crossing and extremum
     Direction direction = Direction::both; ///< extremum: falling = maxima, rising = minima
-    std::size_t state = 0;                 ///< of phase
-    Expression value;                      ///< of phase, in terms of parameters
+    std::size_t state = 0;                 ///< for phase: the cyclic state
+    Expression value;                      ///< for phase: its value, in terms of parameters
 };
 
-/// The probe of a section declared in the model. @throws InputError for an unknown name, with the nearest one
+/// Returns the probe of a section declared in the model. @throws InputError for an unknown name, with the nearest one
 Probe section_probe(const Model& model, std::string_view section);
 
 } // namespace graze

@@ -10,10 +10,10 @@
 
 namespace graze {
 
-/// Passes everything on to several observers, in their order. Asks to stop as soon as one of them does.
+/// Forwards all calls to several observers, in their order. Stops as soon as one of them does.
 class Relay : public Observer {
 public:
-    /// @throws InputError for an observer that is none
+    /// @throws InputError for a null observer
     explicit Relay(std::vector<Observer*> observers);
 
     void step(const Step& step) override;
@@ -26,7 +26,7 @@ private:
     std::vector<Observer*> observers_;
 };
 
-/// Keeps all contacts and passages, with their states.
+/// Stores all contacts and passages, with their states.
 class Recorder : public Observer {
 public:
     struct RecordedContact {
@@ -50,24 +50,25 @@ private:
     std::vector<RecordedPassage> passages_;
 };
 
-/// States at times chosen beforehand, from the Taylor polynomials of the steps: exact to the tolerance, and without
-/// any influence on the steps. A time at which a contact happens belongs to the arc before it.
+/// Samples states at given times from the Taylor polynomials of the steps: accurate to the tolerance, without influence
+/// on the steps. A time at which a contact occurs belongs to the arc before it.
 class Sampler : public Observer {
 public:
     /// @param state valid during the call
     using Receiver = std::function<void(double time, std::size_t mode, std::span<const double> state)>;
 
     /// Samples at start, start + spacing, ..., `count` times in all.
-    /// @param periods of all states (0 of those not cyclic), within which they are kept; InputError if not as many
+    /// @param periods one for each state (0 if not cyclic); states are reduced to them
+    /// @throws InputError for a wrong number of periods
     Sampler(double start, double spacing, std::size_t count, std::vector<double> periods, Receiver receiver);
 
     void step(const Step& step) override;
-    /// How many have been taken.
+    /// Returns the number of samples taken.
     std::size_t taken() const { return taken_; }
     double spacing() const { return spacing_; }
-    /// Time of the next sample.
+    /// Returns the time of the next sample.
     double next() const { return start_ + static_cast<double>(taken_) * spacing_; }
-    /// Doubles the spacing, as if every other sample had not been taken. To be called by the receiver, of the second,
+    /// Doubles the spacing, as if every other sample had not been taken. To be called by the receiver of the second,
     /// fourth, ... sample.
     void coarsen();
 
@@ -78,11 +79,11 @@ private:
     Receiver receiver_;
 };
 
-/// Least value of one event function over one arc, from contact to contact.
+/// The least value of one event function over one arc, from contact to contact.
 struct ArcMinimum {
     std::size_t arc = 0; ///< counts from 0
     std::size_t mode = 0, event = 0;
-    double start = 0, end = 0; ///< of the arc
+    double start = 0, end = 0; ///< start and end time of the arc
     double time = 0, value = 0;
     double lower_bound = 0; ///< guaranteed
 };
@@ -96,7 +97,7 @@ public:
     void step(const Step& step) override;
     void contact(const Contact& contact) override;
     void minimum(const StepMinimum& minimum) override;
-    /// Hands over the minima of the arc in progress: call at the end of the trajectory.
+    /// Reports the minima of the arc in progress; to be called at the end of the trajectory.
     void finish();
 
 private:

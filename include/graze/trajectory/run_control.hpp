@@ -11,28 +11,28 @@
 
 namespace graze {
 
-/// What ends one leg of a run: whichever comes first.
+/// Limits of one leg of a run; the leg ends at whichever is reached first.
 struct LegEnd {
     double duration = std::numeric_limits<double>::infinity();
     std::size_t periods = 0;  ///< 0: not counted
     std::size_t contacts = 0; ///< 0: not counted
-    /// Time that the leg takes, if it is known beforehand.
+    /// Duration of the leg, if known beforehand; for progress reports.
     std::optional<double> expected;
 
     bool empty() const { return duration == std::numeric_limits<double>::infinity() && periods == 0 && contacts == 0; }
 };
 
-/// Decides when a leg of a run is over, and lets recorders see the leg that is to be shown.
+/// Decides when a leg of a run is over, and forwards the legs that are to be shown to recorders.
 class RunControl : public Observer {
 public:
     /// @param period_probe index of the probe whose passages are periods
-    /// @param counted whether contacts at each event count
+    /// @param counted for each event, whether its contacts are counted
     RunControl(Observer& recorders, std::optional<std::size_t> period_probe, std::vector<bool> counted);
 
     void begin(const LegEnd& end, double time, bool shown);
-    /// Asked after every step whether the run is to end in any case.
+    /// Sets a condition that ends the run in any case; called after each step.
     void end_when(std::function<bool()> ends) { ends_ = std::move(ends); }
-    /// Told after every step how much of the leg is done, if that is known, and the time.
+    /// Sets a function that receives, after each step, the completed fraction of the leg (if known) and the time.
     void tell(std::function<void(std::optional<double> fraction, double time)> progress) {
         progress_ = std::move(progress);
     }

@@ -1,4 +1,4 @@
-// A model built, compiled and looked at with nothing but the installed package.
+// Parses an expression and loads a model with nothing but the installed package.
 #include "graze/model/catalogue.hpp"
 #include "graze/symbolic/function.hpp"
 #include "graze/symbolic/parser.hpp"

@@ -1,4 +1,4 @@
-#include "identify/fit_twins.hpp"
+#include "identify/alternative_solutions.hpp"
 
 #include "graze/base/input_error.hpp"
 
@@ -13,21 +13,21 @@ namespace graze {
 
 namespace {
 
-constexpr double far = 3; // errors: with its sign changed a number is twice as far from itself
+constexpr double far = 3; // standard errors from 0: a changed sign then moves a number by at least twice as much
 
-/// Where each record begins, and what is shared: not in scales.
-struct Beginning {
+/// Initial states of the records, and shared unknowns; unscaled.
+struct InitialConditions {
     std::vector<double> shared;
-    std::vector<std::vector<double>> starts; ///< by record
+    std::vector<std::vector<double>> starts; ///< for each record
     std::vector<std::size_t> modes;
 };
 
-/// Changes a beginning; the same twice is none.
-using Change = std::function<void(Beginning&)>;
+/// A change of initial conditions that is its own inverse.
+using Change = std::function<void(InitialConditions&)>;
 
-class TwinSearch {
+class AlternativeSearch {
 public:
-    TwinSearch(FitRows& rows, const FitPoint& point, const std::vector<PieceRows>& known, const Fit& fit)
+    AlternativeSearch(FitRows& rows, const FitPoint& point, const std::vector<PieceRows>& known, const Fit& fit)
         : rows_(&rows), point_(&point), known_(&known), fit_(&fit) {
         const FitLayout& layout = rows.layout;
         for (Eigen::Index j = 0; j < layout.shared(); ++j)
@@ -36,7 +36,7 @@ public:
             here_.starts.push_back(record.start);
         here_.modes.resize(fit.records.size());
         for (const FitPiece& piece : layout.pieces)
-            if (piece.opening)
+            if (piece.is_first)
                 here_.modes[piece.record] = piece.mode;
         for (const MeasuredOutput& output : rows.task().outputs)
             outputs_.push_back(rows.system().with_gradient(output.value));
@@ -45,22 +45,22 @@ public:
         find_symmetries();
     }
 
-    std::vector<FoundTwin> run() {
-        std::vector<FoundTwin> twins;
+    std::vector<FoundSolution> run() {
+        std::vector<FoundSolution> solutions;
         const std::size_t count = changes_.size();
         const auto attempt = [&](const std::vector<const Change*>& all) {
             constexpr std::size_t enough = 3;
-            Beginning there = here_;
+            InitialConditions there = here_;
             for (const Change* change : all)
                 (*change)(there);
-            FoundTwin twin;
-            if (twins.size() < enough && meets(there, twin))
-                add(there, std::move(twin), twins);
+            FoundSolution solution;
+            if (solutions.size() < enough && meets(there, solution))
+                add(there, std::move(solution), solutions);
         };
         for (const auto& one : symmetries_) {
             attempt({&one});
             if (!gains_.empty()) {
-                const Change flip = [this](Beginning& to) {
+                const Change flip = [this](InitialConditions& to) {
                     for (const std::size_t gain : gains_)
                         to.shared[gain] = -to.shared[gain];
                 };
@@ -76,7 +76,7 @@ public:
             for (std::size_t j = i + 1; j < count; ++j)
                 for (std::size_t k = j + 1; k < count; ++k)
                     attempt({&changes_[i], &changes_[j], &changes_[k]});
-        return twins;
+        return solutions;
     }
 
 private:
@@ -88,7 +88,7 @@ private:
         const FitLayout& layout = rows_->layout;
         for (std::size_t j = 0; j < here_.shared.size(); ++j)
             if (is_sure(fit_->numbers[j]) && fit_->numbers[j].kind != FittedNumber::Kind::offset)
-                changes_.emplace_back([j](Beginning& to) { to.shared[j] = -to.shared[j]; });
+                changes_.emplace_back([j](InitialConditions& to) { to.shared[j] = -to.shared[j]; });
         for (std::size_t k = 0; k < layout.gains.size(); ++k)
             gains_.push_back(layout.parameters + k);
         std::vector<std::size_t> mirrored;
@@ -96,14 +96,14 @@ private:
             if (!is_unknown(i))
                 continue;
             if (const double period = known_->front().periods[i]; period > 0) {
-                changes_.emplace_back([i, period](Beginning& to) {
+                changes_.emplace_back([i, period](InitialConditions& to) {
                     for (std::vector<double>& start : to.starts)
                         start[i] += start[i] < period / 2 ? period / 2 : -period / 2;
                 });
                 continue;
             }
             mirrored.push_back(i);
-            const auto flip = [i](Beginning& to) {
+            const auto flip = [i](InitialConditions& to) {
                 for (std::vector<double>& start : to.starts)
                     start[i] = -start[i];
             };
@@ -113,13 +113,13 @@ private:
                 changes_.emplace_back(flip);
         }
         if (mirrored.size() > 1)
-            changes_.emplace_back([mirrored](Beginning& to) {
+            changes_.emplace_back([mirrored](InitialConditions& to) {
                 for (std::vector<double>& start : to.starts)
                     for (const std::size_t i : mirrored)
                         start[i] = -start[i];
             });
     }
-    /// At the first time of every record.
+    /// Whether a state is unknown at the first time of every record.
     bool is_unknown(std::size_t state) const {
         return std::all_of(rows_->task().records.begin(), rows_->task().records.end(), [&](const FitRecord& record) {
             return std::find(record.unknown_states.begin(), record.unknown_states.end(), state) !=
@@ -132,7 +132,7 @@ private:
         for (const Symmetry& symmetry : model.symmetries) {
             const Function map = model.function_of(model.expand(symmetry.map));
             const std::vector<std::size_t> modes = symmetry.modes;
-            symmetries_.emplace_back([this, map, modes](Beginning& to) {
+            symmetries_.emplace_back([this, map, modes](InitialConditions& to) {
                 for (std::size_t r = 0; r < to.starts.size(); ++r) {
                     std::vector<double> inputs = to.starts[r];
                     const std::vector<double> values = rows_->parameters(r, point_->shared);
@@ -144,7 +144,7 @@ private:
         }
     }
 
-    bool is_allowed(const Beginning& there) const {
+    bool is_allowed(const InitialConditions& there) const {
         for (std::size_t j = 0; j < rows_->task().parameters.size(); ++j) {
             const UnknownParameter& unknown = rows_->task().parameters[j];
             if (there.shared[j] < unknown.least || there.shared[j] > unknown.greatest)
@@ -153,9 +153,9 @@ private:
         return true;
     }
 
-    /// What all outputs and their rates are at the first time of each record: twins have the same, and most others need
-    /// not be followed, through whatever strange motions they make.
-    std::vector<double> first_signs(const Beginning& at, const Eigen::VectorXd& shared) const {
+    /// Values and rates of all outputs at the first time of each record. Alternative solutions have the same; this
+    /// rejects most candidates before any motion is computed.
+    std::vector<double> first_signs(const InitialConditions& at, const Eigen::VectorXd& shared) const {
         const System& system = rows_->system();
         const std::size_t states = rows_->layout.states;
         std::vector<double> signs, gradient(1 + states + system.parameters()), rates(states), work(system.workspace());
@@ -181,7 +181,7 @@ private:
         }
         return signs;
     }
-    bool begins_alike(const Beginning& there, const Eigen::VectorXd& shared) const {
+    bool starts_alike(const InitialConditions& there, const Eigen::VectorXd& shared) const {
         constexpr double alike = 1e-6;
         const std::vector<double> signs = first_signs(there, shared);
         for (std::size_t i = 0; i < signs.size(); ++i)
@@ -190,46 +190,47 @@ private:
         return true;
     }
 
-    /// Whether the motions from there meet the readings as well, piece by piece, which then is the twin's point.
-    bool meets(const Beginning& there, FoundTwin& twin) const {
-        constexpr double as_well = 1.001, round_off = 1e-6; // of ranges
+    /// Whether the motions from other initial conditions fit the readings equally well, piece by piece. If so,
+    /// `solution` becomes that point.
+    bool meets(const InitialConditions& there, FoundSolution& solution) const {
+        constexpr double as_well = 1.001, round_off = 1e-6; // of the ranges of the readings
         if (!is_allowed(there))
             return false;
         const FitLayout& layout = rows_->layout;
         Eigen::VectorXd shared = point_->shared, states;
         for (Eigen::Index j = 0; j < shared.size(); ++j)
             shared[j] = there.shared[static_cast<std::size_t>(j)] / layout.shared_scale[j];
-        if (!begins_alike(there, shared))
+        if (!starts_alike(there, shared))
             return false;
         std::size_t mode = 0;
         for (std::size_t k = 0; k < layout.pieces.size(); ++k) {
             FitPiece piece = layout.pieces[k];
-            if (piece.opening && !begins(piece, there, states))
+            if (piece.is_first && !set_first_states(piece, there, states))
                 return false;
-            piece.mode = piece.opening ? there.modes[piece.record] : mode;
-            twin.modes.push_back(piece.mode);
-            twin.point.states.push_back(states);
+            piece.mode = piece.is_first ? there.modes[piece.record] : mode;
+            solution.modes.push_back(piece.mode);
+            solution.point.states.push_back(states);
             try {
                 const PieceRows& rows = rows_->evaluate(piece, shared, states);
                 if (!rows.finite || !rows.complete)
                     return false;
                 const Eigen::Index last = rows.readings.cols() - 1, before = (*known_)[k].readings.cols() - 1;
                 const double rest = (*known_)[k].readings.col(before).norm();
-                const auto readings = static_cast<double>(rows.rests.size());
+                const auto readings = static_cast<double>(rows.residuals.size());
                 if (rows.readings.col(last).norm() > as_well * rest + round_off * std::sqrt(readings))
                     return false;
                 states = rows.ends.col(rows.ends.cols() - 1);
                 mode = rows.end_mode;
-            } catch (const InputError&) { // no motion begins there
+            } catch (const InputError&) { // no motion can start there
                 return false;
             }
         }
-        twin.point.shared = shared;
-        twin.strays = strays_of(rows_->task(), there.shared);
+        solution.point.shared = shared;
+        solution.changed_signs = changed_signs_of(rows_->task(), there.shared);
         return true;
     }
-    /// @return false where a state would change that is known
-    bool begins(const FitPiece& piece, const Beginning& there, Eigen::VectorXd& states) const {
+    /// Sets the initial states of a record's first piece. @return false if that would change a known state
+    bool set_first_states(const FitPiece& piece, const InitialConditions& there, Eigen::VectorXd& states) const {
         const std::vector<std::size_t>& unknown = rows_->task().records[piece.record].unknown_states;
         const std::vector<double>&to = there.starts[piece.record], &from = here_.starts[piece.record];
         for (std::size_t i = 0; i < to.size(); ++i)
@@ -242,8 +243,8 @@ private:
         return true;
     }
 
-    void add(const Beginning& there, FoundTwin found, std::vector<FoundTwin>& twins) const {
-        FitTwin& twin = found.twin;
+    void add(const InitialConditions& there, FoundSolution found, std::vector<FoundSolution>& solutions) const {
+        AlternativeSolution& solution = found.solution;
         bool sure = false;
         for (std::size_t i = 0; i < fit_->numbers.size(); ++i) {
             const FittedNumber& number = fit_->numbers[i];
@@ -251,29 +252,29 @@ private:
                 number.kind == FittedNumber::Kind::state ? there.starts[number.record][number.index] : there.shared[i];
             if (value == number.estimate.value)
                 continue;
-            twin.numbers.emplace_back(i, value);
-            twin.text += fmt::format("{}{} = {:.6g}", twin.text.empty() ? "" : ", ", number.name, value);
+            solution.numbers.emplace_back(i, value);
+            solution.text += fmt::format("{}{} = {:.6g}", solution.text.empty() ? "" : ", ", number.name, value);
             sure = sure || std::abs(value - number.estimate.value) > 2 * far * number.estimate.error;
         }
-        if (sure && std::none_of(twins.begin(), twins.end(),
-                                 [&](const FoundTwin& other) { return other.twin.text == twin.text; }))
-            twins.push_back(std::move(found));
+        if (sure && std::none_of(solutions.begin(), solutions.end(),
+                                 [&](const FoundSolution& other) { return other.solution.text == solution.text; }))
+            solutions.push_back(std::move(found));
     }
 
     FitRows* rows_;
     const FitPoint* point_;
     const std::vector<PieceRows>* known_;
     const Fit* fit_;
-    Beginning here_;
+    InitialConditions here_;
     std::vector<Function> outputs_; ///< with gradients
     std::vector<double> signs_;
     std::vector<Change> changes_, symmetries_;
-    std::vector<std::size_t> gains_; ///< among what is shared
+    std::vector<std::size_t> gains_; ///< indices of gains among the shared unknowns
 };
 
 } // namespace
 
-std::size_t strays_of(const FitTask& task, const std::vector<double>& shared) {
+std::size_t changed_signs_of(const FitTask& task, const std::vector<double>& shared) {
     std::size_t count = 0, j = 0;
     for (const UnknownParameter& unknown : task.parameters)
         count += unknown.guess * shared[j++] < 0 ? 1 : 0;
@@ -283,9 +284,9 @@ std::size_t strays_of(const FitTask& task, const std::vector<double>& shared) {
     return count;
 }
 
-std::vector<FoundTwin> twins_of(FitRows& rows, const FitPoint& point, const std::vector<PieceRows>& known,
-                                const Fit& fit) {
-    return TwinSearch(rows, point, known, fit).run();
+std::vector<FoundSolution> alternative_solutions(FitRows& rows, const FitPoint& point,
+                                                 const std::vector<PieceRows>& known, const Fit& fit) {
+    return AlternativeSearch(rows, point, known, fit).run();
 }
 
 } // namespace graze

@@ -10,26 +10,25 @@
 
 namespace graze::testing {
 
-/// Another generator than that of the virtual bench, made for tests alone: it knows what it gives at its output, stands
-/// at first in any state, and has habits that makers differ in. Whatever it is told, it notes the largest voltages that
-/// have left it.
-class StrangerGenerator {
+/// A simulated generator for tests, independent of that of the virtual bench. It starts in an arbitrary state and has
+/// optional habits of different makers. It records the largest voltages at its output, whatever it is told.
+class ArbitraryGenerator {
 public:
     enum Habit : unsigned {
-        has_switch = 1,            ///< of its output
+        has_switch = 1,            ///< its output has a switch
         keeps_numbers = 2,         ///< 2 dBm becomes 2 V when the unit is changed, and likewise for shapes and loads
         knows_minimum = 4,         ///< understands VOLT MIN
         short_function = 8,        ///< FUNC without SHAP
-        unit_is_stuck = 16,        ///< says nothing, and stays in its unit
+        unit_is_stuck = 16,        ///< ignores VOLT:UNIT without an error
         load_is_stuck = 32,        ///< likewise
         shape_is_stuck = 64,       ///< likewise
         modulation_is_stuck = 128, ///< likewise
         frequency_resets = 256,    ///< its amplitude is 10 V after each FREQ
-        switch_recalls = 512,      ///< and 7 V after each OUTP ON
+        switch_recalls = 512,      ///< its amplitude is 7 V after each OUTP ON
         amplitude_shifts = 1024,   ///< its offset is 1 V after each VOLT
     };
 
-    StrangerGenerator(unsigned seed, unsigned habits, double real_load) : habits_(habits), real_load_(real_load) {
+    ArbitraryGenerator(unsigned seed, unsigned habits, double real_load) : habits_(habits), real_load_(real_load) {
         std::mt19937 random(seed);
         const auto draw = [&](double from, double to) { return std::uniform_real_distribution<>(from, to)(random); };
         unit_ = std::vector<std::string>{"VPP", "VRMS", "DBM"}[random() % 3];
@@ -46,7 +45,7 @@ public:
         first_offset = std::abs(offset());
     }
 
-    /// @return answers, a line each
+    /// Executes a line. @return answers, one per line
     std::string execute(const std::string& line) {
         std::string command = line.substr(0, line.find(' ')), argument;
         if (command.size() < line.size())
@@ -57,7 +56,7 @@ public:
         greatest_offset = std::max(greatest_offset, std::abs(offset()));
         return answer;
     }
-    /// Somebody at its panel, or as it stands when it was switched off and on.
+    /// A change at its panel, or by switching it off and on.
     void turn_to_rms() { unit_ = "VRMS"; }
     void take(Habit habit) { habits_ |= habit; }
 
@@ -70,13 +69,13 @@ public:
     double frequency() const { return frequency_; }
 
     double first_peaks = 0, first_offset = 0;
-    double greatest_peaks = 0, greatest_offset = 0; ///< since it was told anything, at the load that is really there
+    double greatest_peaks = 0, greatest_offset = 0; ///< since the first command, at the real load
     double limit = 1e300;
-    std::size_t lines_beyond = 0; ///< after which so many lines it gave more than the limit
+    std::size_t lines_beyond = 0; ///< number of lines after which it exceeded the limit
 
 private:
     bool has(Habit habit) const { return (habits_ & habit) != 0; }
-    /// From peak to peak over the number that is shown.
+    /// Ratio of peak-to-peak voltage to the displayed number.
     double volts() const {
         const double crest = shape_ == "SIN"    ? std::sqrt(8.0)
                              : shape_ == "SQU"  ? 2
@@ -94,7 +93,7 @@ private:
         errors_.emplace_back(error);
         return "";
     }
-    /// A change of unit, shape or load after which what leaves it is the same, unless it keeps its number.
+    /// Changes unit, shape or load so that the output stays the same, unless the habit is to keep the number.
     template <class Change>
     std::string change(Habit stuck, const Change& make) {
         if (has(stuck))

@@ -1,4 +1,4 @@
-#include "graze/flow/late_states.hpp"
+#include "graze/flow/dormant_states.hpp"
 
 #include "graze/flow/mode_flow.hpp"
 #include "graze/model/model_file.hpp"
@@ -11,8 +11,8 @@
 namespace graze {
 namespace {
 
-/// A chain of lags, of which the first is pushed by 1: state n is the chance that n events of a Poisson process have
-/// happened.
+/// A chain of first-order lags, the first driven by 1: state n is the probability that n events of a Poisson process
+/// have happened.
 Model lags(int count, const std::string& pull = "") {
     std::string states, rates;
     for (int i = 1; i <= count; ++i) {
@@ -45,8 +45,8 @@ Followed followed(const Model& model, double time, double tolerance = 1e-12) {
     return run;
 }
 
-TEST(LateStates, StepsDoNotGrowWithTheSquareOfAChainsLength) {
-    // Some forty until states have sizes, and about one for each lag.
+TEST(DormantStates, StepsGrowLinearlyWithTheLengthOfAChain) {
+    // Some forty steps until all states have a size, and about one for each lag.
     for (const int count : {10, 60, 200}) {
         const Followed run = followed(lags(count), count);
         EXPECT_LE(run.steps, 60 + static_cast<std::size_t>(count)) << count;
@@ -54,8 +54,8 @@ TEST(LateStates, StepsDoNotGrowWithTheSquareOfAChainsLength) {
     }
 }
 
-TEST(LateStates, AreRightWhereTheyMatter) {
-    // To the tolerance of what the first ones are, wherever the motion ends.
+TEST(DormantStates, StatesAreAccurateWhereTheyMatter) {
+    // Errors are relative to the first states, wherever the motion ends.
     const Model model = lags(60);
     for (const double time : {0.01, 1.0, 5.0, 20.0, 40.0, 100.0}) {
         const Followed run = followed(model, time);
@@ -64,7 +64,7 @@ TEST(LateStates, AreRightWhereTheyMatter) {
     }
 }
 
-TEST(LateStates, OfChainsThatAreNotLinearAreAsAccurate) {
+TEST(DormantStates, NonlinearChainsAreAsAccurate) {
     const Model model = lags(40, " - x{0}^3");
     const Followed run = followed(model, 30), finer = followed(model, 30, 1e-16);
     EXPECT_LE(run.steps, 150u);
@@ -72,8 +72,8 @@ TEST(LateStates, OfChainsThatAreNotLinearAreAsAccurate) {
         EXPECT_NEAR(run.state[i], finer.state[i], 1e-12) << i;
 }
 
-TEST(LateStates, AreNoneWhereSomethingSmallMayBecomeLargeAtOnce) {
-    // The bell far away is nothing at first; no floor may hide it.
+TEST(DormantStates, AreNotUsedWhereASmallStateCanBecomeLargeAtOnce) {
+    // The bell-shaped term is negligible at first; a floor must not hide it.
     const Model model = parse_model(R"(name = "bell"
 [states]
 s = -20

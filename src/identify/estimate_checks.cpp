@@ -1,4 +1,4 @@
-#include "identify/doubts.hpp"
+#include "identify/estimate_checks.hpp"
 
 #include "identify/impact_proportion.hpp"
 
@@ -10,23 +10,22 @@
 
 namespace graze {
 
-void doubt(Identification& found, const std::string& name, const std::string& channel, const ResidualTest& left,
-           const char* what) {
+void check_residuals(Identification& found, const std::string& name, const std::string& channel,
+                     const ResidualTest& left, const char* what) {
     if (!left.is_noise())
-        found.warnings.push_back(fmt::format("{}: '{}' is not {}: {}; intervals are too narrow, and may be elsewhere",
+        found.warnings.push_back(fmt::format("{}: '{}' is not {}: {}; intervals are too narrow, and may be misplaced",
                                              name, channel, what, left.text()));
 }
 
-/// A value that nothing has is no answer.
-void refuse_value(Identification& found, const std::string& value, const std::string& why) {
-    found.warnings.push_back(fmt::format("{} is not told: {}", value, why));
+void remove_value(Identification& found, const std::string& value, const std::string& why) {
+    found.warnings.push_back(fmt::format("{} is left out: {}", value, why));
     std::erase_if(found.values, [&](const Identification::Value& one) { return one.name == value; });
 }
 
-void doubt_impacts(Identification& found, const std::string& name, const std::string& channel,
+void check_impacts(Identification& found, const std::string& name, const std::string& channel,
                    const VelocityWatch& watched, std::span<const RecordedImpact> impacts, const Restitution& one) {
     const auto warn = [&](const std::string& text) {
-        found.warnings.push_back(fmt::format("{}: {}; the interval is too narrow, and may be elsewhere", name, text));
+        found.warnings.push_back(fmt::format("{}: {}; the interval is too narrow, and may be misplaced", name, text));
     };
     if (const std::size_t clipped = clipped_readings(watched.values); clipped > 0)
         warn(fmt::format("{} readings of '{}' stand at the end of their range, as if they were clipped", clipped,
@@ -40,83 +39,81 @@ void doubt_impacts(Identification& found, const std::string& name, const std::st
         squares.push_back(weight * impacts[k].before * std::abs(impacts[k].before));
         order.push_back(weight * impacts[k].before * static_cast<double>(k));
     }
-    // By the scatter about the line, and by the velocities' own errors, which a line that is shifted does not enlarge.
-    constexpr double hardly = 1e-5, hardly_by_errors = 1e-3, hardly_unlike = 1e-6;
+    // Levels of the tests by the scatter about the line, and by the velocities' own errors, which an offset does not
+    // enlarge.
+    constexpr double level = 1e-5, level_by_errors = 1e-3, level_unlike = 1e-6;
     const ImpactProportion proportion = test_proportion(impacts, one.coefficient.value);
-    if (chance_of_fit(left, {speeds}, {constant}) < hardly ||
-        (proportion.offset < hardly_by_errors && proportion.offset <= proportion.change))
+    if (chance_of_fit(left, {speeds}, {constant}) < level ||
+        (proportion.offset < level_by_errors && proportion.offset <= proportion.change))
         warn(fmt::format("velocities after impacts are not in proportion to those before ('{}' may have an offset)",
                          channel));
-    else if (chance_of_fit(left, {speeds}, {squares, order}) < hardly || proportion.change < hardly_by_errors)
+    else if (chance_of_fit(left, {speeds}, {squares, order}) < level || proportion.change < level_by_errors)
         warn("the restitution changes with the speed, or in the course of the record");
-    else if (proportion.unlike < hardly_unlike)
+    else if (proportion.unlike < level_unlike)
         found.warnings.push_back(fmt::format("{}: the restitution changes from impact to impact: they differ by {:.2g} "
                                              "times the errors of their velocities; the interval is that of its mean",
                                              name, std::sqrt(proportion.scatter)));
-    constexpr double hardly_excess = 3; // of an impact that loses nothing once in a thousand times
-    if (proportion.excess > hardly_excess)
-        warn(fmt::format(
-            "the restitution is above one by {:.2g} times the errors of velocities, as none of an impact is "
-            "('{}' may have an offset)",
-            proportion.excess, channel));
+    constexpr double excess_limit = 3; // standard errors: chance 1e-3 for an elastic impact
+    if (proportion.excess > excess_limit)
+        warn(fmt::format("the restitution is above one by {:.2g} times the errors of velocities, which no impact has "
+                         "('{}' may have an offset)",
+                         proportion.excess, channel));
     const ResidualTest test = test_residuals(left);
     if (!test.is_noise())
-        warn("what is left of velocities after impacts is no noise: " + test.text());
+        warn("residuals of velocities after impacts are not random noise: " + test.text());
 }
 
-/// Of impacts that nobody has: none turns a body back faster than it came.
-void refuse_restitutions(Identification& found) {
+void check_restitutions(Identification& found) {
     const std::vector<Identification::Value> values = found.values;
     for (const Identification::Value& one : values) {
         const double least = one.estimate.value - one.estimate.half_width();
         constexpr double none = 1e-9;
         if (one.name.starts_with("restitution") && (least > 1 || !(one.estimate.value > none)))
-            refuse_value(found, one.name,
-                         fmt::format("{:.4g} is none of an impact; look at which channel is the velocity, and at its "
-                                     "offset",
-                                     one.estimate.value));
+            remove_value(
+                found, one.name,
+                fmt::format("{:.4g} is impossible for an impact; look at which channel is the velocity, and at its "
+                            "offset",
+                            one.estimate.value));
     }
 }
 
-void doubt_loads(Identification& found, const std::vector<StaticLoad>& loads, const CouplingSettings& known,
+void check_loads(Identification& found, const std::vector<StaticLoad>& loads, const CouplingSettings& known,
                  const Coupling& constants) {
     const double space = constants.beta2.value + known.gap;
     double furthest = 0;
     for (const StaticLoad& load : loads)
         furthest = std::max(furthest, load.displacement);
     const auto refuse = [&](const char* why) {
-        refuse_value(found, "beta1", why);
-        refuse_value(found, "beta2", why);
+        remove_value(found, "beta1", why);
+        remove_value(found, "beta2", why);
     };
     if (!(constants.beta1.value > 0) || !(space > furthest))
         return refuse("no magnet has such a force; look at which channel is which, and at their units");
     constexpr double roundoff = 1e-9; // of the gap
     if (constants.beta2.value + constants.beta2.half_width() < -roundoff * known.gap)
-        return refuse(
-            "beta2, which the way through the iron adds to the gap, comes out below zero; look at the gap, and "
-            "at units and offset of the displacement");
+        return refuse("beta2, the part of the magnetic path in iron, comes out below zero; look at the gap, and "
+                      "at units and offset of the displacement");
     for (const char* what : {"displacements", "currents"}) {
         std::vector<double> values;
         for (const StaticLoad& load : loads)
             values.push_back(*what == 'd' ? load.displacement : load.current);
         if (const std::size_t clipped = clipped_readings(values); clipped > 0)
             found.warnings.push_back(fmt::format("{} {} stand at the end of their range, as if they were clipped; "
-                                                 "intervals may be elsewhere",
+                                                 "intervals may be misplaced",
                                                  clipped, what));
     }
     if (!constants.reasons.empty())
-        found.warnings.push_back(fmt::format("these are no equilibria with nothing but noise: {}; intervals are too "
-                                             "narrow, and may be elsewhere",
+        found.warnings.push_back(fmt::format("the loads are not equilibria with random noise: {}; intervals are too "
+                                             "narrow, and may be misplaced",
                                              fmt::join(constants.reasons, "; ")));
 }
 
-void refuse_signs(Identification& found) {
+void check_coil(Identification& found) {
     const auto refuse = [&](const std::string& name, const char* remedy) {
         const auto one = std::find_if(found.values.begin(), found.values.end(),
                                       [&](const Identification::Value& value) { return value.name == name; });
         if (one != found.values.end() && !(one->estimate.value > 0))
-            refuse_value(found, name,
-                         fmt::format("the {} comes out below zero, as none of a coil does; {}", name, remedy));
+            remove_value(found, name, fmt::format("the {} comes out below zero, which no coil has; {}", name, remedy));
     };
     refuse("resistance", "look at the sign of the current or the voltage (--scale NAME=-1)");
     refuse("inductance", "the current leads the voltage: look at which channel is which, at the frequency, and at "

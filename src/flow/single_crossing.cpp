@@ -1,4 +1,4 @@
-#include "flow/lone_crossing.hpp"
+#include "flow/single_crossing.hpp"
 
 #include "flow/kept_sign.hpp"
 #include "graze/flow/roots.hpp"
@@ -12,7 +12,7 @@ double guess_of_monotone(std::span<const double> c, double length, const PointVa
     return t * t * (3 - 2 * t) * length + change * t * rest * (rest / c[1] - t / end.slope);
 }
 
-std::optional<LoneCrossing> lone_crossing(std::span<const double> c, double length) {
+std::optional<SingleCrossing> single_crossing(std::span<const double> c, double length) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     if (c.empty() || c[0] == 0 || !(length > 0) || !(length < infinity))
         return std::nullopt;
@@ -20,13 +20,13 @@ std::optional<LoneCrossing> lone_crossing(std::span<const double> c, double leng
     const PointValue end = evaluate(c, length);
     const int at_end = end.sign();
     if (at_end == at_start && kept_sign(c, length) == at_start)
-        return LoneCrossing{false, at_start, end};
+        return SingleCrossing{false, at_start, end};
     if (at_end == 0 || RootFinder::trend(c, length) == 0)
         return std::nullopt;
-    return LoneCrossing{at_end != at_start, at_start, end};
+    return SingleCrossing{at_end != at_start, at_start, end};
 }
 
-double LoneCrossing::place(std::span<const double> c, double length) const {
+double SingleCrossing::place(std::span<const double> c, double length) const {
     return refine(c, 0, length, at_start, guess_of_monotone(c, length, end));
 }
 

@@ -1,4 +1,4 @@
-#include "identify/other_openings.hpp"
+#include "identify/other_initial_states.hpp"
 
 #include "base/linear_systems.hpp"
 #include "graze/model/model.hpp"
@@ -14,8 +14,8 @@ namespace graze {
 
 namespace {
 
-/// What phases there might be.
-void add_phases(FitRows& rows, const FitPoint& point, std::size_t piece, std::vector<Eigen::VectorXd>& openings) {
+/// Adds initial states with other phases of cyclic states that no output shows.
+void add_phases(FitRows& rows, const FitPoint& point, std::size_t piece, std::vector<Eigen::VectorXd>& candidates) {
     constexpr int phases = 8;
     constexpr double seen = 0.2;
     const FitTask& task = rows.task();
@@ -40,13 +40,13 @@ void add_phases(FitRows& rows, const FitPoint& point, std::size_t piece, std::ve
             !(part * known.readings.col(place).norm() > seen * known.readings.col(known.readings.cols() - 1).norm()))
             continue;
         for (int k = 1; k < phases; ++k) {
-            openings.push_back(point.states[piece]);
-            openings.back()[place] += k * part;
+            candidates.push_back(point.states[piece]);
+            candidates.back()[place] += k * part;
         }
     }
 }
 
-/// States on the other side of contacts.
+/// Finds initial states on the other side of contacts near the first reading.
 class OtherSides {
 public:
     OtherSides(FitRows& rows, const FitPoint& point, std::size_t piece)
@@ -68,7 +68,7 @@ public:
             else
                 go_before(jump);
         }
-        return std::move(openings_);
+        return std::move(candidates_);
     }
 
 private:
@@ -96,10 +96,10 @@ private:
             result.rate += gradient[1 + i] * rates[i];
         return result;
     }
-    /// Contacts at the first readings only: others are found piece by piece.
+    /// Contacts within the first half of the piece only: others are found piece by piece.
     double most_late() const { return 0.5 * (piece_.end - piece_.begin); }
 
-    /// The contact comes at once: it was before the first reading.
+    /// Assumes that a contact that is about to happen was already before the first reading.
     void go_behind(const System::CompiledJump& jump) {
         const Approach now = approach(here_);
         const double late = -now.distance / now.rate;
@@ -111,7 +111,7 @@ private:
             add(moved(behind, -late));
     }
 
-    /// The motion has left the surface: it was before the contact, which is still to come.
+    /// Assumes that a contact that seems to have happened is still to come.
     void go_before(const System::CompiledJump& jump) {
         const std::optional<std::vector<double>> before = state_before(jump);
         if (!before)
@@ -126,10 +126,10 @@ private:
                 add(moved(*before, -late));
     }
 
-    /// What the jump maps to the state that is there, by Newton's method in the states that are unknown.
+    /// The state that the jump maps to the present one, by Newton's method in the unknown states.
     std::optional<std::vector<double>> state_before(const System::CompiledJump& jump) {
         constexpr int most = 20;
-        constexpr double nothing = 1e-9;
+        constexpr double negligible = 1e-9;
         const std::vector<std::size_t>& unknown = record_.unknown_states;
         const auto rows = static_cast<Eigen::Index>(jump.changed.size());
         const auto columns = static_cast<Eigen::Index>(unknown.size());
@@ -151,7 +151,7 @@ private:
             }
             if (!off.allFinite() || !slopes.allFinite())
                 return std::nullopt;
-            if (off.lpNorm<Eigen::Infinity>() <= nothing)
+            if (off.lpNorm<Eigen::Infinity>() <= negligible)
                 return state;
             const Eigen::VectorXd step = shortest_solution(slopes, off);
             for (Eigen::Index c = 0; c < columns; ++c)
@@ -161,7 +161,7 @@ private:
     }
 
     double scale_of(std::size_t state) const { return rows_->layout.state_scale[static_cast<Eigen::Index>(state)]; }
-    /// A little later, or earlier.
+    /// The state a short time later or earlier, to first order.
     std::vector<double> moved(std::vector<double> state, double time) {
         const std::vector<double> rates = rates_of(state);
         for (std::size_t i = 0; i < state.size(); ++i)
@@ -170,11 +170,11 @@ private:
     }
     void add(const std::vector<double>& state) {
         const std::vector<std::size_t>& unknown = record_.unknown_states;
-        Eigen::VectorXd opening(static_cast<Eigen::Index>(unknown.size()));
+        Eigen::VectorXd candidate(static_cast<Eigen::Index>(unknown.size()));
         for (std::size_t c = 0; c < unknown.size(); ++c)
-            opening[static_cast<Eigen::Index>(c)] = state[unknown[c]] / scale_of(unknown[c]);
-        if (opening.allFinite())
-            openings_.push_back(std::move(opening));
+            candidate[static_cast<Eigen::Index>(c)] = state[unknown[c]] / scale_of(unknown[c]);
+        if (candidate.allFinite())
+            candidates_.push_back(std::move(candidate));
     }
 
     FitRows* rows_;
@@ -183,15 +183,15 @@ private:
     const FitRecord& record_;
     std::vector<double> parameters_, here_, work_;
     std::size_t event_ = 0;
-    std::vector<Eigen::VectorXd> openings_;
+    std::vector<Eigen::VectorXd> candidates_;
 };
 
 } // namespace
 
-std::vector<Eigen::VectorXd> other_openings(FitRows& rows, const FitPoint& point, std::size_t piece) {
-    std::vector<Eigen::VectorXd> openings = OtherSides(rows, point, piece).run();
-    add_phases(rows, point, piece, openings);
-    return openings;
+std::vector<Eigen::VectorXd> other_initial_states(FitRows& rows, const FitPoint& point, std::size_t piece) {
+    std::vector<Eigen::VectorXd> candidates = OtherSides(rows, point, piece).run();
+    add_phases(rows, point, piece, candidates);
+    return candidates;
 }
 
 } // namespace graze

@@ -1,4 +1,4 @@
-#include "graze/trajectory/outlook.hpp"
+#include "graze/trajectory/step_preview.hpp"
 
 #include "graze/flow/roots.hpp"
 #include "graze/flow/step_check.hpp"
@@ -13,16 +13,16 @@ namespace graze {
 
 namespace {
 
-/// Of so few events the tighter bounds are found as quickly as any.
+/// For at most this many events the tighter bounds are as fast as any.
 constexpr std::size_t few_events = 2;
 
-/// Terms that are summed side by side.
+/// Number of terms that are summed side by side.
 constexpr std::size_t block = 4;
 
 using Block = std::array<double, block>;
 
-/// Sum of |c_k| weights_k over whole blocks, and of the last ones of c with weights of their own: where that block
-/// overlaps the one before they are 0.
+/// Returns the sum of |c_k| weights_k over whole blocks, and over the last coefficients with separate weights, which
+/// are 0 where the last block overlaps the one before.
 double sum_of_sizes(std::span<const double> c, const double* weights, const Block& last_weights) {
     double part[block] = {};
     const double *all = c.data(), *last = all + c.size() - block;
@@ -36,14 +36,14 @@ double sum_of_sizes(std::span<const double> c, const double* weights, const Bloc
 
 } // namespace
 
-Outlook::Outlook(const Simulation& simulation, int width)
+StepPreview::StepPreview(const Simulation& simulation, int width)
     : simulation_(simulation), width_(static_cast<std::size_t>(std::max(width, 1))),
       log_tolerance_(StepSize(simulation.order(), simulation.options().tolerance).log_tolerance()),
       allowance_{StepCheck::allowance * simulation.options().tolerance,
                  StepCheck::value_allowance * simulation.options().tolerance, StepCheck::smallest_size},
       lengths_(width_), states_(simulation.system().states() * width_), slopes_(states_.size()), disagreement_(width_) {
     if (width < 1)
-        throw std::invalid_argument("an outlook needs at least one lane");
+        throw std::invalid_argument("an preview needs at least one lane");
     std::size_t most_watched = 0;
     for (std::size_t mode = 0; mode < simulation.model().modes.size(); ++mode)
         most_watched = std::max(most_watched, simulation.system().mode(mode).watched.size());
@@ -52,11 +52,11 @@ Outlook::Outlook(const Simulation& simulation, int width)
     powers_.resize(static_cast<std::size_t>(simulation.order()) + 1);
 }
 
-void Outlook::find_steps(const Jet& jet) {
+void StepPreview::find_steps(const Jet& jet) {
     jet.find_steps(log_tolerance_, lengths_, lengths_);
 }
 
-void Outlook::look(Jet& jet, Jet& next, std::size_t mode) {
+void StepPreview::evaluate_ends(Jet& jet, Jet& next, std::size_t mode) {
     jet_ = &jet;
     next_ = &next;
     jet.evaluate_states(lengths_, states_, slopes_);
@@ -69,14 +69,13 @@ void Outlook::look(Jet& jet, Jet& next, std::size_t mode) {
     jet.find_disagreement(next, allowance_, lengths_, states_, slopes_, disagreement_);
 }
 
-/// The same bounds for a single lane. Most of many events are far off, which sizes of terms show without their signs;
-/// the others' bounds are the tighter ones. What terms and their sum may have lost to round-off is in either: see
-/// RootFinder::enclosure.
-void Outlook::bound_events(const Jet& jet, std::size_t watched) {
+/// The same bounds for a single lane. Most of many events are far away: then the sizes of terms without signs are
+/// enough; the others get the tighter bounds. Both include the round-off of terms and sums: see RootFinder::enclosure.
+void StepPreview::bound_events(const Jet& jet, std::size_t watched) {
     const std::size_t size = powers_.size();
     const double length = lengths_[0], share = 0x1p-53 * static_cast<double>(2 * size + 8);
     double power = length;
-    powers_[0] = 0; // the sign of the first coefficient counts
+    powers_[0] = 0; // the first coefficient is used with its sign
     for (std::size_t k = 1; k < size; ++k, power *= length)
         powers_[k] = power;
     Block last_powers{};

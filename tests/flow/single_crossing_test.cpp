@@ -1,4 +1,4 @@
-#include "flow/lone_crossing.hpp"
+#include "flow/single_crossing.hpp"
 
 #include "graze/flow/roots.hpp"
 
@@ -13,7 +13,7 @@ namespace {
 
 using namespace graze;
 
-TEST(LoneCrossing, AgreesWithAllCrossingsBitForBit) {
+TEST(SingleCrossing, AgreesWithAllCrossingsBitForBit) {
     std::mt19937_64 random(5);
     std::uniform_real_distribution<double> coefficient(-1, 1);
     RootFinder finder(20);
@@ -26,7 +26,7 @@ TEST(LoneCrossing, AgreesWithAllCrossingsBitForBit) {
             one = coefficient(random) * power;
             power *= 0.4;
         }
-        const auto lone = roots::lone_crossing(c, 1);
+        const auto lone = roots::single_crossing(c, 1);
         if (!lone)
             continue;
         EXPECT_EQ(lone->at_start, c[0] > 0 ? 1 : -1);
@@ -42,9 +42,8 @@ TEST(LoneCrossing, AgreesWithAllCrossingsBitForBit) {
     EXPECT_GT(never, 4'000);
 }
 
-TEST(LoneCrossing, IsPlacedToRoundOff) {
-    // exp(s) - a, whose root is log(a): that of the series to order 20 differs by 1 / 21! from it, the rest is
-    // round-off.
+TEST(SingleCrossing, IsLocatedToRoundOff) {
+    // exp(s) - a has the root log(a); the root of its series to order 20 differs by 1 / 21!, and by round-off.
     for (const double a : {1.001, 1.5, 2.0, 2.7}) {
         std::vector<double> c(21);
         double factorial = 1;
@@ -53,21 +52,21 @@ TEST(LoneCrossing, IsPlacedToRoundOff) {
             c[k] = 1 / factorial;
         }
         c[0] -= a;
-        const auto lone = roots::lone_crossing(c, 1);
+        const auto lone = roots::single_crossing(c, 1);
         ASSERT_TRUE(lone && lone->crosses);
         EXPECT_NEAR(lone->place(c, 1), std::log(a), 8 * std::numeric_limits<double>::epsilon());
     }
 }
 
-TEST(LoneCrossing, LeavesOpenWhatIsNotSimple) {
+TEST(SingleCrossing, IsUncertainForOtherPolynomials) {
     const auto is_open = [](const std::vector<double>& c, double length) {
-        return !roots::lone_crossing(c, length).has_value();
+        return !roots::single_crossing(c, length).has_value();
     };
     EXPECT_TRUE(is_open({}, 1));
     EXPECT_TRUE(is_open({0, 1}, 1));
     EXPECT_TRUE(is_open({1, -1}, 1));            // zero at the end
     EXPECT_TRUE(is_open({0.24, -1, 1}, 1));      // two crossings
-    EXPECT_TRUE(is_open({0.2, -1.2, 2, -1}, 1)); // three extrema and crossings cannot be told at a glance
+    EXPECT_TRUE(is_open({0.2, -1.2, 2, -1}, 1)); // three crossings cannot be separated by the cheap test
     EXPECT_TRUE(is_open({1, 1}, 0));
     EXPECT_TRUE(is_open({1, 1}, std::numeric_limits<double>::infinity()));
 }

@@ -1,8 +1,8 @@
-#include "identify/fit_beginning.hpp"
+#include "identify/fit_initialisation.hpp"
 
 #include "base/median.hpp"
 #include "identify/fit_start.hpp"
-#include "identify/other_openings.hpp"
+#include "identify/other_initial_states.hpp"
 
 #include <algorithm>
 
@@ -25,28 +25,28 @@ double prior_weight(const FitRows& rows) {
     return rows.unit() / usual_change;
 }
 
-StageReport FitBeginning::by_readings() {
+StageReport FitInitialisation::by_readings() {
     return extend(soft_stage(), [this](std::size_t& k) {
-        if (!pieces()[k].opening)
+        if (!pieces()[k].is_first)
             continue_from(*rows_, *point_, k);
-        return begin_piece(k);
+        return initialise_piece(k);
     });
 }
 
-StageReport FitBeginning::by_prediction() {
+StageReport FitInitialisation::by_prediction() {
     FitStage together = soft_stage();
     together.joint = 30;
     together.most_iterations = 30;
     return extend(together, [this](std::size_t& k) {
-        if (pieces()[k].opening)
-            return best_opening(alone(k), k);
+        if (pieces()[k].is_first)
+            return best_initial_state(alone(k), k);
         continue_from(*rows_, *point_, k, false);
         return StageReport();
     });
 }
 
 template <class Begin>
-StageReport FitBeginning::extend(FitStage together, const Begin& begin) {
+StageReport FitInitialisation::extend(FitStage together, const Begin& begin) {
     StageReport report;
     usual_costs_.clear();
     std::size_t done = 0;
@@ -54,7 +54,7 @@ StageReport FitBeginning::extend(FitStage together, const Begin& begin) {
         for (std::size_t k = 0; k < pieces().size() && !report.interrupted; ++k) {
             if (ordinal(k) < done || ordinal(k) >= count)
                 continue;
-            if (!pieces()[k].opening && ends_bound(*rows_, *point_, k - 1))
+            if (!pieces()[k].is_first && ends_constrained(*rows_, *point_, k - 1))
                 merge(*rows_, *point_, k--);
             else
                 report = begin(k);
@@ -72,7 +72,7 @@ StageReport FitBeginning::extend(FitStage together, const Begin& begin) {
     return report;
 }
 
-FitStage FitBeginning::alone(std::size_t piece) const {
+FitStage FitInitialisation::alone(std::size_t piece) const {
     FitStage stage = soft_stage();
     stage.active.assign(rows_->layout.pieces.size(), false);
     stage.active[piece] = true;
@@ -81,14 +81,15 @@ FitStage FitBeginning::alone(std::size_t piece) const {
     return stage;
 }
 
-/// Finds the first state of a piece. Where it meets its readings far worse than others do a contact is amiss, as noise
-/// can make it near the piece's beginning: then it begins otherwise, or becomes part of the one before.
-StageReport FitBeginning::begin_piece(std::size_t& piece) {
-    constexpr double amiss = 3;
-    StageReport report = best_opening(alone(piece), piece);
+/// Finds the initial state of a piece. If its cost per reading is far larger than usual, a contact is wrong, as noise
+/// near the start of the piece can cause: then the piece starts from the prediction instead, or is merged with the one
+/// before.
+StageReport FitInitialisation::initialise_piece(std::size_t& piece) {
+    constexpr double suspicious = 3;
+    StageReport report = best_initial_state(alone(piece), piece);
     const auto readings = [&](std::size_t k) { return static_cast<double>(pieces()[k].last - pieces()[k].first); };
-    if (pieces()[piece].opening || usual_costs_.empty() || report.interrupted ||
-        report.cost < amiss * readings(piece) * usual_cost()) {
+    if (pieces()[piece].is_first || usual_costs_.empty() || report.interrupted ||
+        report.cost < suspicious * readings(piece) * usual_cost()) {
         usual_costs_.push_back(report.cost / readings(piece));
         return report;
     }
@@ -98,7 +99,7 @@ StageReport FitBeginning::begin_piece(std::size_t& piece) {
         report = other;
     else
         point_->states[piece] = first;
-    if (report.cost < amiss * readings(piece) * usual_cost())
+    if (report.cost < suspicious * readings(piece) * usual_cost())
         return report;
     const FitPoint apart = *point_;
     const FitLayout layout = rows_->layout;
@@ -113,16 +114,16 @@ StageReport FitBeginning::begin_piece(std::size_t& piece) {
     return report;
 }
 
-/// By reading, of half of the pieces.
-double FitBeginning::usual_cost() {
+/// Median cost per reading of the pieces fitted so far.
+double FitInitialisation::usual_cost() {
     return median(usual_costs_);
 }
 
-/// From each of the states in which a piece might begin: the one that meets its readings best.
-StageReport FitBeginning::best_opening(const FitStage& stage, std::size_t piece) {
+/// Minimises from each candidate of the initial state, and keeps the best result.
+StageReport FitInitialisation::best_initial_state(const FitStage& stage, std::size_t piece) {
     StageReport best = minimise_(stage);
     const std::vector<Eigen::VectorXd> others =
-        pieces()[piece].opening ? other_openings(*rows_, *point_, piece) : std::vector<Eigen::VectorXd>{};
+        pieces()[piece].is_first ? other_initial_states(*rows_, *point_, piece) : std::vector<Eigen::VectorXd>{};
     Eigen::VectorXd found = point_->states[piece];
     for (const Eigen::VectorXd& other : others) {
         point_->states[piece] = other;
@@ -138,15 +139,15 @@ StageReport FitBeginning::best_opening(const FitStage& stage, std::size_t piece)
     return best;
 }
 
-/// Which piece of its record.
-std::size_t FitBeginning::ordinal(std::size_t piece) const {
+/// Number of a piece within its record, from 0.
+std::size_t FitInitialisation::ordinal(std::size_t piece) const {
     std::size_t count = 0;
-    while (!rows_->layout.pieces[piece - count].opening)
+    while (!rows_->layout.pieces[piece - count].is_first)
         ++count;
     return count;
 }
 
-std::size_t FitBeginning::most_pieces() const {
+std::size_t FitInitialisation::most_pieces() const {
     std::size_t most = 0;
     for (std::size_t k = 0; k < rows_->layout.pieces.size(); ++k)
         most = std::max(most, ordinal(k) + 1);

@@ -1,25 +1,25 @@
-#include "identify/tangent_fan.hpp"
+#include "identify/tangent_evaluator.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace graze {
 
-TangentFan::Group::Group(const Simulation& simulation, std::size_t from_direction, std::size_t directions)
+TangentEvaluator::Group::Group(const Simulation& simulation, std::size_t from_direction, std::size_t directions)
     : first(from_direction), count(directions), jets(simulation.system(), simulation.order(), LaneKind::single),
       steps(simulation.system(), simulation.options().tolerance, directions),
       matrix(simulation.system().states() * directions), next(matrix.size()) {
     jets.add_tangents();
 }
 
-TangentFan::TangentFan(const Simulation& simulation, std::size_t directions)
+TangentEvaluator::TangentEvaluator(const Simulation& simulation, std::size_t directions)
     : states_(simulation.system().states()), directions_(directions) {
     const std::size_t lanes = TangentSteps::together(directions);
     for (std::size_t first = 0; first < directions; first += lanes)
         groups_.push_back(std::make_unique<Group>(simulation, first, std::min(lanes, directions - first)));
 }
 
-void TangentFan::set_parameters(std::span<const double> parameters, std::span<const double> seeds) {
+void TangentEvaluator::set_parameters(std::span<const double> parameters, std::span<const double> seeds) {
     for (const auto& group : groups_) {
         std::vector<double> some(parameters.size() * group->count);
         for (std::size_t j = 0; j < parameters.size(); ++j)
@@ -29,7 +29,7 @@ void TangentFan::set_parameters(std::span<const double> parameters, std::span<co
     }
 }
 
-void TangentFan::begin(std::size_t mode, std::span<const double> state, std::span<const double> matrix) {
+void TangentEvaluator::begin(std::size_t mode, std::span<const double> state, std::span<const double> matrix) {
     mode_ = mode;
     for (const auto& group : groups_) {
         group->state.assign(state.begin(), state.end());
@@ -40,7 +40,7 @@ void TangentFan::begin(std::size_t mode, std::span<const double> state, std::spa
     }
 }
 
-bool TangentFan::follow(Group& group, double s) {
+bool TangentEvaluator::follow(Group& group, double s) {
     for (int part = 0; part < TangentSteps::most_parts; ++part) {
         const double length = s - group.from;
         if (length == 0) {
@@ -63,7 +63,7 @@ bool TangentFan::follow(Group& group, double s) {
     return false;
 }
 
-bool TangentFan::at(double s, std::span<double> state, std::span<double> matrix) {
+bool TangentEvaluator::at(double s, std::span<double> state, std::span<double> matrix) {
     for (const auto& group : groups_) {
         if (!follow(*group, s))
             return false;

@@ -1,4 +1,4 @@
-#include "identify/other_openings.hpp"
+#include "identify/other_initial_states.hpp"
 
 #include "identify/recorded_motion.hpp"
 #include "identify/wall_model.hpp"
@@ -11,7 +11,7 @@ namespace graze::testing {
 
 namespace {
 
-/// When the wall is hit for the first time: x = -2 exp(-ct/2) (cos wt + c/(2w) sin wt) rises to 0.5, by bisection.
+/// Time of the first impact: x = -2 exp(-ct/2) (cos wt + c/(2w) sin wt) rises to 0.5, by bisection.
 double first_contact() {
     const double c = 0.1, w = std::sqrt(4 - c * c / 4);
     double before = 0, behind = std::acos(-1.0) / w;
@@ -23,7 +23,7 @@ double first_contact() {
     return before;
 }
 
-/// Of the wall model, displacement alone, from a little before an impact on.
+/// Record of the wall model's displacement alone, from a little before an impact on.
 RecordedMotion before_contact(double lead) {
     RecordedMotion motion(wall_model(), {"x"}, first_contact() - lead, 0.02, 300);
     EXPECT_EQ(motion.task.records[0].mode, 0U);
@@ -37,15 +37,15 @@ RecordedMotion before_contact(double lead) {
 
 } // namespace
 
-/// The first few readings alone, or only one, are from before the impact, and velocity is not read: what begins with
-/// the velocity behind it meets all others.
-TEST(OtherOpenings, ARecordBeginsJustBeforeAContact) {
+/// Only the first few readings, or a single one, precede the impact, and velocity is not read: starting with the
+/// velocity after the impact fits all other readings.
+TEST(OtherInitialStates, ARecordMayBeginJustBeforeAContact) {
     const double period = std::acos(-1.0);
     for (const double part : {0.001, 0.003, 0.01, 0.02}) {
         RecordedMotion motion = before_contact(part * period);
         const Fit fit = fit_model(motion.model, motion.task);
         EXPECT_EQ(name_of(fit.ending), "converged") << part << ": " << fit.detail;
-        EXPECT_LE(motion.error(fit), 1e-9) << part; // nothing but rounding is left
+        EXPECT_LE(motion.error(fit), 1e-9) << part; // only round-off is left
         EXPECT_EQ(fit.records[0].contacts, 3U);
     }
 }
