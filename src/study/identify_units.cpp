@@ -160,10 +160,10 @@ void convert_to_model(EstimateRecords& estimates, const StudyRun& run) {
         if (!parameter)
             continue;
         const std::string& unit = run.model.parameters[*run.model.find_parameter(number.name)].unit;
-        const auto& gives = run.identify().gives;
-        const bool ratio = std::any_of(gives.begin(), gives.end(), [&](const auto& one) {
-            return one.second == number.name && is_ratio(one.first);
-        });
+        const auto* const request = std::get_if<IdentifyRequest>(&run.request);
+        const bool ratio = request && std::any_of(request->gives.begin(), request->gives.end(), [&](const auto& one) {
+                               return one.second == number.name && is_ratio(one.first);
+                           });
         const auto from = ratio ? PhysicalUnit() : told_unit(number.unit), to = unit_in_model(run.model, unit);
         if (!from && to && !number.unit.empty() && number.unit != unit_symbol(unit))
             throw InputError(run.place,

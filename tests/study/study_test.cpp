@@ -199,7 +199,7 @@ TEST(Study, no_key_is_accepted_and_ignored) {
         for (const double value : run.model.initial_state())
             numbers += std::to_string(value) + ' ';
         return settings_of(run) + numbers + run.model.name + run.model.modes[run.model.initial_mode].name +
-               run.branch().table;
+               (run.is_branch() ? run.branch().table : "");
     };
     std::size_t used = 0, refused = 0;
     for (const Kind& kind : kinds)
