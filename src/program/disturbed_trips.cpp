@@ -73,6 +73,10 @@ FigurePanel panel_of(const std::string& x, const std::string& x_unit, const std:
     return panel;
 }
 
+FigureSeries series_of(const std::string& title, FigureSeries::Style style, std::size_t colour) {
+    return {title, style, colour, {}};
+}
+
 /// Notes how many rows have been asked for and are done.
 void note_rows(AskedTrips& asked, std::size_t wanted, std::size_t done) {
     asked.wanted = wanted;
@@ -264,14 +268,6 @@ void require_together(const TripArguments& arguments) {
 }
 
 } // namespace
-
-FigureSeries series_of(const std::string& title, FigureSeries::Style style, std::size_t colour) {
-    FigureSeries series;
-    series.title = title;
-    series.style = style;
-    series.colour = colour;
-    return series;
-}
 
 bool is_disturbed(const TripArguments& arguments) {
     return !(arguments.ramps.empty() && arguments.waves.empty() && arguments.noises.empty());

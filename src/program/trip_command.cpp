@@ -106,26 +106,6 @@ Table table_of_fold(const OvershootTrips& trips) {
     return table;
 }
 
-/// What a row says first of all, of a touch as of a fold: by the map or the normal form, and by simulation.
-struct Summary {
-    double overshoot = 0, cycles = nothing, time = nothing, end_time = nothing;
-};
-std::vector<Summary> summaries_of(const OvershootTrips& trips) {
-    std::vector<Summary> result;
-    for (const OvershootTrip& row : trips.of_touch)
-        result.push_back({row.overshoot, if_ended(*row.predicted, row.predicted->cycles),
-                          if_ended(*row.predicted, row.predicted->time),
-                          if_ended(*row.continued, row.continued->time)});
-    for (const FoldTrip& row : trips.of_fold) {
-        Summary& one = result.emplace_back(Summary{row.overshoot, row.cycles, row.cycles * trips.point.cycle, nothing});
-        if (row.passage && trips.end.given)
-            one.end_time = if_ended(row.passage->trip, row.passage->trip.time);
-        else if (row.passage && row.passage->passed)
-            one.end_time = row.passage->time;
-    }
-    return result;
-}
-
 Table table_of_both(const OvershootTrips& one, const OvershootTrips& other) {
     const std::string &time = one.point.model().time_unit, &other_time = other.point.model().time_unit;
     Table table({{"overshoot", one.point.unit},
@@ -135,76 +115,16 @@ Table table_of_both(const OvershootTrips& one, const OvershootTrips& other) {
                  {"beside_cycles", ""},
                  {"beside_time", other_time},
                  {"beside_end_time", other_time}});
-    const std::vector<Summary> rows = summaries_of(one), others = summaries_of(other);
+    const std::vector<TripSummary> rows = one.summaries(), others = other.summaries();
     for (std::size_t i = 0; i < std::min(rows.size(), others.size()); ++i) {
         table.add(rows[i].overshoot);
-        for (const Summary& summary : {rows[i], others[i]}) {
+        for (const TripSummary& summary : {rows[i], others[i]}) {
             table.add(summary.cycles);
             table.add(summary.time);
             table.add(summary.end_time);
         }
     }
     return table;
-}
-
-void add_touch(FigurePanel& panel, const OvershootTrips& trips, const std::string& which) {
-    const std::string level = fmt::format("speed {:.4g}", level_until(trips.point, trips.end.end));
-    const std::string& end = trips.end.words;
-    std::vector<std::pair<double, TripTime>> map, continued;
-    FigureSeries simulated = series_of(which + "simulation alone, until " + end, FigureSeries::Style::circles, 2);
-    for (const OvershootTrip& row : trips.of_touch) {
-        const double x = std::abs(row.overshoot);
-        if (x == 0) // has no place on the axis
-            continue;
-        if (row.predicted->ended)
-            map.emplace_back(x, *row.predicted);
-        if (row.continued->ended)
-            continued.emplace_back(x, *row.continued);
-        if (row.simulated && row.simulated->ended)
-            simulated.points.push_back({x, row.simulated->time});
-    }
-    constexpr int disc = 7, triangle = 9; // gnuplot's symbols
-    add_trips(panel, map, which + "map, until " + level, 0, triangle);
-    add_trips(panel, continued, which + "map, then simulation, until " + end, 1, disc);
-    panel.series.push_back(std::move(simulated));
-}
-
-void add_fold(FigurePanel& panel, const OvershootTrips& trips, const std::string& which) {
-    FigureSeries form = series_of(which + "normal form, from far away", FigureSeries::Style::dashed, 3);
-    FigureSeries gated = series_of(which + "normal form, from gate to gate", FigureSeries::Style::line, 3);
-    FigureSeries simulated = series_of(which + "simulation, until " + trips.end.words, FigureSeries::Style::circles, 4);
-    for (const Summary& summary : summaries_of(trips)) {
-        form.points.push_back({std::abs(summary.overshoot), summary.time});
-        if (std::isfinite(summary.end_time))
-            simulated.points.push_back({std::abs(summary.overshoot), summary.end_time});
-    }
-    for (const FoldTrip& row : trips.of_fold)
-        gated.points.push_back({std::abs(row.overshoot), row.gate_cycles * trips.point.cycle});
-    panel.series.insert(panel.series.end(), {form, gated, simulated});
-}
-
-Figure figure_of(const std::vector<OvershootTrips>& all) {
-    const LossPoint& point = all.front().point;
-    FigurePanel panel;
-    panel.x_label = point.name + (point.side > 0 ? " beyond its " : " short of its ") + point.kind();
-    if (all.size() > 1)
-        panel.x_label = "distance of " + point.name;
-    panel.x_unit = point.unit;
-    panel.y_label = "time";
-    panel.y_unit = point.model().time_unit;
-    panel.logarithmic_x = true;
-    panel.roomy_x = panel.roomy_y = true;
-    for (const OvershootTrips& trips : all) {
-        const std::string which = all.size() > 1 ? std::string(trips.point.kind()) + ": " : "";
-        panel.logarithmic_y = panel.logarithmic_y || trips.point.fold;
-        if (trips.point.fold)
-            add_fold(panel, trips, which);
-        else
-            add_touch(panel, trips, which);
-    }
-    Figure figure;
-    figure.panels.push_back(std::move(panel));
-    return figure;
 }
 
 void require_drawable(const std::vector<double>& overshoots) {
@@ -251,7 +171,7 @@ int trip_command(const TripArguments& arguments, const Console& console) {
                                            : table_of_touch(one);
         deliver(table, arguments.output, heading_of(file, asked.front()), console);
     } else {
-        draw_figure(figure_of(all), arguments.plot, arguments.data);
+        draw_figure(trip_figure(all), arguments.plot, arguments.data);
         console.out << arguments.plot << '\n';
     }
     if (interrupted) {

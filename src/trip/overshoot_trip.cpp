@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace graze {
 
@@ -56,6 +57,25 @@ FoldTrip trip_of_fold(const System& system, const FoldPassage& fold, double over
     if (trip.cycles < options.cycles && std::abs(overshoot) >= least_overshoot(fold))
         trip.passage = simulated_passage(system, fold, overshoot, end, until_passed, options);
     return trip;
+}
+
+std::vector<TripSummary> OvershootTrips::summaries() const {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    const auto if_ended = [](const TripTime& trip, double value) { return trip.ended ? value : unknown; };
+    std::vector<TripSummary> result;
+    for (const OvershootTrip& trip : of_touch)
+        result.push_back({trip.overshoot, if_ended(*trip.predicted, trip.predicted->cycles),
+                          if_ended(*trip.predicted, trip.predicted->time),
+                          if_ended(*trip.continued, trip.continued->time)});
+    for (const FoldTrip& trip : of_fold) {
+        TripSummary& one =
+            result.emplace_back(TripSummary{trip.overshoot, trip.cycles, trip.cycles * point.cycle, unknown});
+        if (trip.passage && end.given)
+            one.end_time = if_ended(trip.passage->trip, trip.passage->trip.time);
+        else if (trip.passage && trip.passage->passed)
+            one.end_time = trip.passage->time;
+    }
+    return result;
 }
 
 const TripTime* OvershootTrips::unfinished(std::size_t index) const {

@@ -55,6 +55,13 @@ struct FoldTrip {
 FoldTrip trip_of_fold(const System& system, const FoldPassage& fold, double overshoot, const TripEnd& end,
                       bool until_passed, const TripOptions& options = {});
 
+/// What touches and folds have in common of a trip; NaN where an end has not come.
+struct TripSummary {
+    double overshoot;
+    double cycles, time; ///< by the map or the normal form
+    double end_time;     ///< until the end that was asked for, by simulation
+};
+
 /// Trips from one point at several overshoots.
 struct OvershootTrips {
     LossPoint point;
@@ -64,6 +71,7 @@ struct OvershootTrips {
     bool interrupted = false;              ///< further overshoots have no trips
 
     std::size_t size() const { return of_touch.size() + of_fold.size(); }
+    std::vector<TripSummary> summaries() const;
     /// The simulation of a trip that has not come to its end; null when it has. @throws InputError for another index
     const TripTime* unfinished(std::size_t index) const;
 };
