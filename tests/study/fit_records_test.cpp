@@ -52,7 +52,7 @@ std::string refusal(const StudyRun& run, const std::vector<KeptRecord>& records)
     return "";
 }
 
-TEST(FitRecords, records_need_not_have_the_same_channels) {
+TEST(FitRecords, RecordsNeedNotHaveTheSameChannels) {
     const FitOfRecords found = fit_records(swing(), {record("x", "m"), record("v", "m/s")});
     ASSERT_EQ(found.fit.numbers.size(), 1U);
     EXPECT_NEAR(found.fit.numbers[0].estimate.value, 4, 1e-9); // the records are exact
@@ -63,7 +63,7 @@ TEST(FitRecords, records_need_not_have_the_same_channels) {
     EXPECT_THAT(refusal(strict, {record("x", "m")}), HasSubstr("the record has no channel 'v'"));
 }
 
-TEST(FitRecords, motions_are_integrated_with_the_tolerance_of_the_run) {
+TEST(FitRecords, MotionsAreIntegratedWithTheToleranceOfTheRun) {
     const auto k_at = [](double tolerance) {
         StudyRun run = swing();
         run.identify().simulation.tolerance = tolerance;
@@ -75,7 +75,7 @@ TEST(FitRecords, motions_are_integrated_with_the_tolerance_of_the_run) {
     EXPECT_LT(coarse, 1e-3);
 }
 
-TEST(FitRecords, units_that_do_not_agree_are_refused_in_the_words_of_who_asks) {
+TEST(FitRecords, RefusesUnitsThatDoNotAgreeInTheWordsOfTheCaller) {
     StudyRun run = swing();
     const std::vector<KeptRecord> millimetres{record("x", "mm", 1000)};
     EXPECT_EQ(refusal(run, millimetres),
@@ -93,7 +93,7 @@ TEST(FitRecords, units_that_do_not_agree_are_refused_in_the_words_of_who_asks) {
     EXPECT_THAT(refusal(run, {ticks}), HasSubstr("the unit of its time, 'ticks', is not known"));
 }
 
-TEST(FitRecords, what_is_no_record_is_refused) {
+TEST(FitRecords, RefusesWhatIsNoRecord) {
     EXPECT_THAT(refusal(swing(), {record("x", "m", 1, 1)}), HasSubstr("it has fewer than two rows"));
     KeptRecord hollow = record("x", "m");
     hollow.samples.values.clear();

@@ -37,7 +37,7 @@ Identification found_with(const StudyRun& run) {
     return identify_records(run, records, 2);
 }
 
-TEST(IdentifyRecords, each_row_of_several_records_may_be_an_equilibrium) {
+TEST(IdentifyRecords, EachRowOfSeveralRecordsMayBeAnEquilibrium) {
     StudyRun run = coupling_run();
     run.identify().each_row = true;
     const Identification found = found_with(run);
@@ -47,7 +47,7 @@ TEST(IdentifyRecords, each_row_of_several_records_may_be_an_equilibrium) {
     EXPECT_THROW(found_with(run), InputError); // two means are too few
 }
 
-TEST(IdentifyRecords, errors_of_known_numbers_widen_what_is_found) {
+TEST(IdentifyRecords, ErrorsOfKnownNumbersWidenTheIntervals) {
     StudyRun run = coupling_run();
     run.identify().each_row = true;
     const Identification exact = found_with(run);
@@ -58,7 +58,7 @@ TEST(IdentifyRecords, errors_of_known_numbers_widen_what_is_found) {
     EXPECT_NEAR(uncertain.values[1].estimate.error, std::hypot(exact.values[1].estimate.error, 1e-4), 1e-9);
 }
 
-TEST(IdentifyRecords, fits_need_all_records_at_once) {
+TEST(IdentifyRecords, FitsNeedAllRecordsAtOnce) {
     StudyRun run = coupling_run();
     run.identify().what = IdentifyRequest::What::fit;
     EXPECT_THROW(found_with(run), InputError);

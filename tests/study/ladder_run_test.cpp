@@ -63,7 +63,7 @@ protected:
     std::string path_;
 };
 
-TEST_F(LadderRun, keeps_all_grazings_and_where_they_lead) {
+TEST_F(LadderRun, KeepsAllGrazingsAndWhereTheyLead) {
     run(free_text + ladder_text);
     const ResultFile file(path_, ResultFile::Access::read);
     ASSERT_EQ(file.find_run("ladder")->status, RunStatus::complete);
@@ -121,7 +121,7 @@ TEST_F(LadderRun, ALadderFromAStoredPointIsTheSameToTheBit) {
     EXPECT_EQ(stopped.ladder.grazings().size(), 1U);
 }
 
-TEST_F(LadderRun, its_limit_is_followed_in_two_parameters) {
+TEST_F(LadderRun, ItsLimitIsFollowedInTwoParameters) {
     const std::string curve = R"(
 [runs.onset]
 kind = "curve"
@@ -164,7 +164,7 @@ direction = "both"
 class LadderRunSlow : public LadderRun {};
 
 /// A restitution that depends on the square of a parameter: whatever the first one is, it turns where that is zero.
-TEST_F(LadderRunSlow, its_limit_is_followed_past_a_turn) {
+TEST_F(LadderRunSlow, ItsLimitIsFollowedPastATurn) {
     const std::string model_path = path_ + ".toml";
     std::ofstream(model_path) << R"(
 name = "even"
@@ -223,7 +223,7 @@ direction = "both"
     EXPECT_GT(least, 0.883314285620 - 1e-10);
 }
 
-TEST_F(LadderRun, of_few_contacts_has_a_limit_or_says_why_not) {
+TEST_F(LadderRun, OfFewContactsHasALimitOrTellsWhyNot) {
     // A fast force: contacts do not accumulate, though one grazing follows the other.
     run(R"(
 name = "s"
@@ -248,7 +248,7 @@ along = { sigma = [-1, 1] }
         EXPECT_THAT(orbits.back().point.detail, HasSubstr("no limit: "));
 }
 
-TEST_F(LadderRun, onset_is_followed_until_there_is_none_or_it_is_not_found) {
+TEST_F(LadderRun, OnsetIsFollowedUntilThereIsNoneOrItIsNotFound) {
     const std::string curve = R"(
 [runs.onset]
 kind = "curve"
@@ -285,7 +285,7 @@ along = { sigma = [0.1, 3] }
                 HasSubstr("no orbit begins there"));
 }
 
-TEST_F(LadderRun, says_what_it_needs_and_what_it_cannot_do) {
+TEST_F(LadderRun, IsRefusedWithoutAGrazing) {
     const auto with = [&](const std::string& text) {
         return refusal(free_text + "[runs.l]\nkind = \"ladder\"\n" + text);
     };

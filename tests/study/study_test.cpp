@@ -31,7 +31,7 @@ StudyRun only_run(const std::string& text) {
     return parse_study(head + text, "s.toml").runs.at(0);
 }
 
-TEST(Study, steps_are_the_decimals_that_one_means) {
+TEST(Study, StepsOfDecimalsAreDecimals) {
     const StudyRun run =
         only_run("[runs.a]\nkind = \"sweep\"\nvary = { omega = { from = 4.5, to = 5.5, step = 0.001 } }");
     ASSERT_EQ(run.motion().axes.at(0).values.size(), 1001u);
@@ -39,7 +39,7 @@ TEST(Study, steps_are_the_decimals_that_one_means) {
     EXPECT_EQ(run.motion().axes[0].values[1000], 5.5);
 }
 
-TEST(Study, varies_by_lists_points_logarithms_and_draws) {
+TEST(Study, VariesByListsPointsLogarithmsAndDraws) {
     const StudyRun run = only_run(R"([runs.a]
 kind = "basin"
 draws = 3
@@ -65,7 +65,7 @@ vary = { omega = [3, 2.5], x = { from = 0, to = 1, points = 5 }, e = { from = 0.
     EXPECT_NE(coordinates_of(run, 0)[3], coordinates_of(run, 1)[3]);
 }
 
-TEST(Study, sweeps_go_up_down_or_both_ways) {
+TEST(Study, SweepsGoUpDownOrBothWays) {
     const auto values = [](const char* direction) {
         const StudyRun run = only_run("[runs.a]\nkind = \"sweep\"\nvary = { omega = [1, 2, 3] }\ndirection = \"" +
                                       std::string(direction) + '"');
@@ -108,7 +108,7 @@ TEST(StudyRun, KeepsItsRequestWhereAnotherKindHasTheSame) {
     EXPECT_EQ(run.record().records(), 0U);
 }
 
-TEST(Study, branches_and_curves_go_both_ways_unless_told) {
+TEST(Study, BranchesAndCurvesGoBothWaysUnlessTold) {
     const std::string branch = "[runs.a]\nkind = \"continue\"\nalong = { omega = [4, 5] }\n";
     EXPECT_EQ(only_run(branch).branch().direction, SweepDirection::both);
     EXPECT_EQ(only_run(branch + "direction = \"down\"\n").branch().direction, SweepDirection::down);
@@ -122,7 +122,7 @@ TEST(Study, branches_and_curves_go_both_ways_unless_told) {
     EXPECT_EQ(only_run("[runs.a]\nkind = \"sweep\"\nvary = { omega = [4, 5] }").motion().direction, SweepDirection::up);
 }
 
-TEST(Study, runs_come_after_those_they_start_from) {
+TEST(Study, RunsFollowThoseThatTheyStartFrom) {
     const Study study = parse_study(head + R"(
 [runs.second]
 kind = "simulate"
@@ -139,7 +139,7 @@ time = "2*pi"
 }
 
 /// Each key for each kind of run: it changes what is computed, or it is refused.
-TEST(Study, no_key_is_accepted_and_ignored) {
+TEST(Study, NoKeyIsAcceptedAndIgnored) {
     const std::string parent = "[runs.p]\nkind = \"simulate\"\nperiods = 1\n";
     struct Kind {
         std::string name, needs; ///< what a run of this kind cannot do without
@@ -228,7 +228,7 @@ TEST(Study, no_key_is_accepted_and_ignored) {
     EXPECT_GT(refused, 40u);
 }
 
-TEST(Study, pictures_have_no_keys_that_are_ignored) {
+TEST(Study, PicturesHaveNoKeysThatAreIgnored) {
     const std::string run = "[runs.a]\nkind = \"simulate\"\nperiods = 1\n[pictures.p]\nrun = \"a\"\n";
     for (const std::string kind :
          {"bifurcation", "basin", "spectrum", "history", "portrait", "regression", "scatter", "branch"})
@@ -243,13 +243,13 @@ TEST(Study, pictures_have_no_keys_that_are_ignored) {
         }
 }
 
-TEST(Study, accuracy_reaches_the_continuation) {
+TEST(Study, AccuracyReachesTheContinuation) {
     const StudyRun run = only_run("[runs.a]\nkind = \"continue\"\nalong = \"omega\"\naccuracy = 1e-7");
     EXPECT_EQ(run.branch().settings.orbit.accuracy, 1e-7);
     EXPECT_EQ(run.branch().settings.continuation.accuracy, 1e-7);
 }
 
-TEST(Study, what_a_branch_frees_may_have_bounds) {
+TEST(Study, FreeParametersMayHaveBounds) {
     const std::string follow = "[runs.a]\nkind = \"continue\"\nalong = { omega = [1, 2] }\n"
                                "monitors = { reach = { maximum = \"x\", fixed = true } }\n";
     const StudyRun run = only_run(follow + "free = { amplitude = [0.1, \"10*e\"] }");
@@ -280,14 +280,14 @@ TEST(Study, what_a_branch_frees_may_have_bounds) {
     EXPECT_THAT(refusal(head + follow + "free = { omega = [1, 2] }"), HasSubstr("a free parameter is not one"));
 }
 
-TEST(Study, runs_have_names_that_a_result_file_tells_apart) {
+TEST(Study, RunsHaveNamesThatAResultFileDistinguishes) {
     const std::string settings = "kind = \"orbit\"\n";
     EXPECT_THAT(refusal(head + "[runs.a]\n" + settings + "[runs.A]\n" + settings), HasSubstr("differ in case only"));
     EXPECT_THAT(refusal(head + "[runs.points]\n" + settings), HasSubstr("give it another name"));
     EXPECT_EQ(refusal(head + "[runs.points]\nkind = \"simulate\"\ntime = 1\n"), "");
 }
 
-TEST(Study, of_two_keys_that_contradict_none_is_ignored) {
+TEST(Study, NoneOfTwoContradictingKeysIsIgnored) {
     const std::string p = "[runs.p]\nkind = \"sweep\"\nvary = { omega = [2, 3] }\n", q = "[runs.q]\nkind = \"orbit\"\n",
                       simulated = "[runs.q]\nkind = \"simulate\"\ntime = 1\n", start = "start = { run = \"p\" }\n";
     for (const std::string& wrong : std::vector<std::string>{
@@ -307,7 +307,7 @@ TEST(Study, of_two_keys_that_contradict_none_is_ignored) {
         EXPECT_THAT(refusal(head + wrong), ::testing::HasSubstr("; ")) << wrong;
 }
 
-TEST(Study, shipped_ones_can_be_read) {
+TEST(Study, ShippedStudiesCanBeRead) {
     EXPECT_THAT(shipped_studies(),
                 ElementsAre("ball-and-shaker", "electromagnetic-testbed", "mems-switch", "microactuator", "microbeam",
                             "microbeam-amplitudes", "microbeam-modes", "microbeam-stops", "testbed-experiment"));
@@ -315,7 +315,7 @@ TEST(Study, shipped_ones_can_be_read) {
         EXPECT_FALSE(load_study(name).runs.empty()) << name;
 }
 
-TEST(Study, mistakes_are_told_with_their_place_and_remedy) {
+TEST(Study, MistakesAreReportedWithPlaceAndRemedy) {
     struct Case {
         std::string text, message;
     };
@@ -361,7 +361,7 @@ TEST(Study, mistakes_are_told_with_their_place_and_remedy) {
 }
 
 } // namespace
-TEST(StudyTest, initial_states_may_follow_from_what_varies) {
+TEST(StudyTest, InitialStatesMayFollowFromWhatVaries) {
     const std::string begin = "name = \"s\"\n[runs.a]\nmodel = \"impact-oscillator\"\nkind = \"basin\"\n"
                               "vary = { x = [-1, -0.5], omega = [2, 3] }\n";
     const Study study = parse_study(begin + "from = { v = \"0.5*x + omega\", theta = \"pi\" }\n", "s.toml");

@@ -41,7 +41,7 @@ RunnerOptions with_two_threads(std::vector<std::string> only) {
     return options;
 }
 
-TEST(TestbedExperimentSlow, hidden_parameters_are_found_and_predict_what_is_measured) {
+TEST(TestbedExperimentSlow, HiddenParametersAreFoundAndPredictMeasurements) {
     const Study study = load_study("testbed-experiment");
     const auto hidden = hidden_of(study);
     testing::TemporaryFolder folder;
@@ -77,7 +77,7 @@ TEST(TestbedExperimentSlow, hidden_parameters_are_found_and_predict_what_is_meas
         EXPECT_NEAR(mean("sweep", "rising", level), mean("predicted", "rising", level), 5e-4) << level;
 }
 
-TEST(TestbedExperimentSlow, intervals_hold_what_is_hidden_whatever_the_noise) {
+TEST(TestbedExperimentSlow, IntervalsHoldTheHiddenValuesWhateverTheNoise) {
     Study study = load_study("testbed-experiment");
     const auto hidden = hidden_of(study);
     testing::TemporaryFolder folder;
