@@ -32,14 +32,14 @@ UnknownParameter unknown_of(const StudyRun& run, const IdentifyRequest::Unknown&
     return unknown;
 }
 
-/// The channel that a reading is of. Nothing where the record need not have it, and has not.
+/// The channel of a reading; none where the record lacks it and may do so.
 std::optional<std::size_t> column_of(const Reading& reading, const RecordHeader& header) {
     const bool has = std::any_of(header.channels.begin(), header.channels.end(),
                                  [&](const Channel& channel) { return channel.name == reading.channel; });
     return has || !reading.may_lack ? std::optional(header.channel(reading.channel, "readings")) : std::nullopt;
 }
 
-/// Puts a fit together from records, one after the other.
+/// Builds the task of a fit, record by record.
 class FitMaker {
 public:
     explicit FitMaker(const StudyRun& run) : run_(&run) {
@@ -88,8 +88,8 @@ public:
     FitOfRecords made() { return std::move(made_); }
 
 private:
-    /// A reading in another unit than what it is compared with would be taken for something else. A gain converts,
-    /// whether it is found or given.
+    /// Refuses a channel whose unit differs from that of the value it measures. A gain converts units, whether it is
+    /// found or given.
     void check_unit(std::size_t output, const Channel& channel) {
         const Reading& reading = run_->identify().readings[output];
         Channel& known = made_.channels[output];
@@ -109,7 +109,7 @@ private:
 
     const StudyRun* run_;
     FitOfRecords made_;
-    std::vector<std::string> units_; ///< of what is measured
+    std::vector<std::string> units_; ///< of the values that are measured
     std::vector<std::size_t> unknown_states_;
 };
 

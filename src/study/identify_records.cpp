@@ -12,13 +12,13 @@ namespace graze {
 
 namespace {
 
-/// Numbers in parameters of the model, some of which others have found.
+/// Evaluates numbers that depend on parameters, some of which other runs have found.
 class KnownNumbers {
 public:
     KnownNumbers(const StudyRun& run, const std::vector<EstimateRecords>& found)
         : model_(run.model), found_(&found), place_(run.place) {}
 
-    /// With the error that those of the parameters make, to first order.
+    /// The value, with the error that propagates from those of the parameters, to first order.
     Estimate value(const std::string& text) {
         Estimate result;
         result.value = value_of_text(model_, text, place_);
@@ -42,7 +42,8 @@ public:
     }
 
 private:
-    /// By differences of one standard error, over which nothing bends that errors are told of.
+    /// The derivative by a parameter, by differences of one standard error, over which the expression is taken as
+    /// linear.
     double slope(const std::string& text, const EstimateRecord& number) {
         const double error = number.estimate.freedom > 0 ? number.estimate.error : 0;
         const auto parameter = model_.find_independent_parameter(number.name);

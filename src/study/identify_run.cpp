@@ -18,7 +18,7 @@ namespace {
 
 using What = IdentifyRequest::What;
 
-/// Under the names of the parameters that they are.
+/// The estimates, under the names of the parameters that they give.
 EstimateRecords estimates_of(const Identification& found, const IdentifyRequest& request, const Place& place) {
     EstimateRecords records;
     records.covariance = found.covariance;

@@ -16,7 +16,7 @@ namespace {
 
 using What = IdentifyRequest::What;
 
-/// Units of the model's parameters and states, and of its time, that measure what this one does.
+/// Units of the model's time, parameters and states that have the dimension of this unit.
 std::vector<std::string> units_alike(const Model& model, const PhysicalUnit& unit) {
     std::vector<std::string> found;
     const auto add = [&](const std::string& text) {
@@ -32,7 +32,8 @@ std::vector<std::string> units_alike(const Model& model, const PhysicalUnit& uni
     return found;
 }
 
-/// A parameter without a unit is a number where others of the model have units; where none has, nothing is known.
+/// The unit of a parameter. One without a unit is a pure number where other parameters have units; where none has,
+/// nothing is known.
 std::optional<PhysicalUnit> unit_in_model(const Model& model, const std::string& text) {
     if (!text.empty())
         return told_unit(text);
@@ -42,7 +43,7 @@ std::optional<PhysicalUnit> unit_in_model(const Model& model, const std::string&
     return has_units ? std::optional(PhysicalUnit()) : std::nullopt;
 }
 
-/// @param wanted units, of which each would do
+/// @param wanted units, any of which is right; none: every unit is
 bool agrees(const PhysicalUnit& unit, const std::vector<std::string>& wanted) {
     return wanted.empty() ||
            std::any_of(wanted.begin(), wanted.end(), [&](const std::string& text) { return told_unit(text) == unit; });
@@ -60,8 +61,7 @@ void check_channel(const StudyRun& run, const Channel& channel) {
                      scale_remedy(run, channel, wanted.front()));
 }
 
-/// Of a number that is known beforehand: a parameter that is named alone has a unit, what is computed of several none
-/// that is known.
+/// Checks the unit of a number that is known beforehand. Only a text that is the name of a parameter has a known unit.
 void check_known(const StudyRun& run, const char* key, const std::string& text, const std::string& kind) {
     const auto parameter = run.model.find_parameter(text);
     const auto wanted = told_unit(kind);
@@ -97,7 +97,7 @@ bool is_ratio(const std::string& name) {
     });
 }
 
-/// By what a number is multiplied to be in another unit. Where cycles and radians are told apart, they are here, too.
+/// The factor between two units. Hz and rad/s differ by 2 pi.
 double factor_between(const std::string& from, const std::string& to) {
     const auto is = [](const std::string& text, const char* part) { return text.find(part) != std::string::npos; };
     const double factor = converted(1, *told_unit(from), *told_unit(to));
@@ -136,7 +136,7 @@ void check_record_units(const StudyRun& run, const RecordHeader& header) {
     const auto channel = [&](const std::string& name, const char* key) -> const Channel& {
         return header.channels[header.channel(name, request.asked_as + key)];
     };
-    std::string length = "m"; // unless the record says that displacements are something else
+    std::string length = "m"; // unless the record has another unit of displacements
     if (request.what == What::coupling) {
         const Channel& q = channel(request.displacement.empty() ? "q" : request.displacement, "displacement");
         check_channel(run, q);

@@ -17,7 +17,7 @@ namespace {
 std::vector<EstimateRecords> estimates_for(const StudyRun& run, const ResultFile& file) {
     std::vector<EstimateRecords> found;
     for (const std::string& name : run.parameters)
-        convert_to_model(found.emplace_back(file.estimates(name)), run); // of a model in other units, maybe
+        convert_to_model(found.emplace_back(file.estimates(name)), run); // the other run's model may have other units
     return found;
 }
 

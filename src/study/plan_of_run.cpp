@@ -9,7 +9,8 @@ namespace graze {
 
 namespace {
 
-/// A number from three others that looks random (Steele, Lea and Flood 2014): any draw can be made by itself.
+/// A pseudorandom number from three numbers (splitmix, Steele, Lea and Flood 2014), so that draws are independent of
+/// order.
 std::uint64_t mixed(std::uint64_t seed, std::uint64_t point, std::uint64_t axis) {
     const auto mix = [](std::uint64_t x) {
         x += 0x9e3779b97f4a7c15u;
@@ -27,7 +28,7 @@ double drawn(const StudyRun& run, std::size_t axis, std::size_t point) {
                                                      : variation.low + share * (variation.high - variation.low));
 }
 
-/// Values along the first axis of a sweep, one way.
+/// Number of values along the first axis of a sweep, in one direction.
 std::size_t sweep_length(const StudyRun& run) {
     return run.kind == RunKind::sweep ? run.motion().axes.front().values.size() : 1;
 }
@@ -36,7 +37,7 @@ std::size_t chain_length_of(const StudyRun& run) {
     return sweep_length(run) * (run.kind == RunKind::sweep && run.motion().direction == SweepDirection::both ? 2 : 1);
 }
 
-/// Combinations of the axes' values that make chains.
+/// Number of combinations of values of the axes, each of which makes a chain.
 std::size_t combinations(const StudyRun& run) {
     std::size_t count = 1;
     for (std::size_t a = run.kind == RunKind::sweep ? 1 : 0; a < run.motion().axes.size(); ++a)
@@ -44,11 +45,11 @@ std::size_t combinations(const StudyRun& run) {
     return count;
 }
 
-/// Values of the initial states that follow from states and parameters.
+/// The initial states that are functions of states and parameters.
 Function following_states(const StudyRun& run) {
     if (run.motion().following.empty())
         return {};
-    // Of a run that was copied the model has a graph of its own, and the values are of the first one's.
+    // The model of a copied run has a graph of its own, while these expressions belong to the original graph.
     const auto graph = run.motion().following.front().value.graph();
     std::vector<Expression> inputs, outputs;
     for (const State& state : run.model.states)

@@ -45,7 +45,7 @@ std::vector<std::string> StudyRun::sampling_names() const {
 
 namespace {
 
-/// Whether a run goes on from what another one has found.
+/// True when a run uses the parameters that another run has found, directly or through others.
 bool refines(const StudyRun& run, const std::string& other, const Study& study) {
     return std::any_of(run.parameters.begin(), run.parameters.end(), [&](const std::string& name) {
         const StudyRun* one = study.find_run(name);
@@ -53,7 +53,7 @@ bool refines(const StudyRun& run, const std::string& other, const Study& study) 
     });
 }
 
-/// Of two numbers for a parameter the later one counts, which must then be the better one.
+/// Refuses two runs that find the same parameter, unless the later one uses the earlier one's estimate.
 void check_found_once(const StudyRun& run, const Study& study) {
     for (std::size_t j = 0; j < run.parameters.size(); ++j)
         for (std::size_t i = 0; i < j; ++i) {
@@ -91,8 +91,8 @@ void check_needs(const StudyRun& run, const Study& study) {
 
 std::set<std::string> wanted_runs(const Study& study, const std::vector<std::string>& only) {
     for (const std::string& name : only)
-        run_named(study, name);            // throws when there is none
-    for (const StudyRun& run : study.runs) // of studies that were not read from a file
+        run_named(study, name);            // throws for the name of no run
+    for (const StudyRun& run : study.runs) // a study may have been made in C++
         for (const auto& need : run.needs())
             run_named(study, need.first);
     std::set<std::string> wanted(only.begin(), only.end());

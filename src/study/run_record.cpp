@@ -14,10 +14,10 @@ namespace graze {
 
 namespace {
 
-/// Changes when the same settings lead to other numbers than in an earlier version.
+/// Version of the algorithms: it changes when the same settings lead to other numbers than before.
 constexpr int numbers = 3;
 
-/// All parameters, the one that is followed first; of a curve both.
+/// Adds all parameters as coordinates: first the one that is followed, of a curve both.
 void add_parameters(const StudyRun& run, RunRecord& record) {
     const std::vector<std::string> parameters = run.model.independent_parameters();
     const auto add = [&](std::size_t p) {
@@ -36,7 +36,7 @@ void add_parameters(const StudyRun& run, RunRecord& record) {
             add(p);
 }
 
-/// Of runs that were not read from a file.
+/// Checks a run that was made in C++.
 void require_fitting(const StudyRun& run) {
     const std::size_t values = run.kind == RunKind::identify ? run.value_names.size() : run.values.size();
     require_size(run.value_names.size(), values, "names of values");

@@ -43,7 +43,7 @@ MotionRequest motion_of_branch(const BranchRequest& branch) {
 
 namespace {
 
-/// What an axis has from the model. @throws InputError when it is none, or has no values
+/// Sets what an axis takes from the model. @throws InputError for an unknown name, and without values
 void complete(Variation& axis, const Model& model, const SettingsReader& fields) {
     const auto parameter = model.find_independent_parameter(axis.name);
     const auto state = model.find_state(axis.name);
@@ -69,7 +69,7 @@ void complete(StudyRun& run, const SettingsReader& fields) {
         motion.transient.section = motion.attractor.section, motion.transient.bounds = motion.attractor.bounds;
 }
 
-/// Units of values and monitors, which do not change numbers and so are no settings.
+/// Sets units of values and monitors, which are not stored as settings since they do not influence results.
 void take_units(StudyRun& run, const std::vector<std::string>& units) {
     const auto unit = [&](std::size_t value) { return value < units.size() ? units[value] : std::string(); };
     for (std::size_t v = 0; v < run.value_names.size(); ++v)
@@ -81,7 +81,7 @@ void take_units(StudyRun& run, const std::vector<std::string>& units) {
         monitors[m].unit = unit(m);
 }
 
-/// Texts that become names, titles and units.
+/// Checks texts that become names, titles and units.
 void check_texts(const StudyRun& run, const std::vector<const std::vector<std::string>*>& lists) {
     for (const std::vector<std::string>* texts : lists)
         for (const std::string& text : *texts)
@@ -115,7 +115,7 @@ void check_record(const StudyRun& run, const SettingsReader& fields) {
             fields.fail("direction", "one of the run's");
 }
 
-/// @throws InputError for what no study has, and what would be out of range
+/// @throws InputError for settings that no study can have
 void check(const StudyRun& run, const SettingsReader& fields) {
     if (run.kind == RunKind::identify)
         return check_texts(run, {&run.value_names, &run.parameters, &run.identify().records});

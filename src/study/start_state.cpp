@@ -12,7 +12,7 @@ namespace graze {
 
 namespace {
 
-/// In states and parameters of the model, whose graph gets the expression.
+/// An expression in states and parameters, which is added to the model's graph.
 Expression parsed_start(const StudyReader& reader, Model& model, const TomlEntry& item) {
     Scope scope;
     for (const Parameter& parameter : model.parameters)
@@ -42,7 +42,7 @@ bool follows_what_varies(const StudyReader& reader, const StudyRun& run, const T
             return run.varies(name) || run.model.find_state(name).has_value();
         });
     } catch (const InputError&) {
-        return false; // what is wrong with it is told where it is read as a number
+        return false; // mistakes are reported where the entry is read as a number
     }
 }
 

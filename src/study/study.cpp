@@ -82,7 +82,7 @@ void require_run(const std::string& name, const std::vector<std::string>& names,
 
 namespace {
 
-/// Values that change nothing are mistakes.
+/// Refuses given values of parameters that change nothing.
 void check_given(const Study& study) {
     for (const auto& given : study.set) {
         const std::string& name = given.first;
@@ -114,7 +114,7 @@ void check_given(const Study& study) {
     }
 }
 
-/// Reads one study. A mistake in one of its runs, pictures or tables leaves the others to be read.
+/// Reads one study. After a mistake in a run, picture or table the others are read.
 class WholeStudy {
 public:
     WholeStudy(const std::string& file, const ParameterValues& set) : reader_(file) {
@@ -165,7 +165,7 @@ private:
         });
     }
 
-    /// What is missing; a key that could not be read may have been that.
+    /// Reports a missing name or missing runs, unless a key could not be read, which may be the missing one.
     void check_head() {
         if (!study_.name.empty())
             mistakes_.attempt(
@@ -228,7 +228,7 @@ private:
         study_.runs.push_back(std::move(*run));
     }
 
-    /// Runs that start from each other have no order; those that start from nothing are told one by one.
+    /// Sorts the runs, which fails for runs that start from each other. Runs that name no run are reported elsewhere.
     void check_order() {
         const bool known = std::all_of(study_.runs.begin(), study_.runs.end(), [&](const StudyRun& run) {
             const auto needs = run.needs();
@@ -239,7 +239,8 @@ private:
             study_.runs = in_order(std::move(study_.runs));
     }
 
-    /// Of runs that could not be read too. What is no text is told there.
+    /// Checks the run that `start` names, also in runs that could not be read. Other types than texts are reported
+    /// there.
     void check_parent(const TomlEntry& start) const {
         if (const toml::table* keys = start.node->as_table())
             if (const auto name = (*keys)["run"].value<std::string>(); name && !name->empty() && is_plain_text(*name))
@@ -274,9 +275,9 @@ private:
     Place name_place_;
     std::optional<TomlEntry> runs_, pictures_, tables_;
     std::vector<TomlEntry> run_entries_;
-    std::vector<std::string> names_, picture_names_; ///< also of those that could not be read
+    std::vector<std::string> names_, picture_names_; ///< including those of entries that could not be read
     std::map<std::string, RunKeys> keys_;
-    std::size_t values_ = 0; ///< through which things vary
+    std::size_t values_ = 0; ///< number of values of all axes
 };
 
 } // namespace

@@ -12,7 +12,7 @@ namespace graze {
 
 namespace {
 
-/// What has no value at the first sample would end the run once it is done.
+/// Refuses channels that have no finite value at the first sample, which would fail later when the run is carried out.
 void require_finite_at_start(const StudyReader& reader, const RecordBench& bench, const TomlEntry& entry) {
     std::vector<Expression> values;
     for (const BenchChannel& channel : bench.channels)
@@ -57,7 +57,7 @@ void read_bench_channels(const StudyReader& reader, const TomlEntry& entry, Reco
                     (part.name == "offset" ? channel.offset : channel.drift) = reader.number(bench.model, part);
             });
         if (channel.value.name.empty())
-            value(item); // says that it is no expression
+            value(item); // throws: it is no expression
         channel.value.name = item.name;
         if (has_unit)
             channel.value.unit = unit;

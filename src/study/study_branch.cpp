@@ -42,7 +42,7 @@ void read_free(const StudyReader& reader, StudyRun& run, const TomlEntry& entry)
 
 namespace {
 
-/// Both parameters of a curve: the second is free, as those of `free` after it.
+/// Reads both parameters of a curve; the second one is the first free parameter, before those of `free`.
 void read_plane(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     BranchSettings& settings = run.branch().settings;
     const auto items = reader.toml().entries(reader.toml().table(entry), entry.path);
@@ -97,7 +97,7 @@ void read_stop(const StudyReader& reader, StudyRun& run, const TomlEntry& entry)
 
 namespace {
 
-/// What is measured: `kind = "expression"`, or `duration = "segment"`.
+/// Reads what a monitor measures: KIND = "EXPRESSION", or duration = "SEGMENT".
 void read_monitor_kind(const StudyReader& reader, const Model& model, const TomlEntry& item, Monitor& monitor) {
     const std::vector<std::string> kinds{"value",   "start", "duration", "maximum",
                                          "minimum", "mean",  "norm",     "multiplier"};
@@ -191,7 +191,7 @@ std::vector<Monitor> usual_monitors(const Model& model) {
 
 namespace {
 
-/// Whether a text means something else than the name of a point, where points are asked for.
+/// True when a text cannot name a point since it has another meaning where points are asked for.
 bool is_taken(const std::string& name) {
     return is_point_label(name) || point_type(name) || name.find(':') != std::string::npos ||
            name.find_first_not_of("0123456789") == std::string::npos;

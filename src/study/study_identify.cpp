@@ -24,7 +24,7 @@ void read_gives(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
             reader.fail(item, fmt::format("model '{}' has no parameter '{}'", run.model.name, parameter),
                         study_name_remedy(parameter, run.model.independent_parameters()));
         const std::vector<std::string>& known = estimate_kind(run.identify().what).numbers;
-        // Of several records there are numbers of each, which their names tell.
+        // From several records there are numbers of each record, under names with the record.
         const bool of_record =
             item.name.find(" of ") != std::string::npos || item.name.find("spread_between") != std::string::npos;
         if (!of_record && run.identify().what != What::fit &&
@@ -39,7 +39,7 @@ void read_gives(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
     });
 }
 
-/// Names, or { NAME = GUESS } with { guess, bounds } where they are wanted.
+/// Reads unknowns: names, or { NAME = GUESS }, or { NAME = { guess, bounds } }.
 void read_unknowns(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     const auto add = [&](const TomlEntry& item, const std::string& name) -> IdentifyRequest::Unknown& {
         if (!run.model.find_independent_parameter(name))
@@ -68,7 +68,7 @@ void read_unknowns(const StudyReader& reader, StudyRun& run, const TomlEntry& en
     });
 }
 
-/// Channels, or { CHANNEL = "EXPRESSION" } with { value, gain, offset, noise } where they are wanted.
+/// Reads readings: channels, or { CHANNEL = "EXPRESSION" }, or { CHANNEL = { value, gain, offset, noise } }.
 void read_readings(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     const Model none;
     const auto add = [&](const TomlEntry& item, const std::string& channel,

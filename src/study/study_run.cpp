@@ -16,7 +16,7 @@
 namespace graze {
 
 void set_standards(StudyRun& run) {
-    // Where a branch or a curve lies is what one asks; a sweep is a motion, which can go one way only.
+    // Users ask where a branch or a curve lies, in both directions; a sweep is a motion and goes in one.
     if (run.kind == RunKind::follow || run.kind == RunKind::curve)
         run.branch().direction = SweepDirection::both;
     if (run.is_branch())
@@ -46,8 +46,9 @@ Model model_of(const StudyReader& reader, const std::string& name, const Place& 
     }
 }
 
-/// @param given parameters that keep the values that they have
-/// @param later whether an initial state is read later, when it is known what varies; null: none is
+/// Sets parameters or initial states as a table says.
+/// @param given parameters that keep their values
+/// @param later true for an initial state that is read later, when it is known what varies; null: none is
 void set_values(const StudyReader& reader, Model& model, const TomlEntry& entry, bool initial,
                 const ParameterValues& given = {}, const std::function<bool(const TomlEntry&)>& later = nullptr) {
     reader.each_of(entry, {}, [&](const TomlEntry& item) {
@@ -66,7 +67,7 @@ void set_values(const StudyReader& reader, Model& model, const TomlEntry& entry,
     });
 }
 
-/// More points than can be kept in memory, or computed in a lifetime.
+/// Refuses more points than fit into memory or can be computed in a lifetime.
 void check_points(const StudyReader& reader, const StudyRun& run, const TomlEntry& vary) {
     if (!(run.motion().points() <= most_points))
         reader.fail(vary, "there would be more than a thousand million points", "take larger steps");
@@ -76,7 +77,7 @@ void check_points(const StudyReader& reader, const StudyRun& run, const TomlEntr
             "make several studies, or sweep along the axis with the most values");
 }
 
-/// Where motions are sampled, and which contacts count, unless the study says so.
+/// Sets where motions are sampled and which contacts count, unless the study says so.
 void complete_motion(StudyRun& run) {
     MotionRequest& motion = run.motion();
     motion.transient.section = motion.attractor.section;
@@ -136,9 +137,9 @@ void read_model(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
         throw InputError(entry.place, fmt::format("{} has no model", entry.path), "give model = \"NAME\" or a path");
 }
 
-/// Parameters, initial state and mode of the model, as the run asks for.
+/// Sets parameters, initial state and mode of the model as the run asks.
 void read_beginning(const StudyReader& reader, StudyRun& run, const StudyDefaults& defaults, const RunKeys& keys) {
-    // Before the others, whose expressions may depend on them.
+    // Given values come first, since expressions may depend on them.
     for (const auto& [name, value] : defaults.given)
         if (run.model.find_independent_parameter(name))
             run.model.set_parameter(name, value);
@@ -177,7 +178,7 @@ void check_draws(const StudyReader& reader, const StudyRun& run, const TomlEntry
         reader.fail(keys.at("seed"), fmt::format("{} draws nothing", entry.path), "leave it out, or give draws = N");
 }
 
-/// The keys that a run has, and what it is.
+/// Collects the keys of a run, and reads its kind and text.
 void read_keys(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, RunKeys& keys) {
     const std::vector<std::string>& known = names_of_keys();
     Mistakes mistakes;
@@ -203,12 +204,12 @@ void read_keys(const StudyReader& reader, StudyRun& run, const TomlEntry& entry,
     mistakes.throw_noted();
 }
 
-/// Whether a run's records are those of a virtual bench.
+/// True when the records of a run come from a virtual bench.
 bool has_bench(const RunKeys& keys) {
     return keys.contains("bench") && !keys.contains("files");
 }
 
-/// Records, and what is found from them.
+/// Reads runs of kind record and identify.
 void read_measured(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const StudyDefaults& defaults,
                    const RunKeys& keys) {
     Mistakes mistakes;
@@ -231,7 +232,7 @@ void read_measured(const StudyReader& reader, StudyRun& run, const TomlEntry& en
     complete_record(reader, run, keys);
 }
 
-/// All that needs the model.
+/// Reads runs of motions and branches, once the model is known.
 void read_contents(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const StudyDefaults& defaults,
                    const RunKeys& keys) {
     Mistakes mistakes;
@@ -263,7 +264,7 @@ std::optional<StudyRun> read_run(const StudyReader& reader, const TomlEntry& ent
     run.place = entry.place;
     Mistakes mistakes;
     const bool has_keys = mistakes.attempt([&] { read_keys(reader, run, entry, keys); });
-    // A key that could not be read may have been the one that names the model.
+    // A missing model is not reported where a key that could not be read may have named it.
     const bool says_model = keys.contains("model") || !defaults.model.empty();
     if (run.is_measured() && has_keys) {
         if (run.kind == RunKind::identify || has_bench(keys))
