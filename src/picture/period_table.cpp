@@ -14,7 +14,7 @@ namespace graze {
 
 namespace {
 
-/// Tables with rows for each period of the reference.
+/// Base of tables whose rows are periods of the reference.
 class PeriodTable : public RecordTable {
 public:
     PeriodTable(const RecordTableRequest& request, bool several) : RecordTable(request, several) {}
@@ -49,7 +49,7 @@ private:
     std::size_t reference_ = 0;
 };
 
-/// When periods begin, how long they are, amplitudes of all channels.
+/// Begin and duration of periods, and the amplitude of each channel.
 class Periods : public PeriodTable {
 public:
     using PeriodTable::PeriodTable;
@@ -86,7 +86,7 @@ private:
     std::vector<PlanePoint> points_;
 };
 
-/// Points of sections, with the mean amplitude of the reference in the whole record: what a diagram is drawn over.
+/// Points of sections. Diagrams are drawn over the amplitude of the reference, averaged over the record.
 class Sections : public PeriodTable {
 public:
     using PeriodTable::PeriodTable;

@@ -22,7 +22,7 @@ constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); ///< an emp
 constexpr std::size_t most_rows = 2'000'000;
 constexpr std::size_t most_drawn = 4000; ///< pairs of least and greatest values of a curve
 
-/// A curve with so many samples that they would not be told apart: of each part its least and greatest.
+/// Thins a curve with more samples than can be distinguished: keeps the least and the greatest value of each part.
 class CurveThinner {
 public:
     void add(double time, double value) {
@@ -67,7 +67,7 @@ private:
     std::size_t part_ = 1, in_part_ = 0;
 };
 
-/// Channels over time, one panel each.
+/// The figure of channels over time, one panel each.
 class Histories {
 public:
     void add(const std::string& file, const RecordHeader& header, const std::vector<std::size_t>& channels,
@@ -109,7 +109,7 @@ private:
     std::map<std::string, std::map<std::string, CurveThinner>> curves_;
 };
 
-/// Numbers of each channel as a whole.
+/// Statistics of each channel.
 class ChannelTable : public RecordTable {
 public:
     ChannelTable(const RecordTableRequest& request, bool several) : RecordTable(request, several) {}
@@ -176,7 +176,7 @@ private:
     Histories histories_;
 };
 
-/// All rows.
+/// All rows of the records.
 class SampleTable : public RecordTable {
 public:
     SampleTable(const RecordTableRequest& request, bool several) : RecordTable(request, several) {}
@@ -282,7 +282,7 @@ public:
                     rows().add(value);
             }
     }
-    /// Velocities after impacts over those before.
+    /// Velocities after impacts over velocities before.
     Figure figure() const override {
         FigurePanel panel;
         panel.x_label = velocity_.name + " before an impact";

@@ -22,7 +22,7 @@ constexpr std::size_t most_numbers = 1000;
     throw InputError(Place{option + " " + text, 0, 0}, what, example);
 }
 
-/// A value for each decade from the first to the last.
+/// Adds a value for each decade from the first to the last.
 void add_decades(std::vector<double>& values, double first, double last, const std::string& option,
                  const std::string& text) {
     if (!(first * last > 0))

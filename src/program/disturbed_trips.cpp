@@ -26,7 +26,7 @@ namespace graze {
 
 namespace {
 
-/// What a disturbance is asked about, and what has been found.
+/// The question about a disturbance, and its answer as a table and a figure.
 struct AskedTrips {
     const TripArguments& arguments;
     const Console& console;
@@ -34,7 +34,7 @@ struct AskedTrips {
     const LossPoint& point = trip.point;
     Table table{};
     Figure figure{};
-    std::vector<std::string> lacks{}; ///< what has not come to an end that says something
+    std::vector<std::string> lacks{}; ///< messages about trips without an end
     bool interrupted = false;
     std::size_t done = 0, wanted = 0;
 
@@ -45,7 +45,7 @@ struct AskedTrips {
     }
 };
 
-/// The value that is disturbed.
+/// The orbit at the value that is disturbed.
 TripOrigin resting_origin(const AskedTrips& asked, const char* option) {
     if (asked.arguments.at.empty())
         throw InputError(Place{asked.option(option), 0, 0}, "nothing says where the motion rests",
@@ -77,7 +77,7 @@ FigureSeries series_of(const std::string& title, FigureSeries::Style style, std:
     return {title, style, colour, {}};
 }
 
-/// Notes how many rows have been asked for and are done.
+/// Notes how many rows were asked for and how many are done.
 void note_rows(AskedTrips& asked, std::size_t wanted, std::size_t done) {
     asked.wanted = wanted;
     asked.done = done;
@@ -249,7 +249,7 @@ JsonObject heading_of(const ResultFile& file, const AskedTrips& asked) {
     return heading;
 }
 
-/// Options that say nothing, or something else, of a parameter that changes in time.
+/// Refuses options that have no effect where the parameter changes in time.
 void require_together(const TripArguments& arguments) {
     const auto refuse = [](bool given, const char* option, const char* problem, const char* remedy) {
         if (given)

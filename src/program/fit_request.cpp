@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t most_samples = 1'000'000;
 
-/// NAME, or NAME=REST
+/// NAME or NAME=REST, split at the sign.
 struct Named {
     std::string name;
     std::optional<std::string> rest;
@@ -37,7 +37,7 @@ double number_in(const Model& model, const std::string& text, const char* option
     return value_of_text(model, text, {fmt::format("{} {}", option, item), 0, 0});
 }
 
-/// NAME[=GUESS][:LEAST:GREATEST]
+/// Reads NAME[=GUESS][:LEAST:GREATEST].
 IdentifyRequest::Unknown unknown_of(const Model& model, const std::string& item) {
     std::vector<std::string> parts;
     for (std::size_t start = 0; start <= item.size();) {
@@ -108,7 +108,7 @@ private:
     const Model& model() const { return request_.run.model; }
     IdentifyRequest& asked() { return request_.run.identify(); }
 
-    /// Says which states there are.
+    /// Refuses the name of no state, with those that exist.
     void require_state(const std::string& name, const char* option) const {
         if (!model().find_state(name))
             throw InputError({option, 0, 0}, fmt::format("'{}' is not a state", name),
@@ -142,7 +142,7 @@ private:
         }
     }
 
-    /// Whether a channel says something of the model: it is a reading then.
+    /// True when a channel measures a value of the model; it is then added to the readings.
     bool is_read(const std::string& channel) {
         std::vector<Reading>& readings = asked().readings;
         if (std::any_of(readings.begin(), readings.end(), [&](const Reading& one) { return one.channel == channel; }))

@@ -14,7 +14,7 @@ struct FitRequest {
     std::vector<KeptRecord> records;
 };
 
-/// Reads the records. @throws InputError
+/// Reads the model and the records. @throws InputError
 FitRequest fit_request(const IdentifyArguments& arguments, const Console& console);
 
 } // namespace graze

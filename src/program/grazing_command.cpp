@@ -16,10 +16,10 @@ namespace graze {
 
 namespace {
 
-/// What has been found at a point.
+/// The orbit that touches, and what becomes of it.
 struct Findings : TouchingOrbit, TouchReport {};
 
-/// Rows of what is known: a name, a value, what it is.
+/// A table of facts: name, value, meaning.
 class GrazingFacts {
 public:
     GrazingFacts() : table_({{"quantity", ""}, {"value", ""}, {"meaning", ""}}) {}
@@ -40,7 +40,7 @@ public:
         values_.add(name, value);
     }
     const Table& table() const { return table_; }
-    /// The same by name, without meanings.
+    /// The same facts by name, without meanings.
     const JsonObject& values() const { return values_; }
 
 private:
@@ -71,7 +71,7 @@ OrderTexts texts_of(MapOrder order) {
     return {"a compliant contact", "what it gains by depth^(3/2)", ""};
 }
 
-/// Where and how the orbit touches.
+/// Adds where and how the orbit touches.
 void add_contact(GrazingFacts& facts, const Model& model, const CycleMap& map) {
     const DiscontinuityMap& contact = map.contact;
     facts.add("event", model.events[map.touch.event].name, "that is touched");
@@ -119,7 +119,7 @@ void add_cycle(GrazingFacts& facts, const Findings& found) {
         facts.add("contacts_when", found.verdict.side > 0 ? "above" : "below", "the side of it with contacts");
 }
 
-/// What the map settles on at some distances beyond the touch, where something remains.
+/// Adds what the map settles on at some distances beyond the touch, where an attractor remains.
 void add_attractors(GrazingFacts& facts, const Findings& found) {
     for (const MotionBeyond& one : found.beyond)
         facts.add(fmt::format("beyond_1e-{}", one.digits),
@@ -127,7 +127,7 @@ void add_attractors(GrazingFacts& facts, const Findings& found) {
                   fmt::format("contacts in cycles at {:.9g}", one.parameter));
 }
 
-/// What becomes of an orbit that begins to slide.
+/// Adds what becomes of an orbit that begins to slide.
 void add_border(GrazingFacts& facts, const Verdict& verdict) {
     if (verdict.border == BorderCollision::none)
         return;

@@ -16,7 +16,7 @@ namespace graze {
 
 namespace {
 
-/// VALUE or VALUE+-ERROR
+/// Reads VALUE or VALUE+-ERROR.
 void read_known_value(const std::string& text, const char* option, std::string& known, double& known_error) {
     if (text.empty())
         return;

@@ -11,7 +11,7 @@ namespace graze {
 /// model.
 /// @throws InputError
 StudyRun identify_request(const IdentifyArguments& arguments);
-/// The records that are named, with what is done to them before.
+/// The records that are named, processed as the command line asks.
 EachRecord identify_files(const IdentifyArguments& arguments, const Console& console);
 
 } // namespace graze

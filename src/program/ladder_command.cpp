@@ -54,7 +54,7 @@ JsonObject heading_of(const ResultFile& file, const StoredLadder& found) {
     return heading;
 }
 
-/// The limit, for people: beside the table, as messages are.
+/// Prints the end of the ladder and its limit for people, beside the table.
 void tell(const Ladder& ladder, const ChatterLimit& limit, const std::string& parameter, const Console& console) {
     if (!ladder.why().empty())
         console.err << fmt::format("graze: the ladder ends at grazing {}: {}\n", ladder.grazings().size(),

@@ -18,7 +18,7 @@ namespace graze {
 
 namespace {
 
-/// @return the exit code
+/// Writes one processed record to a file. @return the exit code
 int write_processed(const RecordArguments& arguments, const Console& console) {
     if (arguments.files.size() > 1)
         throw InputError("several records cannot be written to one file", "give one record");

@@ -25,7 +25,7 @@ double number_of(const std::string& text, const Place& place) {
     return value;
 }
 
-/// NAME=FACTOR[+OFFSET][:UNIT]
+/// Reads NAME=FACTOR[+OFFSET][:UNIT].
 RecordProcessing::Scale scale_of(const std::string& text) {
     const Place place{"--scale " + text, 0, 0};
     const std::size_t equals = text.find('=');
@@ -49,7 +49,7 @@ RecordProcessing::Scale scale_of(const std::string& text) {
     return result;
 }
 
-/// Parts of a period.
+/// Reads phases: parts of a period, 0 without any.
 std::vector<double> phases_of(const std::vector<std::string>& asked) {
     std::vector<double> phases;
     for (const std::string& text : split_list(asked)) {

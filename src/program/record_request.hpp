@@ -7,7 +7,7 @@
 
 namespace graze {
 
-/// What the command line asks to be done to records before a table is made of them. Remarks on files go to the console.
+/// The processing of records that the command line asks for. Remarks on files are printed to the console.
 /// @throws InputError
 RecordProcessing record_processing(const RecordArguments& arguments, const Console& console);
 /// The table that `graze record` is asked for. @throws InputError

@@ -25,13 +25,13 @@ namespace graze {
 
 namespace {
 
-/// What has been found at a point.
+/// The point, and the yield if tolerances were given.
 struct Findings : LocatedPoint {
     YieldSettings settings{};
     std::optional<Yield> yield{};
 };
 
-/// NAME=SIZE, NAME=SIZE%, NAME=SIZE:uniform
+/// Reads NAME=SIZE, NAME=SIZE% or NAME=SIZE:uniform.
 Tolerance tolerance_of(const Findings& found, const std::string& text) {
     const Place place{fmt::format("--vary {}", text), 0, 0};
     const std::size_t equals = text.find('='), colon = text.rfind(':');
@@ -102,7 +102,7 @@ void set_yield(Findings& found, const System& system, const ToleranceArguments& 
         with_place({"--vary", 0, 0}, [&] { return yield_of(system, found.point, found.located.control(), settings); });
 }
 
-/// Derivatives by all parameters, and what those that vary contribute.
+/// Derivatives by all parameters, and the contributions of those with tolerances.
 Table derivatives_of(const Findings& found) {
     const LocatedValue& located = found.located;
     std::vector<Table::Column> columns{{"parameter", ""}, {"value", ""}, {"d" + found.name, ""}, {"relative", ""}};
@@ -132,7 +132,7 @@ Table derivatives_of(const Findings& found) {
     return table;
 }
 
-/// One row of statistics; members of a JSON object say the same.
+/// Statistics as rows of a table and as members of a JSON object.
 class Statistics {
 public:
     Statistics() : table_({{"quantity", ""}, {"value", ""}, {"low", ""}, {"high", ""}, {"meaning", ""}}) {}
@@ -212,7 +212,7 @@ JsonObject heading_of(const ResultFile& file, const Findings& found) {
     return heading;
 }
 
-/// For people both tables; as CSV the one that was asked for.
+/// Prints both tables for people; as CSV the derivatives, or the statistics if there are tolerances.
 void show(const ResultFile& file, const Findings& found, const OutputArguments& output, const Console& console) {
     std::ostringstream text;
     const Console inner{text, console.err, console.terminal, console.cursor, console.width};
@@ -235,7 +235,7 @@ void show(const ResultFile& file, const Findings& found, const OutputArguments& 
     }
 }
 
-/// What has gone wrong with some, beside the tables.
+/// Prints why devices failed, beside the tables.
 void tell(const Yield& yield, const Console& console) {
     constexpr std::size_t most = 5;
     for (std::size_t i = 0; i < std::min(most, yield.problems.size()); ++i)

@@ -23,7 +23,7 @@ namespace graze {
 
 namespace {
 
-/// Those asked for, or ten from 1e-2 to 1e-20 of the size of the parameter, on the side on which the motion is lost.
+/// The overshoots that are asked for, or the usual ones on the side on which the motion is lost.
 std::vector<double> overshoots_of(const LossPoint& point, const std::vector<std::string>& asked) {
     std::vector<double> values = numbers_by_decades(point.model(), asked, "--overshoot");
     if (!values.empty())
@@ -40,7 +40,7 @@ TripOptions options_of(const LossPoint& point, const TripArguments& arguments) {
     return options;
 }
 
-/// The trips that have not come to their end, and why.
+/// Messages about trips that have not come to their end.
 std::vector<std::string> lacks_of(const OvershootTrips& trips) {
     std::vector<std::string> lacks;
     for (std::size_t i = 0; i < trips.size(); ++i)
@@ -51,7 +51,7 @@ std::vector<std::string> lacks_of(const OvershootTrips& trips) {
     return lacks;
 }
 
-/// A number of the table: missing where the end has not come.
+/// A cell of the table: empty where the end has not come.
 double if_ended(const TripTime& trip, double value) {
     return trip.ended ? value : nothing;
 }

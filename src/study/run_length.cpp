@@ -19,7 +19,7 @@ constexpr int default_periods = 20;
 
 struct Phase {
     std::size_t state;
-    std::optional<double> time; ///< of one period, if its rate is the same number everywhere
+    std::optional<double> time; ///< duration of a period, if the rate is constant and the same in all modes
 };
 
 std::optional<double> value_in_parameters(const Model& model, const Expression& expression) {
@@ -47,7 +47,7 @@ std::optional<double> time_of_period(const Model& model, std::size_t state, cons
     return time;
 }
 
-/// @param purpose what needs a phase
+/// @param purpose why a phase is needed, for messages
 Phase find_phase(const Model& model, const RunLengthRequest& request, const std::string& purpose) {
     std::vector<std::string> names;
     for (const State& state : model.states)
