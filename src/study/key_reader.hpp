@@ -60,21 +60,24 @@ public:
     /// A table of keys of its own. @param describe given what reads them
     template <class Describe>
     void table(const Key& key, const char*, const Describe& describe) {
-        read(key, [&](const TomlEntry& e) {
-            KeyList known;
-            describe(known);
-            RunKeys keys;
-            Mistakes mistakes;
-            mistakes.attempt([&] {
-                reader_.each_of(e, {}, [&](const TomlEntry& item) {
-                    reader_.toml().require_one_of(names_of(known.keys), item, e.path);
-                    keys.emplace(item.name, item);
-                });
+        read(key, [&](const TomlEntry& e) { read_table(reader_, run_, e, describe); });
+    }
+    /// Reads a table of keys by itself.
+    template <class Describe>
+    static void read_table(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const Describe& describe) {
+        KeyList known;
+        describe(known);
+        RunKeys keys;
+        Mistakes mistakes;
+        mistakes.attempt([&] {
+            reader.each_of(entry, {}, [&](const TomlEntry& item) {
+                reader.toml().require_one_of(names_of(known.keys), item, entry.path);
+                keys.emplace(item.name, item);
             });
-            KeyReader inner(reader_, run_, keys, mistakes);
-            describe(inner);
-            mistakes.throw_noted();
         });
+        KeyReader fields(reader, run, keys, mistakes);
+        describe(fields);
+        mistakes.throw_noted();
     }
 
     /// True when the study has one of these keys and it could not be read.

@@ -63,24 +63,26 @@ void describe_processing(Fields& fields, Processing& processing) {
     fields.field("half_width", processing.half_width);
 }
 
+/// A virtual bench: the keys of the table `bench`, and what is stored of it.
 template <class Fields, class Bench>
 void describe_bench(Fields& fields, Bench& bench) {
-    if constexpr (Fields::reading) {
+    if constexpr (Fields::stored && Fields::reading) {
         std::string text;
         fields.field("model", text);
         bench.model = parse_model(text, "model of a bench");
-    } else {
+    } else if constexpr (Fields::stored) {
         fields.field("model", write_model(bench.model));
     }
     fields.field("parameter", bench.parameter);
     fields.field("levels", bench.levels);
     fields.field("directions", bench.directions);
-    fields.field("repeats", bench.repeats);
+    fields.count(key_in_table("repeats"), bench.repeats, {1, 10'000});
     fields.field("carry", bench.carry);
-    fields.field("settle", bench.settle);
-    fields.field("time", bench.time);
-    fields.field("rate", bench.rate);
-    fields.field("time_unit", bench.time_unit);
+    fields.number(key_in_table("settle"), bench.settle, any_number);
+    fields.number(key_in_table("time"), bench.time, positive_number);
+    fields.number(key_in_table("rate"), bench.rate, positive_number);
+    fields.number(key_in_table("time_unit"), bench.time_unit, positive_number);
+    fields.form(key_in_table("channels"), "", &read_bench_channels);
     fields.list("channels", bench.channels, [&](auto& one, auto& channel) {
         one.field("name", channel.value.name);
         one.field("unit", channel.value.unit);
@@ -99,8 +101,8 @@ void describe_bench(Fields& fields, Bench& bench) {
         one.field("drift", channel.drift);
         one.field("range", channel.range);
     });
-    fields.field("bits", bench.bits);
-    fields.field("anti_alias", bench.anti_alias);
+    fields.count(key_in_table("bits"), bench.bits, {1, 32});
+    fields.number(key_in_table("anti_alias"), bench.anti_alias, positive_number);
     fields.field("seed", bench.seed);
 }
 

@@ -29,6 +29,8 @@ void read_stop(const StudyReader& reader, StudyRun& run, const TomlEntry& entry)
 void read_point_names(const StudyReader& reader, StudyRun& run, const TomlEntry& entry);
 
 void read_scales(const StudyReader& reader, StudyRun& run, const TomlEntry& entry);
+/// What a virtual bench measures.
+void read_bench_channels(const StudyReader& reader, StudyRun& run, const TomlEntry& entry);
 /// The time range of a record that is kept.
 void read_part(const StudyReader& reader, StudyRun& run, const TomlEntry& entry);
 void read_filter(const StudyReader& reader, StudyRun& run, const TomlEntry& entry);

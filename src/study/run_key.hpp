@@ -26,8 +26,9 @@ struct Key {
     const char* stored_as = nullptr; ///< the name of the field that is stored, where it is not that of the key
 };
 
-/// A key within a table whose meaning describes all its keys. @param stored the name of the field that is stored
-inline Key key_in_table(const char* name, const char* stored) {
+/// A key within a table whose meaning describes all its keys.
+/// @param stored the name of the field that is stored; null: that of the key
+inline Key key_in_table(const char* name, const char* stored = nullptr) {
     return {name, "", true, nullptr, {}, stored};
 }
 

@@ -2,6 +2,8 @@
 
 #include "graze/flow/system.hpp"
 #include "graze/symbolic/function.hpp"
+#include "study/key_reader.hpp"
+#include "study/measured_description.hpp"
 #include "study/point_limits.hpp"
 
 #include <fmt/format.h>
@@ -31,7 +33,10 @@ void require_finite_at_start(const StudyReader& reader, const RecordBench& bench
     });
 }
 
-void read_bench_channels(const StudyReader& reader, const TomlEntry& entry, RecordBench& bench) {
+} // namespace
+
+void read_bench_channels(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
+    RecordBench& bench = *run.record().bench;
     reader.each_of(entry, {}, [&](const TomlEntry& item) {
         BenchChannel channel;
         std::string unit;
@@ -65,26 +70,9 @@ void read_bench_channels(const StudyReader& reader, const TomlEntry& entry, Reco
     });
 }
 
-} // namespace
-
 void read_bench(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     RecordBench& bench = *run.record().bench;
-    reader.each_of(entry, {"channels", "rate", "settle", "time", "repeats", "bits", "anti_alias", "time_unit"},
-                   [&](const TomlEntry& item) {
-                       if (item.name == "channels")
-                           read_bench_channels(reader, item, bench);
-                       else if (item.name == "repeats")
-                           bench.repeats = reader.count(item, 1, 10'000);
-                       else if (item.name == "bits")
-                           bench.bits = static_cast<int>(reader.count(item, 1, 32));
-                       else if (item.name == "settle")
-                           bench.settle = reader.number(bench.model, item);
-                       else
-                           (item.name == "rate"         ? bench.rate
-                            : item.name == "time"       ? bench.time
-                            : item.name == "anti_alias" ? bench.anti_alias
-                                                        : bench.time_unit) = reader.positive(bench.model, item);
-                   });
+    KeyReader::read_table(reader, run, entry, [&bench](auto& keys) { describe_bench(keys, bench); });
     if (!bench.channels.empty() && bench.settle == 0 && run.record().vary.axes.empty())
         reader.each_of(entry, {}, [&](const TomlEntry& item) {
             if (item.name == "channels")
