@@ -1,7 +1,7 @@
-// Errors against the tolerance asked for, of the shipped models: of states and derivatives after motions with contacts,
-// of multipliers and parameters of located points on branches. The reference is the same at the least tolerance, from
-// which errors at any other tell how far steps, contacts and corrections keep to what they were asked for; that the
-// reference is right is what tests are for.
+// Errors of the shipped models against the requested tolerance: of states and derivatives after motions with contacts,
+// and of multipliers and parameters of located points on branches. The reference is the same computation at the
+// smallest tolerance, so that the errors show whether steps, contacts and corrections respect the tolerance; tests
+// verify the reference itself.
 
 #include "microactuator.hpp"
 
@@ -24,7 +24,7 @@ using namespace graze;
 
 constexpr double least_tolerance = 1e-15;
 
-/// A shipped model, for a time in which it meets contacts.
+/// A motion of a shipped model that includes contacts.
 struct Motion {
     const char* model;
     double time;
@@ -34,10 +34,10 @@ constexpr Motion motions[] = {
     {"electromagnetic-testbed", 0.45},  {"impact-microactuator", 21}, {"impact-oscillator", 12.3},
     {"impact-oscillator-two-stops", 9}, {"mems-switch", 13},          {"microbeam", 0.4}};
 
-/// Where a motion ends, with derivatives by all states and parameters, states x inputs.
+/// The end of a motion, with derivatives with respect to all states and parameters, states x inputs.
 struct End {
     std::vector<double> state, derivatives;
-    std::vector<double> periods; ///< 0: not cyclic
+    std::vector<double> periods; ///< periods of cyclic states, 0 for others
 };
 
 End end_of(const Motion& motion, double tolerance) {
@@ -60,7 +60,8 @@ End end_of(const Motion& motion, double tolerance) {
             model.periods()};
 }
 
-/// Of states relative to their sizes, of derivatives relative to the size of their direction in units of the states.
+/// Computes relative errors: of states against their sizes, of derivatives against the size of their direction in
+/// scaled states.
 void compare(const End& end, const End& reference, double& of_states, double& of_derivatives) {
     const std::size_t n = reference.state.size(), inputs = reference.derivatives.size() / n;
     std::vector<double> units;
@@ -92,7 +93,7 @@ void accuracy_of_motion(benchmark::State& state, const Motion& motion, double to
     state.counters["of_derivatives"] = of_derivatives;
 }
 
-/// The largest multiplier of a settled orbit, and a point that its branch leads to.
+/// The largest multiplier of an attracting orbit, and a special point on its branch.
 struct Located {
     double multiplier = 0, parameter = 0;
 };

@@ -1,9 +1,9 @@
 // Branches of periodic orbits. The orbit {J1, J8} of the microactuator is followed in V from 0.82 for 200 points, with
 // multipliers, all test functions and certificates; the peer only integrates, with Boost.odeint, what the Newton steps
-// of that branch need when derivatives are taken by differences. Then orbits of more and more segments.
+// of that branch need when derivatives are taken by differences. Then orbits with increasing numbers of segments.
 
-#include "duel.hpp"
 #include "microactuator.hpp"
+#include "paired_timing.hpp"
 
 #include <benchmark/benchmark.h>
 #include <boost/numeric/odeint/integrate/integrate_adaptive.hpp>
@@ -18,7 +18,7 @@ namespace {
 
 using namespace graze;
 
-/// The smooth motions of the two segments, by hand.
+/// The smooth motions of the two segments, written by hand.
 class OdeintFlows {
 public:
     using State = std::array<double, 5>;
@@ -36,7 +36,7 @@ public:
         sum += state[0];
     }
 
-    /// What one evaluation of the equations and their derivatives by differences takes.
+    /// Performs the integrations of one evaluation of the equations and their derivatives by differences.
     void evaluate(const Orbit& orbit) {
         const double voltage = orbit.parameters[0];
         for (std::size_t s = 0; s < orbit.segments(); ++s) {
@@ -62,10 +62,10 @@ void BranchOfTheMicroactuator(benchmark::State& state) {
     const Branch known = follow_branch(model, orbit, microactuator_settings());
     if (known.points.size() != 201 || model.parameter_symbols()[0].name() != "V" || model.modes[0].name != "stick")
         throw std::logic_error("the branch is not what is to be measured");
-    Duel duel;
+    PairedTiming timing;
     OdeintFlows peer;
     for (auto _ : state)
-        state.SetIterationTime(duel.round(
+        state.SetIterationTime(timing.round(
             [&] { benchmark::DoNotOptimize(follow_branch(model, orbit, microactuator_settings()).points.size()); },
             [&] {
                 for (const BranchPoint& point : known.points) // the tangent takes one more evaluation
@@ -73,8 +73,8 @@ void BranchOfTheMicroactuator(benchmark::State& state) {
                         peer.evaluate(point.solution.orbit);
                 benchmark::DoNotOptimize(peer.sum);
             }));
-    state.counters["seconds"] = duel.own();
-    state.counters["odeint_flows_ratio"] = duel.peer() / duel.own();
+    state.counters["seconds"] = timing.own();
+    state.counters["odeint_flows_ratio"] = timing.peer() / timing.own();
     state.counters["special"] = static_cast<double>(known.special.size());
 }
 BENCHMARK(BranchOfTheMicroactuator)->UseManualTime()->Unit(benchmark::kMillisecond)->MinTime(1);
@@ -85,12 +85,13 @@ void OrbitOfManySegments(benchmark::State& state) {
     const Orbit orbit = repeated(microactuator_orbit(), segments / 2), two = microactuator_orbit();
     BranchSettings few = microactuator_settings();
     few.steps = 5;
-    Duel duel;
+    PairedTiming timing;
     for (auto _ : state)
         state.SetIterationTime(
-            duel.round([&] { benchmark::DoNotOptimize(follow_branch(model, orbit, few).points.size()); },
-                       [&] { benchmark::DoNotOptimize(follow_branch(model, two, few).points.size()); }));
-    state.counters["time_for_each_segment_against_two"] = duel.own() / duel.peer() * 2 / static_cast<double>(segments);
+            timing.round([&] { benchmark::DoNotOptimize(follow_branch(model, orbit, few).points.size()); },
+                         [&] { benchmark::DoNotOptimize(follow_branch(model, two, few).points.size()); }));
+    state.counters["time_for_each_segment_against_two"] =
+        timing.own() / timing.peer() * 2 / static_cast<double>(segments);
     state.SetComplexityN(state.range(0));
 }
 BENCHMARK(OrbitOfManySegments)

@@ -6,19 +6,19 @@
 #include <string>
 #include <vector>
 
-/// A chain of forced oscillators between fixed ends, each with a wall: a model of any size. For i = 1..n
+/// A chain of forced oscillators between fixed ends, each with a wall: a model of variable size. For i = 1..n
 ///     x_i'' = -0.2 x_i - 0.04 x_i' - (2 x_i - x_{i-1} - x_{i+1}) - 0.1 x_i^3, plus F cos(0.9 t) for the first,
 /// x_0 = x_{n+1} = 0, with impacts of restitution e = 0.7 at x_i = 0.6.
 struct Chain {
     static constexpr double spring = 0.2, damping = 0.04, coupling = 1, cubic = 0.1, frequency = 0.9, wall = 0.6,
                             restitution = 0.7, start = 0.001;
-    /// With it motions of chains of any length stay clear of all walls.
+    /// Force at which chains of any length do not reach their walls.
     static constexpr double small_force = 0.3;
-    /// With it the first oscillators meet their walls again and again.
+    /// Force at which the first oscillators impact their walls repeatedly.
     static constexpr double large_force = 1;
 };
 
-/// The model: displacements, velocities and the phase of the force; parameters F, omega, e and wall.
+/// Returns the model with displacements, velocities and the phase of the force; parameters F, omega, e and wall.
 inline graze::Model chain(std::size_t oscillators, double force) {
     using graze::Expression;
     const auto numbered = [](const char* stem, std::size_t i) { return stem + std::to_string(i); };

@@ -1,9 +1,9 @@
-// A chain of forced oscillators with walls, which can be made as large as one likes: how start-up, memory, a period,
-// derivatives and points of branches grow with it. Times are the processor's. Names with `large` in them take long.
+// A chain of forced oscillators with walls, of variable length: how start-up, memory, a simulated period, derivatives
+// and points of branches scale with its length. Times are CPU times. Benchmarks with `large` in their names take long.
 
 #include "chain.hpp"
-#include "duel.hpp"
 #include "memory.hpp"
+#include "paired_timing.hpp"
 
 #include "graze/branch/switching.hpp"
 #include "graze/flow/mode_flow.hpp"
@@ -25,20 +25,20 @@ using namespace graze;
 constexpr double period = 2 * std::numbers::pi / Chain::frequency;
 constexpr double tolerance = 1e-12;
 
-/// How many short runs are timed together, so that the processor's clock resolves them.
+/// Returns how many short runs are timed together, so that the CPU clock resolves them.
 /// @param size of one run, as a multiple of a period of one oscillator
 int resolved_runs(std::size_t size) {
     constexpr std::size_t enough = 200;
     return 1 + static_cast<int>(enough / size);
 }
 
-/// What is aimed at, in milliseconds.
+/// Targets, in milliseconds.
 constexpr double allowed_start_up = 30;
 double allowed_point(std::size_t oscillators) {
     return oscillators <= 5 ? 1 : oscillators <= 10 ? 3 : 10;
 }
 
-/// From nothing to the first Taylor coefficients.
+/// Builds a model and computes its first Taylor coefficients.
 void first_jet(std::size_t oscillators) {
     const Model model = chain(oscillators, Chain::small_force);
     const Simulation simulation(model);
@@ -61,7 +61,7 @@ void start_up(benchmark::State& state, std::size_t oscillators) {
     state.counters["ratio"] = allowed_start_up / (1e3 * least);
 }
 
-/// The chain in steady motion that can be carried on period by period.
+/// The chain in steady motion, simulated period by period.
 class ChainRun {
 public:
     ChainRun(std::size_t oscillators, double force)
@@ -100,24 +100,23 @@ private:
     int periods_ = 0;
 };
 
-/// The peer is the shortest chain, times the number of oscillators: a ratio of 1 is a cost that grows as the model
-/// does.
+/// The peer is the shortest chain times the number of oscillators: a ratio of 1 means cost proportional to the model.
 void plain(benchmark::State& state, std::size_t oscillators, double force) {
     const int periods = resolved_runs(oscillators), periods_of_one = resolved_runs(1);
     ChainRun own(oscillators, force), one(1, force);
-    Duel duel(Clock::processor);
+    PairedTiming timing(Clock::processor);
     for (auto unused : state)
-        state.SetIterationTime(duel.round([&] { own.run(periods); }, [&] { one.run(periods_of_one); }));
+        state.SetIterationTime(timing.round([&] { own.run(periods); }, [&] { one.run(periods_of_one); }));
     own.require_end();
-    const double seconds = duel.own() / periods, seconds_of_one = duel.peer() / periods_of_one;
+    const double seconds = timing.own() / periods, seconds_of_one = timing.peer() / periods_of_one;
     state.counters["ms_a_period"] = 1e3 * seconds;
     state.counters["ratio"] = seconds_of_one * static_cast<double>(oscillators) / seconds;
     state.counters["contacts_a_period"] =
         static_cast<double>(own.contacts()) / static_cast<double>(periods * state.iterations());
 }
 
-/// Derivatives of the state after a period by the first states or, if there are more inputs than those, by all states
-/// and the force. The peer is the flow without.
+/// Derivatives of the state after a period with respect to the first states or, with more inputs, to all states and the
+/// force. The peer is the flow without derivatives.
 void derivatives(benchmark::State& state, std::size_t oscillators, std::size_t inputs) {
     const ChainRun settled(oscillators, Chain::small_force);
     const std::vector<double> start(settled.trajectory().state().begin(), settled.trajectory().state().end());
@@ -131,11 +130,11 @@ void derivatives(benchmark::State& state, std::size_t oscillators, std::size_t i
     flow.set_parameters(settled.model().parameter_values());
     without.set_parameters(settled.model().parameter_values());
     std::vector<double> end, matrix(start.size() * inputs);
-    Duel duel(Clock::processor);
+    PairedTiming timing(Clock::processor);
     ModeFlow::Ending ending = ModeFlow::Ending::done;
     const int runs = resolved_runs(oscillators * inputs), runs_without = resolved_runs(oscillators);
     for (auto unused : state)
-        state.SetIterationTime(duel.round(
+        state.SetIterationTime(timing.round(
             [&] {
                 for (int i = 0; i < runs; ++i) {
                     end = start;
@@ -150,7 +149,7 @@ void derivatives(benchmark::State& state, std::size_t oscillators, std::size_t i
             }));
     if (ending != ModeFlow::Ending::done)
         state.SkipWithError("the flow with derivatives does not reach the end");
-    const double times = duel.own() / runs / (duel.peer() / runs_without);
+    const double times = timing.own() / runs / (timing.peer() / runs_without);
     state.counters["times_plain"] = times;
     state.counters["ratio"] = (2 + 0.5 * static_cast<double>(inputs)) / times;
     const auto steps = [&](ModeFlow& one, auto&& run) {
@@ -198,7 +197,7 @@ void branch(benchmark::State& state, std::size_t oscillators) {
     state.counters["gain_in_F"] = followed.points.back().parameter / force;
 }
 
-/// The branch from small force to where a wall is grazed, and from there with a contact.
+/// The branch from small force to the grazing of a wall, and from there with a contact.
 void branch_with_contact(benchmark::State& state, std::size_t oscillators) {
     constexpr double force = 0.05;
     constexpr std::size_t many = 5000, steps = 20;
@@ -243,7 +242,7 @@ const int registered = [] {
             one->Iterations(2);
     };
     const std::vector<std::size_t> sizes = {1, 5, 10, 20, 50, 100, 200};
-    // First, while there is little memory that could be used again.
+    // First, while little freed memory could be reused.
     for (const std::size_t n : sizes)
         add("start_up/30_ms/chain_of_" + std::to_string(n), n > 20, start_up, n);
     for (const std::size_t n : sizes) {

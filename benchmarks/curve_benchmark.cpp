@@ -1,6 +1,6 @@
-// Curves of special points in two parameters: points in a second, with multipliers, all test functions and
-// certificates. Folds, flips and touches are those of the microactuator's orbits without impact and with one; torus
-// points those of a map in the plane, since no shipped model has any. Then curves of orbits of more and more segments.
+// Curves of special points in two parameters: points per second, with multipliers, all test functions and certificates.
+// Folds, flips and touches are those of the microactuator's orbits without impact and with one; torus points those of a
+// map in the plane, since no shipped model has any. Then curves of orbits with increasing numbers of segments.
 
 #include "microactuator.hpp"
 
@@ -17,7 +17,7 @@ namespace {
 
 using namespace graze;
 
-/// The orbit without impact, which flips, folds and grazes as the voltage grows.
+/// The orbit without impact, which has a flip, a fold and a grazing as the voltage increases.
 Branch branch_without_impact(const Model& model) {
     AttractorOptions settle;
     settle.section = "longest";
@@ -69,7 +69,7 @@ mode = "rest"
                        "map.toml");
 }
 
-/// Points of the curve through a point, both ways.
+/// Follows the curve through a point in both directions and returns the number of points.
 std::size_t follow_curve(const Model& model, const SpecialPoint& point, const std::string& first,
                          const std::string& second, std::size_t steps) {
     std::size_t points = 0;
@@ -116,15 +116,15 @@ void CurveOfTorusPoints(benchmark::State& state) {
 }
 BENCHMARK(CurveOfTorusPoints)->Unit(benchmark::kMillisecond);
 
-/// A point of the orbit {J1, J8}, gone round several times: of folds, and of flips, whose coefficient takes more. An
-/// odd number of rounds keeps the multiplier -1.
+/// Curves of the orbit {J1, J8} repeated several times: folds, and flips, whose coefficient costs more. An odd number
+/// of repetitions keeps the multiplier -1.
 void CurveOfManySegments(benchmark::State& state, PointType type) {
     const Model model = microactuator(microactuator_start);
     const Branch branch = follow_branch(model, microactuator_orbit(), microactuator_settings());
     SpecialPoint point = first_of(branch, type);
     const auto rounds = static_cast<std::size_t>(state.range(0));
-    // The frame has moved on after each round: by nearly as much as next to the point, where the equations that tell by
-    // how much are not singular as they are at a fold.
+    // The frame drifts in each repetition. The drift is taken from a neighbouring point, because the equations for it
+    // are singular at a fold.
     const auto next = std::min_element(branch.points.begin(), branch.points.end(), [&](const auto& a, const auto& b) {
         return std::abs(a.arclength - point.arclength) < std::abs(b.arclength - point.arclength);
     });

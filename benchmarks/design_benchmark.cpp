@@ -1,6 +1,5 @@
-// The trip value of the MEMS switch over a plane of two dimensions, with the class, and over devices that differ.
-// Beside them what there is without exact grazings: bisection, each step of which simulates the device until it trips
-// or rests.
+// The trip value of the MEMS switch over a plane of two parameters, with its class, and over devices with scatter. The
+// peer does not use exact grazings: bisection, each step of which simulates the device until it trips or rests.
 
 #include "design/simulated_devices.hpp"
 #include "design/switches.hpp"
@@ -64,8 +63,8 @@ void YieldOfTripValues(benchmark::State& state) {
 }
 BENCHMARK(YieldOfTripValues)->ArgName("jobs")->Arg(1)->Arg(2)->Unit(benchmark::kSecond)->UseRealTime();
 
-/// To four digits only, where exact grazings have twelve: each more costs a bisection step, and longer rests.
-/// The counter `ratio` is the time of this over that of a value of the plane, both measured here.
+/// Accurate to four digits only, where exact grazings give twelve: more digits cost bisection steps and longer
+/// simulations. The counter `ratio` is the time of this over that of a value of the plane, both measured here.
 void TripValueBySimulation(benchmark::State& state) {
     const Switch one;
     const ParameterId omega = one.trip.system.model().independent_parameter("omega");

@@ -1,4 +1,4 @@
-// Many trajectories in lanes against the same ones after each other, on one core: the electromagnetic vibro-impactor
+// Many trajectories in lanes against the same ones one after another, on one core: the electromagnetic vibro-impactor
 // on and near its period-3 orbit, and over the range of voltages in which it moves irregularly.
 
 #include "testbed.hpp"
@@ -13,7 +13,7 @@ namespace {
 
 using namespace graze;
 
-/// Trajectories that differ a little in voltage and can be carried on together.
+/// Trajectories with slightly different voltages that are simulated together.
 class Group {
 public:
     static constexpr std::size_t count = 64;
@@ -28,7 +28,7 @@ public:
         }
     }
 
-    /// To be run for more periods.
+    /// Extends the end time by some periods.
     void extend(int periods) {
         periods_ += periods;
         for (Trajectory& trajectory : trajectories)
@@ -67,14 +67,14 @@ void lanes(benchmark::State& state, double tolerance, double voltage, double spr
     };
     run_lanes(0);
     run_in_turn(0);
-    Duel duel(Clock::processor);
+    PairedTiming timing(Clock::processor);
     for (auto unused : state)
-        state.SetIterationTime(duel.round([&] { run_lanes(periods); }, [&] { run_in_turn(periods); }));
+        state.SetIterationTime(timing.round([&] { run_lanes(periods); }, [&] { run_in_turn(periods); }));
     if (!side_by_side.same_states(in_turn))
         state.SkipWithError("lanes and single trajectories differ");
-    state.counters["periods_per_second"] = Group::count * periods / duel.own();
-    state.counters["peer_periods_per_second"] = Group::count * periods / duel.peer();
-    state.counters["ratio"] = duel.peer() / duel.own();
+    state.counters["periods_per_second"] = Group::count * periods / timing.own();
+    state.counters["peer_periods_per_second"] = Group::count * periods / timing.peer();
+    state.counters["ratio"] = timing.peer() / timing.own();
 }
 
 void register_lanes(const std::string& name, double voltage, double spread) {

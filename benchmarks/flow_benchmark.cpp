@@ -1,7 +1,7 @@
-// The flow of one mode with second derivatives contracted with a vector: against the same with first ones alone, and
-// what it takes to compile for that.
+// The flow of one mode with second derivatives contracted with a vector, against first derivatives alone; and the time
+// to compile it.
 
-#include "duel.hpp"
+#include "paired_timing.hpp"
 
 #include "graze/flow/second_order_flow.hpp"
 #include "graze/model/catalogue.hpp"
@@ -17,13 +17,13 @@ namespace {
 using namespace graze;
 
 constexpr double tolerance = 1e-12;
-constexpr int runs = 20; ///< in each round
+constexpr int runs = 20; ///< number of runs per measurement
 
 Model model_of(const std::string& name) {
     return name == "microbeam-3" ? microbeam({.modes = 3}) : load_model(name);
 }
 
-/// The first parameters, as many as asked for.
+/// Returns the first `count` parameters.
 std::vector<ParameterId> free_of(std::size_t count) {
     std::vector<ParameterId> free;
     for (std::size_t f = 0; f < count; ++f)
@@ -65,10 +65,10 @@ void second_derivatives(benchmark::State& state, const std::string& name, std::s
     SecondOrderFlow second(VariationalSystem(arc.system, free_of(free)), tolerance);
     first.set_parameters(parameters);
     second.set_parameters(parameters);
-    Duel duel;
+    PairedTiming timing;
     for (auto unused : state)
-        state.SetIterationTime(duel.round([&] { arc.second_order(second); }, [&] { arc.first_order(first); }));
-    state.counters["cost"] = duel.own() / duel.peer();
+        state.SetIterationTime(timing.round([&] { arc.second_order(second); }, [&] { arc.first_order(first); }));
+    state.counters["cost"] = timing.own() / timing.peer();
     const std::size_t first_before = first.steps(), second_before = second.steps();
     arc.first_order(first);
     arc.second_order(second);

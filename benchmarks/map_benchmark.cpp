@@ -1,5 +1,5 @@
-// Maps of touches: what a contact does, what it does to the whole cycle, and that with the next order. The model is
-// compiled; everything else counts, derivatives by symbols included.
+// Maps at a touch: the discontinuity map, the map of the whole cycle, and the latter with the next order. The compiled
+// model is given; all else is measured, including symbolic derivatives.
 
 #include "graze/grazing/verdict.hpp"
 #include "graze/model/catalogue.hpp"
@@ -14,7 +14,7 @@ namespace {
 
 using namespace graze;
 
-/// The ball that rests in front of the shaker, which just reaches it.
+/// The ball at rest in front of the shaker, which just touches it.
 struct Resting {
     Model model = load_model("ball-and-shaker");
     Orbit orbit;
@@ -41,7 +41,7 @@ void ContactMap(benchmark::State& state) {
 }
 BENCHMARK(ContactMap)->Unit(benchmark::kMicrosecond);
 
-/// @param state its argument: whether with the next order
+/// @param state its argument selects the next order
 void MapOfCycle(benchmark::State& state) {
     Resting resting;
     resting.options.next_order = state.range(0) == 1;

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <string>
 
-/// Megabytes by which a run makes this process grow at most, beyond what it had before; 0 where Linux does not tell.
+/// Returns the peak growth of the process during a run, in megabytes; 0 where Linux does not report it.
 template <class Run>
 double peak_megabytes(Run&& run) {
     const auto status = [](const std::string& key) {
@@ -15,8 +15,8 @@ double peak_megabytes(Run&& run) {
                 return std::stod(line.substr(key.size() + 1)) / 1024;
         return 0.0;
     };
-    malloc_trim(0);                              // what is free but kept would not be seen to be used again
-    std::ofstream("/proc/self/clear_refs") << 5; // forgets the peak so far
+    malloc_trim(0);                              // return free memory to the system, since its reuse would not be seen
+    std::ofstream("/proc/self/clear_refs") << 5; // resets the peak
     const double before = status("VmRSS");
     run();
     return status("VmHWM") - before;

@@ -12,7 +12,7 @@ inline graze::Model microactuator(double voltage) {
     return model;
 }
 
-/// From here 200 points of at most this step are followed upwards.
+/// Start of a branch of 200 points upwards, and its largest step.
 inline constexpr double microactuator_start = 0.82, microactuator_step = 0.008;
 
 inline graze::BranchSettings microactuator_settings(double largest_step = microactuator_step) {
@@ -39,7 +39,7 @@ inline const graze::Orbit& microactuator_orbit() {
     return orbit;
 }
 
-/// An orbit gone round several times.
+/// Returns an orbit repeated several times.
 inline graze::Orbit repeated(const graze::Orbit& one, std::size_t times) {
     graze::Orbit orbit = one;
     for (std::size_t i = 1; i < times; ++i) {

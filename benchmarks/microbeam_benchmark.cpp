@@ -1,7 +1,8 @@
-// The microbeam with a compliant stop: what nine modes cost against one, derivatives with respect to all states and the
-// voltage against none, and the folds that end its branches. Names with `large` in them take long.
+// The microbeam with a compliant stop: the cost of nine modes against one, of derivatives with respect to all states
+// and the voltage against none, and of the folds that end its branches. Benchmarks with `large` in their names take
+// long.
 
-#include "duel.hpp"
+#include "paired_timing.hpp"
 
 #include "graze/branch/switching.hpp"
 #include "graze/model/microbeam.hpp"
@@ -19,9 +20,9 @@ namespace {
 
 using namespace graze;
 
-constexpr int periods = 4; ///< in each round
+constexpr int periods = 4; ///< periods per measurement
 
-/// The beam in steady motion that can be carried on period by period.
+/// The beam in steady motion, simulated period by period.
 class BeamRun {
 public:
     BeamRun(int modes, bool derivatives)
@@ -66,17 +67,17 @@ private:
 
 void beam(benchmark::State& state, int modes, bool derivatives, int peer_modes) {
     BeamRun own(modes, derivatives), peer(peer_modes, false);
-    Duel duel;
+    PairedTiming timing;
     for (auto unused : state)
-        state.SetIterationTime(duel.round([&] { own.run(periods); }, [&] { peer.run(periods); }));
+        state.SetIterationTime(timing.round([&] { own.run(periods); }, [&] { peer.run(periods); }));
     if (own.trajectory().outcome().ending != Ending::end_time)
         state.SkipWithError("the trajectory has ended early");
-    state.counters["periods_per_second"] = periods / duel.own();
-    state.counters["peer_periods_per_second"] = periods / duel.peer();
-    state.counters["ratio"] = duel.peer() / duel.own();
+    state.counters["periods_per_second"] = periods / timing.own();
+    state.counters["peer_periods_per_second"] = periods / timing.peer();
+    state.counters["ratio"] = timing.peer() / timing.own();
 }
 
-/// What one of the two folds takes: seconds from the model on, and points.
+/// The cost of one of the two folds: seconds including the model, and points.
 struct FoldRun {
     double seconds = 0, voltage = 0;
     std::size_t points = 0;
@@ -109,8 +110,8 @@ double fold_of(const std::vector<SpecialPoint>& special) {
     return special.back().parameter;
 }
 
-/// From rest at a small voltage: up to where the stop is grazed, and on with contact to the fold that ends the branch
-/// of low penetration.
+/// From rest at a small voltage up to the grazing of the stop, then with contact to the fold that ends the branch of
+/// low penetration.
 void low_fold(int modes, FoldRun& run) {
     const Model model = microbeam({.modes = modes, .voltage = 0.01});
     const System system(model);
@@ -130,7 +131,7 @@ void low_fold(int modes, FoldRun& run) {
     run.voltage = fold_of(last);
 }
 
-/// From rest at a large voltage, where it settles deep in its stop: down to the fold that ends the branch of high
+/// From rest at a large voltage, where the beam settles deep in its stop, down to the fold that ends the branch of high
 /// penetration.
 void high_fold(int modes, FoldRun& run) {
     const Model model = microbeam({.modes = modes, .voltage = 0.034});
@@ -139,19 +140,19 @@ void high_fold(int modes, FoldRun& run) {
     run.voltage = fold_of(branch.special);
 }
 
-/// The peer is one mode; times are the processor's. @param voltage of the fold, as known otherwise
+/// The peer is one mode; times are CPU times. @param voltage independently known voltage of the fold
 void fold(benchmark::State& state, int modes, void (*find)(int, FoldRun&), double voltage) {
     FoldRun own, one;
-    Duel duel(Clock::processor);
+    PairedTiming timing(Clock::processor);
     for (auto unused : state)
-        state.SetIterationTime(duel.round([&] { find(modes, own); }, [&] { find(1, one); }));
-    constexpr double last_digit = 1e-11; // one of the values is known to as many
+        state.SetIterationTime(timing.round([&] { find(modes, own); }, [&] { find(1, one); }));
+    constexpr double last_digit = 1e-11; // accuracy of the known values
     if (!(std::abs(own.voltage - voltage) < last_digit))
         state.SkipWithError("the fold is not where it is known to be");
-    state.counters["s"] = duel.own();
+    state.counters["s"] = timing.own();
     state.counters["points"] = static_cast<double>(own.points);
     state.counters["points_of_peer"] = static_cast<double>(one.points);
-    state.counters["ratio"] = duel.peer() / duel.own();
+    state.counters["ratio"] = timing.peer() / timing.own();
     state.counters["V"] = own.voltage;
 }
 

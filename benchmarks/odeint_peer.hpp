@@ -10,9 +10,9 @@
 #include <cmath>
 #include <numbers>
 
-/// What a careful user of Boost.odeint would write for the electromagnetic vibro-impactor: its nondimensional
-/// equations by hand, dopri5 with dense output, the event looked for at the ends of steps and bisected on the dense
-/// output, a restart after each jump.
+/// A careful implementation of the electromagnetic vibro-impactor with Boost.odeint: nondimensional equations by hand,
+/// dopri5 with dense output, event detection at the ends of steps, bisection on the dense output, restart after each
+/// jump.
 class OdeintPeer {
 public:
     using State = std::array<double, 3>; ///< displacement, velocity, current; the phase is `frequency` times time
@@ -32,10 +32,10 @@ public:
         step_ = 1e-3;
     }
 
-    /// Goes on for whole periods, from phase 0 to phase 0.
+    /// Integrates whole periods, from phase 0 to phase 0.
     void run(int periods) {
         const double length = 2 * std::numbers::pi / parameters_.frequency;
-        // Counting time from the start of each run keeps its round-off from growing.
+        // Time is counted from the start of each run, so that its round-off does not grow.
         time_ = 0;
         run_until(periods * length);
     }

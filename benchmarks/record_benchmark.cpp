@@ -1,5 +1,4 @@
-// Records are read part by part: how long that takes beside reading the same bytes,
-// from the disk and from memory.
+// Records are read in parts: the time against reading the same bytes, from the disk and from memory.
 #include "graze/base/text_file.hpp"
 #include "graze/record/record_file.hpp"
 #include "graze/record/record_writer.hpp"
@@ -20,13 +19,13 @@ namespace {
 
 constexpr std::size_t channels = 4;
 
-/// Rows of the record; GRAZE_RECORD_ROWS says another number.
+/// Returns the number of rows of the record; GRAZE_RECORD_ROWS overrides it.
 std::size_t wanted_rows() {
     const char* asked = std::getenv("GRAZE_RECORD_ROWS");
     return asked ? static_cast<std::size_t>(std::strtod(asked, nullptr)) : 1'000'000;
 }
 
-/// A record as an instrument of 16 bits writes it. GRAZE_RECORD_FOLDER says where it lies meanwhile.
+/// A temporary record as a 16-bit instrument writes it, in the folder GRAZE_RECORD_FOLDER.
 class ExampleRecord {
 public:
     explicit ExampleRecord(const char* ending) {
@@ -63,8 +62,8 @@ double seconds_of(const auto& work) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-/// What the system keeps of a file in memory is forgotten, so that it is read from the disk again.
-void forget(const std::string& path) {
+/// Drops a file from the page cache, so that it is read from the disk again.
+void drop_from_cache(const std::string& path) {
     const int file = ::open(path.c_str(), O_RDONLY);
     fdatasync(file);
     posix_fadvise(file, 0, 0, POSIX_FADV_DONTNEED);
@@ -92,10 +91,10 @@ void read_record(benchmark::State& state, const char* ending) {
     const auto size = static_cast<double>(std::filesystem::file_size(record.path()));
     double disk = 0, bytes = 0, rows = 0, count = 0;
     for ([[maybe_unused]] auto _ : state) {
-        forget(record.path());
+        drop_from_cache(record.path());
         disk += seconds_of([&] { read_bytes(record.path()); });
         bytes += seconds_of([&] { read_bytes(record.path()); });
-        forget(record.path());
+        drop_from_cache(record.path());
         rows += seconds_of([&] { count = static_cast<double>(read_rows(record.path())); });
     }
     const auto runs = static_cast<double>(state.iterations());

@@ -1,7 +1,7 @@
-// From a model file to the first Taylor coefficients, for each shipped model, and for chains of many oscillators.
+// From a model file to the first Taylor coefficients, for each shipped model, and for long chains of oscillators.
 
 #include "../tests/model/chain.hpp"
-#include "duel.hpp"
+#include "paired_timing.hpp"
 
 #include "graze/model/catalogue.hpp"
 #include "graze/model/model_file.hpp"

@@ -1,7 +1,7 @@
-// The bifurcation diagram of the electromagnetic vibro-impactor at 6.25 Hz, 2002 points in steps of 1 mV: what labels,
-// exponents, threads, lanes and the result file add to or take from its time. Tolerance 1e-12.
+// The bifurcation diagram of the electromagnetic vibro-impactor at 6.25 Hz, 2002 points in steps of 1 mV: effects of
+// labels, exponents, threads, lanes and the result file on its time. Tolerance 1e-12.
 
-#include "duel.hpp"
+#include "paired_timing.hpp"
 
 #include "graze/model/catalogue.hpp"
 #include "graze/results/result_file.hpp"
@@ -20,7 +20,7 @@ namespace {
 
 using namespace graze;
 
-/// The run of the shipped study, perhaps with fewer voltages.
+/// Returns the run of the shipped study, with every n-th voltage.
 StudyRun sweep_run(std::size_t lyapunov_cycles, std::size_t every) {
     StudyRun run = load_study("electromagnetic-testbed").runs.front();
     run.attractor().lyapunov_cycles = lyapunov_cycles;
@@ -31,7 +31,7 @@ StudyRun sweep_run(std::size_t lyapunov_cycles, std::size_t every) {
     return run;
 }
 
-/// The same sweep at several frequencies: chains that do not depend on one another.
+/// Returns the same sweep at several frequencies: independent chains.
 StudyRun chains_run(std::size_t chains) {
     StudyRun run = sweep_run(60, 20);
     Variation frequencies;
@@ -63,7 +63,7 @@ Totals run_all(const Plan& plan, const SearchFactory& searches, int jobs) {
     return totals;
 }
 
-/// The whole diagram, against a plain simulation of as many periods as it takes for the motions to settle.
+/// The whole diagram, against a plain simulation of as many periods as the motions need to settle.
 void diagram(benchmark::State& state, std::size_t lyapunov_cycles) {
     const StudyRun run = sweep_run(lyapunov_cycles, 1);
     const Plan plan = plan_of(run, run.model, nullptr);
@@ -72,64 +72,65 @@ void diagram(benchmark::State& state, std::size_t lyapunov_cycles) {
     model.set_parameter("V0", 4.95);
     const Simulation simulation(model);
     Totals totals;
-    Duel duel(Clock::processor);
+    PairedTiming timing(Clock::processor);
     for (auto unused : state)
-        state.SetIterationTime(duel.round([&] { totals = run_all(plan, *searches, 1); },
-                                          [&] {
-                                              Observer nobody;
-                                              Trajectory trajectory(simulation, model.parameter_values(), nobody);
-                                              trajectory.start(model.initial_state(), 0, 0,
-                                                               0.16 * static_cast<double>(totals.cycles));
-                                              JetSet jets(simulation, LaneKind::single);
-                                              graze::run(trajectory, jets);
-                                          }));
+        state.SetIterationTime(timing.round([&] { totals = run_all(plan, *searches, 1); },
+                                            [&] {
+                                                Observer nobody;
+                                                Trajectory trajectory(simulation, model.parameter_values(), nobody);
+                                                trajectory.start(model.initial_state(), 0, 0,
+                                                                 0.16 * static_cast<double>(totals.cycles));
+                                                JetSet jets(simulation, LaneKind::single);
+                                                graze::run(trajectory, jets);
+                                            }));
     state.counters["points"] = static_cast<double>(plan.points());
     state.counters["settling_periods"] = static_cast<double>(totals.cycles);
     state.counters["all_periods"] = static_cast<double>(totals.returns);
-    state.counters["ratio"] = duel.peer() / duel.own();
+    state.counters["ratio"] = timing.peer() / timing.own();
 }
 
 void threads(benchmark::State& state) {
     const StudyRun run = chains_run(32);
     const Plan plan = plan_of(run, run.model, nullptr);
     const auto searches = searches_of(run);
-    Duel duel;
+    PairedTiming timing;
     for (auto unused : state)
-        state.SetIterationTime(duel.round([&] { run_all(plan, *searches, 2); }, [&] { run_all(plan, *searches, 1); }));
-    state.counters["ratio"] = duel.peer() / duel.own();
+        state.SetIterationTime(
+            timing.round([&] { run_all(plan, *searches, 2); }, [&] { run_all(plan, *searches, 1); }));
+    state.counters["ratio"] = timing.peer() / timing.own();
 }
 
-/// Sixteen chains side by side against the same ones after each other.
+/// Sixteen chains in lanes against the same ones one after another.
 void lanes(benchmark::State& state) {
     const StudyRun run = chains_run(16);
     const Plan plan = plan_of(run, run.model, nullptr);
     const auto searches = searches_of(run);
-    Duel duel(Clock::processor);
+    PairedTiming timing(Clock::processor);
     for (auto unused : state)
-        state.SetIterationTime(duel.round([&] { run_all(plan, *searches, 1); },
-                                          [&] {
-                                              for (std::size_t chain = 0; chain < plan.chains; ++chain) {
-                                                  Plan one = plan;
-                                                  one.chains = 1;
-                                                  one.start = [&](std::size_t point) {
-                                                      return plan.start(chain * plan.chain_length + point);
-                                                  };
-                                                  run_all(one, *searches, 1);
-                                              }
-                                          }));
-    state.counters["ratio"] = duel.peer() / duel.own();
+        state.SetIterationTime(timing.round([&] { run_all(plan, *searches, 1); },
+                                            [&] {
+                                                for (std::size_t chain = 0; chain < plan.chains; ++chain) {
+                                                    Plan one = plan;
+                                                    one.chains = 1;
+                                                    one.start = [&](std::size_t point) {
+                                                        return plan.start(chain * plan.chain_length + point);
+                                                    };
+                                                    run_all(one, *searches, 1);
+                                                }
+                                            }));
+    state.counters["ratio"] = timing.peer() / timing.own();
 }
 
-/// With the result file against without.
+/// With a result file against without.
 void writing(benchmark::State& state) {
     Study study = load_study("electromagnetic-testbed");
     study.runs = {sweep_run(60, 1)};
     const Plan plan = plan_of(study.runs[0], study.runs[0].model, nullptr);
     const auto searches = searches_of(study.runs[0]);
     const auto folder = std::filesystem::temp_directory_path() / ("graze-benchmark-" + std::to_string(getpid()));
-    Duel duel(Clock::processor);
+    PairedTiming timing(Clock::processor);
     for (auto unused : state)
-        state.SetIterationTime(duel.round(
+        state.SetIterationTime(timing.round(
             [&] {
                 std::filesystem::remove_all(folder);
                 std::filesystem::create_directories(folder);
@@ -138,8 +139,8 @@ void writing(benchmark::State& state) {
             },
             [&] { run_all(plan, *searches, 1); }));
     std::filesystem::remove_all(folder);
-    state.counters["share_of_writing"] = 1 - duel.peer() / duel.own();
-    state.counters["ratio"] = duel.peer() / duel.own();
+    state.counters["share_of_writing"] = 1 - timing.peer() / timing.own();
+    state.counters["ratio"] = timing.peer() / timing.own();
 }
 
 BENCHMARK_CAPTURE(diagram, labels, 0)->UseManualTime()->Unit(benchmark::kSecond);

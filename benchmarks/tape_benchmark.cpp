@@ -1,5 +1,5 @@
-// Taylor coefficients of a vibro-impactor driven by an electromagnet, order 20: from a tape, by kind of lanes and
-// instruction set, and written out by hand, which is what a tape is measured against.
+// Taylor coefficients of a vibro-impactor driven by an electromagnet, order 20: from a tape, for each kind of lanes and
+// instruction set, against hand-written code.
 
 #include "graze/symbolic/expression.hpp"
 #include "graze/tape/jet.hpp"
@@ -39,7 +39,7 @@ Tape impactor() {
     return compile_tape(states, parameters, rates, std::vector<Expression>{x - d, x + d});
 }
 
-/// The same series as straight-line code for one trajectory and one order, as a compiler would generate it.
+/// The same series as straight-line code for one trajectory and one order, as a code generator would write it.
 class HandWritten {
 public:
     [[gnu::noinline, gnu::target("avx2,fma")]] void compute(const double* state);
@@ -103,7 +103,7 @@ void HandWritten::compute(const double* state) {
 }
 #undef GRAZE_SUM
 
-/// Least time of one call, in seconds.
+/// Returns the smallest time of one call, in seconds.
 template <class Compute>
 double least_time(Compute&& compute) {
     using Clock = std::chrono::steady_clock;
@@ -118,7 +118,7 @@ double least_time(Compute&& compute) {
     return least;
 }
 
-/// Changes the states between calls a little, so that no call repeats the last one.
+/// States that change slightly between calls, so that no call repeats the last one.
 struct States {
     explicit States(int width) {
         for (const double value : initial)

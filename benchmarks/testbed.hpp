@@ -1,7 +1,7 @@
 #pragma once
 
-#include "duel.hpp"
 #include "odeint_peer.hpp"
+#include "paired_timing.hpp"
 
 #include "graze/model/catalogue.hpp"
 #include "graze/symbolic/function.hpp"
@@ -27,7 +27,7 @@ public:
 
     graze::Model model = graze::load_model("electromagnetic-testbed");
 
-    /// State at phase 0 once the motion from rest has settled on the orbit at 4.833 V.
+    /// Returns the state at phase 0 after the motion from rest has settled on the orbit at 4.833 V.
     std::vector<double> settled() const {
         const graze::Simulation simulation(model, {}, {}, {.tolerance = 1e-15});
         ContactCounter counter;

@@ -1,5 +1,5 @@
 // The voltage at which the MEMS switch's orbit touches its stop: derivatives at a point, values at other dimensions,
-// and the yield of devices on threads. Beside them the same value by a new branch for each device, up to the touch.
+// and the yield of devices on threads. The peer is a new branch for each device, up to the touch.
 
 #include "graze/branch/orbit_branch.hpp"
 #include "graze/branch/yield.hpp"
@@ -44,7 +44,7 @@ struct Switch {
     }
 };
 
-/// The k-th device: each dimension a little off, by up to one percent.
+/// Returns the k-th device, with each dimension changed by up to one percent.
 std::vector<double> device(const std::vector<double>& nominal, std::size_t k) {
     std::vector<double> values = nominal;
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -71,7 +71,7 @@ void TouchOfADevice(benchmark::State& state) {
 }
 BENCHMARK(TouchOfADevice)->Unit(benchmark::kMicrosecond);
 
-/// What there was before: the branch of each device, up to its touch.
+/// The peer: the branch of each device, up to its touch.
 void TouchOfADeviceByItsBranch(benchmark::State& state) {
     const Switch one;
     LocatedValue touch(one.model, one.touch, one.voltage, one.dimensions);

@@ -1,5 +1,5 @@
 // One trajectory on the period-3 orbit of the electromagnetic vibro-impactor: against Boost.odeint at equal tolerance,
-// and against itself when asked for more (probes, minima of the gap, derivatives).
+// and the cost of additional output (probes, minima of the gap, derivatives).
 
 #include "testbed.hpp"
 
@@ -13,7 +13,7 @@ using namespace graze;
 
 constexpr int periods = 10 * Testbed::orbit_periods; ///< in each round
 
-/// A trajectory on the orbit that can be carried on period by period.
+/// A trajectory on the orbit, simulated period by period.
 class OrbitRun {
 public:
     explicit OrbitRun(const Testbed& testbed, SimulationOptions options, std::vector<Probe> probes = {})
@@ -54,7 +54,7 @@ void period_3_orbit(benchmark::State& state, double tolerance) {
     OdeintPeer peer(testbed.groups(), tolerance);
     const OdeintPeer::State start = testbed.nondimensional(own.trajectory().state());
     peer.start(start);
-    // Errors of a stable orbit add up to a multiple of those of one period, which is reached before long.
+    // Errors on a stable orbit soon saturate at a multiple of those of one period.
     const std::size_t before = own.impacts();
     own.run(periods);
     peer.run(periods);
@@ -64,17 +64,17 @@ void period_3_orbit(benchmark::State& state, double tolerance) {
         state.SkipWithError("graze and odeint do not follow the same orbit");
         return;
     }
-    Duel duel(Clock::processor);
+    PairedTiming timing(Clock::processor);
     for (auto unused : state)
-        state.SetIterationTime(duel.round([&] { own.run(periods); }, [&] { peer.run(periods); }));
-    state.counters["periods_per_second"] = periods / duel.own();
-    state.counters["peer_periods_per_second"] = periods / duel.peer();
-    state.counters["ratio"] = duel.peer() / duel.own();
+        state.SetIterationTime(timing.round([&] { own.run(periods); }, [&] { peer.run(periods); }));
+    state.counters["periods_per_second"] = periods / timing.own();
+    state.counters["peer_periods_per_second"] = periods / timing.peer();
+    state.counters["ratio"] = timing.peer() / timing.own();
     state.counters["error"] = error;
     state.counters["peer_error"] = peer_error;
 }
 
-/// The plain simulation with one that does more: `ratio` is what that leaves of its speed.
+/// Compares the plain simulation with one that computes more: `ratio` is the remaining share of the speed.
 void extra(benchmark::State& state, const SimulationOptions& options, const std::vector<std::string>& sections,
            std::size_t directions) {
     const Testbed testbed;
@@ -89,12 +89,12 @@ void extra(benchmark::State& state, const SimulationOptions& options, const std:
             seeds[d * inputs + d] = 1;
         more.trajectory().carry_tangents(seeds, directions);
     }
-    Duel duel(Clock::processor);
+    PairedTiming timing(Clock::processor);
     for (auto unused : state)
-        state.SetIterationTime(duel.round([&] { more.run(periods); }, [&] { plain.run(periods); }));
-    state.counters["periods_per_second"] = periods / duel.own();
-    state.counters["peer_periods_per_second"] = periods / duel.peer();
-    state.counters["ratio"] = duel.peer() / duel.own();
+        state.SetIterationTime(timing.round([&] { more.run(periods); }, [&] { plain.run(periods); }));
+    state.counters["periods_per_second"] = periods / timing.own();
+    state.counters["peer_periods_per_second"] = periods / timing.peer();
+    state.counters["ratio"] = timing.peer() / timing.own();
 }
 
 void register_extras() {

@@ -5,6 +5,7 @@ usage: batches.py MOST SOURCE...
 
 Prints one line for each source, `BATCH;SOURCE`, with at most MOST sources in a batch.
 """
+import itertools
 import pathlib
 import re
 import sys
@@ -14,7 +15,7 @@ DECLARED = re.compile(r"^(?:\[\[\w+\]\] )?(?:(?:struct|class|enum class) (\w+)|u
 
 
 class Names:
-    """The names of one source, or of several in one batch."""
+    """The names of one source."""
 
     def __init__(self, source):
         text = pathlib.Path(source).read_text(encoding="utf-8")
@@ -43,25 +44,25 @@ class Names:
             for one, two in ((self, other), (other, self))
         )
 
-    def add(self, other):
-        for kind in ("own", "constants", "called", "mentioned"):
-            getattr(self, kind).update(getattr(other, kind))
-
 
 def batches_of(sources, most):
-    """Puts each source into the first batch that is not full and in which no name hides another. Sources of a folder
-    mostly stay together, which is good because they include the same headers."""
+    """Puts each source into the first batch that is not full and in which no name hides another. Sources with many
+    conflicts come first, which leads to few batches."""
+    names = {source: Names(source) for source in sources}
+    conflicts = {source: set() for source in sources}
+    for one, other in itertools.combinations(sources, 2):
+        if names[one].hide(names[other]):
+            conflicts[one].add(other)
+            conflicts[other].add(one)
     batches = []
-    for source in sources:
-        names = Names(source)
-        for members, taken in batches:
-            if len(members) < most and not taken.hide(names):
-                members.append(source)
-                taken.add(names)
+    for source in sorted(sources, key=lambda one: -len(conflicts[one])):
+        for batch in batches:
+            if len(batch) < most and not conflicts[source].intersection(batch):
+                batch.append(source)
                 break
         else:
-            batches.append(([source], names))
-    return [members for members, _ in batches]
+            batches.append([source])
+    return batches
 
 
 if __name__ == "__main__":

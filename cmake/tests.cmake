@@ -69,7 +69,7 @@ foreach(folder IN LISTS test_folders)
     endif()
     target_link_libraries(test_${folder} PRIVATE graze_places)
     # Small batches: a test is changed, compiled and run again more often than other sources.
-    compile_together(test_${folder} 5 ${sources})
+    compile_together(test_${folder} 8 ${sources})
     target_compile_options(test_${folder} PRIVATE ${GRAZE_COMPILED_FAST})
     gtest_discover_tests(
         test_${folder} TEST_PREFIX ${folder}. TEST_FILTER "-*Slow.*" DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES

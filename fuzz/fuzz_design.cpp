@@ -1,4 +1,4 @@
-// Whatever the bytes, reading a design either works or throws an InputError.
+// For any bytes, reading a design either succeeds or throws an InputError.
 
 #include "graze/base/input_error.hpp"
 #include "graze/design/design.hpp"

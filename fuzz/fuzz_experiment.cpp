@@ -1,4 +1,4 @@
-// Whatever the bytes, reading an experiment either works, and then asks for nothing beyond its own limits, or throws an
+// For any bytes, reading an experiment either succeeds, and the experiment stays within its own limits, or throws an
 // InputError.
 
 #include "graze/acquire/experiment.hpp"

@@ -1,4 +1,4 @@
-// Any bytes must either give an expression that prints and parses back to itself, or one clean InputError.
+// For any bytes, parsing gives either an expression that prints and parses back to itself, or one InputError.
 
 #include "graze/symbolic/function.hpp"
 #include "graze/symbolic/parser.hpp"
@@ -31,7 +31,7 @@ void check_expression(graze::Graph& graph, const graze::Expression& expression, 
     try {
         text = graze::to_string(expression);
     } catch (const std::length_error&) {
-        return; // shared parts make it too long to print
+        return; // shared subexpressions make the text too long
     }
     require(graze::parse_expression(graph, text, scope) == expression, "printed text parses back");
     const std::array inputs{scope.at("x"), scope.at("y")};

@@ -1,4 +1,4 @@
-// Whatever lines a function generator is sent, it stays within what it can give, and answers in lines.
+// For any lines sent to it, a simulated function generator stays within its limits and answers in lines.
 
 #include "instrument/function_generator.hpp"
 

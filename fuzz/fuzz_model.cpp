@@ -1,5 +1,5 @@
-// Whatever the bytes, reading a model either works or throws an InputError; a model that was read can be written,
-// and what is written can be read.
+// For any bytes, reading a model either succeeds or throws an InputError; a model that was read can be written and read
+// again.
 
 #include "graze/base/input_error.hpp"
 #include "graze/model/check.hpp"
@@ -27,7 +27,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (model) {
         graze::model_warnings(*model);
         graze::connectivity_graph(*model);
-        graze::parse_model(graze::write_model(*model), "written.toml"); // an error here escapes: that is a finding
+        graze::parse_model(graze::write_model(*model), "written.toml"); // an error here is not caught: it is a finding
     }
     return 0;
 }

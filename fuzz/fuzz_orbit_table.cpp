@@ -1,5 +1,5 @@
-// Whatever the bytes, a table of an orbit is read or refused by an InputError, and so is a signature. The first line
-// may be a signature.
+// For any bytes, a table of an orbit, or a signature, is read or refused by an InputError. The first line may be a
+// signature.
 
 #include "graze/base/input_error.hpp"
 #include "graze/model/catalogue.hpp"
@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string_view line = text.substr(0, std::min(text.find('\n'), text.size()));
     try {
         graze::parse_signature(model, line, {"fuzz", 1, 1});
-    } catch (const graze::InputError&) { // it is a table without one
+    } catch (const graze::InputError&) { // the table has no signature
     }
     for (const bool with_signature : {false, true})
         try {

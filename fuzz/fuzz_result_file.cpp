@@ -1,5 +1,5 @@
-// Whatever has been done to a result file, what reads it either works or throws an InputError. An input that begins
-// with S is a script in SQL that is carried out on a whole file; any other changes bytes of one, four to a change.
+// For any modified result file, reading either succeeds or throws an InputError. An input that begins with S is an SQL
+// script that is applied to a valid file; any other input changes bytes of one, four input bytes per change.
 
 #include "graze/base/input_error.hpp"
 #include "graze/results/result_file.hpp"
@@ -67,7 +67,7 @@ void remove_files() {
         std::filesystem::remove(path() + ending);
 }
 
-/// A file with a run of each sort.
+/// Returns the bytes of a file with a run of each kind.
 std::string make_image() {
     {
         graze::ResultFile file(path(), graze::ResultFile::Access::write);
@@ -106,7 +106,7 @@ void carry_out(const std::string& script) {
         sqlite3_limit(database, SQLITE_LIMIT_LENGTH, 1 << 24);
         sqlite3_limit(database, SQLITE_LIMIT_ATTACHED, 0);
         sqlite3_progress_handler(
-            database, 1'000'000, [](void*) { return 1; }, nullptr); // scripts have to end
+            database, 1'000'000, [](void*) { return 1; }, nullptr); // limits the run time of scripts
         sqlite3_exec(database, script.c_str(), nullptr, nullptr, nullptr);
     }
     sqlite3_close(database);

@@ -1,4 +1,4 @@
-// Whatever the bytes, reading a study either works or throws an InputError; what was read can be told again.
+// For any bytes, reading a study either succeeds or throws an InputError; a study that was read can be written again.
 
 #include "graze/base/input_error.hpp"
 #include "graze/study/runner.hpp"

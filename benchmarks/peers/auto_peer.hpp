@@ -7,23 +7,23 @@
 
 namespace peers {
 
-/// A line of AUTO's fort.7: what it found, and the columns.
+/// A line of AUTO's fort.7: type, label and columns.
 struct AutoPoint {
-    int type = 0;  ///< 5: fold, 6: branch point, 7: flip, -4: a value that was asked for, 9: an end, -9: no convergence
-    int label = 0; ///< of its solution, from which AUTO can go on; 0: none is kept
+    int type = 0;  ///< 5: fold, 6: branch point, 7: flip, -4: a requested value, 9: an end, -9: no convergence
+    int label = 0; ///< label of its stored solution, from which AUTO can restart; 0: none
     std::vector<double> columns; ///< the branch's parameter, the norm, maxima of the first states, other parameters
 };
 
 struct AutoRun {
     std::vector<AutoPoint> points;
-    double seconds = 0; ///< of the processor
+    double seconds = 0; ///< CPU time
 
     /// Parameters at all points of a type.
     std::vector<double> located(int type) const;
     double milliseconds_per_point() const { return 1e3 * seconds / static_cast<double>(points.size()); }
 };
 
-/// How AUTO is asked to compute.
+/// Settings of an AUTO run.
 struct AutoSettings {
     std::string problem;   ///< the program's name
     std::string constants; ///< besides those below

@@ -87,7 +87,7 @@ public:
         }
     }
 
-    /// The pulse's end or start, the stop, and while the voltage is off the electrode.
+    /// Surfaces: end or start of the pulse, the stop, and the electrode while the voltage is off.
     std::size_t surfaces(std::size_t mode) const override { return is_on(mode) ? 2 : 3; }
     void distances(std::size_t mode, const Real* x, Real* values) const override {
         const Real clearance = product(at_stop_.data(), x) - distance_;
@@ -107,7 +107,7 @@ public:
             x[2 * count_] = is_on(mode) ? turn(mode) : 0;
         return mode ^ (surface == 0 ? 1U : 2U);
     }
-    /// Setting the phase to what it is already changes nothing in derivatives along the motion, but those across it.
+    /// Setting the phase to its current value changes derivatives across the motion, not along it.
     void cross_derivative(std::size_t, std::size_t surface, Real* column) const override {
         if (surface == 0)
             column[2 * count_] = 0;

@@ -28,7 +28,7 @@ using namespace graze;
 
 constexpr int fold_of_auto = 5, flip_of_auto = 7, value_of_auto = -4;
 
-/// A branch of graze with the processor's time that it took.
+/// A branch of graze with its CPU time.
 struct TimedBranch {
     std::vector<BranchPoint> points;
     std::vector<SpecialPoint> special;
@@ -67,12 +67,12 @@ Orbit settled(const Model& model, std::size_t cycles = 4000) {
     return solution.orbit;
 }
 
-/// In how many digits a value agrees with the right one, of the eleven that AUTO prints.
+/// Returns the number of correct digits of a value, of the eleven that AUTO prints.
 double digits(double value, double right) {
     return std::min(11.0, -std::log10(std::max(std::abs(value - right) / std::abs(right), 1e-17)));
 }
 
-/// "0.3166740397 (7.9)": each value with the digits in which the nearest of the right ones agrees, if it is known.
+/// "0.3166740397 (7.9)": each value with its number of correct digits against the nearest right value, if known.
 std::string with_digits(const std::vector<double>& values, const std::vector<double>& right) {
     constexpr double same = 3; // digits that tell a value from another
     std::string text;
@@ -120,7 +120,7 @@ double last_of(const AutoRun& run) {
     return run.points.back().columns.front();
 }
 
-/// A mesh and an accuracy as people use them, and fine ones.
+/// Typical and fine meshes and accuracies of AUTO.
 struct Fineness {
     const char* name;
     int intervals;
@@ -130,7 +130,7 @@ constexpr std::array fineness = {Fineness{"AUTO, 20 x 4, EPS 1e-7", 20, 1e-7},
                                  Fineness{"AUTO, 20 x 4, EPS 1e-9", 20, 1e-9},
                                  Fineness{"AUTO, 100 x 4, EPS 1e-9", 100, 1e-9}};
 
-/// Writes the orbit where AUTO is to begin: its two segments side by side, each over a unit of time.
+/// Writes the start orbit of AUTO: its two segments in parallel, each scaled to unit time.
 void write_start(const Model& model, const Orbit& orbit) {
     constexpr int samples = 200;
     std::ofstream parameters("microactuator.par"), data("microactuator.dat");
@@ -152,7 +152,7 @@ void write_start(const Model& model, const Orbit& orbit) {
     }
 }
 
-/// Durations of both segments at values of the voltage that were asked for, against graze's orbits there.
+/// Compares the durations of both segments at requested voltages with graze's orbits there.
 std::string durations_against(const AutoRun& run, const Model& model, const TimedBranch& branch) {
     double least = std::numeric_limits<double>::infinity();
     std::size_t count = 0;
@@ -238,7 +238,7 @@ void compare_resting() {
     }
 }
 
-/// AUTO's curve through the first point of a type on the branch in V, over the frequency.
+/// Runs AUTO's curve through the first point of a type on the branch in V, over the frequency.
 AutoRun curve_of_auto(const Fineness& one, int type) {
     AutoSettings settings{.problem = "resting",
                           .constants = "IPS= 2, IRS= 0, ISP= 2, NBC= 0, NINT= 0\n"
@@ -252,7 +252,7 @@ AutoRun curve_of_auto(const Fineness& one, int type) {
                                     [&](const AutoPoint& found) { return found.type == type; });
     if (point == branch.points.end())
         throw std::runtime_error("AUTO has found no point of the type whose curve is to be followed");
-    // The first run from it only makes starting data, whose label is the last.
+    // The first run only makes starting data, whose label is the last.
     double seconds = 0;
     int label = point->label;
     AutoRun run;
@@ -269,9 +269,9 @@ AutoRun curve_of_auto(const Fineness& one, int type) {
     return run;
 }
 
-/// In how many digits, at least, AUTO's points are right: of the frequency and the voltage the one that changes less
-/// along the curve, against what graze solves for at the other's value, from the nearest of its own points. So turns
-/// are no harder than the rest.
+/// Returns the smallest number of correct digits of AUTO's points. Of frequency and voltage, the one that changes less
+/// along the curve is compared with graze's solution at the value of the other, so that folds of the curve are not
+/// ill-conditioned.
 double digits_of(const AutoRun& run, const System& system, const SpecialPoint& kept, const TimedBranch& curve,
                  ParameterId voltage, ParameterId frequency) {
     constexpr std::size_t column = 6; // of the voltage: after the frequency, the norm and four maxima
@@ -299,8 +299,8 @@ double digits_of(const AutoRun& run, const System& system, const SpecialPoint& k
 
 /// Curves of the fold and of the first flip in two parameters.
 void compare_curves(bool quick) {
-    constexpr double agreement =
-        8; // digits: AUTO's accuracy is 1e-7 or 1e-9 of a correction, and its points are better
+    // Digits: AUTO's accuracy is 1e-7 or 1e-9 of a correction, and its points are better.
+    constexpr double agreement = 8;
     Model model = microactuator(0.1);
     BranchSettings settings;
     settings.greatest = 0.65;
@@ -343,7 +343,7 @@ void compare_curves(bool quick) {
     }
 }
 
-/// The chain far from its walls, so that both follow the same branch.
+/// Compares branches of the chain far from its walls, so that both programs follow the same branch.
 void compare_chain(std::size_t oscillators, bool quick) {
     constexpr double far = 100, first_force = 0.05, last_force = 2;
     Model model = chain(oscillators, first_force);

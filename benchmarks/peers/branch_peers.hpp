@@ -2,8 +2,8 @@
 
 namespace peers {
 
-/// Prints tables of branches followed by graze and by AUTO-07p: what a point takes, what was located, and in how many
-/// digits both agree.
+/// Prints tables of branches followed by graze and by AUTO-07p: time per point, located points, and the number of
+/// digits in which both agree.
 void compare_branches(bool quick);
 
 } // namespace peers

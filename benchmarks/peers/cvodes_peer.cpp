@@ -150,7 +150,7 @@ private:
         column_rates_.resize(inputs_);
     }
 
-    /// Begins an arc at the state and derivatives that are there.
+    /// Starts an arc at the current state and derivatives.
     void enter(std::size_t mode, double time) {
         mode_ = mode;
         require(CVodeReInit(memory_, time, y_), "CVodeReInit");

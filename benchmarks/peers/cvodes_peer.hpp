@@ -9,13 +9,13 @@
 
 namespace peers {
 
-/// A surface that was met.
+/// A surface that was reached.
 struct Meeting {
     double time = 0;
     std::size_t mode = 0, surface = 0;
 };
 
-/// How CVODES is asked to integrate.
+/// The integration method of CVODES.
 struct CvodesMethod {
     bool stiff = false; ///< backward differences and Newton's method, rather than Adams's with fixed points
     bool staggered = false;
@@ -29,7 +29,7 @@ class CvodesPeer {
 public:
     /// @param motion must outlive this
     /// @param state_scales, input_scales sizes of states, and of states and parameter, for absolute tolerances
-    /// @param derivatives whether they are carried by all states and the parameter
+    /// @param derivatives true: compute derivatives with respect to all states and the parameter
     CvodesPeer(const Motion<double>& motion, std::vector<double> state_scales, std::vector<double> input_scales,
                CvodesMethod method, double tolerance, bool derivatives);
     ~CvodesPeer();

@@ -20,7 +20,7 @@ constexpr std::array methods = {CvodesMethod{false, false}, CvodesMethod{false, 
 /// Errors at which times are compared.
 constexpr std::array levels = {1e-6, 1e-9};
 
-/// By decades; every other one where runs take long.
+/// Returns tolerances by decades; every second one where runs take long.
 std::vector<double> tolerances(const HybridCase& one, int from, int to) {
     constexpr std::size_t many_states = 100;
     std::vector<double> result;
@@ -29,7 +29,7 @@ std::vector<double> tolerances(const HybridCase& one, int from, int to) {
     return result;
 }
 
-/// Which of CVODES's methods takes least at the first level: the others need not be tried at all tolerances.
+/// The fastest CVODES method at the first level; only this one is run at all tolerances.
 struct Fastest {
     CvodesMethod method;
     std::vector<Effort> efforts;

@@ -17,7 +17,7 @@ namespace peers {
 
 namespace {
 
-/// Starts where no contact and no change of mode is due, and so ends.
+/// Start phase at which neither contact nor mode change is near; motions end at the same phase.
 constexpr double phase_of_start = 0.1;
 
 struct ContactTimes : graze::Observer {
@@ -51,7 +51,7 @@ void settle(HybridCase& one, double period, int settling, int periods) {
     one.longest_step = period / 200;
 }
 
-/// Numbers of the model's states in the peers' order and units.
+/// Converts values of the model's states to the peers' order and units.
 std::vector<double> for_peers(const HybridCase& one, const std::vector<double>& values) {
     std::vector<double> result(values.size());
     for (std::size_t i = 0; i < values.size(); ++i)

@@ -12,16 +12,16 @@
 
 namespace peers {
 
-/// One motion with its derivatives, given to graze as a model and to its peers as equations by hand. The peers' units
+/// A motion with derivatives, given to graze as a model and to its peers as hand-written equations. The peers' units
 /// may be others, and their states may have another order.
 struct HybridCase {
     std::string name;
     graze::Model model;
-    std::size_t parameter = 0; ///< by which there are derivatives, besides those by all states
+    std::size_t parameter = 0; ///< parameter of the derivatives, besides all states
     Motions motions;
 
     std::vector<std::size_t> order;        ///< the peers' place of each state of the model
-    std::vector<double> units;             ///< what one of the peers' units is in the model's, for each of its states
+    std::vector<double> units;             ///< factors from the peers' units to the model's, for each state
     double time_unit = 1;                  ///< likewise
     double parameter_unit = 1;             ///< likewise
     std::vector<double> scales;            ///< sizes of the model's states
@@ -32,7 +32,7 @@ struct HybridCase {
     int periods = 0;                       ///< of the force
 };
 
-/// The chain from a motion that has settled, without contacts or with them.
+/// Returns the chain in settled motion, without or with contacts.
 HybridCase chain_case(std::size_t oscillators, double force, int periods);
 HybridCase beam_case(int modes, int periods);
 HybridCase testbed_case(int periods);
@@ -46,11 +46,11 @@ struct Outcome {
 
 /// The largest error of the states, or of a direction against that direction's size, whichever is larger.
 double error_of(const Outcome& outcome, const Outcome& reference);
-/// How far times of contacts are apart at most; infinite when there are not as many.
+/// Returns the largest difference of contact times; infinite if their numbers differ.
 double distance_of_meetings(const Outcome& one, const Outcome& other);
 
 Outcome reference_of(const HybridCase& one);
-/// @param budget seconds for which it is repeated to find the least time
+/// @param budget seconds for which the run is repeated to find the smallest time
 Effort graze_effort(const HybridCase& one, double tolerance, double budget, const Outcome& reference, Outcome& outcome);
 Effort cvodes_effort(const HybridCase& one, CvodesMethod method, double tolerance, double budget,
                      const Outcome& reference, Outcome& outcome);

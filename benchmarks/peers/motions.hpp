@@ -10,7 +10,7 @@
 
 namespace peers {
 
-/// The same motion in both precisions.
+/// The same motion in double and long double precision.
 struct Motions {
     std::unique_ptr<Motion<double>> motion;
     std::unique_ptr<Motion<long double>> exact;

@@ -1,5 +1,5 @@
-// Graze against AUTO-07p and CVODES in one run: `./run peers`, or `./run peers --quick` for a look that takes seconds;
-// `branches` or `derivatives` for one half. AUTO runs in the present folder and leaves its files there.
+// Graze against AUTO-07p and CVODES in one run: `./run peers`, or `./run peers --quick` for a version that takes
+// seconds; `branches` or `derivatives` for one half. AUTO runs in the current folder and leaves its files there.
 
 #include "branch_peers.hpp"
 #include "derivative_peers.hpp"

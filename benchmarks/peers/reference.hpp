@@ -14,9 +14,9 @@
 
 namespace peers {
 
-/// A motion with derivatives in long double, by a Runge-Kutta method of order eight at tolerances that only that
-/// precision allows: knows nothing of graze and nothing of CVODES. Surfaces are looked for at the ends of steps, which
-/// are short, and met by Newton's method.
+/// A motion with derivatives in long double, by a Runge-Kutta method of order eight at tolerances that only this
+/// precision allows, independent of graze and CVODES. Surfaces are detected at the ends of the short steps and located
+/// by Newton's method.
 class Reference {
 public:
     using Real = long double;
@@ -73,13 +73,13 @@ private:
         motion_->distances(mode_, all_.data(), values.data());
         return values;
     }
-    /// The surface that was passed, the first if there are several, or their number.
+    /// Returns the first surface that was crossed since `before`, or the number of surfaces if there was none.
     std::size_t met_since(const Vector& before) const {
         const Vector now = distances();
         std::size_t met = now.size();
         Real first = 2;
         for (std::size_t i = 0; i < now.size(); ++i) {
-            // Where an arc begins on a surface, round-off decides on which side.
+            // An arc may begin on a surface, where round-off decides on which side.
             const Real share = before[i] / (before[i] - now[i]);
             if (now[i] < 0 && before[i] > -tolerance && share < first) {
                 met = i;

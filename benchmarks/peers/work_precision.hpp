@@ -1,6 +1,6 @@
 #pragma once
 
-#include "../duel.hpp"
+#include "../paired_timing.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,13 +10,13 @@
 
 namespace peers {
 
-/// What a run at one tolerance takes and how wrong its result is.
+/// Time and error of a run at one tolerance.
 struct Effort {
     double tolerance = 0, seconds = 0, error = 0;
 };
 
-/// The least of several times of the processor, of which there are the more the shorter they are. Runs that the clock
-/// could not resolve are timed together.
+/// Returns the smallest of several CPU times; short runs are repeated more often. Runs that the clock cannot resolve
+/// are timed together.
 template <class Run>
 double least_seconds(double budget, Run&& run) {
     constexpr int most = 100;
@@ -37,8 +37,8 @@ double least_seconds(double budget, Run&& run) {
     return least;
 }
 
-/// The time at which an error is reached: between the two tolerances around it, straight in logarithms; that of the
-/// loosest tolerance if even that gives less. None if no tolerance gives as little.
+/// Returns the time at which an error is reached, by logarithmic interpolation between two tolerances; the time of the
+/// loosest tolerance if its error is smaller already; empty if no tolerance reaches the error.
 inline std::optional<double> seconds_at(const std::vector<Effort>& efforts, double error) {
     std::optional<double> best;
     for (std::size_t i = 0; i < efforts.size(); ++i) {

@@ -16,8 +16,8 @@ namespace graze {
 namespace {
 
 constexpr std::size_t most_levels = 10'000;
-constexpr double longest = 1e6;     // s
-constexpr double most_volts = 1000; // V; the generator's own range is given by `limits`
+constexpr double longest_time = 1e6; // s
+constexpr double most_volts = 1000;  // V; the generator's own range is given by `limits`
 constexpr double most_hertz = 1e9;
 constexpr double most_rate = 1e7;
 constexpr double most_rows = 1e9;
@@ -293,7 +293,7 @@ void ExperimentReader::read_sweep(const TomlEntry& entry) {
 void ExperimentReader::read_settle(const TomlEntry& entry) {
     const Keys keys = keys_of(entry, {"time", "most", "reference", "phase", "tolerance", "repeats", "period"});
     SettlingOptions& settling = experiment_.settling;
-    with(keys, "time", [&](const TomlEntry& e) { settling.time = number(e, 0, longest); });
+    with(keys, "time", [&](const TomlEntry& e) { settling.time = number(e, 0, longest_time); });
     settling.most = settling.time;
     with(keys, "reference", [&](const TomlEntry& e) { settling.reference = toml_.line(e); });
     for (const char* name : {"most", "phase", "tolerance", "repeats", "period"})
@@ -310,7 +310,7 @@ void ExperimentReader::read_settle(const TomlEntry& entry) {
             throw InputError(entry.place, fmt::format("{} has no {}", entry.path, name),
                              name[0] == 'm' ? "give the time after which it is recorded in any case, most = SECONDS"
                                             : "give by how much sections differ by noise, tolerance = { v = 0.002 }");
-    settling.most = number(keys.at("most"), settling.time, longest);
+    settling.most = number(keys.at("most"), settling.time, longest_time);
     const TomlEntry& tolerance = keys.at("tolerance");
     for (const TomlEntry& one : toml_.entries(toml_.table(tolerance), tolerance.path))
         settling.tolerances.push_back({one.name, number(one, 0, 1e300)});
@@ -322,7 +322,7 @@ void ExperimentReader::read_record(const TomlEntry& entry) {
     const Keys keys = keys_of(entry, {"time", "format"});
     if (!keys.contains("time"))
         throw InputError(entry.place, fmt::format("{} has no time", entry.path), "give time = SECONDS");
-    const double rows = std::round(number(keys.at("time"), 0, longest) * experiment_.rate);
+    const double rows = std::round(number(keys.at("time"), 0, longest_time) * experiment_.rate);
     if (!(rows >= 1 && rows <= most_rows) && experiment_.rate > 0)
         fail(keys.at("time"), fmt::format("a record would have {} samples", rows),
              fmt::format("give a time with from 1 to {}", most_rows));
@@ -337,7 +337,7 @@ void ExperimentReader::read_resume(const TomlEntry& entry) {
             choice(e, {"whole"});
             experiment_.walk.reset();
         } else {
-            experiment_.walk = number(e, 0, longest);
+            experiment_.walk = number(e, 0, longest_time);
         }
     });
 }

@@ -17,7 +17,7 @@ namespace graze {
 
 namespace {
 
-constexpr const char* who = "the generator";
+constexpr const char* generator_name = "the generator";
 constexpr int patient = 2; ///< factor for the attempts of questions and commands that are safe to repeat
 
 /// Whether another attempt may succeed.
@@ -43,7 +43,8 @@ std::string GeneratorClient::asked(std::string_view question) {
     line_->discard(); // discard late answers to earlier questions
     line_->send(question);
     const auto nobody = std::function<bool()>();
-    return awaited_line(*line_, options_.timeout, making_safe_ ? nobody : options_.interrupted, who, question);
+    return awaited_line(*line_, options_.timeout, making_safe_ ? nobody : options_.interrupted, generator_name,
+                        question);
 }
 
 double GeneratorClient::asked_number(std::string_view question) {
@@ -52,7 +53,7 @@ double GeneratorClient::asked_number(std::string_view question) {
     if (!value)
         throw InstrumentError(
             AcquisitionEnding::garbled,
-            fmt::format("{} answers '{}' to {}", who, shortened(printable_line(answer), 100), question));
+            fmt::format("{} answers '{}' to {}", generator_name, shortened(printable_line(answer), 100), question));
     return *value;
 }
 
@@ -61,7 +62,8 @@ int GeneratorClient::asked_error(std::string& text) {
     text = printable_line(shortened(asked("SYST:ERR?"), 200));
     const std::optional<int> number = answered_error(text);
     if (!number)
-        throw InstrumentError(AcquisitionEnding::garbled, fmt::format("{} answers '{}' to SYST:ERR?", who, text));
+        throw InstrumentError(AcquisitionEnding::garbled,
+                              fmt::format("{} answers '{}' to SYST:ERR?", generator_name, text));
     return *number;
 }
 
@@ -94,7 +96,7 @@ void GeneratorClient::attempt(const Work& work, int factor) {
                     throw InstrumentError(AcquisitionEnding::garbled,
                                           fmt::format("answers of {} are garbled, or come so late that they are not "
                                                       "those to the questions ({})",
-                                                      who, error.what()));
+                                                      generator_name, error.what()));
             } else if (last) {
                 throw;
             }
@@ -118,15 +120,15 @@ double GeneratorClient::set(const Setting& setting, double value, const std::fun
         std::string text;
         const int error = asked_error(text);
         if (error != 0 && !is_of_transmission(error))
-            throw InstrumentError(AcquisitionEnding::refused,
-                                  fmt::format("{} refuses {} {} {}: {}", who, setting.name, value, setting.unit, text));
+            throw InstrumentError(AcquisitionEnding::refused, fmt::format("{} refuses {} {} {}: {}", generator_name,
+                                                                          setting.name, value, setting.unit, text));
         if (error != 0)
-            throw InstrumentError(AcquisitionEnding::garbled, fmt::format("{} says: {}", who, text));
+            throw InstrumentError(AcquisitionEnding::garbled, fmt::format("{} says: {}", generator_name, text));
         told = asked_number(std::string(setting.command) + "?");
         if (!(std::abs(told - value) <= options_.tolerance * std::abs(value)))
             throw InstrumentError(AcquisitionEnding::clipped,
-                                  fmt::format("{} gives {} of {} {} instead of {} {}", who, setting.name, told,
-                                              setting.unit, value, setting.unit));
+                                  fmt::format("{} gives {} of {} {} instead of {} {}", generator_name, setting.name,
+                                              told, setting.unit, value, setting.unit));
     });
     return told;
 }
@@ -135,8 +137,8 @@ void GeneratorClient::require(const Choice& choice) {
     const std::string answer = asked(choice.command + "?");
     if (!choice.is_right(compared(answer)))
         throw InstrumentError(AcquisitionEnding::clipped,
-                              fmt::format("{} has {} {} instead of {}: no level is sent", who, choice.command,
-                                          shortened(printable_line(answer), 60), choice.value));
+                              fmt::format("{} has {} {} instead of {}: no level is sent", generator_name,
+                                          choice.command, shortened(printable_line(answer), 60), choice.value));
 }
 
 /// Chooses a setting and reads it back. @param needed false: the generator may lack it
@@ -154,8 +156,9 @@ bool GeneratorClient::choose(const Choice& choice, bool needed) {
             if (!known && !needed && attempts >= options_.attempts)
                 return;
             if (!known)
-                throw InstrumentError(AcquisitionEnding::garbled, fmt::format("{} does not understand {} {}: {}", who,
-                                                                              choice.command, choice.value, text));
+                throw InstrumentError(AcquisitionEnding::garbled,
+                                      fmt::format("{} does not understand {} {}: {}", generator_name, choice.command,
+                                                  choice.value, text));
             require(choice); // whatever error it reported, if the setting is right
         },
         patient);
@@ -205,8 +208,9 @@ void GeneratorClient::lower(double safe) {
             load = tells_load(answer, std::numeric_limits<double>::infinity()) ? std::numeric_limits<double>::infinity()
                                                                                : answered_number(answer).value_or(0);
             if (!(load > 0))
-                throw InstrumentError(AcquisitionEnding::garbled, fmt::format("{} answers '{}' to OUTP:LOAD?", who,
-                                                                              shortened(printable_line(answer), 60)));
+                throw InstrumentError(AcquisitionEnding::garbled,
+                                      fmt::format("{} answers '{}' to OUTP:LOAD?", generator_name,
+                                                  shortened(printable_line(answer), 60)));
         },
         patient);
     const double shown = safe * std::min(1.0, inner_by_shown(options_.load) / inner_by_shown(load));
@@ -270,7 +274,7 @@ void GeneratorClient::require_quiet(double number) {
                 throw InstrumentError(AcquisitionEnding::clipped,
                                       fmt::format("{} has an amplitude of {} V, which was lowered to {} V: no level is "
                                                   "sent",
-                                                  who, told, number));
+                                                  generator_name, told, number));
         },
         patient);
 }
@@ -286,7 +290,7 @@ void GeneratorClient::check(const Setting& setting, double value) {
     if (const double told = asked_number(std::string(setting.command) + "?");
         !(std::abs(told - value) <= options_.tolerance * std::abs(value)))
         throw InstrumentError(AcquisitionEnding::clipped,
-                              fmt::format("{} gives {} of {} {} instead of {} {}", who, setting.name, told,
+                              fmt::format("{} gives {} of {} {} instead of {} {}", generator_name, setting.name, told,
                                           setting.unit, value, setting.unit));
 }
 
@@ -317,7 +321,7 @@ void GeneratorClient::check_no_more() {
     throw InstrumentError(AcquisitionEnding::clipped,
                           fmt::format("{} gives an amplitude of {} V instead of {} V since its frequency was set: its "
                                       "output was silenced at once",
-                                      who, told, amplitude_));
+                                      generator_name, told, amplitude_));
 }
 
 /// Reads back all settings of the output, once each.
@@ -351,7 +355,8 @@ void GeneratorClient::switch_on() {
             is_level = false;
             std::string text;
             if (asked_error(text) != 0)
-                throw InstrumentError(AcquisitionEnding::garbled, fmt::format("{} says after OUTP ON: {}", who, text));
+                throw InstrumentError(AcquisitionEnding::garbled,
+                                      fmt::format("{} says after OUTP ON: {}", generator_name, text));
             require({"OUTP", "ON", tells_on});
             is_on_ = true;
             return;

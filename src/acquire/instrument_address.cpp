@@ -52,7 +52,7 @@ std::string_view without_brackets(std::string_view host) {
     return bracketed ? host.substr(1, host.size() - 2) : host;
 }
 
-[[noreturn]] void refuse(const std::string& text, const Place& place, const char* problem, const char* remedy) {
+[[noreturn]] void refuse_address(const std::string& text, const Place& place, const char* problem, const char* remedy) {
     throw InputError(place, fmt::format("'{}' {}", text, problem), remedy);
 }
 
@@ -63,10 +63,10 @@ InstrumentAddress visa_address(const std::string& text, const Place& place) {
     if (starts_with_word(text, "ASRL")) {
         const std::string_view path = parts[0].substr(kind_of_serial);
         if (are_digits(path))
-            refuse(text, place, "names a serial line by a number, which is not supported",
-                   "give its path, as ASRL/dev/ttyUSB0::INSTR");
+            refuse_address(text, place, "names a serial line by a number, which is not supported",
+                           "give its path, as ASRL/dev/ttyUSB0::INSTR");
         if (parts.size() > 2 || (parts.size() == 2 && !is_word(parts[1], "INSTR")))
-            refuse(text, place, "is not a VISA name of a serial line", "write it as ASRL/dev/ttyUSB0::INSTR");
+            refuse_address(text, place, "is not a VISA name of a serial line", "write it as ASRL/dev/ttyUSB0::INSTR");
         address.name = path;
         return address;
     }
@@ -74,9 +74,9 @@ InstrumentAddress visa_address(const std::string& text, const Place& place) {
     constexpr std::size_t of_socket = 4;
     if (parts.size() != of_socket || !is_word(parts[3], "SOCKET") || !are_digits(parts[0].substr(kind_of_tcp)) ||
         without_brackets(parts[1]).empty() || !read_port(parts[2], address.port))
-        refuse(text, place, "is not a VISA name of a TCP socket",
-               "give the port at which it takes SCPI, as TCPIP0::192.168.1.5::5025::SOCKET; VXI-11 and HiSLIP "
-               "(TCPIP0::HOST::INSTR) are not supported");
+        refuse_address(text, place, "is not a VISA name of a TCP socket",
+                       "give the port at which it takes SCPI, as TCPIP0::192.168.1.5::5025::SOCKET; VXI-11 and HiSLIP "
+                       "(TCPIP0::HOST::INSTR) are not supported");
     address.name = without_brackets(parts[1]);
     return address;
 }

@@ -32,7 +32,7 @@ constexpr std::string_view part_prefix = ".part.";
 constexpr std::string_view heading =
     "number,file,frequency [Hz],amplitude [V],direction,told [V],settled,settling [s],samples,bytes\n";
 
-[[noreturn]] void fail(const std::string& path, const char* what, int reason) {
+[[noreturn]] void fail_to_write(const std::string& path, const char* what, int reason) {
     throw InputError(Place{path, 0, 0}, fmt::format("it cannot be {} ({})", what, std::strerror(reason)),
                      "look at the permissions of the folder and the space on the disk; existing records are complete");
 }
@@ -41,11 +41,11 @@ constexpr std::string_view heading =
 void flush_file(const std::string& path) {
     const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
     if (file < 0)
-        fail(path, "opened", errno);
+        fail_to_write(path, "opened", errno);
     const int result = fsync(file), reason = errno;
     close(file);
     if (result != 0 && reason != EINVAL) // some network file systems do not support it
-        fail(path, "written", reason);
+        fail_to_write(path, "written", reason);
 }
 
 std::optional<std::uint64_t> size_of(const std::string& path) {
@@ -92,7 +92,7 @@ RecordFolder::RecordFolder(std::string path, const Experiment& experiment, doubl
     std::filesystem::create_directories(path_, error);
     lock_ = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (lock_ < 0)
-        fail(path_, "opened as a folder", error ? error.value() : errno);
+        fail_to_write(path_, "opened as a folder", error ? error.value() : errno);
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(wait);
     while (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
         if (std::chrono::steady_clock::now() >= end) {
@@ -156,7 +156,7 @@ void RecordFolder::write_whole(const std::string& name, const std::string& text)
     unlink(part.c_str());
     const int file = open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file < 0)
-        fail(part, "made", errno);
+        fail_to_write(part, "made", errno);
     std::size_t written = 0;
     int reason = 0;
     while (written < text.size() && reason == 0) {
@@ -172,7 +172,7 @@ void RecordFolder::write_whole(const std::string& name, const std::string& text)
         reason = errno;
     if (reason != 0) {
         unlink(part.c_str());
-        fail(path_ + "/" + name, "written", reason);
+        fail_to_write(path_ + "/" + name, "written", reason);
     }
     move_into_place(name);
 }
@@ -180,7 +180,7 @@ void RecordFolder::write_whole(const std::string& name, const std::string& text)
 void RecordFolder::move_into_place(const std::string& name) const {
     const std::string target = path_ + "/" + name;
     if (std::rename(part_of(name).c_str(), target.c_str()) != 0)
-        fail(target, "written", errno);
+        fail_to_write(target, "written", errno);
     fsync(lock_); // flush the folder itself
 }
 
@@ -260,7 +260,7 @@ void RecordFolder::commit(RecordEntry entry) {
     flush_file(part_of(name));
     const auto bytes = size_of(part_of(name));
     if (!bytes)
-        fail(part_of(name), "found", ENOENT);
+        fail_to_write(part_of(name), "found", ENOENT);
     entry.bytes = *bytes;
     entries_[entry.level.number] = entry;
     try {

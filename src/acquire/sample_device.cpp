@@ -15,12 +15,12 @@ namespace graze {
 
 namespace {
 
-constexpr const char* who = "the sample device";
+constexpr const char* device_name = "the sample device";
 constexpr std::size_t rows_at_once = 1024;
 constexpr double part_of_timeout = 0.25; ///< for lines that are discarded
 
-[[noreturn]] void fail(const std::string& what) {
-    throw InstrumentError(AcquisitionEnding::samples, fmt::format("{} {}", who, what));
+[[noreturn]] void fail_to_sample(const std::string& what) {
+    throw InstrumentError(AcquisitionEnding::samples, fmt::format("{} {}", device_name, what));
 }
 
 } // namespace
@@ -34,7 +34,7 @@ TextSampleDevice::TextSampleDevice(InstrumentLine& line, double timeout, std::fu
     if (channels.starts_with("ERROR"))
         refuse(channels, "");
     try {
-        header_ = parse_record_header(channels, Place{who, 0, 0});
+        header_ = parse_record_header(channels, Place{device_name, 0, 0});
     } catch (const InputError&) {
         refuse(channels, "the names of its channels");
     }
@@ -46,14 +46,14 @@ TextSampleDevice::TextSampleDevice(InstrumentLine& line, double timeout, std::fu
 void TextSampleDevice::refuse(const std::string& line, const char* wanted) const {
     const std::string_view reason(line);
     if (reason.starts_with("ERROR"))
-        fail(fmt::format("says: {}",
-                         shortened(printable_line(reason.substr(std::min<std::size_t>(6, reason.size()))), 200)));
-    fail(fmt::format("says '{}' instead of {}", shortened(printable_line(line), 200), wanted));
+        fail_to_sample(fmt::format(
+            "says: {}", shortened(printable_line(reason.substr(std::min<std::size_t>(6, reason.size()))), 200)));
+    fail_to_sample(fmt::format("says '{}' instead of {}", shortened(printable_line(line), 200), wanted));
 }
 
 std::string TextSampleDevice::asked(std::string_view question) {
     line_->send(question);
-    return awaited_line(*line_, timeout_, interrupted_, who);
+    return awaited_line(*line_, timeout_, interrupted_, device_name);
 }
 
 void TextSampleDevice::set_rate(double rate) {
@@ -64,7 +64,7 @@ void TextSampleDevice::set_rate(double rate) {
         refuse(answer, "'OK' and its rate");
     constexpr double roundoff = 1e-9;
     if (!(std::abs(taken - rate) <= roundoff * rate))
-        fail(fmt::format("takes {} samples in a second instead of {}", taken, rate));
+        fail_to_sample(fmt::format("takes {} samples in a second instead of {}", taken, rate));
     rate_ = rate;
 }
 
@@ -84,8 +84,8 @@ void TextSampleDevice::begin(std::size_t count, std::size_t block) {
 /// Enforces the deadline for all samples: each row may arrive in time, and yet they never end.
 void TextSampleDevice::require_time() const {
     if (std::chrono::steady_clock::now() > latest_)
-        fail(fmt::format("has sent only {} of {} samples, which last {:.6g} s, in {} times that time", given_, wanted_,
-                         static_cast<double>(wanted_) / rate_, patience_));
+        fail_to_sample(fmt::format("has sent only {} of {} samples, which last {:.6g} s, in {} times that time", given_,
+                                   wanted_, static_cast<double>(wanted_) / rate_, patience_));
 }
 
 void TextSampleDevice::parse(const std::string& row, Samples& samples) {
@@ -104,9 +104,9 @@ void TextSampleDevice::parse(const std::string& row, Samples& samples) {
     };
     const double time = next('\0');
     if (!(time > last_time_))
-        fail(fmt::format("gives the time {} after {}", time, last_time_));
+        fail_to_sample(fmt::format("gives the time {} after {}", time, last_time_));
     if (const double due = static_cast<double>(given_) / rate_; rate_ > 0 && !(std::abs(time - due) * rate_ <= 0.5))
-        fail(fmt::format("gives the time {} to its sample at {}", time, due));
+        fail_to_sample(fmt::format("gives the time {} to its sample at {}", time, due));
     samples.values.resize(header_.channels.size());
     samples.times.push_back(time);
     for (std::vector<double>& column : samples.values)
@@ -122,7 +122,7 @@ bool TextSampleDevice::read(Samples& samples) {
     if (running_ && block_ > 0 && given_ > 0 && given_ < wanted_)
         line_->send("MORE");
     while (running_ && (samples.rows() < most || given_ == wanted_)) {
-        const std::string row = awaited_line(*line_, timeout_ + (rate_ > 0 ? 1 / rate_ : 0), interrupted_, who);
+        const std::string row = awaited_line(*line_, timeout_ + (rate_ > 0 ? 1 / rate_ : 0), interrupted_, device_name);
         if (!row.starts_with("END")) {
             if (given_ == wanted_)
                 refuse(row, "the end of its samples");
@@ -136,8 +136,8 @@ bool TextSampleDevice::read(Samples& samples) {
         const char* const end = row.data() + row.size();
         if (row.size() < 5 || std::from_chars(row.data() + 4, end, count).ptr != end || count != given_ ||
             given_ != wanted_)
-            fail(fmt::format("ends with '{}' after {} of {} samples", shortened(printable_line(row), 100), given_,
-                             wanted_));
+            fail_to_sample(fmt::format("ends with '{}' after {} of {} samples", shortened(printable_line(row), 100),
+                                       given_, wanted_));
     }
     return samples.rows() > 0;
 }

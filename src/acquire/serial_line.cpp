@@ -174,7 +174,7 @@ private:
 };
 
 template <class Option>
-void set(asio::serial_port& port, const Option& option, const std::string& name, const char* what) {
+void set_option(asio::serial_port& port, const Option& option, const std::string& name, const char* what) {
     Error error;
     port.set_option(option, error);
     if (error)
@@ -190,23 +190,23 @@ void open_port(const SerialSettings& settings, asio::serial_port& port) {
     if (error)
         throw InstrumentError(AcquisitionEnding::line_lost,
                               fmt::format("serial line '{}' cannot be opened ({})", name, error.message()));
-    set(port, Base::baud_rate(settings.baud), name, "rate");
-    set(port, Base::character_size(settings.data_bits), name, "number of data bits");
-    set(port,
-        Base::parity(settings.parity == Parity::none  ? Base::parity::none
-                     : settings.parity == Parity::odd ? Base::parity::odd
-                                                      : Base::parity::even),
-        name, "parity");
-    set(port,
-        Base::stop_bits(settings.stop_bits == StopBits::one   ? Base::stop_bits::one
-                        : settings.stop_bits == StopBits::two ? Base::stop_bits::two
-                                                              : Base::stop_bits::onepointfive),
-        name, "number of stop bits");
-    set(port,
-        Base::flow_control(settings.flow == FlowControl::none       ? Base::flow_control::none
-                           : settings.flow == FlowControl::software ? Base::flow_control::software
-                                                                    : Base::flow_control::hardware),
-        name, "flow control");
+    set_option(port, Base::baud_rate(settings.baud), name, "rate");
+    set_option(port, Base::character_size(settings.data_bits), name, "number of data bits");
+    set_option(port,
+               Base::parity(settings.parity == Parity::none  ? Base::parity::none
+                            : settings.parity == Parity::odd ? Base::parity::odd
+                                                             : Base::parity::even),
+               name, "parity");
+    set_option(port,
+               Base::stop_bits(settings.stop_bits == StopBits::one   ? Base::stop_bits::one
+                               : settings.stop_bits == StopBits::two ? Base::stop_bits::two
+                                                                     : Base::stop_bits::onepointfive),
+               name, "number of stop bits");
+    set_option(port,
+               Base::flow_control(settings.flow == FlowControl::none       ? Base::flow_control::none
+                                  : settings.flow == FlowControl::software ? Base::flow_control::software
+                                                                           : Base::flow_control::hardware),
+               name, "flow control");
 }
 
 void open_socket(const std::string& host, unsigned short number, double timeout, asio::io_context& context,

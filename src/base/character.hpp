@@ -42,4 +42,8 @@ inline Character character_at(std::string_view text, std::size_t at) {
     return {code, bytes, true};
 }
 
+inline bool is_blank(char letter) {
+    return letter == ' ' || letter == '\t';
+}
+
 } // namespace graze

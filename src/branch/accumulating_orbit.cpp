@@ -21,12 +21,13 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-/// Of the integration: errors of flights grow with each contact, and are no part of the error that is told.
+/// Loosest tolerance of the integration: errors grow with each contact and are not part of the error estimate.
 constexpr double finest = 1e-13;
-/// Share of a round for which the surface is left before contacts are looked for: there the height is of third order.
-constexpr double leaving = 1e-3;
-/// Of a round: so long is followed, as contacts of a guess may come late.
-constexpr double followed = 1.1;
+/// Share of the period that is integrated from the start before contacts are watched, since the height is of third
+/// order there.
+constexpr double blind_share = 1e-3;
+/// Share of the period for which the motion is followed: contacts of a first guess may come late.
+constexpr double followed_share = 1.1;
 
 VectorXd vector_of(const std::vector<double>& values) {
     return Eigen::Map<const VectorXd>(values.data(), index(values.size()));
@@ -57,7 +58,7 @@ AccumulatingOrbit::AccumulatingOrbit(const System& system, const Orbit& like, st
     scales_.resize(n + 1);
     scales_ << shooting.scales().head(n), shooting.scales()[index(shooting.layout().parameter(0))];
     for (const State& state : model.states)
-        closes_.push_back(!state.drifting);
+        is_closed_.push_back(!state.drifting);
 }
 
 std::vector<double> AccumulatingOrbit::inputs(const VectorXd& state) const {
@@ -109,10 +110,10 @@ bool AccumulatingOrbit::begin(double parameter, std::size_t count, const std::ve
     }
     unknowns_.head(n) = start;
     rows_ = (slopes(start).topRows(3) * scales_.head(n).asDiagonal()).rowwise().norm();
-    return true; // with rows that are not zero, or there would be no projection
+    return true; // rows_ is positive, otherwise the projection would have failed
 }
 
-/// The nearest state, in units of the scales, in which the height and its first two rates are zero.
+/// Projects a state onto the nearest one, in scaled states, at which the height and its first two derivatives are zero.
 bool AccumulatingOrbit::project(VectorXd& state) const {
     const auto n = state.size();
     constexpr int iterations = 30;
@@ -122,12 +123,12 @@ bool AccumulatingOrbit::project(VectorXd& state) const {
         const VectorXd sizes = rows.rowwise().norm();
         if (!(sizes.minCoeff() > 0))
             return false;
-        const VectorXd move =
+        const VectorXd correction =
             shortest_solution(sizes.cwiseInverse().asDiagonal() * rows, -heights(state).head(3).cwiseQuotient(sizes));
-        const double size = move.cwiseAbs().maxCoeff();
+        const double size = correction.cwiseAbs().maxCoeff();
         if (!std::isfinite(size))
             return false;
-        state += scales_.head(n).cwiseProduct(move);
+        state += scales_.head(n).cwiseProduct(correction);
         if (size <= 4 * epsilon || (size < 1e-10 && size >= last))
             return true;
         last = size;
@@ -135,94 +136,96 @@ bool AccumulatingOrbit::project(VectorXd& state) const {
     return last < 1e-10;
 }
 
-bool AccumulatingOrbit::judge(const VectorXd& before, const VectorXd& after, Rest& rest) const {
+bool AccumulatingOrbit::compare_with_self_similar(const VectorXd& before, const VectorXd& after,
+                                                  Remainder& remainder) const {
     const double arriving = -heights(before)[1];
     const VectorXd leaves = heights(after);
     const double speed = leaves[1], deceleration = -leaves[2], third = leaves[3], restitution = speed / arriving;
     if (!(arriving > 0 && restitution > 0 && restitution < 1 && deceleration > 0 && third > 0))
         return false;
-    rest.contacts = self_similar_contacts(restitution);
-    rest.excess = speed / deceleration * (third / deceleration) / rest.contacts.speed - 1;
-    // Heights fall with the third power of the time that is left, and the states that they are made of do not: speeds,
-    // and so the excess, are known no better than the height to which the mass comes in its next flight.
+    remainder.contacts = self_similar_contacts(restitution);
+    remainder.excess = speed / deceleration * (third / deceleration) / remainder.contacts.speed - 1;
+    // Heights decrease with the third power of the remaining time, while the states that they are differences of do
+    // not. The excess is therefore known no better than the height of the next flight.
     const double height = speed * speed / (2 * deceleration);
-    rest.uncertainty = epsilon * slopes(after).row(0).cwiseAbs().dot(after.cwiseAbs()) / height;
-    return std::isfinite(rest.excess);
+    remainder.uncertainty = epsilon * slopes(after).row(0).cwiseAbs().dot(after.cwiseAbs()) / height;
+    return std::isfinite(remainder.excess);
 }
 
-/// Where contacts will have held the motion on the surface until its second rate is zero: it goes on with the field and
-/// what the contacts to come add, in the proportions of the last one, and is put on the surface.
-bool AccumulatingOrbit::accumulate(const VectorXd& before, const VectorXd& after, Rest& rest) const {
+/// Computes the state of accumulation, where contacts have held the motion on the surface until its second derivative
+/// is zero: the flow plus a multiple of the last contact's jump for all remaining contacts, projected onto the surface.
+bool AccumulatingOrbit::find_accumulation(const VectorXd& before, const VectorXd& after, Remainder& remainder) const {
     const auto n = after.size();
     VectorXd movable = scales_.head(n);
     for (Eigen::Index i = 0; i < n; ++i)
         if (periods_[static_cast<std::size_t>(i)] > 0)
-            movable[i] = 0; // contacts do not turn clocks
+            movable[i] = 0; // contacts do not change cyclic states
     const VectorXd rates = field(after), at = heights(after);
     const VectorXd kick =
         (after - before).cwiseQuotient(scales_.head(n)).cwiseProduct(movable) / (at[1] - heights(before)[1]);
     double time = -at[2] / at[3];
     constexpr int iterations = 8;
     for (int i = 0; i < iterations; ++i) {
-        rest.state = after + time * rates;
-        rest.state -= heights(rest.state)[1] * kick;
+        remainder.state = after + time * rates;
+        remainder.state -= heights(remainder.state)[1] * kick;
         for (int k = 0; k < 3; ++k) {
-            const MatrixXd rows = slopes(rest.state).topRows(2) * movable.asDiagonal();
-            const VectorXd missing = -heights(rest.state).head(2);
-            rest.state += movable.cwiseProduct(shortest_solution(rows, missing));
+            const MatrixXd rows = slopes(remainder.state).topRows(2) * movable.asDiagonal();
+            const VectorXd missing = -heights(remainder.state).head(2);
+            remainder.state += movable.cwiseProduct(shortest_solution(rows, missing));
         }
-        const VectorXd values = heights(rest.state);
+        const VectorXd values = heights(remainder.state);
         const double change = -values[2] / values[3];
         time += change;
-        if (!rest.state.allFinite() || !std::isfinite(time))
+        if (!remainder.state.allFinite() || !std::isfinite(time))
             return false;
         if (std::abs(change) <= 4 * epsilon * std::abs(time))
             break;
     }
-    rest.left = time;
+    remainder.left = time;
     return true;
 }
 
-/// From where a state would be on the surface.
-bool AccumulatingOrbit::follow(std::size_t count, Rest& rest) {
-    rest.start = unknowns_.head(parameter_place());
-    if (!project(rest.start))
+/// Follows the motion over `count` contacts from the state of accumulation.
+bool AccumulatingOrbit::follow(std::size_t count, Remainder& remainder) {
+    remainder.start = unknowns_.head(parameter_place());
+    if (!project(remainder.start))
         return false;
     const Orbit& orbit = like_;
     const System& system = simulation_.system();
-    std::vector<double> state = numbers_of(rest.start);
+    std::vector<double> state = numbers_of(remainder.start);
     if (orbit.symmetry)
         state = system.symmetry(*orbit.symmetry).map(inputs(vector_of(state)));
-    const double round = orbit.round();
+    const double period = orbit.return_time();
     const std::vector<double> start = state;
-    if (flow_.run(first_mode_, state, leaving * round) != ModeFlow::Ending::done)
+    if (flow_.run(first_mode_, state, blind_share * period) != ModeFlow::Ending::done)
         return false;
-    rest.motion = follow_motion(simulation_, parameters_, state, first_mode_, followed * round);
-    FollowedMotion& motion = rest.motion;
+    remainder.motion = follow_motion(simulation_, parameters_, state, first_mode_, followed_share * period);
+    FollowedMotion& motion = remainder.motion;
     std::size_t contacts = 0, contact = 0;
     for (; contact < motion.segments.size(); ++contact)
         if (motion.segments[contact].mode == mode_ && motion.segments[contact].end == SegmentEnd::event &&
             system.model().transitions[motion.segments[contact].index].event == event_ && ++contacts == count)
             break;
-    rest.contact = contact;
-    rest.segments = contact + 1;
-    while (rest.segments < motion.segments.size() && motion.segments[rest.segments].mode != mode_)
-        ++rest.segments;
-    if (contacts < count || rest.segments >= motion.segments.size())
+    remainder.contact = contact;
+    remainder.segments = contact + 1;
+    while (remainder.segments < motion.segments.size() && motion.segments[remainder.segments].mode != mode_)
+        ++remainder.segments;
+    if (contacts < count || remainder.segments >= motion.segments.size())
         return false;
     std::vector<double> before = motion.starts[contact];
     if (flow_.run(mode_, before, motion.durations[contact]) != ModeFlow::Ending::done)
         return false;
-    const VectorXd after = vector_of(motion.starts[rest.segments]);
+    const VectorXd after = vector_of(motion.starts[remainder.segments]);
     motion.starts[0] = start;
-    motion.durations[0] += leaving * round;
-    return judge(vector_of(before), after, rest) && accumulate(vector_of(before), after, rest);
+    motion.durations[0] += blind_share * period;
+    return compare_with_self_similar(vector_of(before), after, remainder) &&
+           find_accumulation(vector_of(before), after, remainder);
 }
 
-bool AccumulatingOrbit::residuals(const VectorXd& unknowns, VectorXd& values, Rest& rest) {
+bool AccumulatingOrbit::residuals(const VectorXd& unknowns, VectorXd& values, Remainder& remainder) {
     const VectorXd kept = unknowns_;
     unknowns_ = unknowns;
-    const bool followed_it = set(unknowns) && follow(count_, rest);
+    const bool followed_it = set(unknowns) && follow(count_, remainder);
     unknowns_ = kept;
     if (!followed_it)
         return false;
@@ -230,14 +233,14 @@ bool AccumulatingOrbit::residuals(const VectorXd& unknowns, VectorXd& values, Re
     values = VectorXd::Zero(3 + n + 1);
     values.head(3) = heights(unknowns.head(n)).head(3).cwiseQuotient(rows_);
     for (Eigen::Index i = 0; i < n; ++i) {
-        double gap = rest.state[i] - rest.start[i];
+        double gap = remainder.state[i] - remainder.start[i];
         const double period = periods_[static_cast<std::size_t>(i)];
         if (period > 0)
             gap = std::remainder(gap, period);
-        if (closes_[static_cast<std::size_t>(i)])
+        if (is_closed_[static_cast<std::size_t>(i)])
             values[3 + i] = gap / scales_[i];
     }
-    values[3 + n] = rest.excess;
+    values[3 + n] = remainder.excess;
     return values.allFinite();
 }
 
@@ -245,10 +248,10 @@ bool AccumulatingOrbit::differentiate(const VectorXd& values) {
     constexpr double step = 1e-6; // of the scales
     jacobian_.resize(values.size(), unknowns_.size());
     VectorXd shifted = unknowns_, there;
-    Rest rest;
+    Remainder remainder;
     for (Eigen::Index i = 0; i < unknowns_.size(); ++i) {
         shifted[i] += step * scales_[i];
-        if (!residuals(shifted, there, rest))
+        if (!residuals(shifted, there, remainder))
             return false;
         jacobian_.col(i) = (there - values) / step;
         shifted[i] = unknowns_[i];
@@ -256,20 +259,21 @@ bool AccumulatingOrbit::differentiate(const VectorXd& values) {
     return true;
 }
 
-/// With each contact the excess depends more strongly on where the motion has begun; all else does as before.
+/// Updates the derivatives of the excess only: their growth with each contact is known, and other derivatives change
+/// little.
 bool AccumulatingOrbit::renew_excess(const VectorXd& values) {
     constexpr double largest_step = 1e-6, wanted = 1e-3, smallest_step = 1e3 * epsilon;
     const Eigen::Index last = values.size() - 1;
     jacobian_.row(last) /= std::pow(contacts_.ratio, static_cast<double>(added_));
     VectorXd shifted = unknowns_, there;
-    Rest rest;
+    Remainder remainder;
     for (Eigen::Index i = 0; i < unknowns_.size(); ++i) {
         const double step = std::min(largest_step, wanted / std::abs(jacobian_(last, i)));
         if (step < smallest_step)
-            continue; // the growth is known better than this could tell
+            continue; // differences would be less accurate than the known growth
         shifted[i] += step * scales_[i];
         const double taken = (shifted[i] - unknowns_[i]) / scales_[i];
-        if (taken != 0 && residuals(shifted, there, rest))
+        if (taken != 0 && residuals(shifted, there, remainder))
             jacobian_(last, i) = (there[last] - values[last]) / taken;
         shifted[i] = unknowns_[i];
     }
@@ -280,9 +284,9 @@ bool AccumulatingOrbit::solve() {
     constexpr int iterations = 20, halvings = 12;
     constexpr double enough = 1e-9, far = 10; // of the scales
     VectorXd values, next;
-    Rest rest;
+    Remainder remainder;
     solved_ = false;
-    if (!residuals(unknowns_, values, rest))
+    if (!residuals(unknowns_, values, remainder))
         return false;
     if (jacobian_.size() == 0 ? !differentiate(values) : !renew_excess(values))
         return false;
@@ -292,13 +296,13 @@ bool AccumulatingOrbit::solve() {
         const double size = size_of_step(step);
         if (!(size < far))
             return false;
-        // Below, round-off of the motion turns steps about.
+        // Smaller steps are round-off of the motion.
         if (size <= 4 * epsilon || (size < enough && size >= last))
             break;
         last = size;
         double share = 1;
         const auto helps = [&] {
-            return residuals(unknowns_ + share * step, next, rest) &&
+            return residuals(unknowns_ + share * step, next, remainder) &&
                    (next.norm() < values.norm() || share * size < enough);
         };
         int halved = 0;
@@ -307,16 +311,16 @@ bool AccumulatingOrbit::solve() {
         if (halved == halvings)
             return false;
         unknowns_ += share * step;
-        // Broyden's update: the derivatives are those of the first iterate. Of short steps round-off is too great a
-        // part.
+        // Broyden's update of the derivatives of the first iterate, except for short steps, in which round-off
+        // dominates.
         const VectorXd moved = share * step.cwiseQuotient(scales_);
         if (share * size >= enough)
             jacobian_ += (next - values - jacobian_ * moved) * moved.transpose() / moved.squaredNorm();
         values = next;
     }
-    contacts_ = rest.contacts;
+    contacts_ = remainder.contacts;
     uncertainty_ =
-        rest.uncertainty * scales_[parameter_place()] / std::abs(jacobian_(values.size() - 1, parameter_place()));
+        remainder.uncertainty * scales_[parameter_place()] / std::abs(jacobian_(values.size() - 1, parameter_place()));
     solved_ = last < enough && std::isfinite(uncertainty_);
     if (solved_) {
         solution_ = unknowns_;
@@ -330,31 +334,32 @@ void AccumulatingOrbit::add_contacts(std::size_t more) {
     added_ = more;
 }
 
-std::optional<Orbit> AccumulatingOrbit::shown(double& gap) {
-    constexpr double little = 1e-4; // of a round
+std::optional<Orbit> AccumulatingOrbit::orbit_for_output(double& gap) {
+    constexpr double little = 1e-4; // share of the period
     const auto n = parameter_place();
-    Rest rest;
+    Remainder remainder;
     std::optional<Orbit> result;
     unknowns_ = solution_;
-    for (std::size_t count = 2; count <= solution_count_ && set(unknowns_) && follow(count, rest); ++count) {
+    for (std::size_t count = 2; count <= solution_count_ && set(unknowns_) && follow(count, remainder); ++count) {
         const auto taken = [&](const auto& values) {
-            return std::vector(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rest.segments));
+            return std::vector(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(remainder.segments));
         };
-        Orbit orbit{taken(rest.motion.segments), parameters_, taken(rest.motion.starts), taken(rest.motion.durations),
-                    like_.symmetry};
-        const VectorXd after = vector_of(rest.motion.starts[rest.segments]);
-        // All contacts to come as one: the orbit ends where they accumulate, in time and state.
-        orbit.signature.push_back(orbit.signature[rest.contact]);
-        orbit.starts.push_back(rest.motion.starts[rest.segments]);
-        orbit.durations.push_back(rest.left);
+        Orbit orbit{taken(remainder.motion.segments), parameters_, taken(remainder.motion.starts),
+                    taken(remainder.motion.durations), like_.symmetry};
+        const VectorXd after = vector_of(remainder.motion.starts[remainder.segments]);
+        // One last segment stands for all remaining contacts: the orbit ends where they accumulate.
+        orbit.signature.push_back(orbit.signature[remainder.contact]);
+        orbit.starts.push_back(remainder.motion.starts[remainder.segments]);
+        orbit.durations.push_back(remainder.left);
         gap = 0;
         for (Eigen::Index i = 0; i < n; ++i) {
-            const double period = periods_[static_cast<std::size_t>(i)], apart = rest.state[i] - rest.start[i];
-            if (closes_[static_cast<std::size_t>(i)])
+            const double period = periods_[static_cast<std::size_t>(i)],
+                         apart = remainder.state[i] - remainder.start[i];
+            if (is_closed_[static_cast<std::size_t>(i)])
                 gap = std::max(gap, std::abs(period > 0 ? std::remainder(apart, period) : apart) / scales_[i]);
         }
         result = orbit;
-        if (-heights(after)[2] < little * orbit.round() * heights(after)[3])
+        if (-heights(after)[2] < little * orbit.return_time() * heights(after)[3])
             break;
     }
     return result;

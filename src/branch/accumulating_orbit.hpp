@@ -14,59 +14,63 @@
 
 namespace graze {
 
-/// An orbit whose contacts at one event accumulate where the event's function and its first two rates are zero. It
-/// begins there and is followed, as the model does, over some contacts; for the rest it is taken to be self-similar.
-/// Unknowns are the state in which contacts accumulate and a parameter.
+/// An orbit whose contacts at one event accumulate where the event function and its first two derivatives are zero. It
+/// starts there and is simulated over some contacts; the remaining contacts are approximated by the self-similar
+/// sequence. Unknowns are the state of accumulation and a parameter.
 class AccumulatingOrbit {
 public:
-    /// @param like an orbit that is near, of the same period, symmetry and other parameters
-    /// @param mode in which the event is met; @param along the parameter
+    /// @param like a nearby orbit with the same period, symmetry and other parameters
+    /// @param mode mode of the contacts; @param along the unknown parameter
     AccumulatingOrbit(const System& system, const Orbit& like, std::size_t mode, std::size_t event, ParameterId along,
                       double tolerance);
 
-    /// Takes the parameter's value, a number of contacts, and a state near that in which they accumulate.
-    /// @return false, with the problem, where nothing can accumulate
+    /// Sets a first guess of the parameter, the number of simulated contacts, and a state near that of accumulation.
+    /// @return false, with the problem set, where contacts cannot accumulate
     bool begin(double parameter, std::size_t count, const std::vector<double>& state, std::string& problem);
-    /// Newton's method. @return false where it does not converge
+    /// Solves by a quasi-Newton method. @return false where it does not converge
     bool solve();
     bool has_solution() const { return solved_; }
     std::size_t contacts_of_solution() const { return solution_count_; }
-    /// From now on, with more contacts.
+    /// Increases the number of simulated contacts.
     void add_contacts(std::size_t more);
 
     ParameterId along() const { return along_; }
     double parameter() const { return unknowns_[parameter_place()]; }
-    /// Of the parameter, by round-off of heights.
+    /// Uncertainty of the parameter due to round-off of heights.
     double uncertainty() const { return uncertainty_; }
     const SelfSimilarContacts& contacts() const { return contacts_; }
-    /// The last solution's motion over contacts until little is left, for which a last segment stands. @param gap
-    /// between its ends, relative to the sizes of the states. @return none where it cannot be followed
-    std::optional<Orbit> shown(double& gap);
+    /// Returns the orbit of the last solution, with one last segment for all contacts that are too small to plot.
+    /// @param gap distance between its ends, relative to the scales of the states. @return empty where it cannot be
+    /// followed
+    std::optional<Orbit> orbit_for_output(double& gap);
 
 private:
-    /// The motion after a number of contacts.
-    struct Rest {
-        Eigen::VectorXd start;  ///< in which they have accumulated before
-        Eigen::VectorXd state;  ///< in which contacts will accumulate
-        double left = 0;        ///< time until then
-        double excess = 0;      ///< of the speed over that of the self-similar sequence
-        double uncertainty = 0; ///< of the excess, by round-off of heights
+    /// The motion over a number of contacts, with an estimate of the remainder.
+    struct Remainder {
+        Eigen::VectorXd start;  ///< state of accumulation at the start
+        Eigen::VectorXd state;  ///< state of accumulation at the end
+        double left = 0;        ///< time from the last simulated contact to the accumulation
+        double excess = 0;      ///< relative excess of the last speed over that of the self-similar sequence
+        double uncertainty = 0; ///< uncertainty of the excess due to round-off of heights
         SelfSimilarContacts contacts;
         FollowedMotion motion;
-        std::size_t contact = 0, segments = 0; ///< the last one that counts; until there
+        std::size_t contact = 0,
+                    /// Index of the last simulated contact; number of segments up to the return to the mode.
+            segments = 0;
     };
     Eigen::Index parameter_place() const { return scales_.size() - 1; }
     std::vector<double> inputs(const Eigen::VectorXd& state) const;
     bool set(const Eigen::VectorXd& unknowns);
-    /// h, h', h'', h''' and their gradients.
+    /// Values of h, h', h'', h'''; slopes: their gradients.
     Eigen::VectorXd heights(const Eigen::VectorXd& state) const;
     Eigen::MatrixXd slopes(const Eigen::VectorXd& state) const;
     Eigen::VectorXd field(const Eigen::VectorXd& state) const;
     bool project(Eigen::VectorXd& state) const;
-    bool follow(std::size_t count, Rest& rest);
-    bool judge(const Eigen::VectorXd& before, const Eigen::VectorXd& after, Rest& rest) const;
-    bool accumulate(const Eigen::VectorXd& before, const Eigen::VectorXd& after, Rest& rest) const;
-    bool residuals(const Eigen::VectorXd& unknowns, Eigen::VectorXd& values, Rest& rest);
+    bool follow(std::size_t count, Remainder& remainder);
+    bool compare_with_self_similar(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
+                                   Remainder& remainder) const;
+    bool find_accumulation(const Eigen::VectorXd& before, const Eigen::VectorXd& after, Remainder& remainder) const;
+    bool residuals(const Eigen::VectorXd& unknowns, Eigen::VectorXd& values, Remainder& remainder);
     bool differentiate(const Eigen::VectorXd& values);
     bool renew_excess(const Eigen::VectorXd& values);
     double size_of_step(const Eigen::VectorXd& step) const { return step.cwiseQuotient(scales_).cwiseAbs().maxCoeff(); }
@@ -76,13 +80,14 @@ private:
     Orbit like_;
     ParameterId along_;
     std::size_t mode_, event_, first_mode_;
-    std::vector<Function> heights_; ///< each with its gradient
+    std::vector<Function> heights_; ///< h and its derivatives, each with its gradient
     std::vector<double> periods_, parameters_;
-    Eigen::VectorXd solution_; ///< the last one, with the number of its contacts
+    Eigen::VectorXd solution_; ///< unknowns of the last solution
     std::size_t solution_count_ = 0;
-    Eigen::VectorXd scales_, unknowns_, rows_; ///< of states, then the parameter; of the equations
-    Eigen::MatrixXd jacobian_;                 ///< in units of the scales
-    std::vector<bool> closes_;                 ///< states that come back
+    Eigen::VectorXd scales_, unknowns_,
+        rows_;                    ///< scales of the states, then of the parameter; unknowns; scales of the equations
+    Eigen::MatrixXd jacobian_;    ///< in scaled unknowns
+    std::vector<bool> is_closed_; ///< true for states that are not drifting
     std::size_t count_ = 2, added_ = 1;
     bool solved_ = false;
     double uncertainty_ = 0;

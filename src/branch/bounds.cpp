@@ -14,9 +14,9 @@ namespace graze {
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-constexpr double round_off = 1e-12; // of the bounds, or of the scale of a parameter whose bound is zero
+constexpr double round_off = 1e-12; // relative to the bounds, or to the scale of a parameter whose bound is zero
 
-/// The parameter that a test of a bound is about, if it is about one, with its bounds.
+/// Returns the parameter of a bound test with its bounds, if the test is not about a monitor.
 FreeBounds bounds_of(const BranchSettings& settings, const BranchTest& test) {
     return test.free ? settings.free_bounds[*test.free]
                      : FreeBounds{settings.parameter, settings.least, settings.greatest};
@@ -62,7 +62,7 @@ void test_bounds(const TestedPoint& point, std::vector<BranchTest>& tests) {
 
 namespace {
 
-/// By how much a parameter that varies changes over the last step.
+/// Returns the change of a varying parameter over the last step.
 double length_of_step(BranchState& state, ParameterId parameter) {
     const std::vector<ParameterId>& free = state.problem().equations().free();
     const auto which = static_cast<std::size_t>(std::find(free.begin(), free.end(), parameter) - free.begin());
@@ -81,9 +81,9 @@ bool confirm_bound(BranchState& state, SpecialPoint& special, const BranchTest& 
     }
     const FreeBounds bounds = bounds_of(settings, test);
     double& value = special.solution.orbit.parameters[bounds.parameter.place()];
-    // Round-off would leave the bound on the one side or the other, and so would what a crossing near by leaves
-    // uncertain.
-    constexpr double uncertain = 1e-8; // of the step
+    // Sets the parameter exactly to the bound: round-off, or the uncertainty of a nearby crossing, would leave it on
+    // either side.
+    constexpr double uncertain = 1e-8; // share of the step
     for (const auto& bound : {bounds.least, bounds.greatest})
         if (bound && std::abs(value - *bound) < uncertain * length_of_step(state, bounds.parameter))
             value = *bound;

@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 
 } // namespace
 
-/// In units of the scales, but for rows: those of events have the units of the present point.
+/// Returns the scaled derivatives as a dense matrix. Rows of events keep the units of the current point.
 MatrixXd BranchPointProblem::derivatives(const OrbitEvaluation& at) const {
     const OrbitLayout& layout = equations().layout();
     const auto n = index(layout.states());
@@ -46,13 +46,14 @@ bool BranchPointProblem::evaluate(std::span<const double> u) {
         return true;
     at_.clear();
     matrix_ = derivatives(evaluation());
-    if (!matrix_.allFinite() || (border_.size() == 0 && !choose_borders()) || !complete() || !differentiate(u))
+    if (!matrix_.allFinite() || (border_.size() == 0 && !choose_borders()) || !solve_null_vectors() ||
+        !differentiate(u))
         return false;
     at_.assign(u.begin(), u.end());
     return true;
 }
 
-/// What is nearly singular.
+/// Chooses borders from the nearly null left and right vectors of the matrix.
 bool BranchPointProblem::choose_borders() {
     const NearlyNull near = nearly_null(matrix_.leftCols(matrix_.cols() - 1));
     right_ = near.right;
@@ -60,8 +61,8 @@ bool BranchPointProblem::choose_borders() {
     return right_.allFinite() && border_.allFinite();
 }
 
-/// Null vectors, and the numbers that would be zero if they were some.
-bool BranchPointProblem::complete() {
+/// Computes the bordered null vectors and the two values that vanish at a branch point.
+bool BranchPointProblem::solve_null_vectors() {
     const Eigen::Index rows = matrix_.rows(), columns = rows + 1;
     MatrixXd bordered = MatrixXd::Zero(rows + 2, rows + 2);
     bordered.topLeftCorner(rows, columns) = matrix_.leftCols(columns);
@@ -80,7 +81,7 @@ bool BranchPointProblem::complete() {
 }
 
 bool BranchPointProblem::differentiate(std::span<const double> u) {
-    constexpr double length = 1e-5; // in units of the scales: errors of 1e-10, and as much round-off
+    constexpr double length = 1e-5; // scaled step of the differences: truncation and round-off errors of about 1e-10
     OrbitEvaluation there = equations().evaluation();
     const auto at = vector_of(u);
     const VectorXd units = evaluation().scales;
@@ -124,11 +125,11 @@ bool BranchPointProblem::solve(std::span<const double> row, double right, bool h
     if (!solution.allFinite())
         return false;
     if (determinant)
-        *determinant = 1; // nothing is told by it here
+        *determinant = 1; // not used as a test function on this curve
     const double beta = std::abs(solution[rows + 2]);
     broken_.clear();
     if (!homogeneous && beta > zero && solution.head(columns).cwiseAbs().maxCoeff() < converged) {
-        broken_ = "the two branches part there: nothing of the model keeps them together";
+        broken_ = "the two branches separate there: no property of the model keeps them together";
         return false;
     }
     Eigen::Map<VectorXd>(step.data(), columns) = solution.head(columns).cwiseProduct(units);

@@ -49,9 +49,9 @@ void BranchSettings::validate(const Model& model) const {
                                      name_of(kept->type)),
                          "choose another point, or hold a monitor that says what it is");
     if (kept_too && (*kept_too != PointType::sensitivity || !kept || kept->type != PointType::grazing || kept->at_end))
-        throw InputError(
-            fmt::format("what makes a point of type {} cannot be held besides that of another", short_name(*kept_too)),
-            "hold a vanishing sensitivity (VS) besides a touch within an arc (GR)");
+        throw InputError(fmt::format("the condition of a point of type {} cannot be held besides that of another",
+                                     short_name(*kept_too)),
+                         "hold a vanishing sensitivity (VS) besides a touch within an arc (GR)");
     if (kept && held + (kept_too ? 2 : 1) != free.size())
         throw InputError(fmt::format("{} monitors are fixed, a point of type {} is kept, and {} further parameters are "
                                      "free",

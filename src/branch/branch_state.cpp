@@ -20,7 +20,7 @@ namespace graze {
 
 namespace {
 
-/// Growth of derivatives over one piece at which the segments are split anew.
+/// Growth of derivatives over one piece above which the segments are split anew.
 constexpr double too_much_growth = 1e6;
 
 } // namespace
@@ -43,11 +43,11 @@ BranchState::BranchState(const System& system, const Orbit& candidate, const Bra
     hold(candidate);
     if (!make_problem(candidate))
         throw InputError(
-            fmt::format("what makes a point of type {} cannot be held there", short_name(settings.kept->type)),
+            fmt::format("the condition of a point of type {} cannot be held there", short_name(settings.kept->type)),
             "choose another point");
 }
 
-/// Monitors without a given value are held at that of the candidate, however the problem is made anew later.
+/// Sets the held values of fixed monitors without one to those of the candidate, also for later problems of the branch.
 void BranchState::hold(const Orbit& candidate) {
     if (settings_.free.empty() || !monitors_)
         return;
@@ -57,7 +57,7 @@ void BranchState::hold(const Orbit& candidate) {
             settings_.monitors[m].held = values[m];
 }
 
-/// False where what is kept has no condition.
+/// Makes the equations and the continuation for an orbit. @return false where the kept point has no condition
 bool BranchState::make_problem(const Orbit& orbit) {
     problem_ = keeps_branch_point() ? std::make_unique<BranchPointProblem>(simulation_, orbit, settings_)
                                     : std::make_unique<OrbitProblem>(simulation_, orbit, settings_);
@@ -67,7 +67,8 @@ bool BranchState::make_problem(const Orbit& orbit) {
         return false;
     problem_->hold(held_);
     ContinuationOptions options = settings_.continuation;
-    // What is kept is told from what is not by far less than orbits need: a touch from a contact.
+    // A kept touch differs from a contact by much less than the accuracy of orbits, so Newton's method must be more
+    // accurate.
     constexpr double kept_accuracy = 1e-13;
     if (settings_.kept)
         options.accuracy = std::min(options.accuracy, kept_accuracy);
@@ -75,7 +76,7 @@ bool BranchState::make_problem(const Orbit& orbit) {
     return true;
 }
 
-/// Conditions are compiled once, and moved to the segments of each new signature.
+/// Adds the conditions of fixed monitors: compiled once, then moved to the segments of each new signature.
 void BranchState::hold_monitors() {
     std::size_t at = 0;
     for (std::size_t m = 0; m < settings_.monitors.size(); ++m) {
@@ -89,11 +90,12 @@ void BranchState::hold_monitors() {
     }
 }
 
-/// The condition of the point that is kept, made anew for each problem: it may depend on the pieces of segments.
+/// Adds the condition of the kept point, made anew for each problem because it may depend on the pieces of segments.
+/// @return false where it has none
 bool BranchState::hold_kept(const Orbit& orbit) {
     SpecialPoint& kept = *settings_.kept;
     kept.solution.orbit = orbit;
-    if (keeps_branch_point()) // which the problem itself does
+    if (keeps_branch_point()) // BranchPointProblem contains the condition
         return true;
     std::unique_ptr<OrbitCondition> condition;
     if (problem_->evaluate(problem_->unknowns_of(orbit)))
@@ -116,8 +118,8 @@ std::optional<HeldLimit> BranchState::held_limit() const {
     return settings_.kept ? held_limit_of(*settings_.kept) : std::nullopt;
 }
 
-/// Where on the orbit the touch is that is kept: of all least values of that event's function, the one that is zero.
-void BranchState::note_kept(const OrbitSolution& solution) {
+/// Updates the time of the kept touch: that of the minimum of its event function that is nearest to zero.
+void BranchState::update_kept_time(const OrbitSolution& solution) {
     const auto held = held_limit();
     if (!held || held->kind != HeldLimit::Kind::touch)
         return;
@@ -130,9 +132,9 @@ void BranchState::note_kept(const OrbitSolution& solution) {
         }
 }
 
-/// The touch that is kept in an orbit of another signature that nearly touches.
+/// Finds the kept touch in an orbit of another signature that nearly touches.
 bool BranchState::find_touch(const Orbit& orbit) {
-    constexpr double near = 1e-2; // of the function's size along the arc
+    constexpr double near = 1e-2; // share of the function's size along the arc
     OrbitProblem problem(simulation_, orbit, settings_);
     if (!problem.evaluate(problem.unknowns_of(orbit)))
         return false;
@@ -159,7 +161,7 @@ bool BranchState::keep_image_of_touch(const Orbit& orbit) {
     try {
         const Segment image = image_of(system(), orbit.symmetry.value(), {mode, SegmentEnd::event, transition}, orbit);
         kept.event = model().transitions[image.index].event;
-    } catch (const InputError&) { // no event is its image
+    } catch (const InputError&) { // the event has no image
         return false;
     }
     return true;
@@ -201,7 +203,7 @@ bool BranchState::describe(const ContinuationPoint& at, BranchPoint& result, std
     result.solution.iterations = at.iterations;
     result.solution.orbit = problem_->orbit_of(at.u);
     describe_orbit(equations, evaluation, result.solution, held_limit());
-    note_kept(result.solution);
+    update_kept_time(result.solution);
     result.parameter = at.u[problem_->parameter_place()];
     result.tangent = problem_->direction_of(at.tangent);
     result.monitors = monitors_ ? (*monitors_)(result.solution.orbit) : std::vector<double>();
@@ -244,7 +246,7 @@ bool BranchState::is_in_family(const Orbit& orbit) {
     return shooting.evaluate(shooting.unknowns_of(orbit), at) && graze::is_in_family(shooting, at);
 }
 
-bool BranchState::pieces_are_unfit() {
+bool BranchState::pieces_need_renewal() {
     const OrbitEquations& equations = problem_->equations();
     const OrbitLayout& layout = equations.layout();
     for (std::size_t k = 0; k < layout.pieces(); ++k) {
@@ -260,8 +262,8 @@ bool BranchState::pieces_are_unfit() {
     return false;
 }
 
-/// A direction as one across the motion, in which a cut that is laid anew leaves starts: what it had along the motion
-/// only moved them on their orbits, and would say the wrong way where that is most of it.
+/// Removes from a direction the component along the motion, since a new cut is laid across it. That component only
+/// shifts starts along their orbits and could reverse the direction where it dominates.
 OrbitDirection BranchState::across_cuts(const Orbit& orbit, OrbitDirection direction) const {
     if (orbit.signature.front().end != SegmentEnd::cut)
         return direction;
@@ -287,16 +289,17 @@ OrbitDirection BranchState::across_cuts(const Orbit& orbit, OrbitDirection direc
 }
 
 void BranchState::renew_pieces(const BranchPoint& from) {
-    const bool grown = pieces_are_unfit();
+    const bool grown = pieces_need_renewal();
     const std::size_t pieces = problem_->equations().layout().pieces();
     const bool renewed = restart(from.solution.orbit, across_cuts(from.solution.orbit, from.tangent), from.arclength);
     if (grown && problem_->equations().layout().pieces() <= pieces)
-        growth_ *= 10; // nothing was gained: ask again later
+        growth_ *= 10; // no improvement: test again later
     if (!renewed)
-        growth_ *= 10; // as it was, for some time
+        growth_ *= 10; // keep the old pieces for some time
 }
 
-/// Goes on from a solution along other equations. @return false when these do not start there: all stays as it was
+/// Continues from a solution with new equations. @return false when the continuation does not start there; then nothing
+/// changes
 bool BranchState::restart(const Orbit& orbit, const OrbitDirection& direction, double arclength) {
     const double length = continuation_->next_step();
     const std::optional<SpecialPoint> kept = settings_.kept;
@@ -325,7 +328,8 @@ bool BranchState::restart(const Orbit& orbit, const OrbitDirection& direction, d
     return true;
 }
 
-/// Monitors that are taken where segments begin or end, and what is kept in one of segments that are put together.
+/// True when sections must be kept: monitors refer to starts or ends of segments, or the kept point lies in a segment
+/// that would be merged.
 bool BranchState::needs_sections(const Orbit& orbit, const Orbit& without) const {
     const bool taken = std::any_of(settings_.monitors.begin(), settings_.monitors.end(), [](const Monitor& monitor) {
         return !monitor.segment.empty() || monitor.kind == Monitor::Kind::value || monitor.kind == Monitor::Kind::start;
@@ -336,10 +340,10 @@ bool BranchState::needs_sections(const Orbit& orbit, const Orbit& without) const
 bool BranchState::leave_sections(const BranchPoint& from) {
     const Orbit& orbit = from.solution.orbit;
     const auto uncut = without_sections(model(), orbit, from.tangent);
-    return uncut && uncut->orbit.signature != orbit.signature && begin_anew(from, *uncut);
+    return uncut && uncut->orbit.signature != orbit.signature && replace_orbit(from, *uncut);
 }
 
-bool BranchState::begin_anew(const BranchPoint& from, const UncutOrbit& same) {
+bool BranchState::replace_orbit(const BranchPoint& from, const UncutOrbit& same) {
     const Orbit& orbit = from.solution.orbit;
     if (needs_sections(orbit, same.orbit))
         return false;
@@ -365,7 +369,7 @@ bool BranchState::begin_without_sections(const Orbit& candidate) {
            continuation_->start(problem_->unknowns_of(uncut->orbit), problem_->parameter_place(), settings_.direction);
 }
 
-void BranchState::go_on(const BranchStart& start, double arclength) {
+void BranchState::continue_on(const BranchStart& start, double arclength) {
     if (monitors_)
         monitors_->set_signature(start.orbit.signature);
     const double length = continuation_->next_step();
@@ -378,7 +382,7 @@ void BranchState::go_on(const BranchStart& start, double arclength) {
     continuation_->set_next_step(length);
 }
 
-bool BranchState::go_on_curve(const Orbit& guess, int direction, double arclength) {
+bool BranchState::continue_curve(const Orbit& guess, int direction, double arclength) {
     if (monitors_)
         monitors_->set_signature(guess.signature);
     const double length = continuation_->next_step();

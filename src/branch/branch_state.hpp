@@ -13,16 +13,16 @@
 
 namespace graze {
 
-/// A step of the continuation, in arclength on the branch.
+/// The last step of the continuation, in arclength of the branch.
 struct LastStep {
     double from = 0, length = 0;
     double fraction(double arclength) const { return (arclength - from) / length; }
 };
 
-/// What a point that is found on a branch has from there; what it is besides is its type's.
+/// Returns a special point with the data of a branch point; the caller sets what depends on its type.
 SpecialPoint special_of_type(PointType type, const BranchPoint& there);
 
-/// The equations that a branch follows, where on it the continuation is, and what can be said of its points.
+/// The state of a branch: its equations, the position of the continuation, and the description of its points.
 class BranchState {
 public:
     /// @throws InputError when candidate or settings do not fit the model
@@ -33,40 +33,40 @@ public:
     const BranchSettings& settings() const { return settings_; }
     OrbitProblem& problem() { return *problem_; }
     Continuation& continuation() { return *continuation_; }
-    /// Arclength on the branch of one in the present continuation, which may not have begun where the branch did.
+    /// Converts an arclength of the current continuation, which may have been restarted, to one of the branch.
     double arclength(double in_continuation) const { return arclength_ + in_continuation; }
     LastStep last_step() const;
-    /// How an orbit moves where a segment of it begins.
+    /// Returns the vector field at the start of a segment.
     std::vector<double> rates_at(const Orbit& orbit, std::size_t segment) const;
     bool is_outside(double parameter) const;
 
-    /// What is known of a point of the branch. @return false where its equations are not defined
+    /// Describes a point of the branch with all its test functions. @return false where its equations are not defined
     bool describe(const ContinuationPoint& at, BranchPoint& result, std::vector<BranchTest>& tests);
-    /// By how much an orbit of the branch would change at a tolerance a hundred times smaller, relative to the size of
-    /// each unknown. None where that cannot be said: where another branch crosses, or monitors are held.
+    /// Returns the change of an orbit of the branch at a hundredth of the tolerance, relative to the scale of each
+    /// unknown. Empty where it is not defined: at branch points, or with additional free parameters.
     std::optional<double> error_of(const Orbit& orbit, const OrbitDirection& tangent);
-    /// Whether derivatives have grown too much for their pieces, or the last piece of a segment, which alone has a
-    /// duration that is free, has become too short for the others.
-    bool pieces_are_unfit();
-    /// Whether an orbit is one of many at the same parameters, which the branch's own parameter leaves as many.
+    /// True when derivatives have grown too much within a piece, or the last piece of a segment, the only one of
+    /// variable duration, has become too short.
+    bool pieces_need_renewal();
+    /// True when an orbit belongs to a family at the same parameters.
     bool is_in_family(const Orbit& orbit);
-    /// Splits the segments anew and goes on from a point, or lays its cuts anew.
+    /// Continues from a point with newly split segments and newly laid cuts.
     void renew_pieces(const BranchPoint& from);
-    /// Goes on from a point with equations that have no sections. @return false, and nothing is changed, where these
-    /// are needed: something is said of where they are passed
+    /// Continues from a point with equations without sections. @return false, with nothing changed, where monitors or
+    /// the kept point need the sections
     bool leave_sections(const BranchPoint& from);
-    /// Goes on from a point with another description of its orbit. @return false, and nothing is changed, where the
-    /// equations do not start there, or something is said of where sections are passed
-    bool begin_anew(const BranchPoint& from, const UncutOrbit& same);
-    /// The same before the branch has begun, which is done anew. @return false where the orbit has no sections, either
+    /// Continues from a point with another representation of its orbit. @return false, with nothing changed, where the
+    /// continuation does not start or the sections are needed
+    bool replace_orbit(const BranchPoint& from, const UncutOrbit& same);
+    /// The same before the start of the branch. @return false also where the orbit has no sections
     bool begin_without_sections(const Orbit& candidate);
-    /// Goes on along other equations. @throws InputError when that is impossible
-    void go_on(const BranchStart& start, double arclength);
-    /// Goes on along a curve from a guess of another signature. @param direction of the parameter
-    /// @return false when Newton's method does not lead to an orbit of the curve: then there is nowhere to go on from
-    bool go_on_curve(const Orbit& guess, int direction, double arclength);
-    /// From now on the touch that is kept is one of the image of its event: where a half orbit ends its image goes on.
-    /// @return false where nothing is done at the event, so that it has no image that is known
+    /// Continues along another branch or signature. @throws InputError when the continuation does not start there
+    void continue_on(const BranchStart& start, double arclength);
+    /// Continues a curve from a guess of another signature. @param direction of the parameter
+    /// @return false when Newton's method does not converge to an orbit of the curve; the state is then unusable
+    bool continue_curve(const Orbit& guess, int direction, double arclength);
+    /// Replaces the event of the kept touch by its image, because the image of a half orbit follows its end.
+    /// @return false where the event has no transition or no image
     bool keep_image_of_touch(const Orbit& orbit);
 
 private:
@@ -76,7 +76,7 @@ private:
     bool hold_kept(const Orbit& orbit);
     std::size_t held_monitors() const;
     std::optional<HeldLimit> held_limit() const;
-    void note_kept(const OrbitSolution& solution);
+    void update_kept_time(const OrbitSolution& solution);
     bool find_touch(const Orbit& orbit);
     bool needs_sections(const Orbit& orbit, const Orbit& without) const;
     OrbitDirection across_cuts(const Orbit& orbit, OrbitDirection direction) const;
@@ -85,9 +85,10 @@ private:
 
     BranchSettings settings_;
     Simulation simulation_;
-    std::optional<Simulation> tighter_; ///< once it has been asked for
+    std::optional<Simulation> tighter_; ///< made when first needed
     std::unique_ptr<OrbitMonitors> monitors_;
-    std::vector<std::unique_ptr<OrbitCondition>> held_; ///< one for each free parameter, those of the kept point last
+    /// One condition for each additional free parameter, those of the kept point last.
+    std::vector<std::unique_ptr<OrbitCondition>> held_;
     std::unique_ptr<OrbitProblem> problem_;
     std::unique_ptr<Continuation> continuation_;
     double arclength_ = 0, growth_ = 1;

@@ -16,7 +16,7 @@ namespace graze {
 
 namespace {
 
-/// The curve in the plane of two parameters, each in units of the largest step in it.
+/// Solves for points of the curve in the plane of two parameters, each in units of its largest step.
 class ChatterPlane {
 public:
     using Place = std::array<double, 2>;
@@ -43,17 +43,17 @@ public:
         return system_.model().independent_parameters()[parameters_[which].place()];
     }
 
-    /// Where a step leads in which one parameter is held at a value that has been predicted, and the other follows.
+    /// Result of a step in which one parameter is fixed at its predicted value and the other solved for.
     struct Reached {
         ChatterLimit limit;
-        std::optional<std::size_t> bound; ///< of which parameter it lies on
+        std::optional<std::size_t> bound; ///< index of the parameter whose bound is reached, if any
     };
-    /// @param ahead of the step: in the plane, in units; @param before an earlier orbit, from which all else is
-    /// extrapolated, and how far it is away
-    std::optional<Reached> go(const Orbit& here, const Place& ahead, const Orbit* before, double way_before,
-                              std::string& why) const {
+    /// @param ahead the step in the plane; @param before an earlier orbit, for extrapolation of the start; @param
+    /// way_before its distance
+    std::optional<Reached> step_from(const Orbit& here, const Place& ahead, const Orbit* before, double length_before,
+                                     std::string& why) const {
         const std::size_t held = std::abs(ahead[0]) >= std::abs(ahead[1]) ? 0 : 1;
-        auto reached = hold(held, here, ahead, before, way_before, why);
+        auto reached = hold(held, here, ahead, before, length_before, why);
         if (!reached)
             return std::nullopt;
         const std::size_t other = 1 - held;
@@ -63,13 +63,13 @@ public:
             const double whole = (value - here.parameters[parameters_[other].place()]) / units_[other];
             Place to_bound{ahead[0] * step / whole, ahead[1] * step / whole};
             to_bound[other] = step;
-            reached = hold(other, here, to_bound, before, way_before, why);
+            reached = hold(other, here, to_bound, before, length_before, why);
             if (reached)
                 reached->bound = other;
         }
         return reached;
     }
-    /// At a point as it is: the second parameter follows.
+    /// Solves at a point with the first parameter fixed.
     std::optional<ChatterLimit> at(const Orbit& near, std::string& why) const {
         ChatterLimit limit = chatter_limit_near(system_, near, event_, parameters_[1], settings_.orbit.tolerance);
         why = limit.problem;
@@ -98,7 +98,7 @@ private:
         return value;
     }
     std::optional<Reached> hold(std::size_t held, const Orbit& here, const Place& ahead, const Orbit* before,
-                                double way_before, std::string& why) const {
+                                double length_before, std::string& why) const {
         const double from = here.parameters[parameters_[held].place()], wanted = from + ahead[held] * units_[held],
                      value = within(held, wanted);
         const double part = wanted == from ? 0 : (value - from) / (wanted - from);
@@ -106,7 +106,7 @@ private:
         for (std::size_t k = 0; k < 2; ++k)
             guess.parameters[parameters_[k].place()] += part * ahead[k] * units_[k];
         if (before) {
-            const double share = part * std::hypot(ahead[0], ahead[1]) / way_before;
+            const double share = part * std::hypot(ahead[0], ahead[1]) / length_before;
             const std::vector<double> periods = system_.periods()(here.parameters);
             for (std::size_t i = 0; i < periods.size(); ++i) {
                 const double gain = here.starts[0][i] - before->starts[0][i];
@@ -128,7 +128,7 @@ private:
     Place units_{};
 };
 
-/// Angle between two directions in the plane.
+/// Returns the angle between two directions in the plane.
 double angle_between(const ChatterPlane::Place& one, const ChatterPlane::Place& other) {
     return std::abs(std::atan2(one[0] * other[1] - one[1] * other[0], one[0] * other[0] + one[1] * other[1]));
 }
@@ -139,11 +139,11 @@ struct ChatterCurve::State {
     State(ChatterPlane in, std::size_t at, ChatterLimit begin)
         : plane(std::move(in)), event(at), first(std::move(begin)), here(first) {}
 
-    void tell_bound(std::size_t which) {
+    void report_bound(std::size_t which) {
         ending =
             fmt::format("bound: {} = {:.9g}", plane.name_of(which), here.orbit.parameters[plane.place_in_model(which)]);
     }
-    /// One attempt. @return whether it has led on
+    /// Attempts a step. @return false when it fails
     bool attempt(std::string& problem);
 
     ChatterPlane plane;
@@ -151,7 +151,7 @@ struct ChatterCurve::State {
     ChatterLimit first, here;
     std::optional<Orbit> before;
     ChatterPlane::Place direction{};
-    double length = 0, way_before = 1; ///< of the next step and of the last, in largest steps
+    double length = 0, length_before = 1; ///< lengths of the next and of the last step, in largest steps
     std::size_t made = 0;
     bool interrupted = false;
     std::string ending;
@@ -178,34 +178,34 @@ void ChatterCurve::start(int direction) {
     state.before.reset();
     state.direction = {direction < 0 ? -1.0 : 1.0, 0};
     state.length = first_length;
-    state.way_before = 1;
+    state.length_before = 1;
     state.made = 0;
     state.interrupted = false;
     state.ending.clear();
     if (state.plane.is_on_bound(0, state.here.orbit, state.direction[0]))
-        state.tell_bound(0);
+        state.report_bound(0);
 }
 
 bool ChatterCurve::State::attempt(std::string& problem) {
     using Place = ChatterPlane::Place;
     constexpr double growth = 1.5, largest_angle = 0.4;
     const Place from = plane.place_of(here.orbit), ahead{length * direction[0], length * direction[1]};
-    auto reached = plane.go(here.orbit, ahead, before ? &*before : nullptr, way_before, problem);
+    auto reached = plane.step_from(here.orbit, ahead, before ? &*before : nullptr, length_before, problem);
     if (!reached)
         return false;
     problem = name_of(BranchOutcome::no_convergence);
     const Place to = plane.place_of(reached->limit.orbit), moved{to[0] - from[0], to[1] - from[1]};
-    const double way = std::hypot(moved[0], moved[1]);
+    const double distance = std::hypot(moved[0], moved[1]);
     const bool bends = before && angle_between(direction, moved) > largest_angle;
-    if (!(way > 0) || bends || (!before && way > 1))
+    if (!(distance > 0) || bends || (!before && distance > 1))
         return false;
     before = std::move(here.orbit);
-    way_before = way;
+    length_before = distance;
     here = std::move(reached->limit);
-    direction = {moved[0] / way, moved[1] / way};
+    direction = {moved[0] / distance, moved[1] / distance};
     ++made;
     if (reached->bound)
-        tell_bound(*reached->bound);
+        report_bound(*reached->bound);
     length = std::min(growth * length, 1.0);
     return true;
 }

@@ -18,7 +18,7 @@ SelfSimilarContacts self_similar_contacts(double restitution) {
         throw InputError(fmt::format("a restitution of {:.6g} lets no contacts accumulate", restitution),
                          "it must lie between 0 and 1");
     const double e = restitution;
-    double rho = std::sqrt(e); // the polynomial is negative at 0 and positive here and beyond
+    double rho = std::sqrt(e); // the polynomial is negative at 0 and positive from here on
     constexpr int iterations = 60;
     for (int i = 0; i < iterations; ++i) {
         const double value = rho * rho * (2 + rho) - e * (1 + 2 * rho), slope = 4 * rho + 3 * rho * rho - 2 * e;
@@ -36,13 +36,13 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 struct Extrapolated {
     double value = 0, error = 0;
-    double amplified = 1; ///< by how much independent noise of the sequence is greater in the value
+    double amplified = 1; ///< amplification of independent noise of the sequence
 };
 
-/// Richardson's extrapolation of a sequence whose errors fall by known factors, one after the other; and how far its
-/// last steps and levels still differ.
+/// Richardson extrapolation of a sequence whose error terms decrease by known factors, with an error estimate from the
+/// differences of its last values and levels.
 Extrapolated extrapolate(std::vector<double> values, std::span<const double> factors) {
-    // The errors of the last values, and what they are made of.
+    // Estimates the error of the last values from their differences.
     const auto spread = [](const std::vector<double>& row, double factor) {
         double greatest = 0;
         for (std::size_t k = row.size() - std::min<std::size_t>(row.size(), 3); k + 1 < row.size(); ++k)
@@ -66,7 +66,7 @@ Extrapolated extrapolate(std::vector<double> values, std::span<const double> fac
     return best;
 }
 
-bool is_contact_more(const SpecialPoint& one, const SpecialPoint& other) {
+bool is_touch_of_same_event(const SpecialPoint& one, const SpecialPoint& other) {
     return one.type == PointType::grazing && !one.at_end && one.event == other.event;
 }
 
@@ -74,19 +74,19 @@ void require_ladder(std::span<const SpecialPoint> grazings) {
     if (grazings.size() < 2)
         throw InputError("a ladder of fewer than two grazings has no limit", "go on to the next grazing");
     for (const SpecialPoint& one : grazings)
-        if (!is_contact_more(one, grazings.front()))
+        if (!is_touch_of_same_event(one, grazings.front()))
             throw InputError("the points of a ladder are not all touches of one event",
                              "give grazings, each with one contact more than the one before");
 }
 
-/// Limits with 2, 3, ... contacts before the self-similar rest: each a solution from which the next begins.
+/// Computes the limit from solutions with more and more simulated contacts before the self-similar remainder; each
+/// solution starts from the previous one.
 class ApproachToLimit {
 public:
     explicit ApproachToLimit(AccumulatingOrbit orbit) : orbit_(std::move(orbit)) {}
 
-    /// The more contacts, the better the guess has to be, and the nearer the first solution is to it: where others do
-    /// not follow from the first one, it is tried with more or fewer.
-    /// @param state near that in which contacts accumulate
+    /// Tries several initial numbers of contacts: more contacts need a better guess but give a better first solution.
+    /// @param state near the state of accumulation
     bool run(double guess, std::size_t contacts, const std::vector<double>& state, ChatterLimit& limit) {
         std::size_t followed = 0;
         for (const std::size_t number : numbers_near(contacts)) {
@@ -94,9 +94,9 @@ public:
                 return false;
             if (!orbit_.solve())
                 continue;
-            come_near(limit);
+            refine(limit);
             followed = std::max(followed, orbit_.contacts_of_solution());
-            const auto orbit = limit.direct ? orbit_.shown(limit.gap) : std::nullopt;
+            const auto orbit = limit.direct ? orbit_.orbit_for_output(limit.gap) : std::nullopt;
             if (!orbit)
                 continue;
             limit.orbit = *orbit;
@@ -122,8 +122,8 @@ private:
         return numbers;
     }
 
-    /// From a solution, with ever more contacts, as long as that tells more.
-    void come_near(ChatterLimit& limit) {
+    /// Adds contacts to a solution as long as the error estimate decreases.
+    void refine(ChatterLimit& limit) {
         constexpr std::size_t most_contacts = 80, fewest = 6;
         values_.clear();
         noise_.clear();
@@ -136,11 +136,11 @@ private:
             limit.contacts = orbit_.contacts();
             if (values_.size() >= fewest) {
                 estimates.push_back(estimate(limit.contacts));
-                const auto one = agreed(estimates);
+                const auto one = consistent_estimate(estimates);
                 if (one.second < least)
                     limit.direct = one;
                 least = std::min(least, one.second);
-                // From here on there is more and more round-off.
+                // From here on round-off dominates.
                 if (noise_.back() > least)
                     break;
             }
@@ -149,9 +149,9 @@ private:
         }
     }
 
-    /// The last estimate, with the greatest of the last errors and how far the last estimates are apart: a small error
-    /// by chance is none.
-    static std::pair<double, double> agreed(const std::vector<std::pair<double, double>>& estimates) {
+    /// Returns the last estimate; its error is the largest of the last errors plus the spread of the last estimates,
+    /// since a single error may be small by chance.
+    static std::pair<double, double> consistent_estimate(const std::vector<std::pair<double, double>>& estimates) {
         constexpr std::size_t compared = 3;
         if (estimates.size() < compared)
             return {estimates.back().first, std::numeric_limits<double>::infinity()};
@@ -164,7 +164,8 @@ private:
         return {estimates.back().first, error + (high - low)};
     }
 
-    /// Contacts from one value to the next: as many as halve what is left, which near a restitution of 1 are many.
+    /// Returns the number of contacts to add: as many as halve the remaining distance, which near a restitution of 1
+    /// are many.
     static std::size_t stride(const SelfSimilarContacts& known) {
         constexpr double most = 100;
         const double halving = std::log(0.5) / std::log(known.times * known.ratio);
@@ -178,7 +179,7 @@ private:
         const double first = known.times * known.ratio;
         const std::array factors{first, first * known.times, first * known.times * known.times};
         const Extrapolated result = extrapolate(values_, factors);
-        constexpr std::size_t used = 4; // values in one that is extrapolated
+        constexpr std::size_t used = 4; // number of values that enter one extrapolated value
         double noise = 0;
         for (std::size_t k = noise_.size() - std::min(noise_.size(), used); k < noise_.size(); ++k)
             noise = std::max(noise, noise_[k]);
@@ -186,7 +187,7 @@ private:
     }
 
     AccumulatingOrbit orbit_;
-    std::vector<double> values_, noise_; ///< noise: of round-off in each
+    std::vector<double> values_, noise_; ///< values of the parameter, and their round-off
 };
 
 } // namespace
@@ -198,7 +199,7 @@ ChatterLimit chatter_limit(const System& system, std::span<const SpecialPoint> g
     std::vector<double> values;
     for (const SpecialPoint& one : grazings)
         values.push_back(one.parameter);
-    // Where nothing is known of the ratio yet, three grazings tell it.
+    // Aitken extrapolation of the last three grazings, while the ratio is unknown.
     double guess = values.back();
     if (values.size() > 2) {
         const double last = values.back() - values[values.size() - 2],
@@ -239,7 +240,7 @@ ChatterLimit chatter_limit_near(const System& system, const Orbit& known, std::s
     if (contact == known.signature.rend())
         throw InputError("the orbit has no contact at this event", "choose the event at which contacts accumulate");
     std::vector<double> state = known.starts.front();
-    if (known.symmetry) { // whose image of the image is the state itself
+    if (known.symmetry) { // the image of the image is the state itself
         std::vector<double> inputs = state;
         inputs.insert(inputs.end(), known.parameters.begin(), known.parameters.end());
         state = system.symmetry(*known.symmetry).map(inputs);

@@ -26,30 +26,29 @@ std::unique_ptr<OrbitCondition> held(OrbitQuantity quantity) {
     return std::make_unique<OrbitQuantity>(std::move(quantity));
 }
 
-/// The event that ends a segment; the first one for sections, where it is of no interest.
+/// Returns the event that ends a segment; 0 for sections, where it is unused.
 std::size_t own_event(const TestedPoint& point, std::size_t segment) {
     const Segment& one = point.equations.signature()[segment];
     return one.end == SegmentEnd::event ? point.equations.model().transitions[one.index].event : 0;
 }
 
-/// Whether a segment is held to take no time all along a curve: then nothing happens within it, or at its ends, but
-/// what is held.
-bool is_without_time(const TestedPoint& point, std::size_t segment) {
+/// True when a curve keeps the duration of a segment at zero; then no other events are tested in it.
+bool has_zero_duration(const TestedPoint& point, std::size_t segment) {
     const auto& kept = point.settings.kept;
     const auto held = kept ? held_limit_of(*kept) : std::nullopt;
-    return held && held->holds_without_time(segment, point.equations.signature().size());
+    return held && held->has_zero_duration(segment, point.equations.signature().size());
 }
 
-/// Where contacts are without speed, as on curves of touches, the ends of arcs have least values too: of the next
-/// segment at its very start, and of a segment's own event at its end, which the speed tells of.
-bool is_of_contact(const TestedPoint& point, const OrbitMinimum& minimum) {
+/// True when a minimum belongs to a contact of zero speed, as on curves of touches: it lies at the end of its arc,
+/// where the approach speed is tested instead, or at the very start of the next segment.
+bool belongs_to_contact(const TestedPoint& point, const OrbitMinimum& minimum) {
     constexpr double at_start = 1e-3, at_end = 1e-6; // shares of the segment
     if (!is_kept(point, PointType::grazing))
         return false;
     const SpecialPoint& kept = *point.settings.kept;
     const auto& signature = point.equations.signature();
     const double duration = std::abs(point.solution.orbit.durations[minimum.segment]);
-    const std::size_t after = kept.at_end ? 1 + held_limit_of(kept)->without_time : 1;
+    const std::size_t after = kept.at_end ? 1 + held_limit_of(kept)->zero_durations : 1;
     const bool own =
         signature[minimum.segment].end == SegmentEnd::event && own_event(point, minimum.segment) == minimum.event;
     return (own && minimum.time > (1 - at_end) * duration) ||
@@ -59,13 +58,13 @@ bool is_of_contact(const TestedPoint& point, const OrbitMinimum& minimum) {
 
 } // namespace
 
-// Grazing: an event is met without speed at the end of its arc, or another touched inside of one.
+// Grazing: the approach speed at the end of an arc vanishes, or an event function has a minimum of zero inside an arc.
 
 void test_grazing(const TestedPoint& point, std::vector<BranchTest>& tests) {
     const Certificate& certificate = point.solution.certificate;
     const PointType type = is_kept(point, PointType::grazing) ? PointType::double_grazing : PointType::grazing;
-    // On curves of touches orbits may be simpler ones gone round several times, whose contacts are all without speed:
-    // a speed is known to the root of round-off there.
+    // On curves of touches an orbit may be several rounds of a simpler one, whose contacts all have zero speed, known
+    // only to the square root of round-off.
     const double noise = type == PointType::double_grazing ? 1e-7 : least_rate;
     for (std::size_t s = 0; s < point.equations.signature().size(); ++s) {
         const bool event = point.equations.signature()[s].end == SegmentEnd::event;
@@ -74,7 +73,7 @@ void test_grazing(const TestedPoint& point, std::vector<BranchTest>& tests) {
                          .segment = s,
                          .event = own_event(point, s),
                          .value = event && !kept ? certificate.approach_speeds[s] : nothing,
-                         .noise = noise * point.equations.usual_rate(point.at, s),
+                         .noise = noise * point.equations.typical_rate(point.at, s),
                          .time = point.solution.orbit.durations[s],
                          .at_end = true,
                          .appears = true});
@@ -85,9 +84,9 @@ void test_grazing(const TestedPoint& point, std::vector<BranchTest>& tests) {
             const bool kept = is_kept(point, PointType::grazing, s, event);
             for (const OrbitMinimum& minimum : certificate.minima)
                 if (minimum.segment == s && minimum.event == event && !(minimum.value >= test.value) &&
-                    !is_without_time(point, s) &&
+                    !has_zero_duration(point, s) &&
                     !(kept && (point.settings.kept->at_end || minimum.time == point.settings.kept->time)) &&
-                    !is_of_contact(point, minimum)) {
+                    !belongs_to_contact(point, minimum)) {
                     test.value = minimum.value;
                     test.noise = smallest_clearance * minimum.size;
                     test.time = minimum.time;
@@ -97,23 +96,24 @@ void test_grazing(const TestedPoint& point, std::vector<BranchTest>& tests) {
 }
 
 bool confirm_grazing(BranchState& state, SpecialPoint& special, const BranchTest&) {
-    // The event that ends an arc, touched at its very end, is that contact without speed.
+    // A touch of the event that ends an arc, at the very end of it, is the contact itself at zero speed.
     constexpr double very_end = 1e-5; // share of the arc
     const Segment& arc = special.solution.orbit.signature[special.segment];
     const double duration = std::abs(special.solution.orbit.durations[special.segment]);
     if (arc.end == SegmentEnd::event && state.model().transitions[arc.index].event == special.event &&
         special.type == PointType::grazing && special.time > (1 - very_end) * duration)
         special.at_end = true;
-    if (special.at_end) // their limits are infinite
+    if (special.at_end) // the multipliers diverge there
         special.solution.multipliers.clear();
     special.detail =
         fmt::format("{}{}", state.model().events[special.event].name, special.at_end ? ", no approach speed" : "");
     return true;
 }
 
-/// The touch that is kept may come to the end of its segment, which is no second one.
+/// The kept touch may reach the end of its segment: this is not a second touch.
 bool confirm_double_grazing(BranchState& state, SpecialPoint& special, const BranchTest& test) {
-    constexpr double at_end = 1e-3; // share of the segment: the touch meets its end with the root of what is left
+    // Share of the segment: the distance of the touch from the end vanishes with a square root.
+    constexpr double at_end = 1e-3;
     const SpecialPoint& kept = *state.settings().kept;
     confirm_grazing(state, special, test);
     const double duration = special.solution.orbit.durations[special.segment];
@@ -128,11 +128,11 @@ bool confirm_double_grazing(BranchState& state, SpecialPoint& special, const Bra
 int rank_of_grazing(const SpecialPoint& point) {
     const Orbit& orbit = point.solution.orbit;
     const double duration = std::abs(orbit.durations[point.segment]);
-    // An arc that vanishes has the contact before it to thank for that.
+    // A vanishing arc is a consequence of the contact before it.
     constexpr double almost_nothing = 1e-4;
     if (point.at_end)
         return duration > almost_nothing * orbit.period() ? 1 : 2;
-    // A minimum that comes or goes through an end of its arc does so because a contact has lost its speed.
+    // A minimum that enters or leaves an arc through its end is a consequence of a contact at zero speed.
     constexpr double at_edge = 1e-6;
     return point.time > at_edge * duration && point.time < (1 - at_edge) * duration ? 0 : 2;
 }
@@ -151,7 +151,7 @@ std::vector<BranchStart> leave_grazing(const System& system, const SpecialPoint&
                          : with_one_more_contact(system, point, settings)};
 }
 
-/// Of each of its touches the orbits with one contact more or fewer, as far as there are some beside the other one.
+/// Returns for each touch the orbits with one contact more or fewer, where they exist near the other touch.
 std::vector<BranchStart> leave_double_grazing(const System& system, const SpecialPoint& point,
                                               const BranchSettings& settings) {
     std::vector<BranchStart> starts;
@@ -175,14 +175,14 @@ std::vector<BranchStart> leave_double_grazing(const System& system, const Specia
     return starts;
 }
 
-// Events that change their order.
+// Points at which events change their order.
 
 void test_vanishing(const TestedPoint& point, std::vector<BranchTest>& tests) {
     for (std::size_t s = 0; s < point.equations.signature().size(); ++s)
         tests.push_back({.type = PointType::vanishing,
                          .segment = s,
                          .event = own_event(point, s),
-                         .value = is_without_time(point, s) ? nothing : point.solution.orbit.durations[s]});
+                         .value = has_zero_duration(point, s) ? nothing : point.solution.orbit.durations[s]});
 }
 
 bool confirm_vanishing(BranchState&, SpecialPoint& special, const BranchTest&) {
@@ -197,12 +197,12 @@ std::unique_ptr<OrbitCondition> condition_of_vanishing(const OrbitEquations& equ
 
 namespace {
 
-/// Where a segment that a curve keeps takes no time, its event happens at the end of the one before, and what happens
-/// at the end of that one at its own.
+/// True when the value at the end of a segment is zero because the curve keeps the duration of this or the next segment
+/// at zero.
 bool belongs_to_vanishing(const TestedPoint& point, const EndValue& end) {
     const std::size_t next = (end.segment + 1) % point.equations.signature().size();
-    return is_without_time(point, end.segment) ||
-           (is_without_time(point, next) && own_event(point, next) == end.event &&
+    return has_zero_duration(point, end.segment) ||
+           (has_zero_duration(point, next) && own_event(point, next) == end.event &&
             point.equations.signature()[next].end == SegmentEnd::event);
 }
 
@@ -222,12 +222,12 @@ void test_two_events(const TestedPoint& point, std::vector<BranchTest>& tests) {
     }
 }
 
-/// Two events of which the other one does not fall is a touch at the very end of an arc.
+/// If the other event function is not falling, the point is a touch at the very end of an arc.
 bool confirm_two_events(BranchState& state, SpecialPoint& special, const BranchTest& test) {
-    constexpr double without_speed = 1e-6; // of rates of the same function
+    constexpr double without_speed = 1e-6; // relative to the typical rate of the same function
     const OrbitEquations& equations = state.problem().equations();
     const OrbitEvaluation& at = state.problem().evaluation();
-    if (std::abs(test.rate) < without_speed * equations.usual_rate(at, special.segment, special.event)) {
+    if (std::abs(test.rate) < without_speed * equations.typical_rate(at, special.segment, special.event)) {
         special.type = PointType::grazing;
         special.time = special.solution.orbit.durations[special.segment];
     }
@@ -242,12 +242,12 @@ std::unique_ptr<OrbitCondition> condition_of_two_events(const OrbitEquations& eq
 
 namespace {
 
-/// Whether a segment ends with a kept contact without speed after which others take no time: by what these would set
-/// going its guard chooses the next mode, of which nothing is left.
-bool is_stop_of_slip(const TestedPoint& point, std::size_t segment) {
+/// True when a segment ends with a kept contact of zero speed that is followed by segments of zero duration: the guard
+/// depends on their vanishing motion, so its margin is undefined.
+bool guard_is_undetermined(const TestedPoint& point, std::size_t segment) {
     const auto& kept = point.settings.kept;
     const auto held = kept ? held_limit_of(*kept) : std::nullopt;
-    return held && held->kind == HeldLimit::Kind::stop && held->segment == segment && held->without_time > 0;
+    return held && held->kind == HeldLimit::Kind::stop && held->segment == segment && held->zero_durations > 0;
 }
 
 } // namespace
@@ -255,7 +255,7 @@ bool is_stop_of_slip(const TestedPoint& point, std::size_t segment) {
 void test_guard(const TestedPoint& point, std::vector<BranchTest>& tests) {
     for (std::size_t s = 0; s < point.equations.signature().size(); ++s) {
         const double margin = point.solution.certificate.guard_margins[s];
-        const bool held = is_kept(point, PointType::guard, s, own_event(point, s)) || is_stop_of_slip(point, s);
+        const bool held = is_kept(point, PointType::guard, s, own_event(point, s)) || guard_is_undetermined(point, s);
         tests.push_back({.type = PointType::guard,
                          .segment = s,
                          .event = own_event(point, s),
@@ -279,13 +279,14 @@ std::vector<BranchStart> leave_order(const System& system, const SpecialPoint& p
     return {with_events_reordered(system, point, settings)};
 }
 
-/// What an impact makes of the next pass, by its speed: where it is positive the next pass is free, where it is
-/// negative it hits the harder. And what impacts in all passes make of one, of equal or of alternating effect: where
-/// that is zero curves of folds and flips of the impacting orbits end on that of the touches. With two multipliers all
-/// are zero at once (P. Thota, X. Zhao and H. Dankowicz, "Co-dimension-two grazing bifurcations in
-/// single-degree-of-freedom impact oscillators", J. Comput. Nonlinear Dynam. 1, 2006).
+/// Tests on curves of touches: the first projection (the effect of an impact on the next pass; positive: the next pass
+/// is free, negative: it impacts harder), and the sums of projections with equal and alternating signs, at whose zeros
+/// curves of folds and flips of impacting orbits end. With two multipliers all three vanish together (P. Thota, X. Zhao
+/// and H. Dankowicz, "Co-dimension-two grazing bifurcations in single-degree-of-freedom impact oscillators", J. Comput.
+/// Nonlinear Dynam. 1, 2006).
 void test_sensitivity(const TestedPoint& point, std::vector<BranchTest>& tests) {
-    constexpr double least = 1e-9; // of a round: less is round-off, as where impacts change nothing of the next pass
+    // Share of the period: smaller values are round-off, as where impacts do not affect the next pass.
+    constexpr double least = 1e-9;
     const auto& kept = point.settings.kept;
     if (!kept || kept->type != PointType::grazing || kept->at_end)
         return;
@@ -301,16 +302,16 @@ void test_sensitivity(const TestedPoint& point, std::vector<BranchTest>& tests) 
                 size *= 1 + std::abs(one);
         }
     }
-    const double noise = least * point.solution.orbit.round();
+    const double noise = least * point.solution.orbit.return_time();
     tests.push_back({.type = PointType::sensitivity, .value = next, .noise = noise});
     tests.push_back({.type = PointType::fold_degenerate, .value = same, .noise = noise * size});
     tests.push_back({.type = PointType::flip_degenerate, .value = alternating, .noise = noise * size});
 }
 
-/// The acceleration of what a contact without speed ends its arc with: where it is zero, the touch meets an earlier
-/// crossing of the same surface.
+/// Tests the acceleration of the event function at a kept contact of zero speed: where it is zero, the touch meets an
+/// earlier crossing of the same surface.
 void test_acceleration(const TestedPoint& point, std::vector<BranchTest>& tests) {
-    constexpr double least = 1e-9; // of what the usual rate would be gained in a round: less is round-off
+    constexpr double least = 1e-9; // share of the typical rate per period: smaller values are round-off
     const auto& kept = point.settings.kept;
     if (!kept || kept->type != PointType::grazing || !kept->at_end)
         return;
@@ -320,13 +321,14 @@ void test_acceleration(const TestedPoint& point, std::vector<BranchTest>& tests)
     const auto& last = point.at.pieces[equations.layout().last_piece(kept->segment)];
     std::vector<double> inputs = last.end;
     inputs.insert(inputs.end(), point.at.parameters.begin(), point.at.parameters.end());
-    tests.push_back({.type = PointType::zero_acceleration,
-                     .segment = kept->segment,
-                     .event = kept->event,
-                     .value = equations.system().function_of({&acceleration, 1})(inputs).front(),
-                     .noise = least * equations.usual_rate(point.at, kept->segment) / point.solution.orbit.round(),
-                     .time = point.solution.orbit.durations[kept->segment],
-                     .at_end = true});
+    tests.push_back(
+        {.type = PointType::zero_acceleration,
+         .segment = kept->segment,
+         .event = kept->event,
+         .value = equations.system().function_of({&acceleration, 1})(inputs).front(),
+         .noise = least * equations.typical_rate(point.at, kept->segment) / point.solution.orbit.return_time(),
+         .time = point.solution.orbit.durations[kept->segment],
+         .at_end = true});
 }
 
 bool confirm_acceleration(BranchState& state, SpecialPoint& special, const BranchTest&) {

@@ -4,7 +4,8 @@
 
 namespace graze {
 
-// Points at which contacts are made or lost, or events change their order: see PointRule.
+// Tests, confirmation and conditions of points at which contacts appear or disappear or events change their order: see
+// PointRule.
 
 void test_grazing(const TestedPoint& point, std::vector<BranchTest>& tests);
 bool confirm_grazing(BranchState& state, SpecialPoint& special, const BranchTest&);

@@ -16,16 +16,16 @@ namespace graze {
 namespace {
 
 constexpr double growth = 2, shrinkage = 0.5;
-/// Corrections that move a point further than this share of the step may lead onto another branch.
+/// Corrections longer than this share of the step may lead onto another branch and are rejected.
 constexpr double largest_correction = 0.5;
-/// How far, in units of its distance, the first point on another branch may be corrected: branches may cross obliquely.
+/// Largest correction of the first point on another branch, relative to its distance: branches may cross obliquely.
 constexpr double farthest = 1e3;
-/// Convergence that takes more iterations than this makes steps smaller.
+/// Steps whose convergence takes more iterations than this are followed by smaller ones.
 constexpr std::size_t good_iterations = 3;
-/// How near a branch must come to its first point, in units of the scales, to be closed.
+/// Distance to the first point, in scaled unknowns, below which a branch counts as closed.
 constexpr double same_point = 1e-6;
 
-/// A point of the cubic of Hermite through two points of a branch along their tangents: 0 at the first, 1 at the
+/// Returns a point of the cubic Hermite interpolant of two points and their tangents: f = 0 at the first, 1 at the
 /// second.
 /// @param length between them
 std::vector<double> on_cubic(const ContinuationPoint& first, const ContinuationPoint& second, double length, double f) {
@@ -37,7 +37,7 @@ std::vector<double> on_cubic(const ContinuationPoint& first, const ContinuationP
     return result;
 }
 
-/// Adds a correction. @param moved is set to how far that is from where corrections began
+/// Adds a correction. @param moved set to the total correction since `begin`
 void advance(std::vector<double>& u, std::span<const double> step, std::span<const double> begin,
              std::vector<double>& moved) {
     moved.resize(u.size());
@@ -102,7 +102,7 @@ double Continuation::product(std::span<const double> a, std::span<const double> 
     return sum;
 }
 
-/// The row whose product with a vector is the inner product, in units of the scales, with the direction.
+/// Computes the row whose product with a vector is the scaled inner product with the direction.
 void Continuation::weigh(std::span<const double> direction, std::vector<double>& row) const {
     const auto scales = problem_->scales(), weights = problem_->weights();
     row.resize(direction.size());
@@ -119,12 +119,12 @@ double Continuation::size_of(std::span<const double> step) const {
     return size;
 }
 
-/// Corrects in the hyperplane across a row, and evaluates there. @param allowed distance from where it began
+/// Corrects u in the hyperplane orthogonal to a row, and evaluates there. @param allowed largest total correction
 bool Continuation::correct(std::vector<double>& u, std::span<const double> row, double allowed,
                            std::size_t& iterations) {
     for (const bool renewed : {false, true}) {
         std::vector<double> trial = u;
-        if (!problem_->has_chords() || (!renewed && !problem_->derivatives_are_dear()) ||
+        if (!problem_->has_chords() || (!renewed && !problem_->derivatives_are_expensive()) ||
             !chords(trial, row, allowed, renewed, iterations))
             continue;
         u = std::move(trial);
@@ -145,18 +145,18 @@ bool Continuation::newton(std::vector<double>& u, std::span<const double> row, d
         const double size = size_of(step_);
         if (!std::isfinite(size) || std::sqrt(product(moved, moved)) > allowed)
             return false;
-        // Newton's method squares what is wrong: a correction this small has been the last one. One that is no smaller
+        // Newton's method converges quadratically, so this correction was the last. A small one that is not smaller
         // than the one before is round-off.
         constexpr double round_off = 1e-11;
         const bool small = size < options_.accuracy || (iterations > 2 && size < round_off && size > 0.5 * before);
         if (small || (iterations > 1 && size < 0.1 * before && size * size < options_.accuracy * 1e-4)) {
-            pace_ = iterations <= good_iterations ? growth : shrinkage;
+            step_growth_ = iterations <= good_iterations ? growth : shrinkage;
             if (!problem_->evaluate(u))
                 return false;
             if (small)
                 return true;
-            // Where orbits expand much, their flow is known to less than the accuracy, and differs with the steps of
-            // integration: one more correction finds the solution for those that are made here.
+            // For strongly expanding orbits the flow is less accurate than required and depends on the integration
+            // steps: one more correction finds the solution for the current steps.
             const double left = problem_->solve(row, 0, false, step_, nullptr) ? size_of(step_) : 0;
             if (!(left > options_.accuracy && left <= before))
                 return true;
@@ -170,24 +170,23 @@ bool Continuation::newton(std::vector<double>& u, std::span<const double> row, d
     return false;
 }
 
-/// The same with derivatives of a point near by, which the corrections themselves improve (C. G. Broyden 1965): those
-/// that are at hand, or renewed where it begins. Derivatives are evaluated at the end, where they are needed anyway,
-/// and say whether it is one.
+/// Corrects with the derivatives of a nearby point, improved by Broyden updates (C. G. Broyden 1965): the stored ones
+/// or, if `renewed`, those at the start. The derivatives at the end, which are needed anyway, verify the solution.
 bool Continuation::chords(std::vector<double>& u, std::span<const double> row, double allowed, bool renewed,
                           std::size_t& iterations) {
-    // Corrections that shrink less than this are slower than Newton's method is.
+    // Corrections that shrink less than by this factor converge more slowly than Newton's method.
     constexpr double slow = 0.5;
-    // Corrections end where the next one would be this share of the accuracy; and the last one, by the new derivatives,
-    // is made where it is more.
+    // Corrections end where the next one is estimated below this share of the accuracy; a last one with new derivatives
+    // is made where it exceeds this.
     constexpr double enough = 1e-4;
     constexpr std::size_t most = 12, few = 6;
-    // From the first correction to the second: what Newton's method needs three iterations for shrinks by as much.
+    // Ratio of the second correction to the first below which Newton's method would take three iterations.
     constexpr double fast = 0.1;
     const std::vector<double> begin = u;
     std::vector<double> moved, step(u.size());
     double before = 0;
     bool quick = true;
-    made_.clear();
+    corrections_.clear();
     for (iterations = 1;; ++iterations) {
         const bool first = renewed && iterations == 1;
         if (iterations > most || (first && !problem_->evaluate(u)) ||
@@ -209,14 +208,14 @@ bool Continuation::chords(std::vector<double>& u, std::span<const double> row, d
             return false;
         }
         before = size;
-        made_.push_back(step);
+        corrections_.push_back(step);
     }
-    if (!problem_->derivatives_are_dear())
-        pace_ = quick ? growth : shrinkage;
-    else if (!renewed) // more corrections cost less than a shorter step
-        pace_ = iterations <= few ? growth : 1;
-    else // derivatives of the last point were no longer good enough
-        pace_ = quick ? 1 : shrinkage;
+    if (!problem_->derivatives_are_expensive())
+        step_growth_ = quick ? growth : shrinkage;
+    else if (!renewed) // additional corrections cost less than a shorter step
+        step_growth_ = iterations <= few ? growth : 1;
+    else // the derivatives of the last point were too inaccurate
+        step_growth_ = quick ? 1 : shrinkage;
     if (!problem_->evaluate(u) || !problem_->solve(row, 0, false, step_, nullptr))
         return false;
     const double last = size_of(step_);
@@ -229,23 +228,23 @@ bool Continuation::chords(std::vector<double>& u, std::span<const double> row, d
     return problem_->evaluate(u);
 }
 
-/// Broyden's update of the derivatives, from the corrections that have been made, applied to the next one (as in C. T.
-/// Kelley, "Solving Nonlinear Equations with Newton's Method", SIAM 2003, chapter 4).
+/// Applies the Broyden updates of the previous corrections to the next one (as in C. T. Kelley, "Solving Nonlinear
+/// Equations with Newton's Method", SIAM 2003, chapter 4).
 void Continuation::accelerate(std::vector<double>& step) const {
-    for (std::size_t j = 0; j < made_.size(); ++j) {
-        const std::vector<double>& one = made_[j];
+    for (std::size_t j = 0; j < corrections_.size(); ++j) {
+        const std::vector<double>& one = corrections_[j];
         const double share = product(one, step) / product(one, one);
-        if (j + 1 == made_.size()) {
+        if (j + 1 == corrections_.size()) {
             for (double& entry : step)
                 entry /= 1 - share;
         } else {
             for (std::size_t i = 0; i < step.size(); ++i)
-                step[i] += share * made_[j + 1][i];
+                step[i] += share * corrections_[j + 1][i];
         }
     }
 }
 
-/// The tangent at a point at which the problem is evaluated, on the side of the row.
+/// Computes the tangent at the point of the last evaluation, oriented by the row.
 bool Continuation::find_tangent(ContinuationPoint& point, std::span<const double> row) {
     point.tangent.resize(point.u.size());
     if (!problem_->solve(row, 1, true, point.tangent, &point.determinant))
@@ -255,7 +254,7 @@ bool Continuation::find_tangent(ContinuationPoint& point, std::span<const double
         return false;
     for (double& entry : point.tangent)
         entry /= length;
-    // By Cramer's rule: bordered by the tangent instead of the row, whose product with what was solved for is 1.
+    // By Cramer's rule this is the determinant bordered by the tangent instead of the row.
     point.determinant *= length;
     return true;
 }
@@ -285,33 +284,33 @@ bool Continuation::start(std::span<const double> u, std::size_t unknown, int dir
     if (!problem_->evaluate(point.u))
         return false;
     outcome_ = ContinuationOutcome::no_convergence;
-    // Where the branch does not move in the unknown, round-off would decide at which of its points that is held.
-    if (stands_still(point, unknown) || !correct(point.u, row, far, point.iterations))
+    // Where the unknown is constant along the branch, fixing it would select a point by round-off.
+    if (is_stationary(point, unknown) || !correct(point.u, row, far, point.iterations))
         return start_across(u, unknown, direction);
     outcome_ = ContinuationOutcome::singular;
     row[unknown] = (direction < 0 ? -1 : 1) / problem_->scales()[unknown];
     return find_tangent(point, row) && begin(std::move(point));
 }
 
-/// A row that is hardly orthogonal to any direction that comes from a problem.
-std::vector<double> Continuation::any_row() const {
+/// Returns a row that is unlikely to be orthogonal to the tangent of any problem.
+std::vector<double> Continuation::generic_row() const {
     std::vector<double> row(problem_->unknowns());
     for (std::size_t i = 0; i < row.size(); ++i)
         row[i] = std::cos(2.4 * static_cast<double>(i)) / problem_->scales()[i];
     return row;
 }
 
-bool Continuation::stands_still(ContinuationPoint point, std::size_t unknown) {
+bool Continuation::is_stationary(ContinuationPoint point, std::size_t unknown) {
     constexpr double still = 1e-7;
-    return problem_->evaluate(point.u) && find_tangent(point, any_row()) &&
+    return problem_->evaluate(point.u) && find_tangent(point, generic_row()) &&
            std::abs(point.tangent[unknown]) < still * problem_->scales()[unknown];
 }
 
-/// The same where the unknown cannot be held since the branch turns there: held across the branch instead.
+/// Starts where the unknown cannot be fixed, as at a fold: corrects orthogonally to the branch instead.
 bool Continuation::start_across(std::span<const double> u, std::size_t unknown, int direction) {
     ContinuationPoint point;
     point.u.assign(u.begin(), u.end());
-    if (!problem_->evaluate(point.u) || !find_tangent(point, any_row()))
+    if (!problem_->evaluate(point.u) || !find_tangent(point, generic_row()))
         return false;
     std::vector<double> across;
     weigh(point.tangent, across);
@@ -320,7 +319,7 @@ bool Continuation::start_across(std::span<const double> u, std::size_t unknown, 
         return false;
     outcome_ = ContinuationOutcome::singular;
     const double rise = point.tangent[unknown] * direction;
-    if (rise < 0 || (rise == 0 && direction < 0)) // where the branch does not move in it, the two ways are opposite
+    if (rise < 0 || (rise == 0 && direction < 0)) // where the unknown is constant, the two directions must be opposite
         for (double& entry : across)
             entry = -entry;
     return find_tangent(point, across) && begin(std::move(point));
@@ -369,10 +368,10 @@ void Continuation::require_point(std::span<const double> u) const {
     require_finite(u, "an unknown");
 }
 
-/// The point ahead at a distance along the tangent: on the cubic through the last two points along their tangents,
-/// where that says much the same as the tangent alone.
+/// Predicts the point at a distance along the tangent: on the cubic through the last two points and their tangents, if
+/// it is close to the tangent itself.
 std::vector<double> Continuation::predict(double length) const {
-    constexpr double much = 0.5; // share of the step
+    constexpr double largest_offset = 0.5; // share of the step
     const std::size_t count = point_.u.size();
     std::vector<double> result(count), chord(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -388,7 +387,7 @@ std::vector<double> Continuation::predict(double length) const {
     const double along = product(off, point_.tangent);
     for (std::size_t i = 0; i < count; ++i)
         off[i] -= along * point_.tangent[i];
-    if (std::sqrt(product(off, off)) < much * length)
+    if (std::sqrt(product(off, off)) < largest_offset * length)
         for (std::size_t i = 0; i < count; ++i)
             result[i] += off[i];
     return result;
@@ -403,7 +402,7 @@ bool Continuation::step() {
     problem_->accept(point_.u);
     double length = std::clamp(next_step_, options_.smallest_step,
                                longest_step(*problem_, previous_, point_, options_.largest_step));
-    const double unit = std::sqrt(product(point_.tangent, point_.tangent)); // in units that may have changed
+    const double unit = std::sqrt(product(point_.tangent, point_.tangent)); // the scales may have changed
     for (double& entry : point_.tangent)
         entry /= unit;
     std::vector<double> row;
@@ -427,13 +426,13 @@ bool Continuation::step() {
             continue;
         next.arclength = point_.arclength + length;
         const double longest = longest_step(*problem_, point_, next, options_.largest_step);
-        if (length > options_.largest_step && longest == options_.largest_step) // it has turned
+        if (length > options_.largest_step && longest == options_.largest_step) // no longer straight
             continue;
         previous_ = std::move(point_);
         point_ = std::move(next);
         ++steps_;
         const double by_angle = angle > 0 ? 0.7 * options_.largest_angle / angle : growth;
-        next_step_ = std::clamp(length * std::clamp(std::min(by_angle, pace_), shrinkage, growth),
+        next_step_ = std::clamp(length * std::clamp(std::min(by_angle, step_growth_), shrinkage, growth),
                                 options_.smallest_step, longest);
         if (closes())
             outcome_ = ContinuationOutcome::closed;
@@ -443,7 +442,7 @@ bool Continuation::step() {
     }
 }
 
-/// Whether the branch has come back to its first point on the last step.
+/// True when the branch has returned to its first point within the last step.
 bool Continuation::closes() {
     if (steps_ < 3)
         return false;
@@ -473,7 +472,7 @@ bool Continuation::between(double fraction, ContinuationPoint& result) {
     const std::size_t count = point_.u.size();
     const double length = point_.arclength - previous_.arclength;
     std::vector<double> chord(count), row;
-    // The cubic, moved into the hyperplane.
+    // Predict by the cubic, shifted into the hyperplane.
     const double f = fraction;
     result.u = on_cubic(previous_, point_, length, f);
     for (std::size_t i = 0; i < count; ++i)

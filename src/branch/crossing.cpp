@@ -8,13 +8,13 @@ namespace graze {
 
 namespace {
 
-/// Distances of the points from where the zero is thought to be, as fractions of the step: near enough for the
-/// polynomial to be exact, far enough for Newton's method to be.
+/// Offsets of the sample points from the estimated zero, as fractions of the step: near enough for an accurate
+/// polynomial, far enough for Newton's method to stay on the branch.
 constexpr double usual_offsets[] = {-0.12, -0.09, -0.06, -0.03, 0.03, 0.06, 0.09, 0.12};
 constexpr std::size_t fewest = 6;
 constexpr int most_rounds = 8;
 constexpr double settled = 0.015;
-/// By how much a zero that is found may lie beyond the ends between which it is.
+/// Tolerance by which the zero may lie outside its bracket.
 constexpr double uncertain = 1e-3;
 
 struct Sample {
@@ -23,7 +23,7 @@ struct Sample {
     double value = 0;
 };
 
-/// Lagrange's weights of the samples at a place.
+/// Returns the Lagrange weights of the samples at a fraction.
 std::vector<double> weights_at(const std::vector<Sample>& samples, double fraction) {
     std::vector<double> weights(samples.size(), 1.0);
     for (std::size_t i = 0; i < samples.size(); ++i)
@@ -41,7 +41,7 @@ double value_at(const std::vector<Sample>& samples, double fraction) {
     return sum;
 }
 
-/// The zero of the polynomial through the samples, which has one between the first and the last.
+/// Returns the zero of the polynomial through the samples, which lies between the first and the last.
 double zero_of(const std::vector<Sample>& samples) {
     double low = samples.front().fraction, high = samples.back().fraction;
     const bool negative = samples.front().value < 0;
@@ -80,7 +80,7 @@ std::optional<ContinuationPoint> locate_crossing(Continuation& continuation, con
                                                  std::span<const double> offsets, double reach) {
     double low = begin.fraction, high = end.fraction;
     double guess = low + (high - low) * begin.value / (begin.value - end.value);
-    if (!std::isfinite(guess)) // a test may be infinite, as multipliers are beside a touch
+    if (!std::isfinite(guess)) // a test may be infinite, as multipliers near a touch
         return std::nullopt;
     for (int round = 0; round < most_rounds; ++round) {
         std::vector<Sample> samples;
@@ -104,7 +104,7 @@ std::optional<ContinuationPoint> locate_crossing(Continuation& continuation, con
             guess = zero;
             continue;
         }
-        // Not where it was thought to be: the bracket is halved.
+        // The samples do not bracket the zero: bisect.
         const bool before = (samples.front().value < 0) == (begin.value < 0);
         (before ? low : high) = std::clamp(guess, low, high);
         guess = 0.5 * (low + high);
@@ -114,7 +114,7 @@ std::optional<ContinuationPoint> locate_crossing(Continuation& continuation, con
 
 namespace {
 
-/// The vertex of the parabola through three points, and its value there.
+/// Returns the vertex of the parabola through three points, with its value.
 TestValue vertex_of(const TestValue& before, const TestValue& low, const TestValue& high) {
     const double first = (low.value - before.value) / (low.fraction - before.fraction),
                  second = (high.value - low.value) / (high.fraction - low.fraction),
@@ -125,9 +125,10 @@ TestValue vertex_of(const TestValue& before, const TestValue& low, const TestVal
                         curvature * (vertex - low.fraction) * (vertex - high.fraction)};
 }
 
-/// A point with the sign of one that is far from the vertex of a parabola, but not far from the zero between.
+/// Returns a point between a distant `end` and the vertex of a parabola that has the sign of `end` but lies near the
+/// zero; `end` itself if none is found.
 TestValue nearer(const TestValue& end, const TestValue& vertex, const std::function<double(double)>& value_at) {
-    constexpr double behind = 2, far = 0.5; // of the zero's distance; of the end's
+    constexpr double behind = 2, far = 0.5; // factors of the distance of the zero, and of the distance of the end
     const double share = behind * std::sqrt(vertex.value / (vertex.value - end.value));
     if (!(share < far))
         return end;
@@ -151,7 +152,8 @@ std::optional<double> possible_dip(const TestValue& before, const TestValue& low
 std::optional<Dip> dip_between(TestValue low, TestValue high, double within,
                                const std::function<double(double)>& value_at) {
     constexpr int most = 8;
-    constexpr double deep = 1e-10; // of the values at the ends: less is round-off, as where a test only touches zero
+    // Share of the values at the ends: smaller values are round-off, as where a test only touches zero.
+    constexpr double deep = 1e-10;
     const double sign = low.value < 0 ? -1 : 1, size = std::min(std::abs(low.value), std::abs(high.value));
     TestValue middle{within, value_at(within)};
     for (int i = 0; i < most; ++i) {

@@ -8,35 +8,35 @@
 
 namespace graze {
 
-/// A test function at a place of the last step, given as a fraction of it.
+/// The value of a test function at a fraction of the last step.
 struct TestValue {
     double fraction = 0, value = 0;
 };
 
-/// A test function of points of a branch; NaN where it has no value.
+/// A test function of points of a branch; NaN where it is not defined.
 using PointTest = std::function<double(const ContinuationPoint&)>;
 
-/// The point of the last step of a branch at which a test is zero, where another branch crosses: by the determinant
-/// that crossing itself, by others what lies beside it. Nothing can be solved at a crossing, and next to it Newton's
-/// method may end on either branch; so points at a safe distance on both sides are made, through which polynomials tell
-/// where the zero is and what the branch does there.
+/// Locates the zero of a test function within the last step, near a crossing of two branches: the crossing itself if
+/// the test is the determinant, or another point beside it. The equations are singular at a crossing, and near it
+/// Newton's method may converge to either branch. Therefore points at a safe distance on both sides are computed, and
+/// polynomials through them give the zero and the branch there.
 std::optional<ContinuationPoint> locate_crossing(Continuation& continuation, const PointTest& test,
                                                  const TestValue& low, const TestValue& high, double reach = 1);
-/// @param offsets of those points from where the zero is thought to be, in rising order, as fractions of the step
-/// @param reach by which they are shortened: where another zero is near
+/// @param offsets of the points from the estimated zero, in increasing order, as fractions of the step
+/// @param reach factor that shortens the offsets where another zero is near
 std::optional<ContinuationPoint> locate_crossing(Continuation& continuation, const PointTest& test,
                                                  const TestValue& low, const TestValue& high,
                                                  std::span<const double> offsets, double reach = 1);
 
-/// Where between the last two of three points, whose values have the same sign, a test may yet have become zero twice:
-/// where the parabola through them has its vertex, if that comes near zero or goes beyond.
+/// Returns where a test may have two zeros between the last two of three points with values of one sign: the vertex of
+/// the parabola through them, if its value is near zero or of the other sign.
 std::optional<double> possible_dip(const TestValue& before, const TestValue& low, const TestValue& high);
-/// A test between two of its zeros, and not far before and behind them.
+/// Values of a test before, between and behind two of its zeros.
 struct Dip {
     TestValue before, within, behind;
 };
-/// Looks by further parabolas for a place between two values of the same sign where the test has the other one.
-/// @param within where the test may be least; @param value_at the test there, NaN where it has no value
+/// Searches by successive parabolas for a value of the other sign between two values of the same sign.
+/// @param within estimate of the extremum; @param value_at the test at a fraction, NaN where it is not defined
 std::optional<Dip> dip_between(TestValue low, TestValue high, double within,
                                const std::function<double(double)>& value_at);
 

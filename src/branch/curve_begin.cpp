@@ -13,11 +13,11 @@ namespace graze {
 
 namespace {
 
-constexpr double no_time = 1e-5; // of a round: beside a contact that vanishes, equations locate to no more than that
+constexpr double no_time = 1e-5; // share of the period: near a vanishing contact durations are not known better
 
-/// Whether the jump with which a segment ends changes nothing of a state at which it takes place without speed.
-bool is_idle(const System& system, const Orbit& orbit, std::size_t segment) {
-    constexpr double nothing = 1e-6; // of a state's size, or of what it gains in a round: what is left of the speed
+/// True when the jump at the end of a segment is the identity at zero speed.
+bool jump_is_identity(const System& system, const Orbit& orbit, std::size_t segment) {
+    constexpr double nothing = 1e-6; // share of the size of a state or of its change per period: the remaining speed
     const Segment& one = orbit.signature[segment];
     if (one.end != SegmentEnd::event)
         return false;
@@ -29,7 +29,7 @@ bool is_idle(const System& system, const Orbit& orbit, std::size_t segment) {
     inputs.insert(inputs.end(), orbit.parameters.begin(), orbit.parameters.end());
     const std::vector<double> after = jump.map(inputs), rates = system.mode(one.mode).rates(inputs);
     return std::all_of(jump.changed.begin(), jump.changed.end(), [&](std::size_t i) {
-        double size = std::abs(rates[i]) * orbit.round();
+        double size = std::abs(rates[i]) * orbit.return_time();
         for (const std::vector<double>& start : orbit.starts)
             size = std::max(size, std::abs(start[i]));
         return std::abs(after[i] - state[i]) <= nothing * size;
@@ -40,12 +40,12 @@ bool drifts(const Model& model) {
     return std::any_of(model.states.begin(), model.states.end(), [](const State& one) { return one.drifting; });
 }
 
-/// Puts the arcs before and after a contact without speed together where both are of one mode, and nothing between them
-/// takes time or changes a state.
-/// @return whether it has
+/// Merges the arcs before and after a contact of zero speed where both have the same mode and the segments between them
+/// have zero duration and change no state.
+/// @return true if the arcs were merged
 bool join_across_contact(const System& system, Orbit& orbit, SpecialPoint& kept) {
     const std::size_t count = orbit.segments();
-    const auto takes_time = [&](std::size_t s) { return std::abs(orbit.durations[s]) > no_time * orbit.round(); };
+    const auto takes_time = [&](std::size_t s) { return std::abs(orbit.durations[s]) > no_time * orbit.return_time(); };
     std::size_t before = kept.segment;
     for (std::size_t i = 0; i < count && !takes_time(before); ++i)
         before = (before + count - 1) % count;
@@ -58,7 +58,7 @@ bool join_across_contact(const System& system, Orbit& orbit, SpecialPoint& kept)
         (wraps && (orbit.symmetry || drifts(system.model()))))
         return false;
     for (std::size_t i = 0; i < way; ++i)
-        if (!is_idle(system, orbit, (before + i) % count))
+        if (!jump_is_identity(system, orbit, (before + i) % count))
             return false;
     kept.event = system.model().transitions[orbit.signature[before].index].event;
     kept.time = orbit.durations[before];
@@ -72,7 +72,7 @@ bool join_across_contact(const System& system, Orbit& orbit, SpecialPoint& kept)
         joined.starts.push_back(orbit.starts[s]);
         joined.durations.push_back(orbit.durations[s]);
     };
-    // Round once from behind the joined arcs, or from the first segment where that stays the first.
+    // Copy the other segments, starting after the merged arcs or, where it stays first, with the first segment.
     const std::size_t others = after == before ? 0 : count - way - 1;
     for (std::size_t i = 0; wraps && i < others; ++i)
         add((after + 1 + i) % count);
@@ -92,9 +92,9 @@ bool join_across_contact(const System& system, Orbit& orbit, SpecialPoint& kept)
     return true;
 }
 
-/// Whether a motion of one mode touches an event at its start.
+/// True when an orbit in one mode touches an event at its start.
 bool touches_at_start(const System& system, const Orbit& orbit, ModeFlow& flow) {
-    constexpr double zero = 1e-6, slow = 1e-3; // of greatest values and rates along the arc
+    constexpr double zero = 1e-6, slow = 1e-3; // shares of the largest values and rates along the arc
     constexpr int parts = 16;
     const System::CompiledMode& mode = system.mode(orbit.signature[0].mode);
     const std::size_t states = system.states(), count = mode.watched.size();
@@ -111,7 +111,7 @@ bool touches_at_start(const System& system, const Orbit& orbit, ModeFlow& flow) 
             greatest[i] = std::max(greatest[i], std::abs(here[i]));
         if (part == 0)
             first = here;
-        if (flow.run(orbit.signature[0].mode, state, orbit.round() / parts) != ModeFlow::Ending::done)
+        if (flow.run(orbit.signature[0].mode, state, orbit.return_time() / parts) != ModeFlow::Ending::done)
             return false;
     }
     for (std::size_t w = 0; w < count; ++w)
@@ -120,10 +120,10 @@ bool touches_at_start(const System& system, const Orbit& orbit, ModeFlow& flow) 
     return false;
 }
 
-/// Begins a motion without contacts elsewhere where a touch lies where it is closed: the one that is kept, or another,
-/// as of two walls that are touched at once.
-bool begin_off_touch(const System& system, const BranchSettings& settings, Orbit& orbit, SpecialPoint& kept) {
-    constexpr double at_edge = 0.02, later = 0.25; // shares of a round; of two touches the other is half of one later
+/// Moves the start of an orbit without contacts away from a touch that coincides with it: the kept touch, or another,
+/// as when two walls are touched.
+bool move_start_off_touch(const System& system, const BranchSettings& settings, Orbit& orbit, SpecialPoint& kept) {
+    constexpr double at_edge = 0.02, later = 0.25; // shares of the period; a second touch lies half a period later
     const double round = orbit.durations[0], share = kept.time / round;
     if (orbit.segments() != 1 || orbit.signature[0].end == SegmentEnd::event || !(round > 0))
         return false;
@@ -133,7 +133,7 @@ bool begin_off_touch(const System& system, const BranchSettings& settings, Orbit
     const bool kept_there = share < at_edge || share > 1 - at_edge;
     if (!kept_there && !touches_at_start(system, orbit, flow))
         return false;
-    // Behind what is kept only where that comes again, not its image.
+    // Start after the kept touch only if the touch itself recurs, not its image.
     const bool before = orbit.symmetry || share >= 0.5;
     const double begin = kept_there ? later : before ? 0.5 * share : 0.5 * (1 + share);
     if (orbit.symmetry && begin > share)
@@ -147,7 +147,7 @@ bool begin_off_touch(const System& system, const BranchSettings& settings, Orbit
     return true;
 }
 
-/// Monitors that are taken where segments begin or end.
+/// True when monitors refer to starts or ends of segments.
 bool needs_segments(const BranchSettings& settings) {
     return std::any_of(settings.monitors.begin(), settings.monitors.end(), [](const Monitor& monitor) {
         return !monitor.segment.empty() || monitor.kind == Monitor::Kind::value || monitor.kind == Monitor::Kind::start;
@@ -164,7 +164,7 @@ CurveBegin begun_for_curve(const System& system, const Orbit& orbit, const Branc
     SpecialPoint& kept = *result.settings.kept;
     if (kept.at_end && !join_across_contact(system, result.orbit, kept))
         return result;
-    begin_off_touch(system, settings, result.orbit, kept);
+    move_start_off_touch(system, settings, result.orbit, kept);
     kept.solution.orbit = result.orbit;
     return result;
 }

@@ -15,10 +15,10 @@ namespace graze {
 
 namespace {
 
-/// How far multipliers may be off: two that are equal are off by a root of what is left uncertain of them.
+/// Tolerance of multipliers: a double one is known only to the square root of its uncertainty.
 constexpr double near = 1e-3;
 
-/// Multipliers of the shortest orbit that is followed.
+/// Returns the multipliers of the half map for half orbits, otherwise of the orbit.
 const std::vector<std::complex<double>>& own_multipliers(const SpecialPoint& point) {
     const OrbitSolution& solution = point.solution;
     return solution.half_multipliers.empty() ? solution.multipliers : solution.half_multipliers;
@@ -37,9 +37,9 @@ bool has_pair_on_circle(const SpecialPoint& point) {
                        [](auto one) { return one.imag() > near && std::abs(std::abs(one) - 1) < near; });
 }
 
-/// A touch within an arc, which points of other types on curves of touches have as well.
+/// Returns the touch inside an arc, which points of other types on curves of touches have too; empty if there is none.
 std::optional<OrbitMinimum> touch_of(const SpecialPoint& point) {
-    constexpr double zero = 1e-9; // of the function's size along the arc
+    constexpr double zero = 1e-9; // share of the function's size along the arc
     std::optional<OrbitMinimum> lowest;
     for (const OrbitMinimum& one : point.solution.certificate.minima)
         if (std::abs(one.value) <= zero * one.size && (!lowest || std::abs(one.value) < std::abs(lowest->value)))
@@ -47,7 +47,7 @@ std::optional<OrbitMinimum> touch_of(const SpecialPoint& point) {
     return lowest;
 }
 
-bool is_one(const SpecialPoint& point, PointType type) {
+bool satisfies(const SpecialPoint& point, PointType type) {
     if (point.type == type)
         return true;
     const bool half = point.solution.orbit.symmetry.has_value();
@@ -63,7 +63,7 @@ bool is_one(const SpecialPoint& point, PointType type) {
     case PointType::grazing:
         return point.type == PointType::double_grazing || touch_of(point);
     default:
-        return false; // other events are known of points of their own type only
+        return false; // other conditions are known for points of their own type only
     }
 }
 
@@ -90,7 +90,7 @@ std::string multipliers_in_words(const SpecialPoint& point) {
 std::vector<PointType> curves_at(const SpecialPoint& point) {
     std::vector<PointType> types;
     for (const PointKind& kind : point_kinds())
-        if (kind.may_be_kept && is_one(point, kind.type))
+        if (kind.may_be_kept && satisfies(point, kind.type))
             types.push_back(kind.type);
     return types;
 }

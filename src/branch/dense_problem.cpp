@@ -14,7 +14,7 @@ namespace graze {
 
 namespace {
 
-/// Cube root of the unit round-off, at which central differences are most accurate.
+/// Cube root of the unit round-off, the optimal relative step of central differences.
 constexpr double difference_step = 6e-6;
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;

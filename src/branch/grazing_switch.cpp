@@ -26,13 +26,13 @@ namespace graze {
 
 namespace {
 
-/// Speeds of the new contact that are tried, as shares of the greatest along the orbit.
+/// Speeds of the new contact that are tried, as shares of the largest speed along the arc.
 constexpr double speeds[] = {1e-3, 1e-4, 1e-2, 1e-5};
-/// Share of the period at whose end the touch comes again: what happens there is the new contact itself.
+/// Share of the period before the next touch that is not followed: the event there is the new contact itself.
 constexpr double before_next_touch = 1e-4;
 constexpr int most_iterations = 20;
 
-/// The touch: its state, and the event's function and rate there.
+/// The touch: its state, with the event function and its rate.
 class Touch {
 public:
     Touch(const Simulation& simulation, const SpecialPoint& point)
@@ -60,8 +60,8 @@ public:
     const std::vector<double>& state() const { return state_; }
     double greatest_value() const { return greatest_value_; }
 
-    /// The nearest state, in units of the scales, at which function and rate have these values; cyclic, drifting and
-    /// unchanging states stay.
+    /// Returns the nearest state, in scaled states, at which function and rate have these values; cyclic, drifting and
+    /// neutral states are not changed.
     std::vector<double> displaced(double value, double rate) const {
         const auto h = function_(inputs(state_)), r = rate_(inputs(state_));
         const std::size_t n = state_.size();
@@ -74,7 +74,7 @@ public:
             rows(1, index(i)) = r[1 + i] * scale;
         }
         Eigen::Vector2d wanted(value - h[0], rate - r[0]);
-        for (const Eigen::Index k : {0, 1}) // values and rates have units of their own
+        for (const Eigen::Index k : {0, 1}) // normalise: value and rate have different units
             if (const double unit = rows.row(k).norm(); unit > 0) {
                 rows.row(k) /= unit;
                 wanted[k] /= unit;
@@ -102,7 +102,7 @@ private:
     double greatest_speed_ = 0, greatest_value_ = 0; ///< along the arc
 };
 
-/// The mode after a transition, by its guards. None where the motion ends.
+/// Returns the mode after a transition, by its guards; empty where the motion ends.
 std::optional<std::size_t> mode_after(const System& model, std::size_t transition, std::span<const double> inputs) {
     std::vector<double> conditions, work(model.workspace());
     const auto* chosen = chosen_alternative(model, transition, inputs, conditions, work);
@@ -113,15 +113,16 @@ double sum(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-/// Moves an orbit, with the parameter, to where the last segment's event is met at a given speed.
-/// @return direction of the branch there, towards higher speeds; empty when Newton's method fails
-OrbitDirection meet_at_speed(const Simulation& simulation, Orbit& orbit, double speed, const BranchSettings& settings) {
-    constexpr double far = 1e3; // in units of the scales: Newton's method has lost its way
+/// Moves an orbit, with the parameter, to where the event of its last segment is reached at a given speed.
+/// @return tangent of the branch there, towards higher speeds; empty when Newton's method fails
+OrbitDirection solve_for_speed(const Simulation& simulation, Orbit& orbit, double speed,
+                               const BranchSettings& settings) {
+    constexpr double far = 1e3; // scaled step beyond which Newton's method has diverged
     Shooting shooting(simulation, orbit, {settings.parameter});
     OrbitQuantity condition = OrbitQuantity::of_speed(shooting, orbit.segments() - 1, speed);
     Eigen::VectorXd unknowns = shooting.unknowns_of(orbit), step;
     OrbitEvaluation at = shooting.evaluation();
-    // In units of how much the speed changes along the scales: it may be small beside all else by its unit alone.
+    // The condition is divided by its scaled change, since its unit may make it small against the other equations.
     const auto solve = [&](double right, bool homogeneous) {
         if (!shooting.evaluate(unknowns, at) || !condition.evaluate(shooting, at))
             return false;
@@ -147,14 +148,14 @@ OrbitDirection meet_at_speed(const Simulation& simulation, Orbit& orbit, double 
     return {};
 }
 
-/// What the model does for one round after the contact, up to the next one.
+/// Follows the motion for one period after the contact, up to the next one.
 std::optional<Orbit> followed_after_contact(const Simulation& simulation, const SpecialPoint& point,
                                             const std::vector<double>& after, std::size_t mode, const Segment& last,
                                             std::string& why) {
     const Orbit& grazing = point.solution.orbit;
-    const double round = grazing.round();
+    const double period = grazing.return_time();
     const FollowedMotion motion =
-        follow_motion(simulation, grazing.parameters, after, mode, (1 - before_next_touch) * round);
+        follow_motion(simulation, grazing.parameters, after, mode, (1 - before_next_touch) * period);
     if (!motion.problem.empty()) {
         why = motion.problem;
         return std::nullopt;
@@ -165,7 +166,7 @@ std::optional<Orbit> followed_after_contact(const Simulation& simulation, const 
     orbit.signature = motion.segments;
     orbit.starts = motion.starts;
     orbit.durations = motion.durations;
-    orbit.durations.push_back(round - sum(motion.durations));
+    orbit.durations.push_back(period - sum(motion.durations));
     orbit.signature.push_back(last);
     return orbit;
 }
@@ -174,7 +175,7 @@ std::optional<Orbit> followed_after_contact(const Simulation& simulation, const 
 
 namespace {
 
-/// A touch that becomes a contact: guesses of orbits in which it has a small speed.
+/// Makes first guesses of orbits in which a touch has become a contact of small speed.
 class NewContact {
 public:
     /// @throws InputError where nothing happens at the event
@@ -195,7 +196,8 @@ public:
     double greatest_speed() const { return touch_.greatest_speed(); }
     const std::string& name() const { return name_; }
 
-    /// @param inserted the touch cut in two by the contact, rather than the motion after it for a whole round
+    /// @param inserted true: insert the contact into the segments of the grazing orbit; false: follow the motion after
+    /// it for a whole period
     std::optional<Orbit> with_speed(double speed, bool inserted, std::string& why) const {
         const System& compiled = simulation_.system();
         std::vector<double> state = touch_.displaced(0, -speed), work(compiled.workspace());
@@ -219,13 +221,13 @@ private:
     Touch touch_;
     const std::string& name_;
     const Transition* transition_ = nullptr;
-    std::size_t index_ = 0; ///< of the transition
+    std::size_t index_ = 0; ///< index of the transition
     Segment last_;
 };
 
-/// Whether the determinants that vanish at folds and at flips have changed a sign between two orbits of a branch.
-/// Neither has a pole where a contact has no speed.
-bool are_parted(const Simulation& simulation, const Orbit& one, const Orbit& other) {
+/// True when the determinant of folds or that of flips changes its sign between two orbits of a branch. Neither has a
+/// pole at contacts of zero speed.
+bool have_bifurcation_between(const Simulation& simulation, const Orbit& one, const Orbit& other) {
     if (one.signature != other.signature)
         return false;
     Shooting first(simulation, one, {}), second(simulation, other, {});
@@ -236,7 +238,8 @@ bool are_parted(const Simulation& simulation, const Orbit& one, const Orbit& oth
             here.system.antiperiodic_determinant() * there.system.antiperiodic_determinant() < 0);
 }
 
-/// Of a touch near a bound, orbits at some speeds lie beyond it.
+/// False, with the reason set, for orbits beyond the bounds of the parameter, as may happen near a touch close to a
+/// bound.
 bool is_within_bounds(const BranchSettings& settings, const Orbit& orbit, std::string& why) {
     const double value = orbit.parameters[settings.parameter.place()];
     const bool within =
@@ -257,7 +260,7 @@ BranchStart with_one_more_contact(const System& system, const SpecialPoint& poin
             auto orbit = contact.with_speed(speed, inserted, why);
             if (!orbit)
                 continue;
-            const OrbitDirection direction = meet_at_speed(contact.simulation(), *orbit, speed, settings);
+            const OrbitDirection direction = solve_for_speed(contact.simulation(), *orbit, speed, settings);
             if (!direction.is_empty() && is_within_bounds(settings, *orbit, why) &&
                 is_admissible(contact.simulation(), *orbit, why))
                 return BranchStart{*orbit, direction, 0, fmt::format("with one more contact at '{}'", contact.name())};
@@ -268,10 +271,10 @@ BranchStart with_one_more_contact(const System& system, const SpecialPoint& poin
         const auto start = with_share(share);
         if (!start)
             continue;
-        // Nearer to the touch, where a fold or flip lies between.
+        // Start nearer to the touch if a fold or flip lies in between.
         for (const double nearer : {1e-4, 1e-2})
             if (const auto near = with_share(nearer * share);
-                near && are_parted(contact.simulation(), near->orbit, start->orbit))
+                near && have_bifurcation_between(contact.simulation(), near->orbit, start->orbit))
                 return *near;
         return *start;
     }
@@ -280,15 +283,17 @@ BranchStart with_one_more_contact(const System& system, const SpecialPoint& poin
 }
 
 Orbit with_contact_of_no_speed(const System& system, const SpecialPoint& point, const BranchSettings& settings) {
-    constexpr double shares[] = {1e-6, 1e-5, 1e-4}; // of the greatest speed: the contact says what happens after it
+    constexpr double shares[] = {
+        1e-6, 1e-5,
+        1e-4}; // shares of the largest speed: a small speed is needed to follow the motion after the contact
     const NewContact contact(system, point, settings);
     std::string why = "Newton's method does not find it";
     for (const double share : shares)
         for (const bool inserted : {true, false}) {
             auto orbit = contact.with_speed(share * contact.greatest_speed(), inserted, why);
-            if (!orbit || meet_at_speed(contact.simulation(), *orbit, 0, settings).is_empty())
+            if (!orbit || solve_for_speed(contact.simulation(), *orbit, 0, settings).is_empty())
                 continue;
-            orbit->parameters = point.solution.orbit.parameters; // which it has, but for round-off
+            orbit->parameters = point.solution.orbit.parameters; // equal up to round-off
             return *orbit;
         }
     throw InputError(fmt::format("no orbit with a contact more at '{}' was found: {}", contact.name(), why),
@@ -297,12 +302,12 @@ Orbit with_contact_of_no_speed(const System& system, const SpecialPoint& point, 
 
 namespace {
 
-/// Cuts a motion off where it comes back to the contact that it is to be without, which it may meet early: by a time
-/// that grows with the root of the clearance.
-void leave_out_return(const System& system, FollowedMotion& motion, const Orbit& old, std::size_t segment,
-                      double round) {
-    constexpr double earliest = 0.02; // share of a round
-    const double early = std::min(earliest * round, 0.5 * old.durations[segment]);
+/// Cuts off a motion where it returns to the contact that the orbit shall not have. It may reach it early, by a time
+/// that grows with the square root of the clearance.
+void cut_off_return(const System& system, FollowedMotion& motion, const Orbit& old, std::size_t segment,
+                    double period) {
+    constexpr double earliest = 0.02; // share of the period
+    const double early = std::min(earliest * period, 0.5 * old.durations[segment]);
     Segment contact = old.signature[segment];
     if (old.symmetry)
         contact = image_of(system, *old.symmetry, contact, old);
@@ -310,7 +315,7 @@ void leave_out_return(const System& system, FollowedMotion& motion, const Orbit&
     for (std::size_t k = 0; k < motion.segments.size(); ++k) {
         time += motion.durations[k];
         if (motion.segments[k].end == SegmentEnd::event && motion.segments[k].index == contact.index &&
-            time > round - early) {
+            time > period - early) {
             motion.segments.resize(k);
             motion.durations.resize(k);
             motion.starts.resize(k + 1);
@@ -323,16 +328,16 @@ void leave_out_return(const System& system, FollowedMotion& motion, const Orbit&
 
 BranchStart with_one_contact_fewer(const System& system, const SpecialPoint& point, const BranchSettings& settings) {
     const Model& model = system.model();
-    constexpr double clearance = 1e-6; // share of the greatest gap by which the contact is missed
+    constexpr double clearance = 1e-6; // share of the largest gap by which the contact is missed
     const Simulation simulation(system, {}, {}, integration(settings.orbit.tolerance));
     const Orbit& old = point.solution.orbit;
     const Touch touch(simulation, point);
     const std::string& name = model.events[touch.event()].name;
-    const double round = old.round();
+    const double period = old.return_time();
     const std::vector<double> state = touch.displaced(clearance * touch.greatest_value(), 0);
     FollowedMotion motion =
-        follow_motion(simulation, old.parameters, state, touch.mode(), (1 - before_next_touch) * round);
-    leave_out_return(system, motion, old, point.segment, round);
+        follow_motion(simulation, old.parameters, state, touch.mode(), (1 - before_next_touch) * period);
+    cut_off_return(system, motion, old, point.segment, period);
     const auto fail = [&](const std::string& why) {
         throw InputError(fmt::format("no orbit with one contact fewer at '{}' was found: {}", name, why),
                          "the branch may end here");
@@ -340,14 +345,15 @@ BranchStart with_one_contact_fewer(const System& system, const SpecialPoint& poi
     if (!motion.problem.empty())
         fail(motion.problem);
     std::optional<Orbit> orbit =
-        motion.segments.empty() ? close_at_section(system, old.parameters, state, touch.mode(), round, "", old.symmetry)
-                                : std::optional(begun_after_first_contact(system, old, motion, round));
+        motion.segments.empty()
+            ? close_at_section(system, old.parameters, state, touch.mode(), period, "", old.symmetry)
+            : std::optional(begun_after_first_contact(system, old, motion, period));
     if (!orbit)
         fail("it passes none of the model's sections");
     const OrbitSolution solution = solve_orbit(system, *orbit, settings.orbit);
     if (solution.outcome != OrbitOutcome::converged)
         fail(solution.detail);
-    // Of the two ways along the branch, the one on which the event is not reached.
+    // Choose the direction along the branch in which the event is not reached.
     BranchSettings trial = settings;
     trial.continuation.first_step = 1e-3;
     trial.stop_when_unphysical = false;
@@ -358,13 +364,13 @@ BranchStart with_one_contact_fewer(const System& system, const SpecialPoint& poi
         std::vector<double> row(problem.unknowns(), 0.0), tangent(problem.unknowns());
         row[problem.parameter_place()] = sign;
         if (!problem.evaluate(problem.unknowns_of(solution.orbit)) || !problem.solve(row, 1, true, tangent, nullptr))
-            fail("the branch turns right there");
+            fail("the branch has a fold there");
         direction = problem.direction_of(tangent);
         OrbitBranch branch(system, solution.orbit, trial);
         if (branch.start_along(direction, 0) && branch.step() && branch.point().solution.certificate.admissible)
             break;
     }
-    // The first orbit is a little away from the one that touches, of which round-off would decide what it does.
+    // Start at a small distance from the touching orbit, whose admissibility round-off would decide.
     constexpr double away = 1e-3;
     return {solution.orbit, direction, away, fmt::format("with one contact fewer at '{}'", name)};
 }

@@ -19,7 +19,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// The field of a mode about a state in units of the scales and of an orbit's frequency.
+/// The scaled vector field of a mode, in units of an orbit's frequency.
 class Field {
 public:
     Field(const System& system, std::size_t mode, std::span<const double> parameters, ParameterId parameter,
@@ -32,10 +32,11 @@ public:
             rates_.push_back(system.with_gradient(model.expand(rate)));
     }
 
-    /// Moves a state to the equilibrium at a value of the parameter. @return its Jacobian, if there is one
-    std::optional<MatrixXd> settle(std::vector<double>& state, double value) {
+    /// Moves a state to the equilibrium at a value of the parameter by Newton's method. @return the Jacobian there;
+    /// empty if it does not converge
+    std::optional<MatrixXd> find_equilibrium(std::vector<double>& state, double value) {
         constexpr int most = 40;
-        constexpr double close = 1e-9; // from there on corrections that do not shrink are round-off
+        constexpr double close = 1e-9; // below this, corrections that do not shrink are round-off
         inputs_[place_] = value;
         double before = std::numeric_limits<double>::infinity();
         for (int i = 0; i < most; ++i) {
@@ -76,7 +77,7 @@ private:
     MatrixXd matrix_;
 };
 
-/// The eigenvalue above the real axis that is nearest to i.
+/// Returns the eigenvalue in the upper half plane nearest to i; empty if there is none.
 std::optional<std::complex<double>> oscillation_of(const MatrixXd& matrix) {
     const auto values = eigenvalues(matrix);
     std::optional<std::complex<double>> nearest;
@@ -96,7 +97,7 @@ std::optional<HopfPoint> hopf_near(const System& system, std::size_t mode, std::
                                    std::span<const double> scales) {
     constexpr int most = 40;
     constexpr double first = 1e-4, small = 1e-8;
-    // Of an eigenvalue, in units of the matrix; and of a number.
+    // Relative errors of an eigenvalue (against the matrix norm) and of a number.
     constexpr double round_off = 1e-14, last_digits = 1e-15;
     const double frequency = 2 * std::numbers::pi / period;
     Field field(system, mode, parameters, parameter, frequency, scales);
@@ -105,7 +106,7 @@ std::optional<HopfPoint> hopf_near(const System& system, std::size_t mode, std::
     std::complex<double> eigenvalue;
     double norm = 0;
     const auto growth = [&](double value) {
-        const auto matrix = field.settle(point.state, value);
+        const auto matrix = field.find_equilibrium(point.state, value);
         const auto found = matrix ? oscillation_of(*matrix) : std::nullopt;
         if (!found)
             return std::numeric_limits<double>::quiet_NaN();

@@ -9,19 +9,20 @@
 
 namespace graze {
 
-/// An equilibrium at which a pair of eigenvalues crosses the imaginary axis: small orbits about it begin there.
+/// An equilibrium at which a pair of eigenvalues crosses the imaginary axis, so that a branch of small orbits begins
+/// there.
 struct HopfPoint {
     std::vector<double> state;
     double parameter = 0;
-    double period = 0; ///< of these orbits
-    double error = 0;  ///< of the parameter, by round-off
+    double period = 0; ///< limit period of the orbits
+    double error = 0;  ///< error of the parameter, due to round-off
 };
 
-/// The Hopf point of a mode's field near a state: solved for from the equilibrium's own equations, so that it does not
-/// depend on where orbits are cut.
-/// @param parameters all independent ones, of which one varies; @param period of an orbit about it
+/// Computes the Hopf point of a mode's vector field near a state, from the equations of the equilibrium, so that it
+/// does not depend on sections of orbits.
+/// @param parameters values of all independent parameters, of which `parameter` varies; @param period of a nearby orbit
 /// @param scales of the states
-/// @return none where Newton's and the secant method do not lead to one
+/// @return empty where Newton's or the secant method does not converge
 std::optional<HopfPoint> hopf_near(const System& system, std::size_t mode, std::span<const double> state,
                                    std::span<const double> parameters, ParameterId parameter, double period,
                                    std::span<const double> scales);

@@ -14,9 +14,9 @@ namespace graze {
 
 namespace {
 
-/// Which of the two sums of what impacts do to later passes vanish at a touch.
+/// Returns the curve types whose sum of projections vanishes at a touch.
 std::vector<PointType> vanishing_sums(const System& system, const SpecialPoint& touch, PointType flips) {
-    constexpr double zero = 1e-7; // of a round: what is located is known far better
+    constexpr double zero = 1e-7; // share of the period; located points are far more accurate
     const CycleMap map =
         cycle_map(system, touch.solution.orbit, {touch.segment, touch.event, touch.time, touch.at_end});
     if (!map.exists() || map.contact.order != MapOrder::square_root)

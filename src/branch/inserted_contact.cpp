@@ -14,7 +14,7 @@ struct Entry {
     double duration;
 };
 
-/// Segments of an orbit, and after them their images or themselves again.
+/// Returns the segments of an orbit twice, the second time as images for a half orbit.
 std::vector<Entry> two_rounds(const System& system, const Orbit& orbit) {
     std::vector<Entry> entries;
     for (std::size_t k = 0; k < orbit.segments(); ++k)
@@ -32,14 +32,14 @@ std::vector<Entry> two_rounds(const System& system, const Orbit& orbit) {
     return entries;
 }
 
-/// Puts segments that no event ends together with the ones after them.
+/// Merges each segment that no event ends with the following one.
 Orbit joined(const Orbit& like, const std::vector<Entry>& entries) {
     Orbit orbit;
     orbit.parameters = like.parameters;
     orbit.symmetry = like.symmetry;
-    bool goes_on = false;
+    bool continues = false;
     for (const Entry& entry : entries) {
-        if (!goes_on) {
+        if (!continues) {
             orbit.signature.push_back(entry.segment);
             orbit.starts.push_back(entry.start);
             orbit.durations.push_back(entry.duration);
@@ -47,7 +47,7 @@ Orbit joined(const Orbit& like, const std::vector<Entry>& entries) {
             orbit.signature.back() = entry.segment;
             orbit.durations.back() += entry.duration;
         }
-        goes_on = entry.segment.end != SegmentEnd::event;
+        continues = entry.segment.end != SegmentEnd::event;
     }
     return orbit;
 }
@@ -63,7 +63,7 @@ std::optional<Orbit> with_contact_inserted(const Simulation& simulation, const S
     std::vector<Entry> entries;
     std::vector<double> start = after;
     if (mode != grazing.signature[touching].mode) {
-        const FollowedMotion motion = follow_motion(simulation, grazing.parameters, after, mode, grazing.round());
+        const FollowedMotion motion = follow_motion(simulation, grazing.parameters, after, mode, grazing.return_time());
         std::size_t back = 1;
         while (back < motion.segments.size() && motion.segments[back].mode != grazing.signature[touching].mode)
             ++back;
@@ -85,7 +85,7 @@ std::optional<Orbit> with_contact_inserted(const Simulation& simulation, const S
     return joined(grazing, entries);
 }
 
-Orbit begun_after_first_contact(const System& system, const Orbit& like, const FollowedMotion& motion, double round) {
+Orbit begun_after_first_contact(const System& system, const Orbit& like, const FollowedMotion& motion, double period) {
     Orbit orbit;
     orbit.parameters = like.parameters;
     orbit.symmetry = like.symmetry;
@@ -100,7 +100,7 @@ Orbit begun_after_first_contact(const System& system, const Orbit& like, const F
     orbit.signature.push_back(like.symmetry ? image_of(system, *like.symmetry, motion.segments[0], like)
                                             : motion.segments[0]);
     orbit.starts.push_back(motion.starts[count]);
-    orbit.durations.push_back(round - known);
+    orbit.durations.push_back(period - known);
     return orbit;
 }
 

@@ -13,7 +13,7 @@ namespace graze {
 
 namespace {
 
-/// A grazing as it is, or the touch of an orbit on a curve of touches as one.
+/// Returns a grazing unchanged, and a point on a curve of touches as a grazing.
 SpecialPoint as_grazing(const System& system, const SpecialPoint& point) {
     if (point.type == PointType::grazing) {
         if (point.at_end)
@@ -64,10 +64,10 @@ std::optional<BranchStart> Ladder::next() {
     }
 }
 
-/// What is said first of a ladder that ends where contacts have become too slow for what decides whether they are some:
-/// their heights, which fall with the power 3/2 of the speeds, are differences of positions.
+/// Returns an explanation for a ladder that ends because its slowest contacts are below resolution: the heights between
+/// contacts, which scale with the power 3/2 of the speeds, are differences of positions. Empty if they are resolved.
 std::string Ladder::beyond_resolution() const {
-    constexpr double resolved = 1e-8; // of the greatest height
+    constexpr double resolved = 1e-8; // share of the largest height
     const SpecialPoint& last = grazings_.back();
     const Certificate& certificate = last.solution.certificate;
     const Signature& signature = last.solution.orbit.signature;

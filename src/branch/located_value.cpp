@@ -19,8 +19,8 @@ namespace graze {
 
 namespace {
 
-constexpr int most_halvings = 8;    ///< of one correction
-constexpr double longest_way = 0.5; ///< of one part, in units of the orbit's sizes
+constexpr int most_halvings = 8;       ///< largest number of halvings of one correction
+constexpr double largest_change = 0.5; ///< largest scaled change of the orbit in one part of the path
 
 std::vector<ParameterId> with_control(const Model& model, ParameterId control, const std::vector<ParameterId>& others) {
     const std::vector<std::string> names = model.independent_parameters();
@@ -45,7 +45,7 @@ void LocatedValueOptions::validate() const {
     orbit.validate();
     constexpr std::size_t most = 30;
     if (halvings > most)
-        throw InputError(fmt::format("the way cannot be halved {} times", halvings),
+        throw InputError(fmt::format("the path cannot be halved {} times", halvings),
                          fmt::format("choose from 0 to {}", most));
 }
 
@@ -57,8 +57,9 @@ std::vector<ParameterId> parameters_but(const Model& model, ParameterId one) {
     return result;
 }
 
-/// The equations have the control parameter and all others as free ones. What closes them are the point's condition and
-/// the others' values. Scales, pieces and, but for divided ways, the condition are those of the point for good.
+/// The control parameter and all other parameters are free in the equations of the orbit; the condition of the point
+/// and the values of the others close them. Scales and pieces stay those of the point, and so does the condition except
+/// along a divided path.
 class LocatedValue::Solver {
 public:
     Solver(const System& system, const SpecialPoint& point, ParameterId control, std::vector<ParameterId> others,
@@ -66,13 +67,12 @@ public:
         : options_(options), point_(point), others_(std::move(others)), control_(control),
           simulation_(system, {}, {}, integration(options.orbit.tolerance)),
           equations_(simulation_, point.solution.orbit, with_control(system.model(), control, others_)),
-          at_(equations_.evaluation()), tried_(equations_.evaluation()), neighbour_(equations_.evaluation()) {
+          at_(equations_.evaluation()), tried_(equations_.evaluation()), nominal_(equations_.evaluation()) {
         options_.validate();
         Eigen::VectorXd unknowns = equations_.unknowns_of(point.solution.orbit);
-        if (!equations_.evaluate(unknowns, neighbour_))
-            throw InputError(fmt::format("the orbit cannot be followed: {}", neighbour_.problem),
-                             "choose another point");
-        make_condition(neighbour_);
+        if (!equations_.evaluate(unknowns, nominal_))
+            throw InputError(fmt::format("the orbit cannot be followed: {}", nominal_.problem), "choose another point");
+        make_condition(nominal_);
         const Eigen::VectorXd wanted = unknowns.tail(index(others_.size()));
         std::string problem;
         std::size_t iterations = 0;
@@ -80,19 +80,19 @@ public:
             throw InputError(
                 fmt::format("the point of type {} is not found again: {}", short_name(point.type), problem),
                 "choose another point, or another parameter whose value is to follow");
-        neighbour_ = at_;
+        nominal_ = at_;
         point_.solution.orbit = equations_.orbit_of(at_.unknowns);
         own_ = point_;
-        make_condition(neighbour_);
-        if (!condition_->evaluate(equations_, neighbour_) || !directions_at(neighbour_, neighbour_directions_))
+        make_condition(nominal_);
+        if (!condition_->evaluate(equations_, nominal_) || !directions_at(nominal_, nominal_directions_))
             throw InputError(fmt::format("the value of {} does not follow from the other parameters",
                                          system.model().independent_parameters()[control.place()]),
                              "choose one that moves the orbit from the point");
         const Eigen::Index place = index(equations_.layout().parameter(0));
-        value_ = neighbour_.unknowns[place];
+        value_ = nominal_.unknowns[place];
         values_.assign(wanted.begin(), wanted.end());
         for (Eigen::Index i = 0; i < index(others_.size()); ++i)
-            derivatives_.push_back(neighbour_directions_(place, i));
+            derivatives_.push_back(nominal_directions_(place, i));
     }
 
     ParameterId control() const { return control_; }
@@ -109,16 +109,16 @@ public:
         LocatedSolution result;
         result.parts = 1;
         bool moved = false;
-        if (!go(neighbour_, neighbour_directions_, target, result)) {
+        if (!solve_part(nominal_, nominal_directions_, target, result)) {
             moved = true;
-            if (!divide(target, result)) // the problem of its last part says more than that of the whole
+            if (!follow_path(target, result)) // the message of the last part is more specific
                 result.parts = 0;
         }
         if (result.parts > 0)
             describe(result);
-        if (moved) { // as it was, whatever has been asked for
+        if (moved) { // restore, so that results do not depend on earlier calls
             point_ = own_;
-            make_condition(neighbour_);
+            make_condition(nominal_);
         }
         return result;
     }
@@ -133,8 +133,9 @@ private:
                              "choose a grazing (GR), a fold (SN), a flip (PD), or another whose curve can be followed");
     }
 
-    /// Rows of the condition and of the others, in units in which they are of size 1.
-    /// @param lack what the condition is off, in these units. @return none where that has no meaning
+    /// Returns the system closed by the rows of the condition and of the other parameters, scaled to size 1.
+    /// @param lack scaled value of the condition. @return empty where the gradient of the condition vanishes or is not
+    /// finite
     std::optional<OrbitEquations::Closed> closed(const OrbitEvaluation& at, double& lack) {
         const double unit = condition_->gradient().transpose().cwiseProduct(at.scales).norm();
         if (!std::isfinite(unit) || unit == 0)
@@ -149,7 +150,8 @@ private:
         return equations_.close(at, borders);
     }
 
-    /// What all unknowns gain by a unit of each of the others, where the condition has just been evaluated.
+    /// Computes the derivatives of all unknowns with respect to each other parameter, after an evaluation of the
+    /// condition.
     bool directions_at(const OrbitEvaluation& at, Eigen::MatrixXd& directions) {
         double lack = 0;
         const auto system = closed(at, lack);
@@ -157,7 +159,7 @@ private:
             return false;
         directions.resize(index(equations_.unknowns()), index(others_.size()));
         Eigen::VectorXd direction;
-        // Without others the system must be regular all the same.
+        // The system must be regular also if there are no other parameters.
         if (!equations_.solve(at, *system, Eigen::VectorXd::Zero(1 + index(others_.size())), true, direction))
             return false;
         for (std::size_t i = 0; i < others_.size(); ++i) {
@@ -174,10 +176,11 @@ private:
         return step.cwiseQuotient(equations_.scales()).cwiseAbs().maxCoeff();
     }
 
-    /// Newton's method from `unknowns`, damped where it would overshoot. `at_` is the evaluation at what it leads to.
+    /// Damped Newton's method from `unknowns`. Sets `at_` to the evaluation at the solution.
     bool correct(Eigen::VectorXd& unknowns, const Eigen::VectorXd& wanted, std::size_t& iterations,
                  std::string& problem) {
-        constexpr double nearly = 1e-6; // corrections below this are small enough for round-off to decide
+        // Corrections below this are accepted without a decrease of the residual, which is round-off.
+        constexpr double nearly = 1e-6;
         unknowns.tail(wanted.size()) = wanted;
         if (!equations_.evaluate(unknowns, at_) || !condition_->evaluate(equations_, at_)) {
             problem = at_.problem.empty()
@@ -202,13 +205,15 @@ private:
                 Eigen::VectorXd next = at_.unknowns + factor * step;
                 next.tail(wanted.size()) = wanted;
                 improved = equations_.evaluate(next, tried_) && condition_->evaluate(equations_, tried_) &&
-                           (size < nearly || off(tried_) <= (1 - 0.1 * factor) * residual);
+                           (size < nearly || residual_of(tried_) <= (1 - 0.1 * factor) * residual);
                 if (tried_.took_too_long)
                     break;
             }
             if (!improved) {
                 problem =
-                    tried_.problem.empty() ? "residuals do not fall" : tried_.problem; // the same for many devices
+                    tried_.problem.empty()
+                        ? "residuals do not fall"
+                        : tried_.problem; // without numbers, so that devices with the same problem are counted together
                 return false;
             }
             std::swap(at_, tried_);
@@ -220,40 +225,41 @@ private:
         return false;
     }
 
-    double off(const OrbitEvaluation& at) const {
+    double residual_of(const OrbitEvaluation& at) const {
         const double unit = condition_->gradient().transpose().cwiseProduct(at.scales).norm();
         return unit > 0 ? std::max(at.residual, std::abs(condition_->value()) / unit) : at.residual;
     }
 
-    /// One part of the way. What Newton's method corrects must be a part of what was predicted: else it may have gone
-    /// to another solution.
-    bool go(const OrbitEvaluation& from, const Eigen::MatrixXd& directions, const Eigen::VectorXd& wanted,
-            LocatedSolution& result) {
-        constexpr double no_way = 1e-6, largest_part = 0.3;
+    /// Solves for one part of the path. The correction must be small against the prediction; otherwise Newton's method
+    /// may have converged to another solution.
+    bool solve_part(const OrbitEvaluation& from, const Eigen::MatrixXd& directions, const Eigen::VectorXd& wanted,
+                    LocatedSolution& result) {
+        constexpr double negligible_correction = 1e-6, largest_part = 0.3;
         const Eigen::VectorXd change = directions * (wanted - from.unknowns.tail(wanted.size()));
         const Eigen::VectorXd predicted = from.unknowns + change;
         Eigen::VectorXd unknowns = predicted;
-        if (!(size_of(change) <= longest_way)) {
-            result.problem = "the orbit changes too much on the way";
+        if (!(size_of(change) <= largest_change)) {
+            result.problem = "the orbit changes too much along the path";
             return false;
         }
         if (!correct(unknowns, wanted, result.iterations, result.problem))
             return false;
-        const double correction = size_of(unknowns - predicted), way = size_of(change);
-        if (correction > std::max(largest_part * way, no_way)) {
-            result.problem = "Newton's method leads too far away from what is predicted";
+        const double correction = size_of(unknowns - predicted), change_size = size_of(change);
+        if (correction > std::max(largest_part * change_size, negligible_correction)) {
+            result.problem = "Newton's method leads too far from the prediction";
             return false;
         }
         return true;
     }
 
-    /// A touch that has left its segment is looked for in the others of the predicted orbit.
-    bool pass_on(const OrbitEvaluation& from, const Eigen::MatrixXd& directions, const Eigen::VectorXd& wanted) {
-        constexpr double near = 1e-2; // of the function's size along the arc
+    /// Finds a touch that has left its segment in the other segments of the predicted orbit.
+    bool move_touch_to_segment(const OrbitEvaluation& from, const Eigen::MatrixXd& directions,
+                               const Eigen::VectorXd& wanted) {
+        constexpr double near = 1e-2; // share of the function's size along the arc
         if (point_.type != PointType::grazing || point_.at_end)
             return false;
         const Eigen::VectorXd change = directions * (wanted - from.unknowns.tail(wanted.size()));
-        if (!(size_of(change) <= longest_way) || !equations_.evaluate(from.unknowns + change, at_))
+        if (!(size_of(change) <= largest_change) || !equations_.evaluate(from.unknowns + change, at_))
             return false;
         double nearest = near;
         bool found = false;
@@ -273,11 +279,11 @@ private:
         return true;
     }
 
-    /// The way to the others' values in parts, each predicted from the end of the one before.
-    bool divide(const Eigen::VectorXd& target, LocatedSolution& result) {
-        OrbitEvaluation from = neighbour_;
-        Eigen::MatrixXd directions = neighbour_directions_;
-        const Eigen::VectorXd start = neighbour_.unknowns.tail(target.size());
+    /// Follows the path to the target values in parts, each predicted from the end of the previous one.
+    bool follow_path(const Eigen::VectorXd& target, LocatedSolution& result) {
+        OrbitEvaluation from = nominal_;
+        Eigen::MatrixXd directions = nominal_directions_;
+        const Eigen::VectorXd start = nominal_.unknowns.tail(target.size());
         double done = 0, part = 1;
         for (std::size_t halvings = 0; done < 1;) {
             if (halvings++ == options_.halvings)
@@ -286,8 +292,8 @@ private:
                 part = std::min(part, 1 - done);
                 const Eigen::VectorXd wanted =
                     done + part < 1 ? Eigen::VectorXd(start + (done + part) * (target - start)) : target;
-                if (!go(from, directions, wanted, result) &&
-                    !(pass_on(from, directions, wanted) && go(from, directions, wanted, result)))
+                if (!solve_part(from, directions, wanted, result) &&
+                    !(move_touch_to_segment(from, directions, wanted) && solve_part(from, directions, wanted, result)))
                     break;
                 ++result.parts;
                 from = at_;
@@ -296,7 +302,7 @@ private:
                     return false;
             }
         }
-        result.parts -= 1; // the one that was not gone at once
+        result.parts -= 1; // not counting the undivided attempt
         at_ = from;
         return true;
     }
@@ -305,7 +311,7 @@ private:
         result.problem.clear();
         result.orbit = equations_.orbit_of(at_.unknowns);
         if (!(result.orbit.period() > 0)) {
-            result.problem = "Newton's method has gone to an orbit that takes no time";
+            result.problem = "Newton's method converged to an orbit of zero duration";
             return;
         }
         result.found = true;
@@ -318,15 +324,15 @@ private:
     }
 
     LocatedValueOptions options_;
-    SpecialPoint point_, own_; ///< whose condition is held; that of the nominal solution
+    SpecialPoint point_, own_; ///< point whose condition is held; the point at the nominal solution
     std::vector<ParameterId> others_;
     ParameterId control_;
     Simulation simulation_;
     Shooting equations_;
     std::unique_ptr<OrbitCondition> condition_;
     OrbitEvaluation at_, tried_;
-    OrbitEvaluation neighbour_;            ///< at the point
-    Eigen::MatrixXd neighbour_directions_; ///< of the unknowns there, a column for each of the others
+    OrbitEvaluation nominal_;            ///< evaluation at the point
+    Eigen::MatrixXd nominal_directions_; ///< derivatives of the unknowns there, a column for each other parameter
     double value_ = 0;
     std::vector<double> values_, derivatives_;
     TouchedOnce maps_;

@@ -16,7 +16,7 @@ double length_of(const ContinuationProblem& problem, std::span<const double> tan
 }
 
 bool is_straight(const ContinuationProblem& problem, const ContinuationPoint& from, const ContinuationPoint& to) {
-    constexpr double little = 0.1, nothing = 1e-7; // round-off of what does not move
+    constexpr double little = 0.1, nothing = 1e-7; // share of the tangent; round-off of constant unknowns
     const auto scales = problem.scales(), weights = problem.weights();
     const double before = length_of(problem, from.tangent), after = length_of(problem, to.tangent);
     for (std::size_t i = 0; i < to.tangent.size(); ++i) {

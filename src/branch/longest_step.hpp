@@ -4,13 +4,13 @@
 
 namespace graze {
 
-/// How long the next step of a continuation may be, from its last two points.
+/// Returns the largest length of the next step of a continuation, from its last two points.
 ///
-/// What oscillates little about a mean that grows is measured by its oscillation, and would be followed in small shares
-/// of that. Where a branch is straight, unknowns are measured by their values instead, if these are larger; by at most
-/// ten times, as what an orbit meets within half its own extent is to be seen. A branch is straight where no unknown's
-/// share of the tangent changes by more than a tenth: near a fold that of the parameter does, however small it is.
-/// @param largest the longest step by the scales, which is always allowed
+/// The scale of a state that oscillates slightly about a growing mean is its oscillation, which would make steps very
+/// small. Where a branch is straight, unknowns are measured by their values instead, if these are larger, up to a
+/// factor of ten, so that special points are not passed over. A branch is straight where no component of the unit
+/// tangent changes by more than a tenth; near a fold that of the parameter does.
+/// @param largest the largest step in scaled unknowns, which is always allowed
 double longest_step(const ContinuationProblem& problem, const ContinuationPoint& from, const ContinuationPoint& to,
                     double largest);
 

@@ -13,7 +13,7 @@ namespace {
 
 using Multipliers = std::vector<std::complex<double>>;
 
-/// How many multipliers are unstable: between two numbers, as such on the circle may be either.
+/// Number of unstable multipliers as an interval: multipliers on the unit circle may count as either.
 struct Count {
     int least = 0, most = 0;
     bool is_certain() const { return least == most; }
@@ -28,7 +28,7 @@ Count unstable(const Multipliers& multipliers, double margin) {
     return count;
 }
 
-/// By how many multipliers a point of this type changes the number of unstable ones; 0 for others.
+/// Returns by how many a point of this type changes the number of unstable multipliers; 0 for other types.
 int crossing_at(PointType type) {
     switch (type) {
     case PointType::fold:
@@ -43,7 +43,7 @@ int crossing_at(PointType type) {
     }
 }
 
-/// Whether points at which so many multipliers cross, by one and in pairs, may change one number into the other.
+/// True when crossings of `singles` single multipliers and `pairs` pairs may change one number into the other.
 bool may_explain(const Count& before, const Count& after, int singles, int pairs) {
     const int least = after.least - before.most, most = after.most - before.least;
     for (int change = least; change <= most; ++change)
@@ -54,12 +54,12 @@ bool may_explain(const Count& before, const Count& after, int singles, int pairs
 
 class Search {
 public:
-    /// @param size how many multipliers the orbits at both ends have, and those between have to have
+    /// @param size number of multipliers of the orbits at both ends, which those in between must have too
     Search(BranchState& state, const TestLocator& locate, const std::vector<SpecialPoint>& known, std::size_t size)
         : state_(state), locate_(locate), known_(known), size_(size) {}
 
-    /// Halves a part of the step until what is in it is explained.
-    void look(const StepSample& low, const StepSample& high) {
+    /// Bisects a part of the step until the change of the number of unstable multipliers is explained.
+    void search(const StepSample& low, const StepSample& high) {
         constexpr double narrow = 1e-9; // as a fraction of the step
         const Count before = unstable(low.multipliers, margin), after = unstable(high.multipliers, margin);
         if (may_explain(before, after, 0, 0))
@@ -72,12 +72,13 @@ public:
         StepSample middle;
         if (high.fraction - low.fraction < narrow || !sample_between(low, high, middle))
             return note_coincident(low, high);
-        look(low, middle);
-        look(middle, high);
+        search(low, middle);
+        search(middle, high);
     }
 
-    /// The same where numbers at both ends are alike and a point is known between: another is before it or behind.
-    void look_beside_known(const StepSample& low, const StepSample& high) {
+    /// Searches where both ends have the same number and a known point lies between: another point must lie before or
+    /// after it.
+    void search_beside_known(const StepSample& low, const StepSample& high) {
         constexpr double beside = 1e-4; // fraction of the step
         StepSample from = low, here;
         BranchPoint there;
@@ -86,17 +87,17 @@ public:
             if (crossing_at(one.type) == 0)
                 continue;
             if (at - beside > from.fraction && sample(at - beside, here, there))
-                look(from, here);
+                search(from, here);
             if (!(at + beside < high.fraction) || !sample(at + beside, from, there))
                 return;
         }
-        look(from, high);
+        search(from, high);
     }
 
     std::vector<SpecialPoint> result;
 
 private:
-    static constexpr double margin = 1e-9; // of the modulus of a multiplier: less is round-off
+    static constexpr double margin = 1e-9; // tolerance of the modulus of a multiplier
 
     bool sample(double fraction, StepSample& here, BranchPoint& there) {
         ContinuationPoint at;
@@ -106,7 +107,7 @@ private:
         here.multipliers = multipliers_followed(there.solution);
         return here.multipliers.size() == size_;
     }
-    /// One whose number of unstable multipliers is certain.
+    /// Samples a point inside the interval whose number of unstable multipliers is certain.
     bool sample_between(const StepSample& low, const StepSample& high, StepSample& middle) {
         constexpr double shares[] = {0.5, 0.4, 0.6, 0.25, 0.75, 0.1, 0.9};
         BranchPoint there;
@@ -138,7 +139,8 @@ private:
         return true;
     }
 
-    /// Several multipliers that cross at one place, as those of devices that are alike: no test tells that.
+    /// Reports several multipliers that cross at the same point, as those of identical devices; no test function
+    /// changes its sign there.
     void note_coincident(const StepSample& low, const StepSample& high) {
         const Count before = unstable(low.multipliers, margin), after = unstable(high.multipliers, margin);
         const auto rank = static_cast<std::size_t>(std::min(before.most, after.most));
@@ -157,8 +159,8 @@ private:
             return number == 1 ? fmt::format("a multiplier crosses {}", where)
                                : fmt::format("{} multipliers cross {} at once", number, where);
         };
-        // One alone makes a fold or a branch point, which have tests of their own: where neither has changed its sign
-        // the step has lost its branch, and there is nothing to be named.
+        // A single multiplier 1 means a fold or a branch point, which have tests of their own. If neither test changes
+        // its sign, the step has jumped to another branch and nothing is reported.
         const std::optional<PointType> alone = ones == 1 ? singular_type(low, high) : PointType::branch_point;
         if (ones > 0 && alone)
             note(low, high, rank, *alone, in_words(ones, "1"));
@@ -185,14 +187,14 @@ private:
         return multipliers;
     }
 
-    /// @param rank of the multiplier that crosses, in the order of their sizes
+    /// @param rank index of the multiplier that crosses, by decreasing modulus
     void note(const StepSample& low, const StepSample& high, std::size_t rank, PointType type, std::string detail) {
         constexpr double close = 1e-6, not_there = 1e-3;
         constexpr int most = 60;
         BranchPoint there, best;
         const auto growth = [&](const StepSample& here) { return std::abs(by_modulus(here.multipliers)[rank]) - 1; };
         StepSample here, begin = low, end = high;
-        double off = std::min(std::abs(growth(low)), std::abs(growth(high))), at = low.fraction;
+        double distance = std::min(std::abs(growth(low)), std::abs(growth(high))), at = low.fraction;
         bool any = false;
         for (int i = 0; i < most; ++i) {
             const double first = growth(begin), last = growth(end);
@@ -202,8 +204,8 @@ private:
             if (!(fraction > begin.fraction && fraction < end.fraction) || !sample(fraction, here, there))
                 break;
             const double value = growth(here);
-            if (!any || std::abs(value) < off) {
-                off = std::abs(value);
+            if (!any || std::abs(value) < distance) {
+                distance = std::abs(value);
                 best = there;
                 at = fraction;
                 any = true;
@@ -214,15 +216,16 @@ private:
         }
         if (!any && !sample(at, here, best))
             return;
-        if (!(off < not_there)) // the step has lost its branch
+        if (!(distance < not_there)) // the step has jumped to another branch
             return;
         SpecialPoint special = special_of_type(type, best);
-        special.located = off < close;
+        special.located = distance < close;
         special.detail = std::move(detail);
         if (!is_known(special, low, high))
             result.push_back(std::move(special));
     }
-    /// What has been found there by its test says less: how many cross.
+    /// True when a single crossing was already found by its test. Several crossings replace such a point because they
+    /// tell more.
     bool is_known(const SpecialPoint& special, const StepSample& low, const StepSample& high) const {
         const LastStep step = state_.last_step();
         return special.detail.starts_with("a multiplier") &&
@@ -257,9 +260,9 @@ std::vector<SpecialPoint> missed_points(BranchState& state, const StepSample& lo
         return {};
     Search search(state, locate, found, low.multipliers.size());
     if (may_explain(unstable(low.multipliers, certain), unstable(high.multipliers, certain), 0, 0))
-        search.look_beside_known(low, high);
+        search.search_beside_known(low, high);
     else
-        search.look(low, high);
+        search.search(low, high);
     return std::move(search.result);
 }
 

@@ -25,7 +25,7 @@ bool is_at_point(Monitor::Kind kind) {
     return kind == Monitor::Kind::value || kind == Monitor::Kind::start;
 }
 
-/// Of a number "2", a name "J1" or the second of a name "J1#2" the index of the segment.
+/// Returns the index of the segment given by a number "2", a name "J1" or the second of a name "J1#2".
 std::size_t segment_named(const Model& model, const Signature& signature, const Monitor& monitor) {
     const std::string& text = monitor.segment;
     const auto number = [](std::string_view digits) -> std::optional<std::size_t> {
@@ -67,14 +67,14 @@ public:
         set_signature(signature);
     }
 
-    /// What has been compiled serves all signatures.
+    /// Sets the signature; the compiled functions serve all signatures.
     void set_signature(const Signature& signature) {
         const Model& model = system_.model();
         if (signature.empty())
             throw InputError("the signature is empty", "list at least one event or section");
         for (const Segment& segment : signature) {
             require_index(segment.mode, model.modes.size(), "mode");
-            end_name(model, segment); // throws when there is no such end
+            end_name(model, segment); // throws when the end does not exist
         }
         std::vector<std::optional<std::size_t>> segments;
         for (const Monitor& monitor : monitors_) {
@@ -114,7 +114,7 @@ public:
     }
 
 private:
-    /// What is gathered step by step.
+    /// Values accumulated step by step.
     struct Total {
         double least = std::numeric_limits<double>::infinity();
         double greatest = -std::numeric_limits<double>::infinity();
@@ -126,7 +126,7 @@ private:
         result.tolerance = tolerance;
         return result;
     }
-    /// Series wanted along arcs, one for each monitor that has any.
+    /// Returns the expressions that are needed as series along arcs.
     std::vector<Expression> observed() {
         std::vector<Expression> result;
         for (const Monitor& monitor : monitors_)
@@ -146,7 +146,7 @@ private:
         return false;
     }
 
-    /// Follows a segment for those monitors that want it.
+    /// Integrates a segment for the monitors that need it.
     template <class Wanted>
     void follow(const Orbit& orbit, std::size_t s, const Wanted& wanted) {
         bool arcs = false, end = false;
@@ -198,7 +198,7 @@ private:
         note(coefficients_[0]);
         note(evaluate_polynomial(coefficients_, length));
         if (length < 0)
-            return; // of a segment that has no meaning, the ends are enough
+            return; // for a segment of negative duration only the ends are evaluated
         derivative_.clear();
         for (std::size_t k = 1; k < count; ++k)
             derivative_.push_back(static_cast<double>(k) * coefficients_[k]);
@@ -226,7 +226,7 @@ private:
     }
 
     std::vector<Monitor> monitors_;
-    std::vector<std::size_t> series_; ///< among the observed, of those along arcs
+    std::vector<std::size_t> series_; ///< index of each monitor's series among the observed ones
     Signature signature_;
     System system_;
     Simulation simulation_;

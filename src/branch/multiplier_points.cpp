@@ -24,8 +24,8 @@ bool is_flip(PointType type) {
     return type == PointType::flip || type == PointType::asymmetry;
 }
 
-/// What a fold, flip or torus point is where a curve of another kind meets it; of the half of a symmetric orbit that
-/// loses its symmetry as of one that flips.
+/// Returns the type of a fold, flip or torus point on a curve of another kind, where it is a point of codimension two.
+/// Symmetry breaking counts as a flip of the half map.
 PointType where_curves_meet(const TestedPoint& point, PointType own) {
     if (!point.settings.kept)
         return own;
@@ -41,15 +41,15 @@ PointType where_curves_meet(const TestedPoint& point, PointType own) {
                                     : own;
 }
 
-/// How far the nearest multiplier is from a number.
-double off(const OrbitSolution& solution, double wanted) {
+/// Returns the distance of the nearest multiplier from a number.
+double distance_to(const OrbitSolution& solution, double wanted) {
     double nearest = std::numeric_limits<double>::infinity();
     for (const std::complex<double> one : multipliers_followed(solution))
         nearest = std::min(nearest, std::abs(one - wanted));
     return nearest;
 }
 
-/// How far the nearest pair of complex multipliers is from the unit circle.
+/// Returns the distance of the nearest complex pair of multipliers from the unit circle.
 double pair_off_circle(const OrbitSolution& solution) {
     constexpr double complex = 1e-6;
     double nearest = std::numeric_limits<double>::infinity();
@@ -59,15 +59,14 @@ double pair_off_circle(const OrbitSolution& solution) {
     return nearest;
 }
 
-/// Whether the multipliers at a located point are what its type says, to what they are uncertain by there. Next to a
-/// contact without speed they change without bound, and determinants vanish for other reasons, too: what cannot be
-/// told from that is none.
-/// @param distance of an orbit's multipliers from what they are to be
-/// @param close what they may always be off by
+/// True when the multipliers at a located point agree with its type within their uncertainty. Near a contact of zero
+/// speed they change without bound, and determinants vanish for other reasons, so such zeros are rejected.
+/// @param distance distance of an orbit's multipliers from the expected ones
+/// @param close distance that is always accepted
 template <class Distance>
-bool holds(BranchState& state, const SpecialPoint& special, const Distance& distance, double close) {
-    // Arclength, in units of the scales, within which it is seen how multipliers change; by how many of these a located
-    // point may be off next to a contact without speed; and what is no multiplier of that kind in any case.
+bool multipliers_agree(BranchState& state, const SpecialPoint& special, const Distance& distance, double close) {
+    // Scaled arclength over which the change of multipliers is measured; accepted distance in units of this change;
+    // distance that is always rejected.
     constexpr double beside = 1e-10, times = 50, far = 2;
     Continuation& continuation = state.continuation();
     const LastStep step = state.last_step();
@@ -78,8 +77,9 @@ bool holds(BranchState& state, const SpecialPoint& special, const Distance& dist
         return continuation.between(fraction, at) && state.describe(at, there, tests);
     };
     if (multipliers_followed(special.solution).empty()) {
-        // As all along a curve of contacts without speed; or only here, where another contact loses its own.
-        constexpr double aside = 1e-4, near = 0.1; // fraction of the step; multipliers change by less over that
+        // Multipliers are undefined all along a curve of contacts of zero speed, or only here, where another contact
+        // has zero speed.
+        constexpr double aside = 1e-4, near = 0.1; // fraction of the step; bound of the change of multipliers over it
         if (!state.settings().kept || !describe(step.fraction(special.arclength) - aside))
             return false;
         return multipliers_followed(there.solution).empty() || distance(there.solution) < near;
@@ -97,22 +97,23 @@ bool holds(BranchState& state, const SpecialPoint& special, const Distance& dist
 }
 
 bool has_multiplier(BranchState& state, const SpecialPoint& special, double wanted) {
-    constexpr double close = 1e-3; // two that are equal are off by a root of what is left uncertain
-    return holds(
-        state, special, [&](const OrbitSolution& solution) { return off(solution, wanted); }, close);
+    constexpr double close = 1e-3; // a double multiplier is known only to the square root of its uncertainty
+    return multipliers_agree(
+        state, special, [&](const OrbitSolution& solution) { return distance_to(solution, wanted); }, close);
 }
 
 bool has_pair_on_circle(BranchState& state, const SpecialPoint& special) {
     constexpr double close = 1e-5;
-    return holds(state, special, pair_off_circle, close);
+    return multipliers_agree(state, special, pair_off_circle, close);
 }
 
 } // namespace
 
-// Folds: where monitors are held, the parameter may turn although no multiplier is 1.
+// Folds. With fixed monitors the parameter may have an extremum although no multiplier is 1, so the determinant is
+// tested then.
 
 void test_fold(const TestedPoint& point, std::vector<BranchTest>& tests) {
-    constexpr double least_rise = 1e-8; // of the parameter's share in the direction of the branch: less is round-off
+    constexpr double least_rise = 1e-8; // share of the parameter in the tangent: smaller values are round-off
     BranchTest test{.type = where_curves_meet(point, PointType::fold)};
     if (point.settings.free.empty()) {
         const std::size_t place = point.equations.layout().parameter(0);
@@ -137,7 +138,8 @@ std::string in_words(const FoldForm& form, const BranchState& state) {
                           : side + ", a has no value: two multipliers are 1";
 }
 
-/// @param supercritical sign of a coefficient for which what leaves is stable; @param several why it may have no value
+/// @param supercritical sign of the coefficient for which the bifurcating orbit is stable; @param several reason why it
+/// may be undefined
 std::string in_words(const Criticality& form, const char* name, int supercritical, const char* several) {
     if (!form.is_simple)
         return fmt::format("{} has no value: {}", name, several);
@@ -148,7 +150,7 @@ std::string in_words(const Criticality& form, const char* name, int supercritica
 
 } // namespace
 
-/// On which side two orbits are is said of branches in one parameter.
+/// The side with two orbits is reported for branches in one parameter only.
 bool confirm_fold(BranchState& state, SpecialPoint& special, const BranchTest&) {
     const OrbitProblem& problem = state.problem();
     if (special.located && state.settings().free.empty())
@@ -162,7 +164,7 @@ std::unique_ptr<OrbitCondition> condition_of_fold(const OrbitEquations& equation
     return SingularCondition::of_multiplier(equations, at, 1);
 }
 
-// Flips: the half of a symmetric orbit that changes into its image loses the symmetry instead of doubling its period.
+// Flips. A multiplier -1 of the half map of a symmetric orbit breaks the symmetry instead of doubling the period.
 
 void test_flip(const TestedPoint& point, std::vector<BranchTest>& tests) {
     const bool tested = !point.equations.symmetry() && !is_kept(point, PointType::flip);
@@ -205,7 +207,7 @@ void test_branch_point(const TestedPoint& point, std::vector<BranchTest>& tests)
                      .singular = true});
 }
 
-/// Where monitors are held, branches may cross although no multiplier is 1.
+/// With fixed monitors branches may cross although no multiplier is 1.
 bool confirm_branch_point(BranchState& state, SpecialPoint& special, const BranchTest&) {
     return special.located && (!state.settings().free.empty() || has_multiplier(state, special, 1));
 }
@@ -215,10 +217,10 @@ std::vector<BranchStart> leave_branch_point(const System& system, const SpecialP
     return along_null_vector(system, point.solution.orbit, settings, point.tangent, "other branch", true);
 }
 
-/// Product over pairs of multipliers of mu_i mu_j - 1, which vanishes where two of them are inverse to one another: on
-/// whole branches of conservative models.
+/// Tests the product over all pairs of multipliers of mu_i mu_j - 1, which vanishes where two multipliers are
+/// reciprocal, in conservative models on whole branches.
 void test_torus(const TestedPoint& point, std::vector<BranchTest>& tests) {
-    constexpr double least_growth = 1e-9; // of the product of a pair less one: less is round-off
+    constexpr double least_growth = 1e-9; // noise of the product of a pair minus one
     const auto& multipliers = multipliers_followed(point.solution);
     BranchTest test{.type = where_curves_meet(point, PointType::torus), .value = nothing};
     std::complex<double> product = 1;
@@ -245,8 +247,8 @@ bool confirm_torus(BranchState& state, SpecialPoint& special, const BranchTest&)
 
 namespace {
 
-/// Of the half of a symmetric orbit, whose multiplier -1 is no flip.
-void note_asymmetry(const BranchState& state, SpecialPoint& special) {
+/// Notes that the multiplier -1 belongs to a half orbit: a symmetry breaking, not a flip.
+void describe_asymmetry(const BranchState& state, SpecialPoint& special) {
     const bool of_half = special.solution.orbit.symmetry || state.settings().kept->type == PointType::asymmetry;
     special.detail = of_half ? "of a loss of symmetry" : "";
 }
@@ -254,13 +256,13 @@ void note_asymmetry(const BranchState& state, SpecialPoint& special) {
 } // namespace
 
 bool confirm_fold_flip(BranchState& state, SpecialPoint& special, const BranchTest&) {
-    note_asymmetry(state, special);
+    describe_asymmetry(state, special);
     return special.located;
 }
 
 bool confirm_with_torus(BranchState& state, SpecialPoint& special, const BranchTest&) {
     if (special.type == PointType::flip_torus)
-        note_asymmetry(state, special);
+        describe_asymmetry(state, special);
     return special.located && has_pair_on_circle(state, special);
 }
 
@@ -269,10 +271,10 @@ std::unique_ptr<OrbitCondition> condition_of_torus(const OrbitEquations& equatio
     return TorusCondition::of_pair(equations, at);
 }
 
-/// Two multipliers are there: where a contact loses its speed others go to infinity, and nothing is simple but for that
-/// reason.
+/// Confirms that two multipliers are equal. Near a contact of zero speed other multipliers diverge, and the test
+/// vanishes for that reason.
 bool confirm_resonance(BranchState&, SpecialPoint& special, const BranchTest& test) {
-    constexpr double near = 0.01; // a double multiplier is off by the root of what is left uncertain
+    constexpr double near = 0.01; // a double multiplier is known only to the square root of its uncertainty
     const double wanted = test.type == PointType::resonance_1 ? 1 : -1;
     const auto& multipliers = multipliers_followed(special.solution);
     return special.located && std::count_if(multipliers.begin(), multipliers.end(),

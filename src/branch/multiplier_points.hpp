@@ -4,7 +4,8 @@
 
 namespace graze {
 
-// Points at which multipliers of an orbit lie on the unit circle, and those that are more special still: see PointRule.
+// Tests, confirmation and conditions of points with multipliers on the unit circle, and of their degeneracies: see
+// PointRule.
 
 void test_fold(const TestedPoint& point, std::vector<BranchTest>& tests);
 bool confirm_fold(BranchState& state, SpecialPoint& special, const BranchTest&);
@@ -32,7 +33,7 @@ bool confirm_resonance(BranchState& state, SpecialPoint& special, const BranchTe
 bool confirm_cusp(BranchState& state, SpecialPoint& special, const BranchTest&);
 bool confirm_generalised(BranchState& state, SpecialPoint& special, const BranchTest&);
 
-/// What is more special still on a curve of special points, of which their own condition knows.
+/// Adds the tests of a degeneracy along a curve, which the curve's condition provides.
 template <PointType Type>
 void test_degeneracy(const TestedPoint& point, std::vector<BranchTest>& tests) {
     for (const Degeneracy& one : point.degeneracies)

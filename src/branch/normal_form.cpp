@@ -20,10 +20,10 @@ using Eigen::RowVectorXcd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-/// The equations of an orbit about it, in units of the scales.
+/// Taylor expansion of the scaled equations about an orbit.
 class Expansion {
 public:
-    /// More unknowns than that are not written out as one matrix.
+    /// Largest number of unknowns for which dense matrices are used.
     static constexpr std::size_t most_unknowns = 600;
 
     Expansion(const OrbitEquations& equations, const OrbitEvaluation& at, SecondVariation& variation)
@@ -31,7 +31,7 @@ public:
           columns_(at.scales.head(index(equations.layout().start_of(at.pieces.size())))), rows_(columns_.size()),
           fixed_(MatrixXd::Zero(columns_.size(), columns_.size())), closing_(fixed_) {
         const auto n = index(equations.layout().states()), pieces = index(at.pieces.size());
-        for (Eigen::Index k = 0; k < pieces; ++k) { // blocks are in these units already
+        for (Eigen::Index k = 0; k < pieces; ++k) { // blocks are already scaled
             const CyclicSystem::Block& block = at.system.block(static_cast<std::size_t>(k));
             const Eigen::Index place = k * (n + 1);
             rows_.segment(place, n + 1) << at.pieces[static_cast<std::size_t>(k)].condition_unit, at.scales.head(n);
@@ -43,13 +43,13 @@ public:
 
     MatrixXcd closed_by(Complex factor) const { return fixed_ + factor * closing_; }
     const MatrixXd& closing() const { return closing_; }
-    /// What starts gain along a vector, in the model's units.
+    /// Returns the length of the first start of a vector, in the model's units.
     double length_of_start(const VectorXcd& vector) const {
         const auto n = index(equations_.layout().states());
         return vector.head(n).cwiseProduct(columns_.head(n)).norm();
     }
 
-    /// l^T F_2(v, v), and the size of its parts. @return false as below
+    /// Computes l^T F_2(v, v) and the magnitude of its terms. @return false where the motion cannot be followed
     bool second(const VectorXd& left, const VectorXd& vector, double& result, double& parts) {
         MatrixXd gradient;
         if (!contract(left, vector, gradient))
@@ -58,7 +58,7 @@ public:
         parts = gradient.norm() * vector.norm();
         return std::isfinite(result);
     }
-    /// l^T F_p for the first free parameter, in its own unit.
+    /// Returns l^T F_p for the first free parameter, in its own unit.
     double by_parameter(const VectorXd& left, const OrbitEvaluation& at) const {
         const auto rows = index(equations_.layout().states()) + 1;
         double sum = 0;
@@ -66,7 +66,8 @@ public:
             sum += left.segment(k * rows, rows).dot(at.system.block(static_cast<std::size_t>(k)).parameters.col(0));
         return sum / at.scales[index(equations_.layout().parameter(0))];
     }
-    /// What starts gain along a vector, and the row that takes a change of the start to what closes of it.
+    /// Returns the first start of a vector, and the row that maps a change of the start to its closing defect, in the
+    /// model's units.
     VectorXd start_along(const VectorXd& vector) const {
         const auto n = index(equations_.layout().states());
         return vector.head(n).cwiseProduct(columns_.head(n));
@@ -76,7 +77,7 @@ public:
         return (closing_.leftCols(n).transpose() * left).cwiseQuotient(columns_.head(n));
     }
 
-    /// F_2(v, .), as a matrix. @return false where the motion cannot be followed
+    /// Computes the matrix F_2(v, .). @return false where the motion cannot be followed
     bool second(const VectorXcd& vector, MatrixXcd& result) {
         const auto count = columns_.size();
         MatrixXd real, imaginary = MatrixXd::Zero(count, count);
@@ -87,9 +88,9 @@ public:
         return true;
     }
 
-    /// l^T F_3(v, v, .) by differences of fourth order. @param parts sum of the sizes of what they are made of
+    /// Computes l^T F_3(v, v, .) by fourth-order differences. @param parts incremented by the magnitudes of the terms
     bool third(const VectorXcd& left, const VectorXd& vector, RowVectorXcd& result, double& parts) {
-        constexpr double share = 1e-3; // of the scales: the vector's length follows the model's units
+        constexpr double share = 1e-3; // step in scaled unknowns, whatever the length of the vector
         const double size = vector.cwiseAbs().maxCoeff(), step = share / size;
         result = RowVectorXcd::Zero(columns_.size());
         if (size == 0)
@@ -130,7 +131,7 @@ private:
     MatrixXd fixed_, closing_; ///< A(mu) = fixed + mu closing
 };
 
-/// Vectors that a singular matrix takes to zero from the right and from the left, by bordering it (Govaerts 2000).
+/// Computes the right and left null vectors of a singular matrix by bordering (Govaerts 2000).
 void null_vectors(const MatrixXcd& matrix, VectorXcd& right, VectorXcd& left) {
     const Eigen::Index count = matrix.rows();
     MatrixXcd bordered = MatrixXcd::Zero(count + 1, count + 1);
@@ -140,7 +141,8 @@ void null_vectors(const MatrixXcd& matrix, VectorXcd& right, VectorXcd& left) {
         bordered(count, i) = std::cos(1.7 * static_cast<double>(i) + 1);
     }
     const VectorXcd last = VectorXcd::Unit(count + 1, count);
-    for (int repetition = 0; repetition < 2; ++repetition) { // the second with borders that are far from singular
+    for (int repetition = 0; repetition < 2;
+         ++repetition) { // the second pass uses the null vectors as well-conditioned borders
         right = PartialLU<Complex>(bordered).solve(last).head(count).normalized();
         left = PartialLU<Complex>(bordered.transpose()).solve(last).head(count).normalized();
         bordered.col(count).head(count) = left.conjugate();
@@ -148,21 +150,21 @@ void null_vectors(const MatrixXcd& matrix, VectorXcd& right, VectorXcd& left) {
     }
 }
 
-/// Of numbers that are made of derivatives, in units of their largest parts.
+/// Relative error of values computed from derivatives, against their largest terms.
 constexpr double round_off = 1e-12;
-/// What the closing makes of both null vectors, of their sizes: less is zero, since they are known less well than
-/// round-off is small, as the point that they are taken at is a located one.
+/// Relative size of the product of both null vectors below which the multiplier counts as multiple; the null vectors of
+/// a located point are less accurate than round-off.
 constexpr double least_product = 1e-9;
 
-/// A coefficient with what round-off may make of it.
+/// A coefficient with its error due to round-off.
 struct Cubic {
     Complex value;
     double error = 0;
-    bool is_simple = true; ///< whether the multiplier is, but for which there is no value
+    bool is_simple = true; ///< false: the multiplier is not simple, so that the coefficient is undefined
 };
 
-/// F_3(q, q, q*) + 2 F_2(q, z_11) + F_2(q*, z_20), projected on the critical direction, where z_11 and z_20 are what
-/// the square of the motion along q adds to its mean and to its second harmonic.
+/// Computes F_3(q, q, q*) + 2 F_2(q, z_11) + F_2(q*, z_20), projected on the critical direction. z_11 and z_20 are the
+/// second-order corrections of the mean and of the second harmonic.
 std::optional<Cubic> cubic_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at, Complex multiplier,
                                        SecondVariation& variation) {
     if (equations.layout().start_of(at.pieces.size()) > Expansion::most_unknowns)
@@ -182,10 +184,10 @@ std::optional<Cubic> cubic_coefficient(const OrbitEquations& equations, const Or
     const PartialLU<Complex> at_rest(expansion.closed_by(1)), twice(expansion.closed_by(multiplier * multiplier));
     const VectorXcd square = with_q * q, modulus = with_q * conjugate;
     const VectorXcd mean = -at_rest.solve(modulus), second = -twice.solve(square);
-    // q q q* = (a a + b b) (a + i b) for q = a + i b; and F_2 is real.
+    // With q = a + i b, q q q* = (a a + b b) (a + i b), and F_2 is real.
     const VectorXcd from_second = with_q.conjugate() * second + 2.0 * with_q * mean;
     const Complex third = (with_real + with_imaginary) * q, rest = left.transpose() * from_second;
-    // What round-off of F_2(q, q) and F_2(q, q*) becomes by the mean and the second harmonic, and what it is itself.
+    // Propagate the round-off of F_2(q, q) and F_2(q, q*) through the mean and the second harmonic.
     const double size = with_q.norm() * q.norm();
     const VectorXcd by_mean = with_q.transpose() * left, by_second = with_q.adjoint() * left;
     const VectorXcd mean_spread = at_rest.solve_transposed(by_mean), second_spread = twice.solve_transposed(by_second);
@@ -213,7 +215,7 @@ std::optional<double> flip_coefficient(const OrbitEquations& equations, const Or
 
 namespace {
 
-/// The null vectors at a multiplier 1, the right one with starts of length 1, and what closes of them.
+/// The null vectors at a multiplier 1, the right one with a first start of length 1, and their product.
 struct Fold {
     Fold(const Expansion& expansion, const MatrixXcd& matrix) {
         VectorXcd complex_right, complex_left;
@@ -242,10 +244,10 @@ std::optional<FoldForm> fold_form(const OrbitEquations& equations, const OrbitEv
     double second = 0, parts = 0;
     if (!fold.right.allFinite() || !expansion.second(fold.left, fold.right, second, parts))
         return std::nullopt;
-    constexpr double least = 1e-9; // of the parts of the second derivative
+    constexpr double least = 1e-9; // share of the terms of the second derivative
     const bool is_simple =
         std::abs(fold.product) > least_product * fold.left.norm() * (expansion.closing() * fold.right).norm();
-    // The equations are what the next start is less what the motion makes of this one.
+    // The equations are the next start minus the image of this one, hence the minus signs.
     const double coefficient = -second / (2 * fold.product), sign = coefficient < 0 ? -1 : 1;
     const double rate = -sign * expansion.by_parameter(fold.left, at) / fold.product;
     if (!std::isfinite(coefficient) || !std::isfinite(rate))
@@ -262,8 +264,8 @@ std::optional<FoldForm> fold_form(const OrbitEquations& equations, const OrbitEv
                     .adjoint = list_of(adjoint)};
 }
 
-/// As the coefficient of a flip, but that what the square of the motion along the null vector asks for is solved for
-/// beside that vector, along which it is zero here.
+/// Like the coefficient of a flip, but the second-order correction is solved in a bordered system, because the matrix
+/// is singular along the null vector.
 std::optional<double> cusp_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at) {
     const auto count = index(equations.layout().start_of(at.pieces.size()));
     if (static_cast<std::size_t>(count) > Expansion::most_unknowns)
@@ -284,8 +286,8 @@ std::optional<double> cusp_coefficient(const OrbitEquations& equations, const Or
     bordered.row(count).head(count) = fold.right.transpose();
     VectorXd square = VectorXd::Zero(count + 1);
     square.head(count) = -with_right.real() * fold.right;
-    const VectorXd beside = PartialLU<double>(bordered).solve(square).head(count);
-    const double cubic = third.real().dot(fold.right.transpose()) + 3 * fold.left.dot(with_right.real() * beside);
+    const VectorXd correction = PartialLU<double>(bordered).solve(square).head(count);
+    const double cubic = third.real().dot(fold.right.transpose()) + 3 * fold.left.dot(with_right.real() * correction);
     const double result = -cubic / (6 * fold.product);
     return std::isfinite(result) ? std::optional(result) : std::nullopt;
 }

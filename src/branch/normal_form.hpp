@@ -11,60 +11,61 @@
 namespace graze {
 
 // Normal forms of orbits at which multipliers lie on the unit circle (Yu. A. Kuznetsov, "Elements of Applied
-// Bifurcation Theory", 2004, sections 5.4 and 8.7), for the map from one first start to the next. The critical vector's
-// starts have Euclidean length 1 in the model's units, and the adjoint one the product 1 with it.
+// Bifurcation Theory", 2004, sections 5.4 and 8.7), for the map from one first start to the next. The first start of
+// the critical vector has Euclidean length 1 in the model's units; its product with the adjoint vector is 1.
 //
-// They are computed from the equations of all segments, in which the map is never formed: with A(mu) the matrix closed
-// by the factor mu, and F_2, F_3 the second and third derivatives of the equations by starts and durations. Second ones
-// are exact; third ones are differences of those.
+// They are computed from the equations of all segments without forming the map: A(mu) is the matrix closed by the
+// factor mu; F_2 and F_3 are the second and third derivatives of the equations with respect to starts and durations.
+// Second derivatives are exact, third derivatives are differences of these.
 
-/// Coefficient c of the flip, w -> -w + c w^3: an orbit of twice the period leaves, stable for c > 0 if the one that it
-/// leaves had no other unstable direction (supercritical). Of the half of a symmetric orbit: an orbit without symmetry.
-/// @param at evaluation at an orbit with a multiplier -1. @return none where it cannot be computed
+/// Returns the coefficient c of the flip, w -> -w + c w^3: for c > 0 (supercritical) the bifurcating orbit of twice the
+/// period is stable if the original one has no other unstable direction. For a half orbit, the bifurcating orbit is
+/// asymmetric.
+/// @param at evaluation at an orbit with a multiplier -1. @return empty where it cannot be computed
 std::optional<double> flip_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at);
-/// The same with second derivatives of these equations that have been compiled before, which takes far longer than to
-/// evaluate them.
+/// The same with compiled second derivatives of these equations; compiling takes much longer than evaluating.
 std::optional<double> flip_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at,
                                        SecondVariation& variation);
 
-/// Coefficient d of the torus, |w| -> |w| (1 + d |w|^2): it is stable for d < 0 (supercritical), likewise.
+/// Returns the coefficient d of the torus, |w| -> |w| (1 + d |w|^2): for d < 0 (supercritical) the torus is stable,
+/// likewise.
 /// @param at evaluation at an orbit with two multipliers on the unit circle
 std::optional<double> torus_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at);
-/// The same as the real part of w -> mu w (1 + D |w|^2), whose imaginary one says how the angle changes, with second
-/// derivatives that have been compiled before.
+/// Returns D of w -> mu w (1 + D |w|^2), with compiled second derivatives: its real part is d, its imaginary part the
+/// change of the rotation angle.
 std::optional<std::complex<double>> torus_form(const OrbitEquations& equations, const OrbitEvaluation& at,
                                                SecondVariation& variation);
 
-/// The coefficient of a flip or of a torus point with what round-off of all that it is made of may be of it.
+/// The coefficient of a flip or of a torus point with its error due to round-off.
 struct Criticality {
     double value = 0, error = 0;
-    bool is_simple = true; ///< false: another multiplier is equal up to round-off, so that there is no value
-    /// Whether its sign means something: that of a linear or conservative model is zero up to round-off.
+    bool is_simple = true; ///< false: the multiplier is multiple up to round-off, so that the coefficient is undefined
+    /// True when the sign is significant; for linear and conservative models the coefficient is zero up to round-off.
     bool is_decided() const { return std::abs(value) > error; }
 };
 std::optional<Criticality> flip_criticality(const OrbitEquations& equations, const OrbitEvaluation& at);
 std::optional<Criticality> torus_criticality(const OrbitEquations& equations, const OrbitEvaluation& at);
 
-/// What happens at a fold, w -> w + b (p - p_0) + a w^2: two orbits on one side of the parameter, of which one is
-/// stable if there is no other unstable direction, at w^2 = -b (p - p_0)/a to first order.
+/// Normal form of a fold, w -> w + b (p - p_0) + a w^2: two orbits exist on one side of the parameter, at w^2 = -b (p -
+/// p_0)/a to first order; one of them is stable if there is no other unstable direction.
 struct FoldForm {
-    double coefficient = 0; ///< a > 0, which the sign of the critical vector decides: orbits at w < 0 are stable
-    bool above = false;     ///< two orbits at greater values of the first free parameter, none at smaller ones
-    bool turns = true;      ///< false: the coefficient is zero up to round-off, and so is on which side
-    bool is_simple = true;  ///< false: two multipliers are 1 up to round-off, so that a and b have no values
-    double rate = 0;        ///< b, by the first free parameter in its own unit
-    /// The critical vector in the first start, and the adjoint one, in the model's units: w = adjoint (start - fold's).
+    double coefficient = 0; ///< a > 0 by choice of the sign of the critical vector, so that orbits at w < 0 are stable
+    bool above = false;     ///< two orbits exist at greater values of the first free parameter, none at smaller ones
+    bool turns = true;      ///< false: the coefficient is zero up to round-off, so that the side is undecided
+    bool is_simple = true;  ///< false: two multipliers are 1 up to round-off, so that a and b are undefined
+    double rate = 0;        ///< b, with respect to the first free parameter in its own unit
+    /// First starts of the critical and adjoint vectors, in the model's units: w = adjoint (start - start of the fold).
     std::vector<double> critical, adjoint;
 };
-/// @param at evaluation at an orbit with a multiplier 1, with a free parameter. @return none where it cannot be
+/// @param at evaluation at an orbit with a multiplier 1, with a free parameter. @return empty where it cannot be
 /// computed
 std::optional<FoldForm> fold_form(const OrbitEquations& equations, const OrbitEvaluation& at);
 
-/// Coefficient c of the cusp, w -> w + c w^3: of the three orbits that meet there the outer ones are stable for c < 0.
-/// @param at evaluation at an orbit with a multiplier 1 whose fold has the coefficient zero
+/// Returns the coefficient c of the cusp, w -> w + c w^3: for c < 0 the outer two of the three orbits are stable.
+/// @param at evaluation at an orbit with a multiplier 1 and fold coefficient zero
 std::optional<double> cusp_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at);
 
-/// The complex multiplier, of those above the real axis, that is nearest to the unit circle; if there is one.
+/// Returns the multiplier in the upper half plane nearest to the unit circle; empty if there is none.
 std::optional<std::complex<double>> pair_on_circle(const std::vector<std::complex<double>>& multipliers);
 
 } // namespace graze

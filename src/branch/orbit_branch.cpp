@@ -22,13 +22,13 @@ namespace graze {
 
 namespace {
 
-/// Differences that a solution and its repetition, or its image, may have by round-off, in units of the scales.
+/// Largest scaled difference, due to round-off, between a solution and its repetition or image.
 constexpr double same_orbit = 1e-6;
 
-/// By how many orders of magnitude a state that is zero may be larger or smaller than the others.
+/// Orders of magnitude above and below the other states that are tried for the size of a state that leaves zero.
 constexpr int most_decades = 15;
 
-const char* const back_on_regular = "back on the branch of more regular orbits";
+const char* const returned_to_simpler = "back on the branch of simpler orbits";
 
 bool is_among(PointType type, const std::vector<PointType>& types) {
     return std::find(types.begin(), types.end(), type) != types.end();
@@ -44,7 +44,7 @@ public:
                          settings.kept->solution.orbit.parameters == candidate.parameters) {}
 
     bool start() {
-        constexpr double near = 1e-2; // in units of the scales: a curve begins at the point that it is to keep
+        constexpr double near = 1e-2; // scaled distance: a curve must begin at its kept point
         const std::vector<double> u = state_.problem().unknowns_of(candidate_);
         if (state_.is_in_family(candidate_)) {
             begin(false);
@@ -53,7 +53,7 @@ public:
         }
         const bool begun =
             state_.continuation().start(u, state_.problem().parameter_place(), state_.settings().direction);
-        // At other parameters than the candidate's the orbit may pass no section any more.
+        // At changed parameters the orbit may no longer cross its section.
         if (!begun && !is_kept_point_ && state_.begin_without_sections(candidate_))
             return begin(true);
         if (!begun || !is_kept_point_ || distance_from(u) < near)
@@ -86,7 +86,7 @@ public:
             return end(BranchOutcome::steps, "");
         if (equilibrium_)
             return end_at_equilibrium();
-        if (state_.pieces_are_unfit() ||
+        if (state_.pieces_need_renewal() ||
             cuts_are_oblique(state_.problem().equations(), state_.problem().evaluation())) {
             state_.renew_pieces(point);
             renewed();
@@ -103,7 +103,7 @@ public:
         const std::size_t work_before = state_.problem().equations().work();
         if (!step_on_branch(rates)) {
             if (const std::string edge = touch_at_edge(); !edge.empty()) {
-                if (!go_on_in_next_segment())
+                if (!continue_in_next_segment())
                     return end(BranchOutcome::undefined, edge);
                 ++point.step;
                 return true;
@@ -113,9 +113,9 @@ public:
                            : BranchOutcome::no_convergence,
                        state_.problem().problem());
         }
-        if (turned_section(rates, rates_here()) || (hopf_ && !equilibrium_))
+        if (reversed_section(rates, rates_here()) || (hopf_ && !equilibrium_))
             return step_without_touch(here);
-        approach(before.solution.orbit);
+        update_approach(before.solution.orbit);
         describe_here();
         const std::size_t work = state_.problem().equations().work() - work_before;
         ++point.step;
@@ -126,11 +126,11 @@ public:
         }
         if (point.step == 1 && is_beyond_torus(tests_before)) {
             point = before;
-            return end(BranchOutcome::stopped, "this way the two multipliers are real");
+            return end(BranchOutcome::stopped, "in this direction the two multipliers are real");
         }
         if (point.step == 1 && has_no_contact(before)) {
             point = before;
-            return end(BranchOutcome::stopped, "this way the contact that begins there has a negative speed");
+            return end(BranchOutcome::stopped, "in this direction the new contact has a negative speed");
         }
         if (equilibrium_ && point.arclength > equilibrium_->arclength) {
             point = before;
@@ -139,15 +139,15 @@ public:
         found = locator_.locate_all(before, tests_before);
         if (has_jumped() && attempts_ < most_attempts)
             return step_again(here, before, tests_before);
-        if (!came_back_)
+        if (!returned_)
             locator_.add_missed(found, before, tests_before);
         if (locator_.misses_bound(found, tests_before))
             return step_to_bound(here, before, tests_before);
         attempts_ = 0;
-        drop_origin(point.arclength - before.arclength);
-        judge(before.solution.certificate.admissible);
-        if (!ended_ && came_back_)
-            finish(BranchOutcome::returned, back_on_regular);
+        drop_points_at_start(point.arclength - before.arclength);
+        end_or_reorder(before.solution.certificate.admissible);
+        if (!ended_ && returned_)
+            finish(BranchOutcome::returned, returned_to_simpler);
         if (!ended_ && state_.continuation().outcome() == ContinuationOutcome::closed)
             finish(BranchOutcome::closed, "");
         if (!ended_ && work > state_.settings().work)
@@ -164,59 +164,59 @@ public:
     std::string detail;
 
 private:
-    /// How often a step is made again.
+    /// Largest number of repetitions of a step.
     static constexpr int most_attempts = 8;
-    /// Share of the way to an equilibrium that a step goes: from what is left of it the branch is known to end there.
-    static constexpr double close = 0.75;
+    /// Share of the distance to an equilibrium that the last regular step covers.
+    static constexpr double approach_share = 0.75;
 
-    /// Steps on. One that leads through an equilibrium, to which orbits shrink, tells where that is, and is made again
-    /// up to close before it, so that what happens on the way is told from what the equations do there.
+    /// Makes a step. If it leads through an equilibrium to which the orbits shrink, the equilibrium is located, and the
+    /// step is repeated to end just before it, so that special points on the way are separated from the singularity.
     bool step_on_branch(const std::vector<double>& rates) {
         Continuation& continuation = state_.continuation();
         const Continuation before = continuation;
         const Orbit from = orbit_here();
-        if (!step_off_regular())
+        if (!step_before_simpler())
             return false;
         hopf_.reset();
         if (state_.settings().kept)
             return true;
-        const bool round = has_turned_round(state_, from, orbit_here());
-        if (!round && !turned_section(rates, rates_here()))
+        const bool reversed = has_reversed(state_, from, orbit_here());
+        if (!reversed && !reversed_section(rates, rates_here()))
             return true;
         const double length = continuation.point().arclength - before.point().arclength;
         hopf_ = hopf_ahead(state_, before.point(), length);
-        equilibrium_ = round ? locate_equilibrium(state_, from) : std::nullopt;
-        if (equilibrium_ && hopf_ && !agree(*equilibrium_, *hopf_))
-            equilibrium_.reset(); // the section misses it
+        equilibrium_ = reversed ? locate_equilibrium(state_, from) : std::nullopt;
+        if (equilibrium_ && hopf_ && !locations_agree(*equilibrium_, *hopf_))
+            equilibrium_.reset(); // the section does not pass through the equilibrium
         if (!equilibrium_)
             return true;
-        const double way = equilibrium_->arclength - point.arclength;
-        if (!(way > 0)) {
+        const double distance = equilibrium_->arclength - point.arclength;
+        if (!(distance > 0)) {
             equilibrium_.reset();
             return true;
         }
         const Continuation across = continuation;
         continuation = before;
-        continuation.set_next_step(close * way);
-        if (step_off_regular() && !has_turned_round(state_, from, orbit_here()))
+        continuation.set_next_step(approach_share * distance);
+        if (step_before_simpler() && !has_reversed(state_, from, orbit_here()))
             return true;
         continuation = across;
         return true;
     }
-    /// Whether two ways to locate an equilibrium say the same, to what both are uncertain by.
-    bool agree(const SpecialPoint& located, const HopfPoint& hopf) {
+    /// True when two locations of an equilibrium agree within their errors.
+    bool locations_agree(const SpecialPoint& located, const HopfPoint& hopf) {
         const double unit = state_.problem().scales()[state_.problem().parameter_place()];
         return std::abs(located.parameter - hopf.parameter) <= located.solution.error.value_or(0) * unit + hopf.error;
     }
-    /// After a step towards a Hopf point: whether the branch goes there, so that it ends with the next one.
-    void approach(const Orbit& before) {
+    /// After a step towards a Hopf point: if the orbits shrink to it, the branch ends there with the next step.
+    void update_approach(const Orbit& before) {
         if (approached_ && shrinks_to(*approached_, state_.settings().parameter, before, orbit_here()))
             equilibrium_ = end_in(state_, *approached_, state_.arclength(state_.continuation().point().arclength),
-                                  way_to(state_, state_.continuation().point(), *approached_));
+                                  distance_to(state_, state_.continuation().point(), *approached_));
         approached_.reset();
     }
-    /// Begins the orbit where it is farthest from the Hopf point ahead, and sets the next step towards that: once for
-    /// each point.
+    /// Moves the start of the orbit to where it is farthest from the Hopf point ahead, and sets the length of the next
+    /// step accordingly; at most once per point.
     bool turn_to_hopf() {
         const bool again = approached_ || (tried_ && !(point.arclength > *tried_));
         approached_.reset();
@@ -224,33 +224,34 @@ private:
             return false;
         tried_ = point.arclength;
         const auto begun = begun_for_shrinking(state_, point.solution.orbit, *hopf_);
-        if (!begun || !state_.begin_anew(point, *begun))
+        if (!begun || !state_.replace_orbit(point, *begun))
             return false;
         renewed();
         approached_ = hopf_;
-        state_.continuation().set_next_step(close * way_to(state_, state_.continuation().point(), *hopf_));
+        state_.continuation().set_next_step(approach_share *
+                                            distance_to(state_, state_.continuation().point(), *hopf_));
         return true;
     }
-    /// Ends the branch where its orbits shrink to an equilibrium: in that point, not beyond it.
+    /// Ends the branch in the equilibrium to which its orbits shrink.
     bool end_at_equilibrium() {
         equilibrium_->bracket = std::minmax(point.parameter, equilibrium_->parameter);
         equilibrium_->step = ++point.step;
         found = {*equilibrium_};
-        cut_after(0);
+        end_at(0);
         finish(BranchOutcome::shrunk, "");
         return true;
     }
-    /// Steps on. One that ends on the branch of more regular orbits, which the present one left or comes back to, has
-    /// gone past that crossing, and is made again with shorter steps.
-    bool step_off_regular() {
+    /// Makes a step. If it ends on a branch of simpler orbits (half the period, or symmetric), it has passed the
+    /// crossing with that branch and is repeated with a shorter step.
+    bool step_before_simpler() {
         constexpr double shorter = 0.25;
         Continuation& continuation = state_.continuation();
         const Continuation before = continuation;
         for (int attempt = 0;; ++attempt) {
             if (!continuation.step())
                 return false;
-            came_back_ = !is_regular_ && is_degenerate(state_, orbit_here(), same_orbit);
-            if (!came_back_ || attempt >= most_attempts)
+            returned_ = !starts_simpler_ && is_degenerate(state_, orbit_here(), same_orbit);
+            if (!returned_ || attempt >= most_attempts)
                 return true;
             const double length = continuation.point().arclength - continuation.previous().arclength;
             continuation = before;
@@ -258,16 +259,16 @@ private:
         }
     }
 
-    /// Whether an orbit on another branch is as far away as the equations ask for, where the states that leave zero do
-    /// not tell: so far that it is seen in the others and in the parameter that it bends, and no farther.
-    bool is_of_right_size(std::vector<double> u, const std::vector<bool>& sized) {
+    /// True when an orbit on another branch has a suitable distance: the other states and the parameter must have
+    /// changed measurably, but not too much. The states that leave zero cannot tell.
+    bool has_suitable_distance(std::vector<double> u, const std::vector<bool>& sized) {
         constexpr double least = 1e-2, most = 10; // in units of the scales
         for (std::size_t i = 0; i < u.size(); ++i)
             u[i] -= state_.continuation().point().u[i];
         const double bent = size_of(u, sized);
         return bent > least && bent < most;
     }
-    /// Which unknowns have scales that tell their sizes.
+    /// Returns which unknowns have scales that are their own size.
     std::vector<bool> sized_unknowns() {
         const OrbitEquations& equations = state_.problem().equations();
         const OrbitLayout& layout = equations.layout();
@@ -280,7 +281,7 @@ private:
         }
         return result;
     }
-    /// Length of some unknowns, or of all, in units of the scales.
+    /// Returns the scaled length of the chosen unknowns; of all if `chosen` is empty.
     double size_of(const std::vector<double>& unknowns, const std::vector<bool>& chosen) {
         double sum = 0;
         for (std::size_t i = 0; i < unknowns.size(); ++i) {
@@ -289,29 +290,29 @@ private:
         }
         return std::sqrt(sum);
     }
-    /// What Newton's method finds at a distance from the branch that is left.
+    /// Result of Newton's method at a distance from the original branch.
     enum class Found { nothing, left_branch, other_branch };
-    Found look_for_other(const std::vector<double>& u, const std::vector<double>& direction, double distance,
-                         bool was_regular) {
+    Found search_other_branch(const std::vector<double>& u, const std::vector<double>& direction, double distance,
+                              bool was_simpler) {
         if (!state_.continuation().start_along(u, direction, distance))
             return Found::nothing;
-        // From a flip or a loss of symmetry away from regular orbits; or onto them, from such as have come back.
+        // From a flip or symmetry breaking the new branch leaves the simpler orbits, or it returns to them.
         const double resolved = 0.01 * std::abs(distance);
-        const bool from_regular = was_regular && !is_degenerate(state_, displaced(u, direction, distance), resolved);
+        const bool from_simpler = was_simpler && !is_degenerate(state_, displaced(u, direction, distance), resolved);
         const bool is_old =
-            from_regular ? is_degenerate(state_, orbit_here(), resolved) : bends_back(u, direction, distance);
+            from_simpler ? is_degenerate(state_, orbit_here(), resolved) : bends_back(u, direction, distance);
         return is_old ? Found::left_branch : Found::other_branch;
     }
-    /// Newton's method may come back to the branch that is to be left: then it is asked again, nearer and farther off.
+    /// Starts on another branch. Newton's method may return to the original branch; then other distances are tried.
     bool start_on_other(const std::vector<double>& u, const std::vector<double>& direction, double distance) {
         constexpr double factors[] = {1, 0.1, 4, 0.01};
         const std::vector<bool> sized = sized_unknowns();
         if (size_of(direction, sized) < 0.5 * size_of(direction, {}))
             return start_off_zero(u, direction, distance, sized);
-        const bool was_regular = is_degenerate(state_, candidate_, same_orbit);
+        const bool was_simpler = is_degenerate(state_, candidate_, same_orbit);
         bool came_back = false, beyond = false;
         for (const double factor : factors) {
-            const Found here = look_for_other(u, direction, factor * distance, was_regular);
+            const Found here = search_other_branch(u, direction, factor * distance, was_simpler);
             if (here == Found::other_branch && begin(true))
                 return true;
             beyond = beyond || here == Found::other_branch;
@@ -321,15 +322,15 @@ private:
             return false;
         begin(false);
         if (came_back)
-            detail = "Newton's method comes back to the branch that was to be left";
+            detail = "Newton's method returns to the original branch";
         return false;
     }
-    /// The same where states leave zero that are so on all of the branch that is left: they have no size yet, and may
-    /// have any. Each is tried, and measured by itself.
+    /// Starts on another branch where states leave zero that are zero all along the original branch. Their size is
+    /// unknown, so many orders of magnitude are tried, each with its own scales.
     bool start_off_zero(const std::vector<double>& u, const std::vector<double>& direction, double distance,
                         const std::vector<bool>& sized) {
         OrbitProblem& problem = state_.problem();
-        const bool was_regular = is_degenerate(state_, candidate_, same_orbit);
+        const bool was_simpler = is_degenerate(state_, candidate_, same_orbit);
         const double length = length_of(direction);
         for (int half_decades = -2 * most_decades; half_decades <= 2 * most_decades; ++half_decades) {
             std::vector<double> move = direction, there = u;
@@ -338,16 +339,16 @@ private:
                 there[i] += move[i];
             }
             problem.equations().set_scales(OrbitProblem::vector_of(there));
-            if (look_for_other(u, move, length_of(move), was_regular) == Found::other_branch &&
-                is_of_right_size(u, sized) && begin(true))
+            if (search_other_branch(u, move, length_of(move), was_simpler) == Found::other_branch &&
+                has_suitable_distance(u, sized) && begin(true))
                 return true;
         }
         problem.equations().set_scales(OrbitProblem::vector_of(u));
         begin(false);
-        detail = "at no distance from the branch that was to be left an orbit is found on another one";
+        detail = "no orbit on another branch was found at any distance from the original one";
         return false;
     }
-    /// Length of a direction as the continuation measures it.
+    /// Returns the length of a direction in the norm of the continuation.
     double length_of(const std::vector<double>& direction) {
         const std::vector<double> row = state_.problem().row_of(direction);
         return std::sqrt(std::inner_product(row.begin(), row.end(), direction.begin(), 0.0));
@@ -364,8 +365,8 @@ private:
             u[i] -= state_.continuation().point().u[i];
         return size_of(u, {});
     }
-    /// Whether the point that has been found lies on the branch that is left, which bends towards the other one's
-    /// direction: going there it is far off, by the root of the distance. What crosses is far off in proportion.
+    /// True when the point found lies on the original branch, which bends towards the direction of the other one: its
+    /// distance then scales with the square root of the step; on a crossing branch it is proportional to the step.
     bool bends_back(const std::vector<double>& u, const std::vector<double>& direction, double distance) {
         constexpr double far = 5, nearer = 0.25, between_root_and_proportion = 0.36;
         const double off = distance_from(u);
@@ -377,18 +378,18 @@ private:
         return bends || !continuation.start_along(u, direction, distance);
     }
 
-    /// The rates at which sections are passed at the point of the continuation.
+    /// Returns the rates at which the current orbit crosses its sections.
     std::vector<double> rates_here() {
         state_.problem().evaluate(state_.continuation().point().u);
         return passing_rates(state_.problem().equations(), state_.problem().evaluation());
     }
-    /// The equations are others from here on.
+    /// Resets what depends on the equations, after they were replaced.
     void renewed() {
         locator_.forget();
         describe_here();
     }
-    /// Makes the last step again from where it began: towards the equilibrium to which the orbits shrink, without the
-    /// section that was touched within it or, where that is needed or a cut was touched, shorter.
+    /// Repeats the last step: towards an equilibrium to which the orbits shrink, without the section that was touched
+    /// within the step, or with a shorter step if the section is needed or a cut was touched.
     bool step_without_touch(const Continuation& before) {
         constexpr double shorter = 0.25;
         const double length = state_.continuation().point().arclength - state_.continuation().previous().arclength;
@@ -401,11 +402,11 @@ private:
         else if (shorter * length > state_.settings().continuation.smallest_step)
             state_.continuation().set_next_step(shorter * length);
         else
-            return end(BranchOutcome::no_convergence, "the orbit is only touched by a plane that is laid across it");
+            return end(BranchOutcome::no_convergence, "the orbit is tangent to the plane of its cut");
         return step();
     }
-    /// The same where a bound was gone beyond that could not be located: shorter steps come to it; or the branch ends
-    /// before it.
+    /// Repeats a step that passed a bound which could not be located, with a shorter step; after several attempts the
+    /// branch ends before the bound.
     bool step_to_bound(const Continuation& before, const BranchPoint& from, const std::vector<BranchTest>& tests) {
         if (attempts_ < most_attempts)
             return step_again(before, from, tests);
@@ -413,17 +414,17 @@ private:
         point = from;
         return end(BranchOutcome::bound, "no orbit was found on the bound itself");
     }
-    /// Whether the last step has gone over to another branch that comes near without crossing this one: the determinant
-    /// changes its sign as at a branch point, and none is there, nor anything else that it may vanish for.
+    /// True when the last step has jumped to a nearby branch that does not cross this one: the determinant has changed
+    /// its sign, but no branch point or limit point was found.
     bool has_jumped() {
         const Continuation& continuation = state_.continuation();
-        return !state_.settings().kept && !came_back_ &&
+        return !state_.settings().kept && !returned_ &&
                continuation.previous().determinant * continuation.point().determinant < 0 &&
                std::none_of(found.begin(), found.end(), [](const SpecialPoint& one) {
                    return one.type == PointType::branch_point || kind_of(one.type).limits;
                });
     }
-    /// Makes the last step again from where it began, shorter.
+    /// Repeats the last step with a shorter one.
     bool step_again(const Continuation& before, const BranchPoint& from, const std::vector<BranchTest>& tests) {
         constexpr double shorter = 0.25;
         const double length = state_.continuation().point().arclength - state_.continuation().previous().arclength;
@@ -437,7 +438,7 @@ private:
         state_.continuation().set_next_step(shorter * length);
         return step();
     }
-    /// Equations that leave more than a branch free choose no branch.
+    /// Returns the message for a candidate in a family of orbits, for which no branch is defined.
     std::string family_in_words() const {
         const Model& model = state_.model();
         return fmt::format(
@@ -478,12 +479,12 @@ private:
             ended_ = true;
             return false;
         }
-        is_regular_ = is_degenerate(state_, orbit_here(), same_orbit);
+        starts_simpler_ = is_degenerate(state_, orbit_here(), same_orbit);
         if (begins_at_bound())
             finish(BranchOutcome::bound, "");
         return true;
     }
-    /// Whether the first point lies on a bound of a parameter, and the branch goes across it.
+    /// True when the first point lies on a bound of a parameter and the branch leads across it.
     bool begins_at_bound() {
         const BranchSettings& settings = state_.settings();
         const OrbitLayout& layout = state_.problem().equations().layout();
@@ -513,11 +514,11 @@ private:
         detail = std::move(why);
     }
 
-    /// The same along a curve: beyond, near the point that is kept, from what the model does there. Beside a curve of
-    /// touches, on one side or the other: what is touched would be met or missed by chance.
-    bool go_on_curve(const SpecialPoint& special) {
+    /// Continues a curve beyond a reordering from the motion of the model near the kept point. Guesses lie beside a
+    /// curve of touches, on both sides, because on the curve round-off decides whether the surface is reached.
+    bool continue_curve(const SpecialPoint& special) {
         constexpr double distances[] = {1e-4, 1e-5, 1e-3}; // in units of the scales
-        constexpr double share = 0.1;                      // beside the curve, of that
+        constexpr double share = 0.1;                      // offset from the curve, as a share of the distance
         const double rise = special.tangent.parameters.empty() ? 0 : special.tangent.parameters.front();
         const std::vector<double> beside = keeps_touch() ? std::vector{share, -share} : std::vector{0.0};
         for (const double distance : distances)
@@ -525,7 +526,7 @@ private:
                 for (const double aside : beside) {
                     const auto guess = reordered_beyond(state_.system(), special, state_.settings(), side * distance,
                                                         aside * distance);
-                    if (!guess || !state_.go_on_curve(*guess, side * rise < 0 ? -1 : 1, special.arclength))
+                    if (!guess || !state_.continue_curve(*guess, side * rise < 0 ? -1 : 1, special.arclength))
                         continue;
                     describe_here();
                     if (is_beyond_bounds(tests_))
@@ -535,9 +536,10 @@ private:
                 }
         return false;
     }
-    /// Whether the touch that is kept has come to an edge of its segment, beyond which it is one of another: in words.
+    /// Returns a message if the kept touch has reached an edge of its segment, beyond which it belongs to another
+    /// segment; empty otherwise.
     std::string touch_at_edge() const {
-        constexpr double at_edge = 1e-3; // share of the segment: steps have become tiny before
+        constexpr double at_edge = 1e-3; // share of the segment; the steps become very small before
         if (!keeps_touch())
             return "";
         const SpecialPoint& kept = *state_.settings().kept;
@@ -548,10 +550,10 @@ private:
                                  kept.segment + 1)
                    : "";
     }
-    /// The touch that has come to an edge of its segment, in the one beside it: there the event's function has another
-    /// second rate, but no other value or speed. Beyond the ends of a half orbit is its image, which touches the image
-    /// of the event.
-    bool go_on_in_next_segment() {
+    /// Continues a curve with the kept touch in the neighbouring segment. There the second derivative of the event
+    /// function jumps, while its value and rate are continuous. Beyond the ends of a half orbit its image touches the
+    /// image of the event.
+    bool continue_in_next_segment() {
         constexpr double distances[] = {1e-4, 1e-3, 1e-2}; // in units of the scales
         constexpr double first_step = 1e-3;
         constexpr std::size_t most = 100;
@@ -575,9 +577,10 @@ private:
             guesses.push_back(problem.orbit_of(there));
         }
         for (const Orbit& guess : guesses) {
-            if (!state_.go_on_curve(guess, rise < 0 ? -1 : 1, arclength))
+            if (!state_.continue_curve(guess, rise < 0 ? -1 : 1, arclength))
                 continue;
-            // The only segment of an orbit is its own neighbour: the touch goes on at its other end.
+            // The touch must continue at the opposite end, in the neighbouring segment or, if there is only one, in the
+            // same.
             const SpecialPoint& kept = *state_.settings().kept;
             const bool at_other_end =
                 (kept.time / guess.durations[kept.segment] < 0.5) != (share < 0.5) || kept.segment != old;
@@ -602,20 +605,20 @@ private:
         return kept && kept->type == PointType::grazing && !kept->at_end;
     }
 
-    /// Follows the orbits that have another signature beyond a point. @return false when there are none
-    bool go_on_reordered(SpecialPoint& special) {
+    /// Continues with orbits of another signature beyond a point. @return false when none are found
+    bool continue_reordered(SpecialPoint& special) {
         constexpr std::size_t most = 100;
         if (++reorderings_ > most)
             return false;
         try {
             if (state_.settings().kept) {
-                if (!go_on_curve(special))
+                if (!continue_curve(special))
                     return false;
             } else {
                 const BranchStart start = branches_at(state_.system(), special, state_.settings()).front();
-                state_.go_on(start, special.arclength);
+                state_.continue_on(start, special.arclength);
             }
-        } catch (const InputError& error) { // nothing beyond: the branch ends
+        } catch (const InputError& error) { // no orbit beyond: the branch ends
             special.detail += fmt::format("; {}", error.problem());
             return false;
         }
@@ -623,12 +626,13 @@ private:
         special.detail +=
             fmt::format("; goes on as {}", to_string(state_.model(), state_.problem().equations().signature()));
         describe_here();
-        is_regular_ = is_degenerate(state_, orbit_here(), same_orbit);
+        starts_simpler_ = is_degenerate(state_, orbit_here(), same_orbit);
         return true;
     }
 
-    /// A branch that begins at a special point of another has not found that point.
-    void drop_origin(double length) {
+    /// Removes points found at the start of a branch: a branch that begins at a special point of another must not
+    /// report that point.
+    void drop_points_at_start(double length) {
         constexpr double same_place = 1e-6;
         if (point.step == 1)
             std::erase_if(found, [&](const SpecialPoint& special) {
@@ -636,13 +640,13 @@ private:
             });
     }
 
-    /// A curve begins with orbits that the model follows; one that is a limit of such has them next to it.
+    /// True when a curve begins with inadmissible orbits, unless its first orbit is the limit of admissible ones.
     bool is_unphysical_curve(const BranchPoint& before) const {
         return state_.settings().kept && state_.settings().stop_when_unphysical &&
                !before.solution.certificate.admissible && !point.solution.certificate.admissible;
     }
 
-    /// From a resonance a curve of torus points leads one way only: the other way the pair is real at once.
+    /// True when a curve of torus points that starts at a resonance goes to the side where the pair is real.
     bool is_beyond_torus(const std::vector<BranchTest>& at_start) const {
         const auto& kept = state_.settings().kept;
         if (!kept || kept->type != PointType::torus)
@@ -652,19 +656,20 @@ private:
                 std::find_if(tests.begin(), tests.end(), [&](const auto& one) { return one.type == type; });
             return test == tests.end() ? 0 : test->value;
         };
-        // The sum of the pair, less 2 and -2: it may pass the other resonance within one step.
+        // The tests are the sum of the pair minus 2 and minus -2; the other resonance may be passed within one step.
         const bool from_one =
             std::abs(value(at_start, PointType::resonance_1)) < std::abs(value(at_start, PointType::resonance_2));
         return from_one ? value(tests_, PointType::resonance_1) > 0 : value(tests_, PointType::resonance_2) < 0;
     }
 
-    /// From a contact without speed, which is about to begin, a curve leads one way only.
+    /// True when a curve that starts at a contact of zero speed goes to the side of negative speeds.
     bool has_no_contact(const BranchPoint& before) const {
-        constexpr double without_speed = 1e-6; // of what it has got with the first step
+        constexpr double without_speed = 1e-6; // relative to the speed after the first step
         const auto& kept = state_.settings().kept;
         if (!kept || !state_.settings().stop_when_unphysical)
             return false;
-        const bool without = is_grazing(kept->type) && kept->at_end; // all along: the sign of round-off says nothing
+        // The speed is zero all along: its sign is round-off.
+        const bool without = is_grazing(kept->type) && kept->at_end;
         const auto& first = before.solution.certificate.approach_speeds;
         const auto& here = point.solution.certificate.approach_speeds;
         for (std::size_t s = 0; s < std::min(first.size(), here.size()); ++s)
@@ -674,14 +679,14 @@ private:
         return false;
     }
 
-    /// A torus leaves the orbit as long as the pair is complex.
+    /// True when a curve of torus points ends, since the pair becomes real there.
     bool ends_torus_curve(const SpecialPoint& special) const {
         return state_.settings().kept && state_.settings().kept->type == PointType::torus &&
                (special.type == PointType::resonance_1 || special.type == PointType::resonance_2);
     }
 
-    /// The branch ends in the special point itself, not beyond it.
-    void cut_after(std::size_t i) {
+    /// Moves the end of the branch to special point i.
+    void end_at(std::size_t i) {
         found.resize(i + 1);
         point.solution = found[i].solution;
         point.parameter = found[i].parameter;
@@ -690,9 +695,9 @@ private:
         point.monitors = found[i].monitors;
         point.stable = is_stable(point.solution);
     }
-    /// Why orbits beyond what was found are none that the model follows, at the end of the step or, where something
-    /// else that may change it comes before, half-way to that: of two touches the second takes back what the first did.
-    /// Empty where they are followed.
+    /// Returns why orbits beyond special point i are inadmissible; empty if they are admissible. Admissibility is
+    /// tested at the end of the step or, if another limit point follows, half-way to it, because the second may undo
+    /// the effect of the first.
     std::string unphysical_beyond(std::size_t i) {
         constexpr double apart = 1e-6; // fraction of the step
         const LastStep step = state_.last_step();
@@ -713,41 +718,41 @@ private:
         }
         return point.solution.certificate.admissible ? "" : point.solution.certificate.reason;
     }
-    /// Ends the branch where what was found says so.
-    void judge(bool was_admissible) {
+    /// Ends the branch or changes its signature at the special points found.
+    void end_or_reorder(bool was_admissible) {
         for (std::size_t i = 0; i < found.size(); ++i) {
             if (found[i].type == PointType::bound) {
-                cut_after(i);
+                end_at(i);
                 return finish(BranchOutcome::bound, "");
             }
             if (is_degenerate(state_, found[i])) {
-                found[i].detail = back_on_regular;
-                cut_after(i);
+                found[i].detail = returned_to_simpler;
+                end_at(i);
                 return finish(BranchOutcome::returned, found[i].detail);
             }
             if (ends_torus_curve(found[i])) {
-                cut_after(i);
+                end_at(i);
                 return finish(BranchOutcome::stopped, "beyond, the two multipliers are real");
             }
             if (is_among(found[i].type, state_.settings().stop_at)) {
-                cut_after(i);
+                end_at(i);
                 return finish(BranchOutcome::stopped, std::string(name_of(found[i].type)));
             }
             const bool may_end = state_.settings().stop_when_unphysical && was_admissible && rank(found[i]) >= 0;
             const std::string reason = may_end ? unphysical_beyond(i) : "";
             if (!reason.empty()) {
-                cut_after(i);
-                // What is kept in a segment is not looked for among those of another signature, but for a touch.
+                end_at(i);
+                // With another signature, a kept point that belongs to a segment is only found again if it is a touch.
                 const auto& kept = state_.settings().kept;
                 const bool reordering = state_.settings().reorder &&
                                         (!kept || !kind_of(kept->type).limits || keeps_touch()) &&
                                         !is_grazing(found[i].type);
-                if (!reordering || !go_on_reordered(found[i])) {
-                    cut_after(i); // what was tried beyond is no part of it
+                if (!reordering || !continue_reordered(found[i])) {
+                    end_at(i); // discard the attempts beyond
                     return finish(BranchOutcome::unphysical, reason);
                 }
-                if (is_beyond_bounds(tests_)) { // which lie just behind the point
-                    cut_after(i);
+                if (is_beyond_bounds(tests_)) { // a bound lies just beyond the point
+                    end_at(i);
                     finish(BranchOutcome::bound, "");
                 }
                 return;
@@ -759,17 +764,17 @@ private:
 
     BranchState state_;
     Orbit candidate_;
-    std::vector<BranchTest> tests_; ///< at the last point
+    std::vector<BranchTest> tests_; ///< tests at the last point
     PointLocator locator_;
     std::size_t reorderings_ = 0;
-    bool is_kept_point_;                      ///< a curve is to begin at the point itself, not at other parameters
-    bool came_back_ = false;                  ///< to more regular orbits, with the last step
-    bool is_regular_ = false;                 ///< an orbit several times over, or symmetric but not given by its half
-    int attempts_ = 0;                        ///< to make a step that ends before a bound, on it, or on this branch
-    std::optional<SpecialPoint> equilibrium_; ///< to which its orbits shrink, once that is known to lie ahead
-    std::optional<HopfPoint> hopf_;           ///< that may lie within the step that has just been tried
-    std::optional<HopfPoint> approached_;     ///< towards which the next step is to lead
-    std::optional<double> tried_;             ///< arclength of the point at which that was tried last
+    bool is_kept_point_;          ///< a curve begins at its kept point, not at changed parameters
+    bool returned_ = false;       ///< the last step has led to simpler orbits
+    bool starts_simpler_ = false; ///< the first orbit is a repeated orbit, or symmetric but not given as a half orbit
+    int attempts_ = 0;            ///< number of repetitions of the current step
+    std::optional<SpecialPoint> equilibrium_; ///< the equilibrium ahead to which the orbits shrink, if any
+    std::optional<HopfPoint> hopf_;           ///< Hopf point that may lie within the last attempted step
+    std::optional<HopfPoint> approached_;     ///< Hopf point that the next step approaches
+    std::optional<double> tried_;             ///< arclength at which this was tried last
     bool ended_ = true;
 };
 

@@ -11,36 +11,36 @@
 
 namespace graze {
 
-/// A number that is zero where points at which a condition holds are of a more special kind, and changes its sign
-/// there.
+/// A test function along a curve of special points: it changes its sign where the points are degenerate (codimension
+/// two).
 struct Degeneracy {
     PointType type = PointType::end;
-    double value = 0; ///< NaN where it has no meaning
-    double noise = 0; ///< up to which its sign says nothing, as it may be zero on whole curves
+    double value = 0; ///< NaN where it is not defined
+    double noise = 0; ///< magnitude up to which its sign is not significant, since it may vanish on whole curves
 };
 
-/// A number of an orbit as a function of the unknowns of its equations, with its exact gradient, that is zero where the
-/// condition holds. One thing in many roles: a monitor that is held, the speed at which an event is to be met, what
-/// vanishes at a special point and can be kept zero while another parameter varies (H. Dankowicz and F. Schilder,
-/// "Recipes for Continuation", 2013, where monitor functions have this part).
+/// A scalar function of the unknowns of an orbit's equations, with its exact gradient, that is zero where the condition
+/// holds. Conditions serve as fixed monitors, prescribed contact speeds, and conditions of special points that are held
+/// while another parameter varies (H. Dankowicz and F. Schilder, "Recipes for Continuation", 2013, where they are
+/// called monitor functions).
 class OrbitCondition {
 public:
     virtual ~OrbitCondition() = default;
 
-    /// Evaluates value and gradient. @return false where the number is not defined
+    /// Evaluates value and gradient. @return false where the function is not defined
     virtual bool evaluate(const OrbitEquations& equations, const OrbitEvaluation& at) = 0;
-    /// Called at solutions on the way along a branch: what it was made from near an earlier one is taken from here,
-    /// which changes neither where it is zero nor the sign of its value.
+    /// Called at solutions along a branch: updates auxiliary data, such as borders, from this solution. Neither the
+    /// zeros nor the sign of the value change.
     virtual void renew(const OrbitEquations&, const OrbitEvaluation&) {}
-    /// Moves it to another segment, as where the signature has changed: the same quantity there.
+    /// Moves the condition to another segment after a change of the signature.
     virtual void set_segment(std::optional<std::size_t>) {}
 
-    /// Of the points at which it holds, where it has been evaluated last: always as many, in the same order.
+    /// Returns the degeneracies at the last evaluation, always the same number in the same order.
     virtual std::vector<Degeneracy> degeneracies(const OrbitEquations&, const OrbitEvaluation&) { return {}; }
 
-    /// What there is too much; zero where the condition holds.
+    /// Value of the condition, zero where it holds.
     double value() const { return value_; }
-    /// With respect to all unknowns.
+    /// Gradient with respect to all unknowns.
     const Eigen::RowVectorXd& gradient() const { return gradient_; }
 
 protected:

@@ -22,13 +22,13 @@ double range_of(const BranchSettings& settings) {
 
 OrbitProblem::OrbitProblem(std::unique_ptr<OrbitEquations> equations)
     : equations_(std::move(equations)), at_(equations_->evaluation()), weights_(equations_->unknowns(), 1.0) {
-    // All starts together, and all durations, count as much as those of a small model: steps are as long for a large
-    // one.
-    constexpr double usual_starts = 8, usual_durations = 4;
+    // All starts together, and all durations, have at most the weight of those of a small model, so that steps are not
+    // shorter for large models.
+    constexpr double typical_starts = 8, typical_durations = 4;
     const OrbitLayout& layout = equations_->layout();
     const auto segments = static_cast<double>(layout.segments()), states = static_cast<double>(layout.states());
-    const double of_starts = std::min(1.0, usual_starts / (states * segments)),
-                 of_durations = std::min(1.0, usual_durations / segments);
+    const double of_starts = std::min(1.0, typical_starts / (states * segments)),
+                 of_durations = std::min(1.0, typical_durations / segments);
     for (std::size_t k = 0; k < layout.pieces(); ++k) {
         const std::size_t segment = layout.segment_of(k), next = layout.duration_of(k);
         const auto count = static_cast<double>(1 + layout.last_piece(segment) - layout.first_piece(segment));
@@ -91,7 +91,7 @@ bool OrbitProblem::evaluate_held() {
     return true;
 }
 
-/// Factored once for as many right-hand sides as come.
+/// Returns the factored bordered system, factoring only when the row has changed.
 const OrbitEquations::Closed& OrbitProblem::closed_by(std::span<const double> row) {
     if (std::equal(row.begin(), row.end(), row_.begin(), row_.end()))
         return closed_;

@@ -16,19 +16,19 @@
 
 namespace graze {
 
-/// The equations of a periodic orbit with a free parameter, for continuation; with monitors that are held, and as many
-/// further parameters.
+/// The equations of a periodic orbit with a free parameter as a continuation problem, optionally with held conditions
+/// and as many additional free parameters.
 class OrbitProblem : public ContinuationProblem {
 public:
     OrbitProblem(const Simulation& simulation, const Orbit& orbit, ParameterId parameter);
-    /// By any discretisation. @param equations with one free parameter
+    /// For any discretisation. @param equations with one free parameter
     explicit OrbitProblem(std::unique_ptr<OrbitEquations> equations);
-    /// With further free parameters, as many as conditions are to be held.
+    /// With additional free parameters, one for each condition that will be held.
     OrbitProblem(const Simulation& simulation, const Orbit& orbit, const BranchSettings& settings);
-    /// @param conditions which must outlive this
+    /// @param conditions must outlive this object
     void hold(std::span<const std::unique_ptr<OrbitCondition>> conditions) {
         held_ = conditions;
-        at_.unknowns.resize(0); // which has been evaluated without them
+        at_.unknowns.resize(0); // evaluated without the conditions
     }
 
     OrbitEquations& equations() { return *equations_; }
@@ -37,12 +37,12 @@ public:
     std::vector<double> unknowns_of(const Orbit& orbit);
     Orbit orbit_of(std::span<const double> u) const { return equations_->orbit_of(vector_of(u)); }
 
-    /// The evaluation that is at hand: of the last unknowns at which there was one.
+    /// The last evaluation.
     const OrbitEvaluation& evaluation() const { return at_; }
-    /// Why nothing could be evaluated or solved, if that is known.
+    /// Why the last evaluation or solution failed, if known.
     virtual std::string problem() const { return at_.problem; }
-    /// Unknowns that change as the orbit does, at the last evaluation. @throws InputError when the direction does not
-    /// fit the orbit
+    /// Converts a direction of the orbit to one of the unknowns, at the last evaluation. @throws InputError when the
+    /// direction does not fit the orbit
     std::vector<double> unknowns_of(const OrbitDirection& direction) const;
     OrbitDirection direction_of(std::span<const double> u) const { return equations_->direction_of(vector_of(u)); }
 
@@ -50,20 +50,20 @@ public:
     std::span<const double> scales() const override {
         return {equations_->scales().data(), static_cast<std::size_t>(equations_->scales().size())};
     }
-    /// Pieces of a segment count together as much as one, and inner unknowns nothing: lengths are those of the orbit,
-    /// however it is laid out. Many states or segments count together as much as a few.
+    /// All pieces of a segment together have the weight of one, and inner unknowns have none, so that lengths do not
+    /// depend on the discretisation. Many states or segments together have the weight of a few.
     std::span<const double> weights() const override { return weights_; }
-    /// The row whose product with vectors is that with a direction, in units of the scales.
+    /// Returns the row whose product with a vector is the scaled inner product with a direction.
     std::vector<double> row_of(std::span<const double> direction) const;
-    /// Asked again for where it has been evaluated last, as after Newton's method, it does nothing.
+    /// Does nothing if u is the point of the last evaluation, as after Newton's method.
     bool evaluate(std::span<const double> u) override;
     bool solve(std::span<const double> row, double right, bool homogeneous, std::span<double> step,
                double* determinant) override;
     bool has_chords() const override { return held_.empty() && equations_->has_chords(); }
-    bool derivatives_are_dear() const override { return equations_->derivatives_are_dear(); }
+    bool derivatives_are_expensive() const override { return equations_->derivatives_are_expensive(); }
     bool chord(std::span<const double> u, std::span<const double> row, std::span<double> step) override;
     void accept(std::span<const double> u) override {
-        // Scales need not be exact: what they cost is saved most of the time.
+        // Scales need not be exact, so they are renewed only every few steps.
         constexpr std::size_t renewal = 5;
         if (at_.is_at(vector_of(u)))
             for (const auto& condition : held_)
@@ -93,9 +93,9 @@ private:
     OrbitEvaluation at_;
     std::vector<double> weights_;
     std::span<const std::unique_ptr<OrbitCondition>> held_;
-    Eigen::MatrixXd rows_;      ///< gradients of the conditions that are held
-    Eigen::VectorXd residuals_; ///< how far they are off
-    std::vector<double> row_;   ///< which, with the conditions, closes the equations at the evaluation; or none
+    Eigen::MatrixXd rows_;      ///< scaled gradients of the held conditions
+    Eigen::VectorXd residuals_; ///< scaled values of the held conditions
+    std::vector<double> row_;   ///< row of the factored system `closed_`; empty: none
     OrbitEquations::Closed closed_;
     std::size_t accepted_ = 0;
 };

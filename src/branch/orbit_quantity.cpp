@@ -16,7 +16,7 @@ namespace graze {
 
 namespace {
 
-/// Nodes and weights of Gauss's rule with eight points on [0, 1].
+/// Nodes and weights of the Gauss rule with eight points on [0, 1].
 constexpr std::array<std::pair<double, double>, 8> gauss{{{0.019855071751231884, 0.05061426814518813},
                                                           {0.10166676129318664, 0.11119051722668724},
                                                           {0.2372337950418355, 0.15685332293894363},
@@ -26,7 +26,7 @@ constexpr std::array<std::pair<double, double>, 8> gauss{{{0.019855071751231884,
                                                           {0.8983332387068134, 0.11119051722668724},
                                                           {0.9801449282487681, 0.05061426814518813}}};
 
-/// An expression after a map of the states: of the map's image.
+/// Returns the composition of an expression with a map of the states.
 Expression composed(Model& model, const Expression& expression, const std::vector<Expression>& map) {
     const auto states = model.state_symbols();
     const auto images = model.expand(map);
@@ -106,7 +106,7 @@ std::optional<OrbitQuantity> OrbitQuantity::of_guard(const OrbitEquations& equat
     double least = 0;
     for (const Alternative& alternative : transition.next)
         for (const auto& condition : alternative.when) {
-            // The guard sees the state after the jump.
+            // Guards are evaluated in the state after the jump.
             const std::vector<Expression>& map = model.jumps[transition.jump].map;
             const Expression own = model.expand(condition.function);
             const Expression before = map.empty() ? own : composed(model, own, map);
@@ -121,7 +121,7 @@ std::optional<OrbitQuantity> OrbitQuantity::of_guard(const OrbitEquations& equat
     return OrbitQuantity(equations, {Quantity::end, *nearest, segment, 0, 0});
 }
 
-/// The quantity's expression and, for the second half of a symmetric orbit, the same of the image.
+/// Returns the expression of the quantity and, for half orbits, its composition with the symmetry.
 std::vector<Expression> OrbitQuantity::expressions_of(const OrbitEquations& equations, const Description& description) {
     if (description.quantity == Quantity::duration)
         return {};
@@ -191,7 +191,7 @@ std::vector<std::size_t> OrbitQuantity::pieces(const OrbitLayout& layout) const 
     return result;
 }
 
-/// With respect to states, then free parameters.
+/// Returns the gradient with respect to states, then free parameters, and sets the value.
 Eigen::VectorXd OrbitQuantity::gradient_at(const OrbitEquations& equations, const OrbitEvaluation& at,
                                            const Watched& watched, std::vector<double> state, double& value) const {
     state.insert(state.end(), at.parameters.begin(), at.parameters.end());
@@ -227,19 +227,20 @@ bool OrbitQuantity::duration(const OrbitEquations& equations, const OrbitEvaluat
     return true;
 }
 
-/// A touch is the one that is nearest in time: also across the section at which a motion without contacts is closed.
-double OrbitQuantity::off_touch(const OrbitEquations& equations, double share) const {
+/// Returns the distance in time from the previous touch, as a share of the period, measured cyclically for an orbit
+/// without contacts.
+double OrbitQuantity::distance_from_touch(const OrbitEquations& equations, double share) const {
     const double off = std::abs(share - share_);
-    const bool goes_round =
+    const bool is_cyclic =
         equations.signature().size() == 1 && equations.signature()[0].end != SegmentEnd::event && !equations.symmetry();
-    return goes_round ? std::min(off, std::abs(1 - off)) : off;
+    return is_cyclic ? std::min(off, std::abs(1 - off)) : off;
 }
 
 std::optional<OrbitQuantity::Place> OrbitQuantity::find_extremum(const OrbitEquations& equations,
                                                                  const OrbitEvaluation& at) {
     const bool touch = quantity_ == Quantity::touch;
     const double sign = quantity_ == Quantity::maximum ? 1 : -1;
-    double whole = 0, before = 0; // durations: of all pieces, of those that have been looked at
+    double whole = 0, before = 0; // durations of all pieces, and of the previous ones
     for (const std::size_t k : pieces(equations.layout()))
         whole += at.unknowns[index(equations.layout().duration_of(k))];
     const std::size_t n = equations.layout().states();
@@ -249,7 +250,7 @@ std::optional<OrbitQuantity::Place> OrbitQuantity::find_extremum(const OrbitEqua
     for (const std::size_t k : pieces(equations.layout())) {
         const auto note = [&](std::size_t watched, double time, bool at_end, double value) {
             const double share = (before + time) / whole;
-            const double preference = touch ? -off_touch(equations, share) : sign * value;
+            const double preference = touch ? -distance_from_touch(equations, share) : sign * value;
             if (std::isfinite(preference) && (!best || preference > best->preference))
                 best = Place{watched, k, time, at_end, value, preference, share};
         };
@@ -268,13 +269,13 @@ std::optional<OrbitQuantity::Place> OrbitQuantity::find_extremum(const OrbitEqua
                 if (!touch)
                     note(watched.series, time, false, coefficients[0]);
                 if (length < 0)
-                    continue; // of a segment that has no meaning, the ends are enough
+                    continue; // for a segment of negative duration only the ends are evaluated
                 roots_.crossings(derivative, length, RootStart::as_is, found);
                 for (const Root& root : found)
                     note(watched.series, time + root.at, false, evaluate_polynomial(coefficients, root.at));
             }
         });
-        if (!touch) // not by the last step's end, which round-off may put beside it
+        if (!touch) // evaluated at the exact end, from which the end of the last step may differ by round-off
             for (const Watched& watched : watched_) {
                 double value = 0;
                 gradient_at(equations, at, watched, state, value);
@@ -291,7 +292,7 @@ bool OrbitQuantity::extremum(const OrbitEquations& equations, const OrbitEvaluat
         return false;
     const auto n = index(equations.layout().states()), q = index(equations.free().size());
     const Watched& watched = watched_[place->watched];
-    if (place->at_end) { // ends with its segment, however long that takes
+    if (place->at_end) { // the extremum moves with the end of the segment
         const Eigen::VectorXd by_all = gradient_at(equations, at, watched, at.pieces[place->piece].end, value_);
         gradient_ = equations.row_at_end(at, place->piece, by_all);
         return true;
@@ -309,7 +310,7 @@ bool OrbitQuantity::extremum(const OrbitEquations& equations, const OrbitEvaluat
     return true;
 }
 
-/// Integrals of the function and of its changes, by Gauss's rule on each Taylor step.
+/// Integrates the function and its derivatives by the Gauss rule on each Taylor step.
 bool OrbitQuantity::mean(const OrbitEquations& equations, const OrbitEvaluation& at) {
     const auto n = index(equations.layout().states()), q = index(equations.free().size());
     double integral = 0, time = 0;

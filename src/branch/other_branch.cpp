@@ -9,7 +9,7 @@ namespace graze {
 
 namespace {
 
-/// First distance onto another branch, in units of the scales.
+/// Scaled distance of the first point on another branch.
 constexpr double first_distance = 1e-2;
 
 } // namespace

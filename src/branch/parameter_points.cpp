@@ -10,17 +10,18 @@
 
 namespace graze {
 
-// Extrema of the period. Where a parameter fixes it, as the frequency of a force, it turns with the parameter at each
-// fold, which says nothing more. A parameter that stands still, as the damping of a conservative model, fixes nothing.
+// Extrema of the period. If a parameter such as the forcing frequency determines the period, its extrema are the folds
+// and are not reported. A parameter that is constant along the branch, as the damping of a conservative model, does not
+// determine it.
 
 void test_extremum(const TestedPoint& point, std::vector<BranchTest>& tests) {
-    constexpr double least_change = 1e-8; // in units of the period: less is round-off
+    constexpr double least_change = 1e-8; // share of the period: smaller values are round-off
     const OrbitLayout& layout = point.equations.layout();
     BranchTest test{.type = PointType::extremum, .noise = least_change * point.at.scales[index(layout.duration_of(0))]};
     for (std::size_t k = 0; k < layout.pieces(); ++k)
         test.value += point.tangent[layout.duration_of(k)];
     tests.push_back(test);
-    constexpr double least_rise = 1e-8; // of a parameter's share in the direction of a curve
+    constexpr double least_rise = 1e-8; // share of a parameter in the tangent of a curve
     for (std::size_t f = 0; point.settings.kept && f < layout.free(); ++f)
         tests.push_back({.type = PointType::extremum,
                          .value = point.tangent[layout.parameter(f)],
@@ -30,9 +31,9 @@ void test_extremum(const TestedPoint& point, std::vector<BranchTest>& tests) {
 
 namespace {
 
-/// A parameter is greatest or least on a curve, where not all are at once, as in a cusp.
-bool confirm_turn(BranchState& state, SpecialPoint& special, std::size_t parameter) {
-    constexpr double standing = 1e-5; // share of the parameters in the direction of the curve
+/// Confirms an extremum of a parameter on a curve, unless all parameters have one, as at a cusp.
+bool confirm_parameter_extremum(BranchState& state, SpecialPoint& special, std::size_t parameter) {
+    constexpr double constant = 1e-5; // smallest share of the parameters in the tangent
     const OrbitProblem& problem = state.problem();
     const std::vector<double>& rises = special.tangent.parameters;
     const OrbitLayout& layout = problem.equations().layout();
@@ -42,27 +43,27 @@ bool confirm_turn(BranchState& state, SpecialPoint& special, std::size_t paramet
     const std::size_t place = problem.equations().free()[parameter].place();
     special.detail = fmt::format("{} = {:.10g}", state.model().independent_parameters()[place],
                                  special.solution.orbit.parameters[place]);
-    return special.located && greatest > standing;
+    return special.located && greatest > constant;
 }
 
 } // namespace
 
 namespace {
 
-/// Whether a parameter turns at a point of the last step.
-bool turns(BranchState& state, const SpecialPoint& special, std::size_t parameter) {
-    constexpr double turning = 1e-5;  // share of the parameter where it turns, of what it is beside that
-    constexpr double standing = 1e-8; // in units of the scales: what moves less is round-off
+/// True when a parameter has an extremum at a point of the last step.
+bool has_extremum(BranchState& state, const SpecialPoint& special, std::size_t parameter) {
+    constexpr double turning = 1e-5;  // ratio of the tangent component at the extremum to that at the ends of the step
+    constexpr double constant = 1e-8; // scaled tangent component below which the parameter is constant
     const OrbitLayout& layout = state.problem().equations().layout();
     const std::size_t place = layout.parameter(parameter);
     const double beside = std::max(std::abs(state.continuation().previous().tangent[place]),
                                    std::abs(state.continuation().point().tangent[place]));
-    return beside > standing * state.problem().scales()[place] &&
+    return beside > constant * state.problem().scales()[place] &&
            std::abs(special.tangent.parameters[parameter]) < turning * beside;
 }
 
-/// Whether an angle that goes round at a rate of its own, as the phase of a force, takes a state along the orbit, and
-/// the rate depends on one of the parameters that vary at most: the period can turn only where that parameter does.
+/// True when a cyclic state, such as the phase of a force, has a rate that depends on no states and on at most one
+/// varying parameter: then the period has an extremum only where that parameter does.
 bool follows_force(BranchState& state, const Orbit& orbit) {
     const OrbitEquations& equations = state.problem().equations();
     const System& system = state.system();
@@ -99,12 +100,12 @@ bool follows_force(BranchState& state, const Orbit& orbit) {
 
 bool confirm_extremum(BranchState& state, SpecialPoint& special, const BranchTest& test) {
     if (test.parameter)
-        return confirm_turn(state, special, *test.parameter);
+        return confirm_parameter_extremum(state, special, *test.parameter);
     if (follows_force(state, special.solution.orbit))
         return false;
     const std::size_t varied = state.settings().kept ? special.tangent.parameters.size() : 1;
     for (std::size_t parameter = 0; parameter < varied; ++parameter)
-        if (turns(state, special, parameter))
+        if (has_extremum(state, special, parameter))
             return false;
     special.detail = fmt::format("period = {:.10g}", special.solution.orbit.period());
     return special.located;

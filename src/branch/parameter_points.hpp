@@ -4,7 +4,7 @@
 
 namespace graze {
 
-// Points at which periods, parameters and monitors have extrema or values that were asked for: see PointRule.
+// Tests and confirmation of extrema of periods and parameters, and of requested values of monitors: see PointRule.
 
 void test_extremum(const TestedPoint& point, std::vector<BranchTest>& tests);
 bool confirm_extremum(BranchState& state, SpecialPoint& special, const BranchTest& test);

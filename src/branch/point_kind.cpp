@@ -23,7 +23,7 @@ int always(const SpecialPoint&) {
     return Rank;
 }
 
-/// Entries that have no function are written without one.
+/// The table of all kinds, in the order of PointType; functions that a kind does not have stay null.
 constexpr std::array table{
     PointRule{.kind = {.type = PointType::fold,
                        .short_name = "SN",
@@ -273,7 +273,7 @@ namespace {
 
 constexpr std::string_view digits = "0123456789";
 
-/// Between a type and a number, where the one ends with a digit.
+/// Returns "-" if a type ends with a digit, to separate it from the number.
 std::string_view separator_after(std::string_view type) {
     return digits.find(type.back()) != std::string_view::npos ? "-" : "";
 }
@@ -295,12 +295,13 @@ bool is_point_label(std::string_view text) {
 
 namespace {
 
-/// Segments after one that take no time.
-std::size_t without_time_after(const Orbit& orbit, std::size_t segment) {
-    constexpr double nothing = 1e-8; // of a round: what is located is known far better
+/// Returns the number of segments of zero duration after a segment.
+std::size_t zero_durations_after(const Orbit& orbit, std::size_t segment) {
+    constexpr double nothing = 1e-8; // share of the period; located points are far more accurate
     const std::size_t count = orbit.durations.size();
     std::size_t result = 0;
-    while (result + 1 < count && std::abs(orbit.durations[(segment + result + 1) % count]) < nothing * orbit.round())
+    while (result + 1 < count &&
+           std::abs(orbit.durations[(segment + result + 1) % count]) < nothing * orbit.return_time())
         ++result;
     return result;
 }
@@ -314,7 +315,7 @@ std::optional<HeldLimit> held_limit_of(const SpecialPoint& point) {
         if (!point.at_end)
             return held(HeldLimit::Kind::touch);
         return HeldLimit{HeldLimit::Kind::stop, point.segment, point.event,
-                         without_time_after(point.solution.orbit, point.segment)};
+                         zero_durations_after(point.solution.orbit, point.segment)};
     case PointType::vanishing:
         return held(HeldLimit::Kind::vanishing);
     case PointType::guard:

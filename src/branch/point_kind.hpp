@@ -16,42 +16,43 @@ namespace graze {
 
 class BranchState;
 
-/// Whether points of a type are touches, or contacts without speed, on branches or on curves of such.
+/// True for touches and contacts of zero speed, on branches and on curves of touches.
 inline bool is_grazing(PointType type) {
     return type == PointType::grazing || type == PointType::double_grazing;
 }
 
-/// A function along a branch whose change of sign means that something happens.
+/// A test function along a branch: a change of its sign indicates a special point.
 struct BranchTest {
     PointType type = PointType::end;
     std::size_t segment = 0, event = 0;
-    double value = 0;    ///< NaN where it has no meaning, as the least value of a gap that only grows
-    double noise = 0;    ///< up to which its sign says nothing, since on whole branches it may be zero
-    double time = 0;     ///< of an interior minimum
-    bool at_end = false; ///< of grazing: the segment's own event
-    double rate = 0;     ///< of two_events: of the other event's function
-    /// Of bound and crossing: which monitor, and which of its crossings. None for bounds of parameters.
+    double value = 0;    ///< NaN where it is not defined, as the minimum of a gap that only grows
+    double noise = 0;    ///< magnitude up to which its sign is not significant, since it may vanish on whole branches
+    double time = 0;     ///< time of an interior minimum
+    bool at_end = false; ///< for grazing: the event that ends the segment
+    double rate = 0;     ///< for two_events: rate of the other event's function
+    /// For bound and crossing: index of the monitor, and of its crossing. Empty for bounds of parameters.
     std::optional<std::size_t> monitor = std::nullopt;
     std::size_t crossing = 0;
-    std::optional<std::size_t> free = std::nullopt;      ///< of bound: which of the settings' free bounds
-    std::optional<std::size_t> parameter = std::nullopt; ///< of extremum: which that varies; none: the period
-    bool singular = false;                               ///< the equations cannot be solved where it is zero
-    bool appears = false; ///< it may lose its meaning at a negative value, which has then become one within the step
+    std::optional<std::size_t> free = std::nullopt; ///< for bound: index in BranchSettings::free_bounds
+    /// For extremum: index of the varying parameter; empty: the period.
+    std::optional<std::size_t> parameter = std::nullopt;
+    bool singular = false; ///< the equations are singular at the zero
+    bool appears = false;  ///< the value may become undefined while negative; it then counts as a zero within the step
 };
 
-/// A point of a branch as its test functions see it.
+/// The data of a branch point that test functions use.
 struct TestedPoint {
     const OrbitEquations& equations;
     const OrbitEvaluation& at;
     const OrbitSolution& solution;
-    std::span<const double> tangent; ///< of the unknowns
-    double determinant;              ///< of the equations bordered by the tangent
+    std::span<const double> tangent; ///< tangent of the unknowns
+    double determinant;              ///< determinant of the equations bordered by the tangent
     std::span<const double> monitors;
     const BranchSettings& settings;
-    std::span<const Degeneracy> degeneracies; ///< of the points that a curve keeps
+    std::span<const Degeneracy> degeneracies; ///< degeneracies of the points along a curve
 };
 
-/// Whether points of this type are what the branch is a curve of: then the test is zero all along it.
+/// True when the branch is a curve of points of this type, so that the test is zero all along it.
 inline bool is_kept(const TestedPoint& point, PointType type) {
     return point.settings.kept && point.settings.kept->type == type;
 }
@@ -59,32 +60,33 @@ inline bool is_kept(const TestedPoint& point, PointType type, std::size_t segmen
     return is_kept(point, type) && point.settings.kept->segment == segment && point.settings.kept->event == event;
 }
 
-/// One kind of special points, all that is done for it: what the table has an entry for.
+/// A kind of special points with all its functions: an entry of the table.
 struct PointRule {
     PointKind kind;
-    /// Adds its test functions, always as many for one signature. Null: it is not looked for.
+    /// Adds its test functions, always the same number for one signature. Null: not detected.
     void (*test)(const TestedPoint& point, std::vector<BranchTest>& tests) = nullptr;
-    /// Whether a located zero means what its test stands for; puts it into words. Null: if it has been located.
+    /// Confirms a located zero of the test and sets `detail`. Null: confirmed if located.
     bool (*confirm)(BranchState& state, SpecialPoint& special, const BranchTest& test) = nullptr;
-    /// Of several things at one place, the one that tells most has the lowest rank. Null: it excludes no other.
+    /// Rank among several points at the same place: the lowest is kept. Null: it excludes no other.
     int (*rank)(const SpecialPoint& point) = nullptr;
-    /// What is zero at it, as a condition that can be held: the same thing in the other role. Null: it has none, as a
-    /// branch point, of which any change of the equations leaves nothing; none: not for this point.
+    /// Returns the condition that holds the point along a curve. Null: there is none, as for branch points, which
+    /// disappear under perturbation. Returns null if not available for this point.
     std::unique_ptr<OrbitCondition> (*condition)(const OrbitEquations& equations, const OrbitEvaluation& at,
                                                  const SpecialPoint& point) = nullptr;
-    /// Where one can go on from it. Null: nowhere.
+    /// Returns the branches that leave the point. Null: none.
     std::vector<BranchStart> (*leave)(const System& system, const SpecialPoint& point,
                                       const BranchSettings& settings) = nullptr;
 };
 
-/// All of them, in the order of their types: a new kind of special points is one more entry.
+/// Returns all rules, in the order of their types: a new kind of special points is one more entry.
 std::span<const PointRule> point_rules();
 const PointRule& rule_of(PointType type);
 
-/// To what an orbit is held by a point's condition, of what decides whether it is admissible.
+/// Returns the constraint by which a point's condition places its orbits at the limit of admissibility; empty if it
+/// does not.
 std::optional<HeldLimit> held_limit_of(const SpecialPoint& point);
 
-/// All test functions at a point, always in the same order for one signature.
+/// Returns all test functions at a point, always in the same order for one signature.
 std::vector<BranchTest> branch_tests(const TestedPoint& point);
 
 } // namespace graze

@@ -14,15 +14,15 @@ namespace graze {
 namespace {
 
 constexpr int most_locating_steps = 60;
-/// Fraction of a step to which points are located.
+/// Accuracy of located points, as a fraction of the step.
 constexpr double located_within = 1e-13;
-/// Fraction of a step by which what is located on a bound may lie beyond it.
+/// Tolerance of points located on a bound, as a fraction of the step.
 constexpr double on_bound = 1e-8;
 
-/// Of a least value that appears in an arc, or vanishes from it, whether it does so elsewhere than at zero: as where an
-/// event's function has begun to rise from beyond its surface, which changes nothing.
+/// True when a minimum that appears in an arc or disappears from it does so at a nonzero value, as where an event
+/// function starts to rise beyond its surface: this is not a touch.
 bool is_jump(const BranchTest& touch) {
-    constexpr double zero = 1e-5; // of the function's size along the arc
+    constexpr double zero = 1e-5; // share of the function's size along the arc
     return is_grazing(touch.type) && !touch.at_end && std::abs(touch.value) * smallest_clearance > zero * touch.noise;
 }
 
@@ -55,16 +55,16 @@ std::vector<SpecialPoint> PointLocator::locate_all(const BranchPoint& before, co
         }
     }
     merge(found, length);
-    drop_crossings_of_nothing(*state_, found, length);
+    drop_spurious_crossings(*state_, found, length);
     drop_multipliers_of_resonances(found, length);
     drop_parts_of_sensitivity(found, length);
-    drop_folds_of_return(*state_, found, length);
-    drop_turns_at_branch_points(found, length);
+    drop_folds_at_return(*state_, found, length);
+    drop_folds_at_branch_points(found, length);
     state_->problem().evaluate(state_->continuation().point().u);
     return found;
 }
 
-/// What happens on a bound happens before the branch ends there.
+/// Sorts points by arclength; a point on a bound comes before the bound, which ends the branch.
 void PointLocator::sort_by_place(std::vector<SpecialPoint>& found) const {
     const Continuation& continuation = state_->continuation();
     const double length = continuation.point().arclength - continuation.previous().arclength;
@@ -77,11 +77,11 @@ void PointLocator::sort_by_place(std::vector<SpecialPoint>& found) const {
 
 void PointLocator::add_missed(std::vector<SpecialPoint>& found, const BranchPoint& before,
                               const std::vector<BranchTest>& tests) {
-    constexpr double beside = 1e-4; // fraction of the step: where contacts end determinants vanish for that reason
+    constexpr double beside = 1e-4; // fraction of the step: determinants vanish where a contact disappears
     constexpr double same_place = 1e-7;
     const BranchSettings& settings = state_->settings();
     if (settings.kept || !settings.free.empty() || tests.size() != tests_->size())
-        return; // there folds need no multiplier
+        return; // on curves and with fixed monitors, folds need no multiplier 1
     const double from = before.arclength, length = point_->arclength - from;
     if (!(length > 0))
         return;
@@ -106,7 +106,7 @@ void PointLocator::add_missed(std::vector<SpecialPoint>& found, const BranchPoin
         return locate(test, first, last);
     };
     for (SpecialPoint& one : missed_points(*state_, low, high, known, locate_test)) {
-        // Where more cross than its test has told of, the one that says so takes the place of the other.
+        // A report of several crossings replaces the single point that a test has found there.
         std::erase_if(found, [&](const SpecialPoint& other) {
             return other.type == one.type && std::abs(other.arclength - one.arclength) < same_place * length;
         });
@@ -125,7 +125,7 @@ void PointLocator::note(SpecialPoint& special, const BranchPoint& before, bool s
         special.solution.error = state_->error_of(special.solution.orbit, special.tangent);
 }
 
-/// Bounds that the branch has crossed before a point that was found, to come back within the same step.
+/// Adds bounds that the branch crosses before a found point and crosses back within the same step.
 void PointLocator::add_bounds_before(std::vector<SpecialPoint>& found, const std::vector<BranchTest>& tests) {
     const LastStep step = state_->last_step();
     const std::vector<SpecialPoint> all = found;
@@ -149,7 +149,7 @@ void PointLocator::add_bounds_before(std::vector<SpecialPoint>& found, const std
     }
 }
 
-/// By more than what its location leaves uncertain.
+/// True when a point lies beyond a bound by more than the accuracy of its location.
 bool PointLocator::is_beyond(const SpecialPoint& special, const std::vector<BranchTest>& tests) const {
     if (special.type == PointType::bound)
         return false;
@@ -176,7 +176,7 @@ bool PointLocator::misses_bound(const std::vector<SpecialPoint>& found, const st
     return is_beyond_bounds(*tests_);
 }
 
-/// At the end of what is admissible round-off would decide: the limit of admissible orbits is one.
+/// Marks a limit point as admissible if orbits on one side are: at the limit round-off would decide.
 void PointLocator::accept_limit(SpecialPoint& special, bool was_admissible) const {
     Certificate& certificate = special.solution.certificate;
     if (rank(special) < 0 || certificate.admissible)
@@ -186,7 +186,7 @@ void PointLocator::accept_limit(SpecialPoint& special, bool was_admissible) cons
         certificate.reason.clear();
 }
 
-/// Parts of the last step in which a test changes its sign.
+/// Returns the parts of the last step in which a test changes its sign.
 std::vector<std::pair<TestValue, TestValue>> PointLocator::brackets_of(std::size_t test, double before) {
     const TestValue low{0, before}, high{1, (*tests_)[test].value};
     const double noise = (*tests_)[test].noise;
@@ -195,12 +195,12 @@ std::vector<std::pair<TestValue, TestValue>> PointLocator::brackets_of(std::size
     const bool vanished = appears && std::isnan(high.value) && low.value < -noise;
     if (std::abs(low.value) <= noise && std::abs(high.value) <= noise && noise > 0)
         return {};
-    // Orbits that touch several times are often simpler ones gone round more than once, which touch each time: what
-    // comes down to zero touches too, and is met only beyond.
+    // Orbits with several touches are often simpler ones traversed repeatedly. A test that reaches zero is then the
+    // same touch, which becomes a contact only beyond.
     const bool is_zero = std::abs(low.value) <= noise || std::abs(high.value) <= noise;
     if ((*tests_)[test].type == PointType::double_grazing && is_zero && noise > 0)
         return {};
-    // What begins on a bound may lie beyond it by round-off, and comes within.
+    // A branch that begins on a bound may lie beyond it by round-off.
     if ((*tests_)[test].type == PointType::bound && !(low.value > 0))
         return {};
     if (low.value * high.value < 0 || appeared || vanished || (high.value == 0 && low.value != 0))
@@ -235,15 +235,15 @@ std::optional<SpecialPoint> PointLocator::locate(std::size_t test, const TestVal
     if (std::optional<SpecialPoint> beside = locate_by_crossing(test, low, high))
         return beside;
     if (special && special->type == PointType::bound)
-        return std::nullopt; // to be asked for again with shorter steps
+        return std::nullopt; // the caller repeats the step with a shorter one
     if (special)
         special->located = false;
     return special;
 }
 
-/// The zero of a test within the last step, by the secant method kept within a bracket (M. Dowell and
-/// P. Jarratt's Illinois variant of regula falsi, 1971). A value without meaning, as where a minimum does not exist
-/// yet, counts as positive but of unknown size.
+/// The zero of a test within the last step, by the secant method kept within a bracket (M. Dowell and P. Jarratt's
+/// Illinois variant of regula falsi, 1971). An undefined value, as where a minimum does not exist yet, counts as
+/// positive but of unknown size.
 std::optional<SpecialPoint> PointLocator::locate_zero(std::size_t test, const TestValue& begin, const TestValue& end,
                                                       bool& complete) {
     double low = begin.fraction, low_value = begin.value, high = end.fraction, high_value = end.value;
@@ -253,10 +253,10 @@ std::optional<SpecialPoint> PointLocator::locate_zero(std::size_t test, const Te
     BranchPoint there;
     std::vector<BranchTest> tests;
     bool found_any = false;
-    std::optional<BranchTest> last; // of those whose value has a meaning
+    std::optional<BranchTest> last; // last test with a defined value
     int side = 0;
     for (int i = 0; i < most_locating_steps && high - low > located_within; ++i) {
-        fraction = low - low_value * (high - low) / (high_value - low_value); // NaN if one of them is
+        fraction = low - low_value * (high - low) / (high_value - low_value); // NaN if one value is NaN
         if (!(fraction > low && fraction < high) || i % 8 == 7)
             fraction = 0.5 * (low + high);
         if (!state_->continuation().between(fraction, at) || !state_->describe(at, there, tests)) {
@@ -283,16 +283,16 @@ std::optional<SpecialPoint> PointLocator::locate_zero(std::size_t test, const Te
     }
     if (!found_any || (last && is_jump(*last)))
         return std::nullopt;
-    if (last && std::isnan(tests[test].value)) // where it was as long as it had a meaning
+    if (last && std::isnan(tests[test].value)) // use the last defined time
         tests[test].time = last->time;
     return special_at(there, tests[test], size);
 }
 
-/// Where another branch crosses, at which determinants are zero, or beside that.
+/// Locates a zero at or near the crossing with another branch, where determinants vanish.
 std::optional<SpecialPoint> PointLocator::locate_by_crossing(std::size_t test, const TestValue& low,
                                                              const TestValue& high) {
-    constexpr double shortened = 0.25, shortest = 1e-3;
-    constexpr double solved = 1e-8; // in units of the scales
+    constexpr double reduction = 0.25, shortest = 1e-3;
+    constexpr double solved = 1e-8; // scaled residual
     BranchPoint there;
     std::vector<BranchTest> tests;
     const PointTest value = [&](const ContinuationPoint& sample) {
@@ -301,26 +301,26 @@ std::optional<SpecialPoint> PointLocator::locate_by_crossing(std::size_t test, c
         return state_->describe(sample, there, tests) ? tests[test].value : std::numeric_limits<double>::quiet_NaN();
     };
     std::optional<ContinuationPoint> at = locate_crossing(state_->continuation(), value, low, high);
-    // Within a part of the step another crossing may be near.
+    // Another crossing may be near, outside this part of the step.
     const bool is_part = high.fraction - low.fraction < 1;
-    for (double reach = shortened; is_part && !at && reach > shortest; reach *= shortened)
+    for (double reach = reduction; is_part && !at && reach > shortest; reach *= reduction)
         at = locate_crossing(state_->continuation(), value, low, high, reach);
     if (!at || !state_->describe(*at, there, tests))
         return std::nullopt;
-    // Samples of two branches that come near without crossing are on no polynomial that solves anything.
+    // If two nearby branches do not cross, the interpolated point does not satisfy the equations.
     if ((*tests_)[test].singular && !(state_->problem().evaluation().residual < solved))
         return std::nullopt;
     return special_at(there, tests[test], std::max(std::abs(low.value), std::abs(high.value)));
 }
 
-/// @param size of the test at the ends of the bracket
+/// Returns the special point of a zero, if it is confirmed. @param size of the test at the ends of the bracket
 std::optional<SpecialPoint> PointLocator::special_at(const BranchPoint& there, const BranchTest& here, double size) {
     SpecialPoint special = special_of_type(here.type, there);
     special.segment = here.segment;
     special.event = here.event;
     special.time = here.time;
     special.at_end = here.at_end;
-    // A zero, not a jump: the value there must be small against those at the ends.
+    // A zero, not a discontinuity: the value must be small against those at the ends.
     special.located = std::abs(here.value) <= 1e-3 * size;
     const auto confirm = rule_of(here.type).confirm;
     const bool confirmed = confirm ? confirm(*state_, special, here) : special.located;

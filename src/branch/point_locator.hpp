@@ -9,23 +9,23 @@
 
 namespace graze {
 
-/// Finds what happens within the last step of a branch.
+/// Finds the special points within the last step of a branch.
 class PointLocator {
 public:
-    /// @param tests at the last point
+    /// @param point the last point; @param tests the tests there
     PointLocator(BranchState& state, const BranchPoint& point, const std::vector<BranchTest>& tests)
         : state_(&state), point_(&point), tests_(&tests) {}
 
-    /// All special points within the step, in their order.
-    /// @param before the point from which the step was made; @param tests those there
+    /// Returns all special points within the step, in the order of the branch.
+    /// @param before the start point of the step; @param tests the tests there
     std::vector<SpecialPoint> locate_all(const BranchPoint& before, const std::vector<BranchTest>& tests);
-    /// Adds points where multipliers cross that no test has told of, as two of them that cross within the step.
-    /// @param found those of `locate_all`
+    /// Adds points at which multipliers cross without a sign change of a test, as two of them within one step.
+    /// @param found points of `locate_all`
     void add_missed(std::vector<SpecialPoint>& found, const BranchPoint& before, const std::vector<BranchTest>& tests);
-    /// Whether the last step has gone beyond a bound although no point on it was found: by its end, or by one of those
-    /// that were found. @param tests at the point from which the step was made
+    /// True when the end of the step, or a found point, lies beyond a bound although no point on the bound was found.
+    /// @param tests at the start point of the step
     bool misses_bound(const std::vector<SpecialPoint>& found, const std::vector<BranchTest>& tests) const;
-    /// What was known of earlier points is of no use for other equations.
+    /// Forgets earlier tests, after a change of the equations.
     void forget() { older_.clear(); }
 
 private:
@@ -44,7 +44,7 @@ private:
     BranchState* state_;
     const BranchPoint* point_;
     const std::vector<BranchTest>* tests_;
-    std::vector<BranchTest> older_; ///< at the point before the one from which the step was made
+    std::vector<BranchTest> older_; ///< tests at the start point of the previous step
     double older_arclength_ = 0;
 };
 

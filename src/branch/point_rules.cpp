@@ -16,12 +16,12 @@ int rank(const SpecialPoint& point) {
 
 namespace {
 
-/// Whether an orbit without contacts is where it began after half of its time. Its cuts need not be at the same place.
+/// True when an orbit without contacts returns to its start after half its period; its cuts may lie elsewhere.
 bool repeats_in_half(BranchState& state, const Orbit& orbit, double same) {
     ModeFlow flow = flow_of(state.problem().equations().simulation());
     flow.set_parameters(orbit.parameters);
     std::vector<double> there = orbit.starts.front();
-    if (flow.run(orbit.signature.front().mode, there, 0.5 * orbit.round()) != ModeFlow::Ending::done)
+    if (flow.run(orbit.signature.front().mode, there, 0.5 * orbit.return_time()) != ModeFlow::Ending::done)
         return false;
     const auto& active = state.problem().evaluation().active;
     return std::all_of(active.begin(), active.end(), [&](std::size_t i) {
@@ -78,28 +78,28 @@ void merge(std::vector<SpecialPoint>& found, double length) {
 
 namespace {
 
-/// Whether the equations are singular at a point of the last step, as they are where a contact vanishes by taking no
-/// time: known from their determinant there, against those at the ends of the step.
+/// True when the equations are singular at a point of the last step, as where a segment's duration vanishes, judged by
+/// the determinant there against those at the ends of the step.
 bool is_singular_at(BranchState& state, const SpecialPoint& point) {
-    constexpr double zero = 1e-3; // share of what it is at the ends
+    constexpr double zero = 1e-3; // share of the determinant at the ends
     Continuation& continuation = state.continuation();
-    const double usual =
+    const double typical =
         std::max(std::abs(continuation.previous().determinant), std::abs(continuation.point().determinant));
     ContinuationPoint there;
     return !continuation.between(state.last_step().fraction(point.arclength), there) ||
-           std::abs(there.determinant) < zero * usual;
+           std::abs(there.determinant) < zero * typical;
 }
 
 } // namespace
 
-void drop_crossings_of_nothing(BranchState& state, std::vector<SpecialPoint>& found, double length) {
-    constexpr double near = 0.05; // share of the step: determinants are ill-conditioned there
+void drop_spurious_crossings(BranchState& state, std::vector<SpecialPoint>& found, double length) {
+    constexpr double near = 0.05; // share of the step within which determinants are ill-conditioned
     constexpr double same_place = 1e-6;
     const bool on_curve = state.settings().kept.has_value();
     const std::vector<SpecialPoint> all = found;
     std::erase_if(found, [&](const SpecialPoint& one) {
         const bool crossing = one.type == PointType::branch_point || one.type == PointType::asymmetry;
-        // On curves the equations without what is held may be singular there, which are those that folds are told by.
+        // On curves, folds are detected by the equations without the held condition, which may be singular there.
         const bool multiplier = on_curve && (one.type == PointType::fold || one.type == PointType::flip ||
                                              one.type == PointType::fold_flip);
         return (crossing || multiplier) && std::any_of(all.begin(), all.end(), [&](const auto& other) {
@@ -148,8 +148,8 @@ void drop_parts_of_sensitivity(std::vector<SpecialPoint>& found, double length) 
     });
 }
 
-void drop_folds_of_return(BranchState& state, std::vector<SpecialPoint>& found, double length) {
-    constexpr double near = 0.05; // share of the step: both are located where they are ill-conditioned
+void drop_folds_at_return(BranchState& state, std::vector<SpecialPoint>& found, double length) {
+    constexpr double near = 0.05; // share of the step: both points are ill-conditioned
     for (std::size_t i = 0; i < found.size(); ++i) {
         if (!is_degenerate(state, found[i]))
             continue;
@@ -161,8 +161,8 @@ void drop_folds_of_return(BranchState& state, std::vector<SpecialPoint>& found, 
     }
 }
 
-void drop_turns_at_branch_points(std::vector<SpecialPoint>& found, double length) {
-    constexpr double same_place = 2e-3; // share of the step: a fold is ill-conditioned beside a branch point
+void drop_folds_at_branch_points(std::vector<SpecialPoint>& found, double length) {
+    constexpr double same_place = 2e-3; // share of the step: a fold is ill-conditioned near a branch point
     for (std::size_t i = 0; i < found.size(); ++i) {
         if (found[i].type != PointType::branch_point)
             continue;

@@ -17,22 +17,22 @@ namespace graze {
 
 namespace {
 
-/// How far beyond the point the model's motion is looked at, in units of the scales.
+/// Scaled distances beyond the point at which the motion of the model is tried.
 constexpr double distances[] = {1e-4, 1e-5, 1e-3, 1e-6};
 
-/// Which rounds of the model's motion are taken for an orbit.
-struct Rounds {
-    int before; ///< rounds that pass first: beyond a guard the first one still begins in the mode of the old orbit
-    int taken;  ///< rounds of the old orbit that make one of the new: at a border an orbit may give way to one of twice
-                ///< its period
+/// The part of the motion that is taken as an orbit, in periods of the old orbit.
+struct PeriodsTaken {
+    int before; ///< periods that are skipped: beyond a guard the first one still begins in the old mode
+    int taken;  ///< old periods per new period: at a border collision the new orbit may have twice
+                ///< the period
 };
-constexpr Rounds next_round{0, 1};
-constexpr Rounds all_rounds[] = {next_round, {1, 1}, {2, 1}, {1, 2}, {2, 2}};
+constexpr PeriodsTaken next_period{0, 1};
+constexpr PeriodsTaken all_choices[] = {next_period, {1, 1}, {2, 1}, {1, 2}, {2, 2}};
 
-/// What the model does for some rounds from the middle of an orbit's longest segment, as an orbit.
-std::optional<Orbit> followed(const Simulation& simulation, const Orbit& orbit, const Rounds& rounds,
+/// Follows the motion from the middle of the longest segment of an orbit, and returns it as an orbit.
+std::optional<Orbit> followed(const Simulation& simulation, const Orbit& orbit, const PeriodsTaken& periods,
                               std::string& why) {
-    const double round = orbit.round() * rounds.taken;
+    const double period = orbit.return_time() * periods.taken;
     const auto longest = static_cast<std::size_t>(std::max_element(orbit.durations.begin(), orbit.durations.end()) -
                                                   orbit.durations.begin());
     std::vector<double> state = orbit.starts[longest];
@@ -43,30 +43,30 @@ std::optional<Orbit> followed(const Simulation& simulation, const Orbit& orbit, 
         why = "the orbit cannot be followed";
         return std::nullopt;
     }
-    if (rounds.before > 0) {
+    if (periods.before > 0) {
         const FollowedMotion before =
-            follow_motion(simulation, orbit.parameters, state, mode, orbit.round() * rounds.before);
+            follow_motion(simulation, orbit.parameters, state, mode, orbit.return_time() * periods.before);
         why = before.problem;
         if (!why.empty())
             return std::nullopt;
         state = before.final_state;
         mode = before.final_mode;
     }
-    const FollowedMotion motion = follow_motion(simulation, orbit.parameters, state, mode, round);
+    const FollowedMotion motion = follow_motion(simulation, orbit.parameters, state, mode, period);
     why = motion.problem;
     if (!why.empty())
         return std::nullopt;
     Orbit like = orbit;
-    if (rounds.taken > 1)
-        like.symmetry.reset(); // two halves are the whole
+    if (periods.taken > 1)
+        like.symmetry.reset(); // two half periods are the whole orbit
     return motion.segments.empty()
-               ? close_at_section(simulation.system(), orbit.parameters, state, mode, round, "", like.symmetry)
-               : std::optional(begun_after_first_contact(simulation.system(), like, motion, round));
+               ? close_at_section(simulation.system(), orbit.parameters, state, mode, period, "", like.symmetry)
+               : std::optional(begun_after_first_contact(simulation.system(), like, motion, period));
 }
 
-/// Whether an orbit has the segments of another, once or several times, wherever it begins: then it is on the branch of
-/// the other.
-bool are_alike(const Orbit& one, const Orbit& other) {
+/// True when an orbit has the segments of another, once or repeatedly, up to a cyclic shift: then it belongs to the
+/// branch of the other.
+bool have_same_segments(const Orbit& one, const Orbit& other) {
     const std::size_t count = other.signature.size();
     Signature signature = other.signature;
     for (std::size_t k = 0; k < count; ++k) {
@@ -84,7 +84,7 @@ bool are_alike(const Orbit& one, const Orbit& other) {
 
 namespace {
 
-/// Unknowns along the branch in the first parameter, of unit length in units of the scales. None where it turns.
+/// Returns the scaled unit tangent of the branch in the first parameter alone; empty at its folds.
 std::optional<Eigen::VectorXd> along_branch(const Simulation& simulation, const Orbit& orbit,
                                             const BranchSettings& settings, const OrbitProblem& with_all) {
     OrbitProblem problem(simulation, orbit, settings.parameter);
@@ -116,19 +116,19 @@ std::optional<Orbit> reordered_beyond(const System& system, const SpecialPoint& 
         there += aside * *off;
     }
     std::string why;
-    auto candidate = followed(simulation, problem.equations().orbit_of(there), next_round, why);
-    return candidate && !are_alike(*candidate, orbit) ? candidate : std::nullopt;
+    auto candidate = followed(simulation, problem.equations().orbit_of(there), next_period, why);
+    return candidate && !have_same_segments(*candidate, orbit) ? candidate : std::nullopt;
 }
 
 namespace {
 
-/// A candidate that the model follows, or why it is none.
+/// Solves for an orbit from a guess; empty, with the reason set, if it is not admissible.
 std::optional<Orbit> admissible_from(const Simulation& simulation, const Orbit& guess, const OrbitOptions& options,
                                      std::string& why) {
     OrbitSolution solution;
     try {
         solution = solve_orbit(simulation.system(), guess, options);
-    } catch (const InputError& error) { // the motion does not close to a signature of the model
+    } catch (const InputError& error) { // the motion does not give a possible signature
         why = error.problem();
         return std::nullopt;
     }
@@ -139,8 +139,8 @@ std::optional<Orbit> admissible_from(const Simulation& simulation, const Orbit& 
     return std::nullopt;
 }
 
-/// The orbit that a guess beyond a point leads to, with the branch's direction away from the point. At a nonsmooth fold
-/// both orbits are on the side that the branch comes from.
+/// Solves for an orbit from a guess beyond a point, with the direction of its branch away from the point. At a
+/// nonsmooth fold both orbits lie on the side from which the branch came, so the mirrored parameter is tried too.
 std::optional<BranchStart> start_from(const Simulation& simulation, const Orbit& guess, const BranchSettings& settings,
                                       double parameter_there, std::string& why) {
     OrbitOptions options = settings.orbit;
@@ -174,14 +174,14 @@ BranchStart with_events_reordered(const System& system, const SpecialPoint& poin
     const std::vector<double> u = problem.unknowns_of(orbit);
     if (!point.tangent.is_empty() && problem.evaluate(u)) {
         const std::vector<double> tangent = problem.unknowns_of(point.tangent);
-        for (const Rounds& rounds : all_rounds)
+        for (const PeriodsTaken& periods : all_choices)
             for (const double distance : distances)
                 for (const double side : {1.0, -1.0}) {
                     const Eigen::VectorXd there =
                         OrbitProblem::vector_of(u) + side * distance * OrbitProblem::vector_of(tangent);
                     const Orbit beyond = problem.equations().orbit_of(there);
-                    const auto candidate = followed(simulation, beyond, rounds, why);
-                    if (!candidate || are_alike(*candidate, orbit))
+                    const auto candidate = followed(simulation, beyond, periods, why);
+                    if (!candidate || have_same_segments(*candidate, orbit))
                         continue;
                     if (auto start = start_from(simulation, *candidate, settings,
                                                 orbit.parameters[settings.parameter.place()], why))

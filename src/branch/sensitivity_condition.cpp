@@ -9,7 +9,7 @@
 namespace graze {
 
 SensitivityCondition::SensitivityCondition(const OrbitEquations& equations, const SpecialPoint& touch)
-    : beside_(equations.simulation(), touch.solution.orbit, equations.free()), tried_(beside_.evaluation()),
+    : displaced_(equations.simulation(), touch.solution.orbit, equations.free()), tried_(displaced_.evaluation()),
       segment_(touch.segment), event_(touch.event), share_(touch.time / touch.solution.orbit.durations[touch.segment]),
       functions_(equations.system(), equations.signature()[touch.segment].mode, touch.event) {}
 
@@ -18,12 +18,13 @@ std::unique_ptr<OrbitCondition> SensitivityCondition::of_touch(const OrbitEquati
     if (touch.at_end)
         return nullptr;
     std::unique_ptr<SensitivityCondition> condition(new SensitivityCondition(equations, touch));
-    const bool alike = condition->beside_.unknowns() == equations.unknowns(); // laid out for the same orbit
+    // False: the equations have another layout.
+    const bool alike = condition->displaced_.unknowns() == equations.unknowns();
     return alike && condition->projection(equations, at) ? std::move(condition) : nullptr;
 }
 
-/// Also a little off the touch, where it is that of the contact at the nearest touching state: any smooth function
-/// that is the projection at touches would do.
+/// Returns the first projection. Off the touch it is that of the nearest touching state: any smooth extension of the
+/// projection would do.
 std::optional<double> SensitivityCondition::projection(const OrbitEquations& equations,
                                                        const OrbitEvaluation& at) const {
     const double duration = equations.orbit_of(at.unknowns).durations[segment_];
@@ -36,7 +37,7 @@ std::optional<double> SensitivityCondition::projection(const OrbitEquations& equ
 }
 
 bool SensitivityCondition::evaluate(const OrbitEquations& equations, const OrbitEvaluation& at) {
-    constexpr double step = 1e-5; // in sizes: errors of the value over it and the square of it are both some 1e-9
+    constexpr double step = 1e-5; // scaled step: round-off and truncation errors are both about 1e-9
     const auto here = projection(equations, at);
     if (!here)
         return false;
@@ -47,9 +48,9 @@ bool SensitivityCondition::evaluate(const OrbitEquations& equations, const Orbit
         for (const int side : {0, 1}) {
             Eigen::VectorXd unknowns = at.unknowns;
             unknowns[i] += (side == 0 ? -step : step) * at.scales[i];
-            if (!beside_.evaluate(unknowns, tried_))
+            if (!displaced_.evaluate(unknowns, tried_))
                 return false;
-            const auto there = projection(beside_, tried_);
+            const auto there = projection(displaced_, tried_);
             if (!there)
                 return false;
             values[side] = *there;
@@ -60,12 +61,12 @@ bool SensitivityCondition::evaluate(const OrbitEquations& equations, const Orbit
     return gradient_.allFinite();
 }
 
-/// The touch is looked for where it is now.
+/// Updates the time of the touch.
 void SensitivityCondition::renew(const OrbitEquations& equations, const OrbitEvaluation& at) {
-    if (!beside_.evaluate(at.unknowns, tried_))
+    if (!displaced_.evaluate(at.unknowns, tried_))
         return;
     std::optional<OrbitMinimum> nearest;
-    for (const OrbitMinimum& minimum : certify(beside_, tried_).minima)
+    for (const OrbitMinimum& minimum : certify(displaced_, tried_).minima)
         if (minimum.segment == segment_ && minimum.event == event_ &&
             (!nearest || std::abs(minimum.value) < std::abs(nearest->value)))
             nearest = minimum;

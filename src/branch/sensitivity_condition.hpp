@@ -9,16 +9,16 @@
 
 namespace graze {
 
-/// An impact of vanishing speed at a touch leaves the least value of the next pass as it is: the first projection of
-/// the cycle's map is zero. With the touch itself held, this is a point of codimension two, the boundary between the
-/// classes of touches.
+/// The condition that an impact of vanishing speed at a touch does not change the minimum of the next pass: the first
+/// projection of the map of the cycle is zero. Together with the touch it is of codimension two, and bounds the classes
+/// of touches.
 ///
-/// The value is exact. Its gradient is by central differences, in the sizes of the unknowns: it only has to lead
-/// Newton's method to where the value is zero, and what it is off by slows that by as little.
+/// The value is exact; the gradient is a central difference in scaled unknowns, which only affects the speed of
+/// Newton's method.
 class SensitivityCondition final : public OrbitCondition {
 public:
     /// @param equations by shooting, laid out for the orbit of the touch
-    /// @return none where the touch has no square-root map
+    /// @return null where the touch has no square-root map
     static std::unique_ptr<OrbitCondition> of_touch(const OrbitEquations& equations, const OrbitEvaluation& at,
                                                     const SpecialPoint& touch);
     bool evaluate(const OrbitEquations& equations, const OrbitEvaluation& at) override;
@@ -28,10 +28,10 @@ private:
     SensitivityCondition(const OrbitEquations& equations, const SpecialPoint& touch);
     std::optional<double> projection(const OrbitEquations& equations, const OrbitEvaluation& at) const;
 
-    Shooting beside_; ///< the same equations, evaluated beside
+    Shooting displaced_; ///< the same equations, for evaluations at displaced unknowns
     OrbitEvaluation tried_;
     std::size_t segment_, event_;
-    double share_; ///< of the segment's duration, at which it touches
+    double share_; ///< time of the touch, as a share of the segment's duration
     TouchFunctions functions_;
 };
 

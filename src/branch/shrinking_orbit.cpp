@@ -14,7 +14,7 @@ namespace graze {
 
 namespace {
 
-/// Rates at the start of a segment, in units of the scales.
+/// Returns the scaled rates at the start of a segment.
 std::vector<double> motion_at(BranchState& state, const Orbit& orbit, std::size_t segment) {
     std::vector<double> rates = state.rates_at(orbit, segment);
     for (std::size_t i = 0; i < rates.size(); ++i)
@@ -29,7 +29,7 @@ double product(const std::vector<double>& one, const std::vector<double>& other)
     return sum;
 }
 
-/// The largest of the rates at the starts of all segments.
+/// Returns the largest scaled rate at the starts of all segments.
 double largest_motion(BranchState& state, const Orbit& orbit) {
     double largest = 0;
     for (std::size_t s = 0; s < orbit.segments(); ++s)
@@ -38,7 +38,7 @@ double largest_motion(BranchState& state, const Orbit& orbit) {
     return largest;
 }
 
-/// The event at whose surface an orbit with contacts shrinks, in words.
+/// Returns a description of the surface on which an orbit with contacts shrinks.
 std::string surface_of(const Model& model, const Orbit& orbit) {
     for (const Segment& segment : orbit.signature)
         if (segment.end == SegmentEnd::event)
@@ -47,29 +47,30 @@ std::string surface_of(const Model& model, const Orbit& orbit) {
     return "";
 }
 
-/// @param off how well the parameter is known
-SpecialPoint hopf_at(BranchState& state, const BranchPoint& there, double arclength, double off) {
+/// @param off error of the parameter
+SpecialPoint hopf_at(BranchState& state, const BranchPoint& there, double arclength, double error) {
     SpecialPoint special = special_of_type(PointType::hopf, there);
     special.arclength = arclength;
     special.detail = fmt::format("{} +- {:.1e}: the orbit shrinks to an equilibrium{}",
-                                 state.model().independent_parameters()[state.settings().parameter.place()], off,
+                                 state.model().independent_parameters()[state.settings().parameter.place()], error,
                                  surface_of(state.model(), there.solution.orbit));
-    special.solution.error = off / state.problem().scales()[state.problem().parameter_place()];
+    special.solution.error = error / state.problem().scales()[state.problem().parameter_place()];
     return special;
 }
 
 } // namespace
 
-bool has_turned_round(BranchState& state, const Orbit& before, const Orbit& now) {
+bool has_reversed(BranchState& state, const Orbit& before, const Orbit& now) {
     return before.signature == now.signature && product(motion_at(state, before, 0), motion_at(state, now, 0)) < 0;
 }
 
 std::optional<SpecialPoint> locate_equilibrium(BranchState& state, const Orbit& before) {
-    // Parameter and period change with the square of the size, so that points far off are as good. The nearer they are,
-    // the more round-off there is and the less polynomials leave out of a long step: what differs less is taken.
+    // Parameter and period change with the square of the orbit's size, so distant points are accurate too. Nearer
+    // points have more round-off, farther ones a larger interpolation error: the choice with the smaller difference is
+    // used.
     constexpr double nearer[] = {1, 0.5};
-    constexpr double at_rest = 1e-2; // of the rates where the step begins
-    // Both have errors of their own, which the points share: in tests up to four times what they differ by.
+    constexpr double at_rest = 1e-2; // share of the rates at the start of the step
+    // Both locations share errors, which in tests are up to four times their difference.
     constexpr double times = 10, round_off = 1e-13;
     const std::vector<double> first = motion_at(state, before, 0);
     const double size = product(first, first);
@@ -90,20 +91,20 @@ std::optional<SpecialPoint> locate_equilibrium(BranchState& state, const Orbit& 
                    other = located({-0.44, -0.34, -0.22, -0.12, 0.12, 0.22, 0.34, 0.44});
         if (!one || !other)
             continue;
-        const double off = std::abs(one->u[place] - other->u[place]);
-        if (found && !(off < differ))
+        const double error = std::abs(one->u[place] - other->u[place]);
+        if (found && !(error < differ))
             continue;
         found = one;
-        differ = off;
+        differ = error;
     }
     BranchPoint there;
     std::vector<BranchTest> tests;
     if (!found || !state.describe(*found, there, tests) ||
         largest_motion(state, there.solution.orbit) > at_rest * largest_motion(state, before))
         return std::nullopt;
-    const double off =
+    const double error =
         times * differ + round_off * std::max(std::abs(found->u[place]), state.problem().scales()[place]);
-    return hopf_at(state, there, there.arclength, off);
+    return hopf_at(state, there, there.arclength, error);
 }
 
 namespace {
@@ -114,7 +115,7 @@ bool is_without_contacts(const Orbit& orbit) {
     });
 }
 
-/// States along an orbit without contacts, at equal times from its start on. Empty where it cannot be followed.
+/// Returns states along an orbit without contacts, at equal time intervals; empty where it cannot be followed.
 std::vector<std::vector<double>> states_along(BranchState& state, const Orbit& orbit) {
     constexpr int count = 64;
     ModeFlow flow = flow_of(state.problem().equations().simulation());
@@ -122,7 +123,7 @@ std::vector<std::vector<double>> states_along(BranchState& state, const Orbit& o
     std::vector<std::vector<double>> result{orbit.starts[0]};
     for (int i = 1; i < count; ++i) {
         result.push_back(result.back());
-        if (flow.run(orbit.signature[0].mode, result.back(), orbit.round() / count) != ModeFlow::Ending::done)
+        if (flow.run(orbit.signature[0].mode, result.back(), orbit.return_time() / count) != ModeFlow::Ending::done)
             return {};
     }
     return result;
@@ -131,7 +132,7 @@ std::vector<std::vector<double>> states_along(BranchState& state, const Orbit& o
 } // namespace
 
 std::optional<HopfPoint> hopf_ahead(BranchState& state, const ContinuationPoint& from, double length) {
-    // A cut that an ellipse is laid on obliquely is touched at a good part of the way to its centre.
+    // An oblique cut of an ellipse may be touched at a considerable distance from its centre.
     constexpr double farthest = 4, same_period = 0.25;
     const Orbit orbit = state.problem().orbit_of(from.u);
     const std::vector<std::vector<double>> along =
@@ -146,7 +147,7 @@ std::optional<HopfPoint> hopf_ahead(BranchState& state, const ContinuationPoint&
     const auto hopf = hopf_near(state.system(), orbit.signature[0].mode, mean, orbit.parameters,
                                 state.settings().parameter, orbit.period(), std::span(scales).first(mean.size()));
     if (!hopf || std::abs(hopf->period - orbit.period()) > same_period * orbit.period() ||
-        !(way_to(state, from, *hopf) < farthest * length))
+        !(distance_to(state, from, *hopf) < farthest * length))
         return std::nullopt;
     return hopf;
 }
@@ -161,31 +162,31 @@ Orbit at_rest_in(const Orbit& orbit, const HopfPoint& hopf, ParameterId paramete
     return result;
 }
 
-double way_to(BranchState& state, const ContinuationPoint& from, const HopfPoint& hopf) {
+double distance_to(BranchState& state, const ContinuationPoint& from, const HopfPoint& hopf) {
     OrbitProblem& problem = state.problem();
-    std::vector<double> way =
+    std::vector<double> distance =
         problem.unknowns_of(at_rest_in(problem.orbit_of(from.u), hopf, state.settings().parameter));
-    for (std::size_t i = 0; i < way.size(); ++i)
-        way[i] -= from.u[i];
-    return std::sqrt(product(problem.row_of(way), way));
+    for (std::size_t i = 0; i < distance.size(); ++i)
+        distance[i] -= from.u[i];
+    return std::sqrt(product(problem.row_of(distance), distance));
 }
 
 std::optional<UncutOrbit> begun_for_shrinking(BranchState& state, const Orbit& orbit, const HopfPoint& hopf) {
     const std::vector<std::vector<double>> along = states_along(state, orbit);
     if (along.empty())
         return std::nullopt;
-    const auto off = [&](const std::vector<double>& one) {
+    const auto error = [&](const std::vector<double>& one) {
         double sum = 0;
         for (std::size_t i = 0; i < one.size(); ++i)
             sum += std::pow((one[i] - hopf.state[i]) / state.problem().scales()[i], 2);
         return sum;
     };
     const auto farthest =
-        std::max_element(along.begin(), along.end(), [&](const auto& a, const auto& b) { return off(a) < off(b); });
+        std::max_element(along.begin(), along.end(), [&](const auto& a, const auto& b) { return error(a) < error(b); });
     UncutOrbit result{orbit, {}};
     result.orbit.signature = {{orbit.signature[0].mode, SegmentEnd::cut, 0}};
     result.orbit.starts = {*farthest};
-    result.orbit.durations = {orbit.round()};
+    result.orbit.durations = {orbit.return_time()};
     const Orbit rest = at_rest_in(result.orbit, hopf, state.settings().parameter);
     OrbitDirection& direction = result.direction;
     direction.starts = rest.starts;
@@ -199,13 +200,15 @@ std::optional<UncutOrbit> begun_for_shrinking(BranchState& state, const Orbit& o
 
 bool shrinks_to(const HopfPoint& hopf, ParameterId parameter, const Orbit& before, const Orbit& now) {
     constexpr double share = 0.3, round_off = 1e-9;
-    const auto off = [&](const Orbit& orbit) { return std::abs(orbit.parameters[parameter.place()] - hopf.parameter); };
+    const auto error = [&](const Orbit& orbit) {
+        return std::abs(orbit.parameters[parameter.place()] - hopf.parameter);
+    };
     const auto off_period = [&](const Orbit& orbit) { return std::abs(orbit.period() - hopf.period); };
-    return off(now) <= share * off(before) + round_off * std::abs(hopf.parameter) &&
+    return error(now) <= share * error(before) + round_off * std::abs(hopf.parameter) &&
            off_period(now) <= share * off_period(before) + round_off * hopf.period;
 }
 
-std::optional<SpecialPoint> end_in(BranchState& state, const HopfPoint& hopf, double arclength, double way) {
+std::optional<SpecialPoint> end_in(BranchState& state, const HopfPoint& hopf, double arclength, double distance) {
     ContinuationPoint at = state.continuation().point();
     at.u = state.problem().unknowns_of(at_rest_in(state.problem().orbit_of(at.u), hopf, state.settings().parameter));
     BranchPoint there;
@@ -214,8 +217,8 @@ std::optional<SpecialPoint> end_in(BranchState& state, const HopfPoint& hopf, do
         return std::nullopt;
     const std::size_t place = state.problem().parameter_place();
     constexpr double round_off = 1e-13;
-    const double off = hopf.error + round_off * std::max(std::abs(hopf.parameter), state.problem().scales()[place]);
-    return hopf_at(state, there, arclength + way, off);
+    const double error = hopf.error + round_off * std::max(std::abs(hopf.parameter), state.problem().scales()[place]);
+    return hopf_at(state, there, arclength + distance, error);
 }
 
 } // namespace graze

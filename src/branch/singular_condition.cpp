@@ -12,7 +12,8 @@ namespace graze {
 
 namespace {
 
-/// Units of starts and durations, and those of the equations: of each piece its end condition's, then the states'.
+/// Return the units of starts and durations, and those of the equations: for each piece that of its end condition, then
+/// those of the states.
 Eigen::VectorXd units_of_columns(const OrbitEquations& equations, const OrbitEvaluation& at) {
     return at.scales.head(index(equations.layout().start_of(at.pieces.size())));
 }
@@ -27,8 +28,8 @@ Eigen::VectorXd units_of_rows(const OrbitEquations& equations, const OrbitEvalua
 
 using Multipliers = std::vector<std::complex<double>>;
 
-/// Two that belong together, conjugate or both real, whose sum and product are nearest to these: products by their
-/// ratio, since that of the pair that is kept does not change, sums by their difference.
+/// Returns the pair, conjugate or both real, whose product and sum are nearest to the given ones. Products are compared
+/// by their ratio, since that of the kept pair is constant, sums by their difference.
 std::optional<std::pair<std::complex<double>, std::complex<double>>> pair_near(const Multipliers& all, double sum,
                                                                                double product) {
     std::optional<std::pair<std::complex<double>, std::complex<double>>> result;
@@ -45,9 +46,9 @@ std::optional<std::pair<std::complex<double>, std::complex<double>>> pair_near(c
     return result;
 }
 
-/// The complex pair that is nearest to the unit circle, or two real ones that meet there if these are nearer.
+/// Returns the complex pair nearest to the unit circle, or two nearly equal real multipliers there if these are nearer.
 std::optional<std::pair<std::complex<double>, std::complex<double>>> pair_to_keep(const Multipliers& all) {
-    constexpr double meeting = 0.01; // off 1 or -1: what two that are equal differ by is a root of round-off
+    constexpr double meeting = 0.01; // distance from 1 or -1: double multipliers differ by the square root of round-off
     std::optional<std::pair<std::complex<double>, std::complex<double>>> result;
     double nearest = std::numeric_limits<double>::infinity();
     const auto note = [&](std::complex<double> one, std::complex<double> other) {
@@ -123,14 +124,14 @@ void SingularCondition::renew(const OrbitEquations& equations, const OrbitEvalua
     double value = 0;
     if (!matrix(equations, at, multiplier_).bordered(left_, right_, right, left, value) || !right.allFinite() ||
         !left.allFinite())
-        return; // those that it has are good for some time
+        return; // keep the previous vectors
     renew_units(equations, at, right, left);
     right_ = right;
     left_ = left;
 }
 
 std::vector<Degeneracy> SingularCondition::degeneracies(const OrbitEquations& equations, const OrbitEvaluation& at) {
-    // Of the vectors' lengths: where areas are preserved the multiplier is double all along.
+    // Relative to the vectors' lengths. In area-preserving models the multiplier is double all along the curve.
     constexpr double least_product = 1e-9;
     if (multiplier_ > 0)
         return {{PointType::cusp, along_}, {PointType::resonance_1, simplicity_, least_product}};
@@ -151,7 +152,7 @@ std::unique_ptr<OrbitCondition> TorusCondition::of_pair(const OrbitEquations& eq
     return std::unique_ptr<OrbitCondition>(new TorusCondition(equations, at, sum, product));
 }
 
-/// Both are kept together in the plane that they have, in which all is smooth where they meet.
+/// Uses the invariant plane of the pair, which is smooth where the two multipliers meet.
 bool TorusCondition::evaluate(const OrbitEquations& equations, const OrbitEvaluation& at) {
     const CyclicMatrix here = matrix(equations, at, 1);
     const auto pair = pair_near(here.multipliers(), kept_sum_, kept_product_);
@@ -160,10 +161,10 @@ bool TorusCondition::evaluate(const OrbitEquations& equations, const OrbitEvalua
         return false;
     gradient_ = Eigen::RowVectorXd::Zero(at.unknowns.size());
     for (Eigen::Index j = 0; j < 2; ++j) {
-        Eigen::MatrixXd changes; // of column j of the map, but for the sign
+        Eigen::MatrixXd changes; // derivatives of column j of the map, with opposite sign
         if (!contract(equations, at, plane.left, plane.right.col(j), changes))
             return false;
-        const Eigen::Index k = 1 - j; // of the determinant, by the entries of that column
+        const Eigen::Index k = 1 - j; // derivative of the determinant by the entries of that column
         gradient_ -= plane.map(k, k) * changes.row(j) - plane.map(j, k) * changes.row(k);
     }
     sum_ = plane.map.trace();
@@ -178,8 +179,8 @@ void TorusCondition::renew(const OrbitEquations&, const OrbitEvaluation&) {
 }
 
 std::vector<Degeneracy> TorusCondition::degeneracies(const OrbitEquations& equations, const OrbitEvaluation& at) {
-    // Digits of third derivatives: where the model is conservative the real part is all round-off, which grows towards
-    // the resonances at 1 and -1, where two multipliers are one.
+    // Relative error of third derivatives. In conservative models the real part is only round-off, which grows towards
+    // the resonances at 1 and -1, where the two multipliers coincide.
     constexpr double digits = 1e-5, least_apart = 1e-6;
     const double apart = 1 - sum_ * sum_ / 4; // the square of the imaginary part
     const auto form = apart > least_apart ? torus_form(equations, at, variation()) : std::nullopt;

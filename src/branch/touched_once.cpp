@@ -11,19 +11,19 @@ namespace graze {
 
 namespace {
 
-constexpr double touching = 1e-6; // of sizes: what touches is nearer by far
-constexpr double slow = 1e-4;     // of usual rates
+constexpr double touching = 1e-6; // share of the function's size; touches are located far more accurately
+constexpr double slow = 1e-4;     // share of the typical rate
 
-/// Whether any segment ends with a contact that has hardly a speed, or beside the turning point of a watched function.
+/// True when a segment ends with a contact of nearly zero speed, or near an extremum of another watched function.
 bool may_touch_at_ends(const Shooting& equations, const OrbitEvaluation& at, const Certificate& certificate) {
     for (std::size_t s = 0; s < equations.signature().size(); ++s) {
         const Segment& segment = equations.signature()[s];
-        if (segment.end == SegmentEnd::event && !is_harmless(equations.system(), segment.index) &&
-            !(std::abs(certificate.approach_speeds[s]) > touching * equations.usual_rate(at, s)))
+        if (segment.end == SegmentEnd::event && !is_identity_transition(equations.system(), segment.index) &&
+            !(std::abs(certificate.approach_speeds[s]) > touching * equations.typical_rate(at, s)))
             return true;
     }
     return std::any_of(certificate.end_values.begin(), certificate.end_values.end(), [&](const EndValue& one) {
-        return !(std::abs(one.rate) > slow * equations.usual_rate(at, one.segment, one.event));
+        return !(std::abs(one.rate) > slow * equations.typical_rate(at, one.segment, one.event));
     });
 }
 

@@ -11,18 +11,17 @@
 
 namespace graze {
 
-/// Maps of cycles of one orbit after another, from what has been evaluated of each anyway.
+/// Computes cycle maps of a sequence of orbits from existing evaluations, compiling the functions of each mode once.
 class TouchedOnce {
 public:
-    /// @param event that is touched @param certificate of the orbit at which the equations have been evaluated, whose
-    ///        first free parameter is that of the map
-    /// @return none where anything else may be touched too, or the contact is not a rigid one: then `cycle_map` says
-    /// more
+    /// @param event the touched event @param certificate of the orbit of the evaluation. The first free parameter of
+    /// the equations is that of the map @return empty where the orbit may have other touches or the contact is not
+    /// rigid; then use `cycle_map`
     std::optional<CycleMap> map(Shooting& equations, const OrbitEvaluation& at, const Certificate& certificate,
                                 std::size_t event);
 
 private:
-    std::map<std::size_t, TouchFunctions> functions_; ///< of each mode in which it is touched
+    std::map<std::size_t, TouchFunctions> functions_; ///< compiled functions, by mode of the touch
 };
 
 } // namespace graze

@@ -19,15 +19,16 @@ namespace graze {
 
 namespace {
 
-/// Of mean zero.
-double departure(const Tolerance& tolerance, std::uint64_t seed, std::size_t device, std::size_t place) {
+/// Returns the random deviation of a parameter from its nominal value.
+double random_deviation(const Tolerance& tolerance, std::uint64_t seed, std::size_t device, std::size_t place) {
     if (tolerance.spread == Spread::uniform)
         return tolerance.size * (2 * drawn(seed, device, 2 * place) - 1);
     return tolerance.size * drawn_normal(seed, device, place);
 }
 
-/// How many standard deviations on either side of the mean hold such a share of a normal distribution.
-double deviations_that_hold(double share) {
+/// Returns the half width, in standard deviations, of the central interval that contains a share of a normal
+/// distribution.
+double half_width_in_deviations(double share) {
     double low = 0, high = 40;
     while (true) {
         const double middle = 0.5 * (low + high);
@@ -42,23 +43,23 @@ void require_share(double share, const char* what) {
         throw InputError(fmt::format("{} {} is out of range", what, share), "choose one between 0 and 1");
 }
 
-/// The devices, on threads.
-class Workshop {
+/// Solves for all devices, on several threads.
+class DeviceSolver {
 public:
-    /// Changes of the parameters of a device from the nominal ones; none: it cannot be made.
+    /// Returns the changes of a device's parameters from the nominal ones; empty: the device cannot be made.
     using Changes = std::function<std::vector<double>(std::size_t device, const std::vector<double>& nominal)>;
 
-    Workshop(const System& system, const SpecialPoint& point, ParameterId control, std::vector<ParameterId> others,
-             std::size_t devices, Changes changes, const YieldSettings& settings)
+    DeviceSolver(const System& system, const SpecialPoint& point, ParameterId control, std::vector<ParameterId> others,
+                 std::size_t devices, Changes changes, const YieldSettings& settings)
         : system_(&system), point_(&point), control_(control), others_(std::move(others)), devices_(devices),
-          changes_(std::move(changes)), settings_(&settings), own_(made()) {}
+          changes_(std::move(changes)), settings_(&settings), nominal_(make_solver()) {}
 
-    LocatedValue& nominal() { return own_; }
+    LocatedValue& nominal() { return nominal_; }
 
-    void make(Yield& result) {
+    void solve_all(Yield& result) {
         result.devices.resize(devices_);
         problems_.resize(devices_);
-        constexpr std::size_t enough = 32; // devices, for which a thread is worth its start
+        constexpr std::size_t enough = 32; // number of devices that justifies a thread
         const std::size_t jobs =
             std::clamp<std::size_t>(devices_ / enough, 1, static_cast<std::size_t>(settings_->jobs));
         {
@@ -66,11 +67,11 @@ public:
             for (std::size_t i = 1; i < jobs; ++i)
                 threads.emplace_back([&] {
                     guarded([&] {
-                        LocatedValue one = made();
+                        LocatedValue one = make_solver();
                         work(one, result, false);
                     });
                 });
-            guarded([&] { work(own_, result, true); });
+            guarded([&] { work(nominal_, result, true); });
         }
         if (error_)
             std::rethrow_exception(error_);
@@ -85,7 +86,7 @@ public:
     }
 
 private:
-    LocatedValue made() const { return {*system_, *point_, control_, others_, settings_->solver}; }
+    LocatedValue make_solver() const { return {*system_, *point_, control_, others_, settings_->solver}; }
 
     template <class Work>
     void guarded(const Work& work) {
@@ -99,7 +100,7 @@ private:
         }
     }
 
-    void work(LocatedValue& solver, Yield& result, bool tells) {
+    void work(LocatedValue& solver, Yield& result, bool reports_progress) {
         for (std::size_t i; !stopped_ && (i = next_++) < devices_;) {
             if (settings_->interrupted && settings_->interrupted()) {
                 stopped_ = true;
@@ -107,12 +108,12 @@ private:
             }
             problems_[i] = solve(solver, i, result.devices[i]);
             const std::size_t done = ++done_;
-            if (tells && settings_->progress)
+            if (reports_progress && settings_->progress)
                 settings_->progress(done);
         }
     }
 
-    /// @return what is wrong with the device, if anything is
+    /// @return why the device was not found; empty otherwise
     std::string solve(LocatedValue& solver, std::size_t i, Device& device) const {
         device.outcome = DeviceOutcome::failed;
         device.linear = solver.value();
@@ -142,11 +143,11 @@ private:
     std::size_t devices_;
     Changes changes_;
     const YieldSettings* settings_;
-    LocatedValue own_;
+    LocatedValue nominal_;
     std::vector<std::string> problems_;
     std::atomic<std::size_t> next_{0}, done_{0};
     std::atomic<bool> stopped_{false};
-    std::mutex mutex_; ///< of the error
+    std::mutex mutex_; ///< guards error_
     std::exception_ptr error_;
 };
 
@@ -168,7 +169,7 @@ void count(Yield& result) {
     result.made = result.found + result.inadmissible + result.failed;
 }
 
-/// Measured from the nominal value, so that little is lost of small differences.
+/// Sets mean and standard deviation, computed from differences to the nominal value to avoid cancellation.
 void set_moments(Yield& result, const std::vector<double>& values, double confidence) {
     const auto n = static_cast<double>(values.size());
     if (values.size() < 2)
@@ -183,7 +184,7 @@ void set_moments(Yield& result, const std::vector<double>& values, double confid
         second += square;
         fourth += square * square;
     }
-    const double variance = second / (n - 1), deviation = std::sqrt(variance), z = deviations_that_hold(confidence);
+    const double variance = second / (n - 1), deviation = std::sqrt(variance), z = half_width_in_deviations(confidence);
     const double of_mean = z * deviation / std::sqrt(n);
     const double spread = std::max(0.0, fourth / n - variance * variance);
     const double of_deviation = deviation > 0 ? z * std::sqrt(spread / n) / (2 * deviation) : 0;
@@ -192,8 +193,8 @@ void set_moments(Yield& result, const std::vector<double>& values, double confid
     result.deviation = ConfidenceInterval{deviation, std::max(0.0, deviation - of_deviation), deviation + of_deviation};
 }
 
-/// The number of values below a quantile is binomial: limits are the values between which it lies with the confidence.
-/// @param values in order
+/// Estimates a quantile. The number of values below it is binomial, so its confidence limits are order statistics.
+/// @param values sorted
 QuantileEstimate quantile_of(const std::vector<double>& values, double share, double confidence) {
     const std::size_t n = values.size();
     const auto count = static_cast<double>(n);
@@ -205,7 +206,7 @@ QuantileEstimate quantile_of(const std::vector<double>& values, double share, do
     result.value = values[below] + (below + 1 < n ? rest * (values[below + 1] - values[below]) : 0);
     const double outside = 0.5 * (1 - confidence);
     double cumulative = 0;
-    for (std::size_t k = 0; k < n; ++k) { // cumulative: of at most k values below
+    for (std::size_t k = 0; k < n; ++k) { // cumulative: probability of at most k values below
         const auto hits = static_cast<double>(k);
         cumulative += std::exp(std::lgamma(count + 1) - std::lgamma(hits + 1) - std::lgamma(count - hits + 1) +
                                hits * std::log(share) + (count - hits) * std::log1p(-share));
@@ -235,7 +236,7 @@ void set_shares(Yield& result, const YieldSettings& settings) {
 }
 
 void set_contributions(Yield& result, const LocatedValue& nominal, const std::vector<Tolerance>& tolerances) {
-    double sum = 0; // hypotenuses neither overflow nor vanish, whatever the units
+    double sum = 0; // hypot avoids overflow and underflow in any units
     for (std::size_t k = 0; k < tolerances.size(); ++k) {
         const double one = nominal.derivatives()[k] * tolerances[k].deviation();
         result.contributions.push_back({tolerances[k].parameter, one, 0});
@@ -254,7 +255,7 @@ void require_number_of(std::size_t devices) {
         throw InputError(fmt::format("{} devices are out of range", devices), fmt::format("choose from 1 to {}", most));
 }
 
-/// What does not depend on how devices come about.
+/// Validates the settings that apply to drawn and to given devices.
 void require_common(const YieldSettings& settings) {
     if (settings.least && settings.greatest && !(*settings.least <= *settings.greatest))
         throw InputError(fmt::format("nothing lies within {} and {}", *settings.least, *settings.greatest),
@@ -267,7 +268,7 @@ void require_common(const YieldSettings& settings) {
     settings.solver.validate();
 }
 
-/// Counts, shares, moments and quantiles of devices that have been made.
+/// Sets the counts, shares, moments and quantiles of the devices.
 void add_statistics(Yield& result, const YieldSettings& settings) {
     count(result);
     set_shares(result, settings);
@@ -284,7 +285,7 @@ void add_statistics(Yield& result, const YieldSettings& settings) {
             result.quantiles.push_back(quantile_of(values, share, settings.confidence));
 }
 
-/// Of what the derivatives say of each device.
+/// Returns the standard deviation of the linear predictions.
 double deviation_of_linear(const Yield& result) {
     double sum = 0, squares = 0;
     std::size_t n = 0;
@@ -325,7 +326,7 @@ ConfidenceInterval wilson_interval(std::size_t hits, std::size_t trials, double 
         throw InputError(fmt::format("{} of {} is no share", hits, trials),
                          "give at least one trial, and no more hits");
     const auto n = static_cast<double>(trials);
-    const double share = static_cast<double>(hits) / n, z = deviations_that_hold(confidence), z2 = z * z;
+    const double share = static_cast<double>(hits) / n, z = half_width_in_deviations(confidence), z2 = z * z;
     const double centre = (share + z2 / (2 * n)) / (1 + z2 / n);
     const double half = z / (1 + z2 / n) * std::sqrt(share * (1 - share) / n + z2 / (4 * n * n));
     return {share, hits == 0 ? 0 : std::max(0.0, centre - half), hits == trials ? 1 : std::min(1.0, centre + half)};
@@ -339,14 +340,14 @@ Yield yield_of(const System& system, const SpecialPoint& point, ParameterId cont
     const auto drawn_changes = [&](std::size_t device, const std::vector<double>& nominal) {
         std::vector<double> changes(nominal.size());
         for (std::size_t k = 0; k < changes.size(); ++k)
-            changes[k] = departure(settings.tolerances[k], settings.seed, device, k);
+            changes[k] = random_deviation(settings.tolerances[k], settings.seed, device, k);
         return changes;
     };
-    Workshop workshop(system, point, control, others, settings.devices, drawn_changes, settings);
+    DeviceSolver solver(system, point, control, others, settings.devices, drawn_changes, settings);
     Yield result;
-    result.nominal = workshop.nominal().value();
-    workshop.make(result);
-    set_contributions(result, workshop.nominal(), settings.tolerances);
+    result.nominal = solver.nominal().value();
+    solver.solve_all(result);
+    set_contributions(result, solver.nominal(), settings.tolerances);
     add_statistics(result, settings);
     return result;
 }
@@ -366,10 +367,10 @@ Yield yield_of(const System& system, const SpecialPoint& point, ParameterId cont
             changes[k] -= nominal[k];
         return changes;
     };
-    Workshop workshop(system, point, control, devices.parameters, devices.values.size(), changes_of, settings);
+    DeviceSolver solver(system, point, control, devices.parameters, devices.values.size(), changes_of, settings);
     Yield result;
-    result.nominal = workshop.nominal().value();
-    workshop.make(result);
+    result.nominal = solver.nominal().value();
+    solver.solve_all(result);
     result.linear_deviation = deviation_of_linear(result);
     add_statistics(result, settings);
     return result;

@@ -1,3 +1,4 @@
+#include "base/special_numbers.hpp"
 #include "graze/design/design_report.hpp"
 #include "graze/sweep/attractor.hpp"
 
@@ -9,8 +10,6 @@
 namespace graze {
 
 namespace {
-
-constexpr double empty_cell = std::numeric_limits<double>::quiet_NaN(); // an empty cell
 
 /// The table of facts.
 class FactRows {
@@ -44,7 +43,7 @@ std::string unit_of(const Model& model, const std::string& parameter) {
 }
 
 double if_ended(const std::optional<TripTime>& trip, double TripTime::*number) {
-    return trip && trip->ended ? (*trip).*number : empty_cell;
+    return trip && trip->ended ? (*trip).*number : not_a_number;
 }
 
 std::string_view name_of_class(const MappedValue& one) {
@@ -83,7 +82,7 @@ void add_times(FactRows& facts, const DesignReport& report, const Model& model, 
                             row.simulated && best == &*row.simulated ? "simulated" : "by the map, then simulated"));
 }
 
-void add_yield(FactRows& facts, const DesignReport& report, const Design& design, const std::string& unit) {
+void add_yield_rows(FactRows& facts, const DesignReport& report, const Design& design, const std::string& unit) {
     if (!report.yield) {
         if (!report.no_yield.empty())
             facts.add("yield", "none", report.no_yield);
@@ -126,7 +125,7 @@ void add_wishes(FactRows& facts, const MetWishes& wishes) {
 
 /// A cell for a bound; empty if it is infinite.
 double bound_of(double value) {
-    return std::isfinite(value) ? value : empty_cell;
+    return std::isfinite(value) ? value : not_a_number;
 }
 
 Table wishes_table(const MetWishes& wishes) {
@@ -137,7 +136,7 @@ Table wishes_table(const MetWishes& wishes) {
         table.add(wishes.list.wants[i].name);
         table.add(bound_of(wishes.list.wants[i].least));
         table.add(bound_of(wishes.list.wants[i].most));
-        table.add(one.value.value_or(empty_cell));
+        table.add(one.value.value_or(not_a_number));
         table.add(one.met ? "yes" : "no");
         table.add(one.binds ? "yes" : "no");
         table.add(one.weight);
@@ -182,8 +181,8 @@ Table sensitivity_table(const Design& design, const DesignReport& report, const 
         table.add(one.value);
         table.add(one.unit);
         table.add(one.derivative);
-        table.add(one.relative.value_or(empty_cell));
-        double deviation = empty_cell, effect = empty_cell, share = empty_cell;
+        table.add(one.relative.value_or(not_a_number));
+        double deviation = not_a_number, effect = not_a_number, share = not_a_number;
         if (report.yield) {
             for (const Tolerance& tolerance : report.yield_settings.tolerances)
                 if (tolerance.parameter == one.parameter)
@@ -210,10 +209,10 @@ Table times_table(const DesignReport& report, const std::string& unit, const std
                  {"simulated_time", time_unit}});
     for (const OvershootTrip& row : report.times.rows) {
         table.add(row.overshoot);
-        table.add(row.continued ? row.predicted->first_speed : empty_cell);
+        table.add(row.continued ? row.predicted->first_speed : not_a_number);
         const bool ended = row.predicted && row.predicted->ended;
-        table.add(ended ? row.predicted->cycles : empty_cell);
-        table.add(ended ? row.predicted->time : empty_cell);
+        table.add(ended ? row.predicted->cycles : not_a_number);
+        table.add(ended ? row.predicted->time : not_a_number);
         table.add(if_ended(row.continued, &TripTime::cycles));
         table.add(if_ended(row.continued, &TripTime::time));
         table.add(row.continued ? row.continued->ending : row.simulated ? row.simulated->ending : "");
@@ -223,7 +222,7 @@ Table times_table(const DesignReport& report, const std::string& unit, const std
 }
 
 void add_mapped(Table& table, const MappedValue& one) {
-    table.add(one.found ? one.value : empty_cell);
+    table.add(one.found ? one.value : not_a_number);
     table.add(name_of_class(one));
     table.add(one.problem);
 }
@@ -232,7 +231,7 @@ Table tuning_table(const Tuning& tuning, const Design& design, const DesignDimen
     Table table({{design.control, unit}, {stop.name, stop.unit}, {"usable", ""}, {"problem", ""}});
     for (const TuningPoint& one : tuning.points) {
         table.add(one.value);
-        table.add(one.found ? one.position : empty_cell);
+        table.add(one.found ? one.position : not_a_number);
         const bool usable = one.value >= tuning.least && one.value <= tuning.greatest;
         table.add(usable ? "yes" : "no");
         table.add(one.problem);
@@ -259,7 +258,7 @@ Table device_table(const Yield& yield, const std::string& control, const std::st
     for (std::size_t i = 0; i < yield.devices.size(); ++i) {
         const Device& device = yield.devices[i];
         table.add(static_cast<double>(i + 1));
-        table.add(device.outcome == DeviceOutcome::found ? device.value : empty_cell);
+        table.add(device.outcome == DeviceOutcome::found ? device.value : not_a_number);
         table.add(device.linear);
         table.add(outcome_name(device.outcome));
     }
@@ -316,7 +315,7 @@ Table facts_of(const Design& design, const TripPoint& trip, const DesignReport& 
     } else if (!report.no_tuning.empty()) {
         facts.add("tuning", "none", report.no_tuning);
     }
-    add_yield(facts, report, design, unit);
+    add_yield_rows(facts, report, design, unit);
     facts.add("trial", name_of(report.trial.outcome),
               report.trial.reason.empty() ? "simulation on both sides of the trip value" : report.trial.reason);
     facts.add("trial_below", report.trial.below, unit, report.trial.seen_below);

@@ -116,7 +116,7 @@ private:
 };
 
 /// Finds the limits of tuning from the nominal position outwards: a missing solution, or the end of the range.
-void set_limits(Tuning& tuning, const DesignDimension& stop, std::size_t nominal) {
+void set_axis_limits(Tuning& tuning, const DesignDimension& stop, std::size_t nominal) {
     const auto problem_at = [&](const TuningPoint& point) -> std::string {
         if (!point.found || !point.admissible)
             return point.problem.empty() ? "the model would not come there" : point.problem;
@@ -226,7 +226,7 @@ Tuning tuning_curve(const TripPoint& trip, const DesignDimension& stop, const Ma
         if (solution.found)
             point.position = solution.value;
     }
-    set_limits(tuning, stop, nominal);
+    set_axis_limits(tuning, stop, nominal);
     return tuning;
 }
 

@@ -21,7 +21,7 @@ constexpr double cap_slack = 1e-10;   ///< round-off added to caps
 
 /// Returns point `number` of the Halton sequence within the ranges, at most `farthest` from the start in each dimension
 /// (J. H. Halton, Numer. Math. 2, 1960).
-Eigen::VectorXd scattered(const ScaledWishes& wishes, std::size_t number, double farthest) {
+Eigen::VectorXd scattered_points(const ScaledWishes& wishes, std::size_t number, double farthest) {
     Eigen::VectorXd result(wishes.size());
     std::size_t base = 1;
     for (Eigen::Index i = 0; i < result.size(); ++i) {
@@ -70,7 +70,8 @@ private:
         for (std::size_t start = 1; start < options_.starts || (!best_ && number < first_looks); ++start) {
             if (!wishes_.may_go_on() || (met() && best_->z.norm() <= limit_distance))
                 return;
-            begin_at(scattered(wishes_, number++, met() ? best_->z.norm() : std::numeric_limits<double>::infinity()));
+            begin_at(
+                scattered_points(wishes_, number++, met() ? best_->z.norm() : std::numeric_limits<double>::infinity()));
         }
     }
 

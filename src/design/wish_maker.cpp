@@ -1,5 +1,6 @@
 #include "design/wish_maker.hpp"
 
+#include "base/special_numbers.hpp"
 #include "design/yield_score.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/design/reset.hpp"
@@ -17,8 +18,6 @@ namespace graze {
 
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
 std::vector<ParameterId> parameters_of(const Design& design) {
     std::vector<ParameterId> result;
     for (const DesignDimension& one : design.dimensions)
@@ -32,7 +31,7 @@ std::optional<double> least_projection(const CycleMap& map, const Verdict& verdi
     constexpr std::size_t looked_at = 100;
     constexpr double faintest = 1e-200; // below this, numbers lose their digits
     const double leading = map.multipliers.empty() ? 1 : std::abs(map.multipliers.front());
-    double least = infinite, largest = 0, left = 1;
+    double least = infinity, largest = 0, left = 1;
     for (const double one : map.projections(looked_at)) {
         if (!(left > faintest))
             break;
@@ -138,7 +137,7 @@ void WishMaker::add_class() {
     }
     constexpr double margin = 1e-3; // relative to the largest projection: keeps off the boundary itself
     const bool trips = outcome == GrazingOutcome::lost;
-    add_of_device("class", "the class", trips ? -infinite : margin, trips ? -margin : infinite, 1,
+    add_of_device("class", "the class", trips ? -infinity : margin, trips ? -margin : infinity, 1,
                   [](const TripPoint& device) -> std::optional<double> {
                       const TripClass found = class_at(device);
                       if (!found.map || !found.map->exists())
@@ -154,7 +153,7 @@ void WishMaker::add_time() {
         return;
     TripRequest request = design_.trip;
     request.overshoots = {*wanted().overshoot};
-    add_of_device("trip_time", "the trip time", -infinite, *wanted().longest_time, 0,
+    add_of_device("trip_time", "the trip time", -infinity, *wanted().longest_time, 0,
                   [request, interrupted = options_.interrupted](const TripPoint& device) -> std::optional<double> {
                       const TripTimes times =
                           trip_times(device, device.point.solution.orbit, class_at(device), request, interrupted);
@@ -197,7 +196,7 @@ void WishMaker::add_clear() {
         other.point = earlier.point;
         auto others = std::make_shared<ValueOfDevices>(other, parameters_of(design_));
         const double sign = earlier.value > trip_.value() ? -1 : 1;
-        add(fmt::format("clear_{}", earlier.label), "the distance from " + earlier.label, *wanted().clear, infinite,
+        add(fmt::format("clear_{}", earlier.label), "the distance from " + earlier.label, *wanted().clear, infinity,
             [devices = devices_, others, sign](std::span<const double> values) {
                 WantedValue here = devices->value_at(values);
                 const WantedValue there = others->value_at(values);
@@ -247,7 +246,7 @@ void WishMaker::add_yield(double score) {
         result.value = yield_score(*design_.least_usable(), *design_.greatest_usable(), device->value(), deviation);
         return result;
     };
-    add("yield", "the yield", score, infinite, scored, 1);
+    add("yield", "the yield", score, infinity, scored, 1);
     list_.wants.back().limits = fmt::format("at least {:.6g}", *wanted().least_yield);
 }
 

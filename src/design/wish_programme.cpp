@@ -19,7 +19,7 @@ namespace graze {
 
 namespace {
 
-constexpr double balanced = 1e-7; ///< residual of gradients at a stationary point
+constexpr double stationary = 1e-7; ///< residual of gradients at a stationary point
 /// Weights of the distance relative to violations, tried in turn until all requirements are met.
 constexpr std::array<double, 5> distance_shares{1, 1e-2, 1e-4, 1e-6, 1e-8};
 constexpr double least_region = 1e-10; ///< smallest region next to designs without values, in scales
@@ -143,7 +143,7 @@ private:
 
 /// Finds the local minimum near a design. If it meets a design without values, it continues in regions that shrink
 /// towards it.
-Candidate settle(ScaledWishes& wishes, Candidate best, double share) {
+Candidate polish(ScaledWishes& wishes, Candidate best, double share) {
     constexpr int most_regions = 200, most_repetitions = 3;
     double radius = std::numeric_limits<double>::infinity();
     int repetitions = 0;
@@ -176,12 +176,12 @@ Candidate minimise_penalty(ScaledWishes& wishes, Candidate best) {
     for (const double share : distance_shares) {
         if (wishes.size() == 0 || wishes.rows().empty())
             break;
-        best = settle(wishes, std::move(best), share);
+        best = polish(wishes, std::move(best), share);
         if (wishes.stop_reason != StopReason::none || best.violation <= wishes.options().tolerance)
             break;
         // If limits alone determine the least violation, the distance has no influence.
         if (const Multipliers held = multipliers_of_violation(wishes, best);
-            held.residual < balanced && held.gap < balanced)
+            held.residual < stationary && held.gap < stationary)
             break;
     }
     return best;

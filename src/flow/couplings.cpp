@@ -1,5 +1,6 @@
 #include "flow/couplings.hpp"
 
+#include "base/special_numbers.hpp"
 #include "graze/base/require.hpp"
 #include "tape/tape_analysis.hpp"
 
@@ -12,8 +13,6 @@
 namespace graze {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Returns the states on which each register depends, sorted.
 std::vector<std::vector<std::size_t>> dependences_of(const Tape& tape) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/special_numbers.hpp"
 #include "bernstein.hpp"
 #include "number_pair.hpp"
 
@@ -48,7 +49,6 @@ Kept kept_sign(std::span<const double> c, std::size_t first, double length, Fact
         return {};
     constexpr std::size_t signed_terms = 8;
     const double sign = c[first] > 0 ? 1 : -1;
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     double sum = 0, size = 0, power = sign, least = infinity, order = static_cast<double>(first);
     const std::size_t behind = std::min(c.size(), first + signed_terms);
     for (std::size_t k = first; k < behind; ++k) {

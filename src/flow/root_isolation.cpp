@@ -1,5 +1,6 @@
 #include "root_isolation.hpp"
 
+#include "base/special_numbers.hpp"
 #include "graze/base/input_error.hpp"
 
 #include <algorithm>
@@ -17,7 +18,6 @@ using roots::Tracker;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double least_leading_width = 0x1p-64; ///< for parts that begin at 0
 constexpr double least_relative_width = 4 * unit_roundoff;
 constexpr int parts_per_degree = 64; ///< bounds the work on polynomials that round-off makes undecidable

@@ -1,5 +1,6 @@
 #include "graze/flow/roots.hpp"
 
+#include "base/special_numbers.hpp"
 #include "flow/kept_sign.hpp"
 #include "flow/number_pair.hpp"
 #include "flow/single_crossing.hpp"
@@ -20,8 +21,6 @@ using roots::PointValue;
 using roots::Tracker;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Corrects a root found with c[0] = 0 for the true c[0], if that is well defined.
 void restore_start(std::span<const double> c, double length, Root& root) {

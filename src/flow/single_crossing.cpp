@@ -1,5 +1,6 @@
 #include "flow/single_crossing.hpp"
 
+#include "base/special_numbers.hpp"
 #include "flow/kept_sign.hpp"
 #include "graze/flow/roots.hpp"
 
@@ -13,7 +14,6 @@ double guess_of_monotone(std::span<const double> c, double length, const PointVa
 }
 
 std::optional<SingleCrossing> single_crossing(std::span<const double> c, double length) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     if (c.empty() || c[0] == 0 || !(length > 0) || !(length < infinity))
         return std::nullopt;
     const int at_start = c[0] > 0 ? 1 : -1;

@@ -1,5 +1,6 @@
 #include "graze/flow/step_check.hpp"
 
+#include "base/special_numbers.hpp"
 #include "graze/base/require.hpp"
 #include "graze/flow/roots.hpp"
 #include "graze/flow/step_size.hpp"
@@ -12,7 +13,7 @@ namespace graze {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity(), unit = 0x1p-53;
+constexpr double unit = 0x1p-53;
 /// Factor of the bounds on round-off, which are first-order bounds for one evaluation: coefficients have round-off of
 /// their own, which the recurrences amplify.
 constexpr double roundoff_allowance = 16;

@@ -1,5 +1,6 @@
 #include "graze/flow/step_size.hpp"
 
+#include "base/special_numbers.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 #include "tape/kernel_table.hpp"
@@ -76,7 +77,6 @@ double StepSize::operator()(std::span<const Series> states, double previous) con
         return step_for(states, previous);
     // Without a previous step the sizes of states that start at zero are unknown: begin with a step over which each
     // state changes by about its own size.
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     double least = infinity; // logarithm of that step to base 2
     for (const Series& c : states)
         least = std::min(least, logarithm_of_change(c, least));
@@ -112,7 +112,6 @@ double StepSize::step_for(std::span<const Series> states, double reference) cons
 double StepSize::with_floors(std::span<const Series> states, double previous, std::span<const double> floors) const {
     require_room(floors.size(), states.size(), "floors of series");
     const double tolerance = std::exp2(log_tolerance_);
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     double at_last = infinity, at_before = infinity; // powers of the step
     for (std::size_t i = 0; i < states.size(); ++i) {
         const double size = tolerance * std::max(size_of(states[i], previous), floors[i]);

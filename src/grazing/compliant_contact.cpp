@@ -23,7 +23,7 @@ CompliantContact compliant_contact(const TouchFunctions& functions, const TouchS
     const Eigen::VectorXd& units = sizes.scales();
     const double force = (difference.value.cwiseQuotient(units) * sizes.time()).norm();
     if (!difference.derivatives.allFinite() || !difference.second.allFinite() || !(force <= small))
-        return fail(fmt::format("the field of mode '{}' is another one at the touch", name));
+        return fail(fmt::format("the vector field of mode '{}' is different at the touch", name));
     const double a = geometry.acceleration;
     const Eigen::VectorXd gradient = geometry.gradient.head(n), rate_gradient = geometry.rate_gradient.head(n);
     const Eigen::VectorXd damping = difference.derivatives * geometry.field / a;
@@ -42,8 +42,8 @@ CompliantContact compliant_contact(const TouchFunctions& functions, const TouchS
         return fail(fmt::format("mode '{}' changes the rate of event '{}'", name,
                                 functions.system().model().events[touch.event].name));
     const Eigen::VectorXd bracket = difference.second - 2 * a * (difference.of_field * damping);
-    // By the third power of half the time T beyond the surface. Damping also acts while the motion is not back yet at
-    // its first depth: a (t^2 - T^2)/2 at the end, as the function's third rate and what it has gained make it.
+    // Coefficients of T^3, with T half the time beyond the surface. Damping acts also on the shift of the end time of
+    // the contact: the event function a (t^2 - T^2)/2 is corrected there by its third rate and by the gain.
     const Eigen::VectorXd by_force = -a * stiffness + bracket / 3;
     const double late = difference.jerk / 3 + gradient.dot(by_force) + 2 * a / 3 * rate_gradient.dot(damping);
     const Eigen::VectorXd by_time = by_force - late * damping;

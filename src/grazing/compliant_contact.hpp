@@ -9,18 +9,18 @@
 
 namespace graze {
 
-/// What a contact with another mode, whose field is the same at the touch, makes of a motion that goes a depth d beyond
-/// the surface.
+/// The effect of a contact with another mode, whose vector field equals that of the touching mode at the touch, on a
+/// motion that penetrates to a depth d.
 struct CompliantContact {
-    std::string reason;   ///< why it does not act as a power 3/2; empty if it does
-    Eigen::VectorXd gain; ///< of the states, by d^(3/2)
+    std::string reason;   ///< why the effect is not of order 3/2; empty if it is
+    Eigen::VectorXd gain; ///< shift of the states, per unit of d^(3/2)
 };
 
-/// With D the difference of the fields, which beside the touch is N h + M h' for some vectors N (stiffness) and M
-/// (damping), the flow of the touching mode is taken out of the motion, which leaves y' = D + t [D] + t^2/2 [[D]] with
-/// brackets of Lie along the field, integrated over the time beyond the surface (di Bernardo et al. 2008, section 7.2,
-/// where M is zero).
-/// @param mode in contact
+/// Let D be the difference of the vector fields, which near the touch is N h + M h' with vectors N (stiffness) and M
+/// (damping). Pulled back by the flow of the touching mode, the motion obeys y' = D + t [D] + t^2/2 [[D]] with Lie
+/// brackets along the field, which is integrated over the time beyond the surface (di Bernardo et al. 2008, section
+/// 7.2, where M is zero).
+/// @param mode during the contact
 CompliantContact compliant_contact(const TouchFunctions& functions, const TouchState& touch,
                                    const TouchGeometry& geometry, const TouchSizes& sizes, std::size_t mode);
 

@@ -15,12 +15,12 @@ namespace {
 constexpr std::size_t most_contacts = 20;
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// Follows one contact. States are those of the touch plus s times what they gain; all functions are linear there but
-/// the touched one, which is of second order.
-class Follower {
+/// Follows one contact of approach speed s. States are those of the touch plus s times their gain; all functions are
+/// linearised there except the touched one, which is expanded to second order.
+class ContactFollower {
 public:
-    Follower(const TouchFunctions& functions, const TouchState& touch, const TouchGeometry& geometry,
-             const TouchSizes& sizes)
+    ContactFollower(const TouchFunctions& functions, const TouchState& touch, const TouchGeometry& geometry,
+                    const TouchSizes& sizes)
         : system_(functions.system()), model_(system_.model()), touch_(touch), geometry_(geometry), sizes_(sizes),
           inputs_(touch.state), mode_(functions.mode()), n_(index(touch.state.size())),
           time_(-1 / geometry.acceleration) {
@@ -38,7 +38,7 @@ public:
         while (next) {
             if (chain_.contacts.size() == most_contacts)
                 return fail("contacts follow one another without end, as in chatter or sliding");
-            if (!move(*next) || !contact(next->event))
+            if (!advance(*next) || !contact(next->event))
                 return std::move(chain_);
             if (chain_.contacts.size() == 1)
                 chain_.restitution = geometry_.rate_gradient.head(n_).dot(gain());
@@ -56,7 +56,7 @@ public:
 private:
     struct Next {
         std::size_t event = 0;
-        double after = 0; ///< time, by s
+        double after = 0; ///< time until the event, per unit of s
         bool at_surface = false;
     };
     ContactChain fail(std::string reason) {
@@ -68,7 +68,8 @@ private:
         return false;
     }
 
-    /// What the states have gained since the touch; chain_.gain is what remains of it without the flow.
+    /// Returns the change of the states since the touch, per unit of s; chain_.gain is this change without the flow of
+    /// the touching mode.
     Eigen::VectorXd gain() const { return chain_.gain + geometry_.field * time_; }
 
     void enter(std::size_t mode) {
@@ -82,7 +83,7 @@ private:
         surface_ = TouchFunctions(system_, mode, touch_.event).at(touch_.state, touch_.parameters);
     }
 
-    bool move(const Next& next) {
+    bool advance(const Next& next) {
         const double speed = surface_.rate_gradient.head(n_).dot(gain());
         depth_ = next.at_surface ? 0 : depth_ + (speed + 0.5 * surface_.acceleration * next.after) * next.after;
         chain_.gain += (field_ - geometry_.field) * next.after;
@@ -92,7 +93,7 @@ private:
         return true;
     }
 
-    /// The jump and the guard behind it.
+    /// Applies the transition at an event: its jump, then the guard that chooses the next mode.
     bool contact(std::size_t event) {
         const Transition* transition = model_.find_transition(mode_, event);
         const auto which = static_cast<std::size_t>(transition - model_.transitions.data());
@@ -101,7 +102,7 @@ private:
         if (!jump.identity && !pass(jump, transition->jump))
             return false;
         std::optional<std::size_t> mode;
-        if (!choose(which, mode))
+        if (!choose_mode(which, mode))
             return false;
         chain_.ends = !mode && chain_.contacts.size() == 1;
         if (!mode)
@@ -131,7 +132,7 @@ private:
         if (!rows.allFinite())
             return set_reason(fmt::format("the jump '{}' has no derivative at zero speed", name));
         gained += rows * before;
-        // What touches as well, a little aside, must stay where it is.
+        // States beside the touch that are on the surface with zero speed must not move.
         if (chain_.contacts.size() == 1 && !is_identity_without_speed(rows - Eigen::MatrixXd(identity.asDiagonal())))
             return set_reason(fmt::format("the jump '{}' is not the identity at zero speed", name));
         const double lift = geometry_.gradient.head(n_).dot(gained);
@@ -144,7 +145,7 @@ private:
         return true;
     }
 
-    /// @param change derivatives of a jump less the identity
+    /// @param change derivatives of a jump minus the identity
     bool is_identity_without_speed(const Eigen::MatrixXd& change) const {
         constexpr double small = 1e-6;
         const Eigen::VectorXd& scales = sizes_.scales();
@@ -158,8 +159,9 @@ private:
         return rest.norm() <= small * (1 + scaled.norm());
     }
 
-    /// The way on, by the signs of conditions beside the touch. @return false, with the reason, where they have none
-    bool choose(std::size_t transition, std::optional<std::size_t>& mode) {
+    /// Chooses the next mode by the signs of the guard conditions near the touch. @return false, with the reason set,
+    /// where no alternative holds
+    bool choose_mode(std::size_t transition, std::optional<std::size_t>& mode) {
         const Eigen::VectorXd gained = gain();
         for (const Alternative& alternative : model_.transitions[transition].next) {
             bool holds = true;
@@ -169,7 +171,8 @@ private:
                 double value = values[0];
                 if (sizes_.is_zero(value, gradient)) {
                     value = gradient.head(n_).dot(gained);
-                    // What is zero to first order is zero throughout, as a speed after an impact without restitution.
+                    // A value that is zero to first order is taken as zero, such as a speed after an impact without
+                    // restitution.
                     if (sizes_.is_zero_gain(value, gradient))
                         value = 0;
                 }
@@ -188,7 +191,7 @@ private:
         Next first{0, never, false};
         const System::CompiledMode& mode = system_.mode(mode_);
         for (std::size_t w = 0; w < mode.watched.size(); ++w) {
-            if (is_harmless(system_, mode.transitions[w]))
+            if (is_identity_transition(system_, mode.transitions[w]))
                 continue;
             const std::size_t event = mode.watched[w];
             const std::vector<double> values = system_.event(event)(inputs_);
@@ -211,7 +214,7 @@ private:
         return first.after < never ? std::optional(first) : std::nullopt;
     }
 
-    /// 1 or -1 if an event's function is the touched one up to a positive or negative factor, 0 if it is another.
+    /// Returns 1 or -1 if an event function is the touched one up to a positive or negative factor, otherwise 0.
     double side_of_surface(std::size_t event, const Eigen::VectorXd& gradient) const {
         if (event == touch_.event)
             return 1;
@@ -221,7 +224,7 @@ private:
         const double factor = own.dot(other) / own.squaredNorm();
         if (!((other - factor * own).norm() <= small * other.norm()))
             return 0;
-        // The same surface, not only the same tangent: also some way off, in several directions.
+        // The surfaces must agree also away from the touch, not only have the same tangent: test several states nearby.
         constexpr int probes = 4;
         constexpr double far = 0.01;
         for (int probe = 0; probe < probes; ++probe) {
@@ -237,11 +240,11 @@ private:
         return factor > 0 ? 1 : -1;
     }
 
-    /// @return time by s, 0 and more
+    /// @return time per unit of s, nonnegative
     double time_to_surface(std::size_t event, double side, const Eigen::VectorXd& gradient, double rate) {
         const double acceleration = surface_.acceleration;
         if (!sizes_.is_zero_rate(rate, gradient, field_)) {
-            // The field itself crosses the surface: it leaves it for good, or is pressed against it.
+            // The vector field crosses the surface: the motion leaves it, or is pressed against it.
             if (rate < 0)
                 set_reason(fmt::format("in mode '{}' the motion is pressed against the surface of event '{}'",
                                        model_.modes[mode_].name, model_.events[event].name));
@@ -263,7 +266,7 @@ private:
         const double root = fall * fall - 2 * bend * depth;
         if (!(root > 0))
             return never;
-        const double after = (-fall - std::sqrt(root)) / bend; // where it falls
+        const double after = (-fall - std::sqrt(root)) / bend; // the root at which the function falls
         return after > 0 ? after : never;
     }
 
@@ -274,7 +277,7 @@ private:
             set_reason(
                 is_slid_along(event)
                     ? fmt::format("the motion slides along the surface of event '{}', which it would leave for a "
-                                  "moment: the orbit goes on as it is, since that counts by a higher power only",
+                                  "short time: the orbit persists, since the effect is of higher order",
                                   model_.events[event].name)
                     : fmt::format("event '{}' is touched as well", model_.events[event].name));
             return never;
@@ -288,7 +291,7 @@ private:
         return -value / rate;
     }
 
-    /// Whether the touching mode itself keeps an event's function at zero.
+    /// True when the touching mode keeps the function of an event at zero.
     bool is_slid_along(std::size_t event) const {
         constexpr double small = 1e-9;
         const TouchGeometry here = TouchFunctions(system_, touch_.mode, event).at(touch_.state, touch_.parameters);
@@ -299,7 +302,7 @@ private:
                std::abs(here.acceleration) * sizes_.time() * sizes_.time() <= small * own.norm();
     }
 
-    static constexpr double small_depth = 1e-12, small_speed = 1e-9; // of 1: speeds are in units of s
+    static constexpr double small_depth = 1e-12, small_speed = 1e-9; // relative to 1: speeds are in units of s
 
     const System& system_;
     const Model& model_;
@@ -309,10 +312,10 @@ private:
     std::vector<double> inputs_;
     std::size_t mode_;
     Eigen::Index n_;
-    double time_;      ///< since the touch, by s
-    double depth_ = 0; ///< the touched function, by s squared
+    double time_;      ///< time since the touch, per unit of s
+    double depth_ = 0; ///< value of the touched function, per unit of s^2
     Eigen::VectorXd field_;
-    TouchGeometry surface_; ///< of the touched function along the present mode
+    TouchGeometry surface_; ///< touched function along the current mode
     ContactChain chain_;
 };
 
@@ -320,7 +323,7 @@ private:
 
 ContactChain follow_contact(const TouchFunctions& functions, const TouchState& touch, const TouchGeometry& geometry,
                             const TouchSizes& sizes) {
-    return Follower(functions, touch, geometry, sizes).follow();
+    return ContactFollower(functions, touch, geometry, sizes).follow();
 }
 
 } // namespace graze

@@ -22,7 +22,7 @@ namespace graze {
 
 namespace {
 
-/// Share of an event function's size below which its least value is a touch.
+/// A minimum of an event function below this share of its size counts as a touch.
 constexpr double touching = 1e-7;
 
 std::vector<double> rows_of(const Eigen::MatrixXd& matrix) {
@@ -42,7 +42,7 @@ Eigen::MatrixXd matrix_of(const CycleMap& map) {
     return matrix;
 }
 
-Eigen::VectorXd chosen(const std::vector<std::size_t>& active, const Eigen::VectorXd& all) {
+Eigen::VectorXd active_part(const std::vector<std::size_t>& active, const Eigen::VectorXd& all) {
     Eigen::VectorXd result(index(active.size()));
     for (std::size_t i = 0; i < active.size(); ++i)
         result[index(i)] = all[index(active[i])];
@@ -53,7 +53,7 @@ std::vector<double> list_of(const Eigen::VectorXd& vector) {
     return {vector.begin(), vector.end()};
 }
 
-/// Eigenvalues but the smallest, which is the zero of the projection.
+/// Returns the eigenvalues except the smallest, which is the zero eigenvalue of the projection.
 std::vector<std::complex<double>> multipliers_of(const CycleMap& map) {
     const Eigen::Map<const Eigen::VectorXd> scales(map.scales.data(), index(map.scales.size()));
     const Eigen::MatrixXd scaled = scales.cwiseInverse().asDiagonal() * matrix_of(map) * scales.asDiagonal();
@@ -67,7 +67,7 @@ std::vector<std::complex<double>> multipliers_of(const CycleMap& map) {
     return result;
 }
 
-/// How the orbit without contact moves with the parameter, where the linear map has no multiplier 1.
+/// Sets the derivatives of the orbit without contact with respect to the parameter, unless a multiplier is 1.
 void add_parameter(CycleMap& map, const ReturnMap& back, double explicit_rate) {
     constexpr double singular = 1e-9;
     const Eigen::MatrixXd matrix = matrix_of(map);
@@ -78,13 +78,14 @@ void add_parameter(CycleMap& map, const ReturnMap& back, double explicit_rate) {
     if (!(factored.reciprocal_condition() > singular))
         return;
     const Eigen::VectorXd steady =
-        factored.solve(chosen(map.active, back.parameter).cwiseQuotient(scales)).cwiseProduct(scales);
+        factored.solve(active_part(map.active, back.parameter).cwiseQuotient(scales)).cwiseProduct(scales);
     map.steady = list_of(steady);
     map.clearance_rate =
         Eigen::Map<const Eigen::VectorXd>(map.gradient.data(), steady.size()).dot(steady) + explicit_rate;
 }
 
-/// Of an impact the states that go around are of the order s, and their squares count; of sliding they do not.
+/// Sets the next order of the cycle map. After an impact the shift is of order s, so its square counts around the
+/// orbit; after sliding the square is negligible.
 void add_next_order(CycleMap& map, const OrbitEquations& equations, const OrbitEvaluation& at, const ReturnMap& back,
                     const TouchFunctions& functions) {
     const Eigen::Index n = back.matrix.rows();
@@ -92,10 +93,10 @@ void add_next_order(CycleMap& map, const OrbitEquations& equations, const OrbitE
         second(map.contact.second.data(), n);
     if (map.contact.order == MapOrder::linear) {
         const Eigen::VectorXd gained = back.matrix * second;
-        map.second = list_of(chosen(map.active, gained));
+        map.second = list_of(active_part(map.active, gained));
         map.second_clearance = back.geometry.gradient.head(n).dot(gained);
     } else if (const auto gain = second_return(equations, at, back, functions, first, second)) {
-        map.second = list_of(chosen(map.active, gain->second));
+        map.second = list_of(active_part(map.active, gain->second));
         map.second_clearance = gain->value;
     }
 }
@@ -109,12 +110,12 @@ bool is_same_place(const std::vector<double>& one, const std::vector<double>& ot
     });
 }
 
-/// Shooting, evaluated at an orbit. @return false where it is not defined
+/// Evaluates the equations at an orbit. @return false where they are not defined
 bool evaluate(Shooting& shooting, const Orbit& orbit, OrbitEvaluation& at) {
     return shooting.evaluate(shooting.unknowns_of(orbit), at);
 }
 
-/// When the whole of an orbit touches an event, and when it meets it.
+/// Sets the times in one period of the whole orbit at which it touches the event's surface and has contacts there.
 void add_times(CycleMap& map, const System& system, const Orbit& orbit) {
     const Orbit whole = whole_orbit(system, orbit);
     map.period = orbit.period();
@@ -124,7 +125,7 @@ void add_times(CycleMap& map, const System& system, const Orbit& orbit) {
     const auto since = [&](double time) { return within_period(time - touched, map.period); };
     const auto event_at_end = [&](std::size_t s) -> std::optional<std::size_t> {
         const Segment& segment = whole.signature[s];
-        if (segment.end != SegmentEnd::event || is_harmless(system, segment.index))
+        if (segment.end != SegmentEnd::event || is_identity_transition(system, segment.index))
             return std::nullopt;
         return system.model().transitions[segment.index].event;
     };
@@ -153,30 +154,31 @@ Simulation simulation_of(const System& system, const CycleMapOptions& options) {
     return Simulation(system, {}, {}, integration(options.tolerance));
 }
 
-/// Where an orbit touches, each place once.
+/// Returns the touches of an orbit, each once.
 std::vector<OrbitTouch> touches_in(Shooting& shooting, const OrbitEvaluation& at, const Orbit& orbit) {
     const System& system = shooting.system();
     const Certificate certificate = certify(shooting, at);
     std::vector<OrbitTouch> found;
     for (std::size_t s = 0; s < orbit.segments(); ++s) {
         const Segment& segment = orbit.signature[s];
-        // A contact whose speed is a share of the usual one goes as deep as the square of that.
-        if (segment.end == SegmentEnd::event && !is_harmless(system, segment.index) &&
-            std::abs(certificate.approach_speeds[s]) < touching * shooting.usual_rate(at, s))
+        // A contact slower than this share of the typical speed is a touch.
+        if (segment.end == SegmentEnd::event && !is_identity_transition(system, segment.index) &&
+            std::abs(certificate.approach_speeds[s]) < touching * shooting.typical_rate(at, s))
             found.push_back({s, system.model().transitions[segment.index].event, orbit.durations[s], true});
     }
     for (const OrbitMinimum& one : certificate.minima)
         if (std::abs(one.value) < touching * one.size)
             found.push_back({one.segment, one.event, one.time, false});
-    // The least value may lie a little beyond the end, by the square of the rate.
+    // The minimum may lie just beyond the end of the arc; its value differs by the square of the rate.
     constexpr double slow = 1e-4;
     for (const EndValue& one : certificate.end_values) {
         double size = 0;
         for (const OrbitMinimum& other : certificate.minima)
             if (other.segment == one.segment && other.event == one.event)
                 size = std::max(size, other.size);
-        const double rate = shooting.usual_rate(at, one.segment, one.event);
-        if (std::abs(one.rate) < slow * rate && std::abs(one.value) < touching * std::max(size, rate * orbit.round()))
+        const double rate = shooting.typical_rate(at, one.segment, one.event);
+        if (std::abs(one.rate) < slow * rate &&
+            std::abs(one.value) < touching * std::max(size, rate * orbit.return_time()))
             found.push_back({one.segment, one.event, orbit.durations[one.segment], false});
     }
     if (found.size() < 2)
@@ -220,7 +222,7 @@ CycleMap cycle_map_of(const OrbitEquations& equations, const OrbitEvaluation& at
     CycleMap map;
     map.touch = touch;
     map.half = equations.symmetry().has_value();
-    map.time = equations.orbit_of(at.unknowns).round();
+    map.time = equations.orbit_of(at.unknowns).return_time();
     const ReturnMap back = return_map(equations, at, touch, functions, free);
     map.reason = back.reason;
     if (!map.reason.empty())
@@ -229,13 +231,13 @@ CycleMap cycle_map_of(const OrbitEquations& equations, const OrbitEvaluation& at
     map.reason = map.contact.reason;
     const Eigen::Index n = index(system.states());
     map.active = at.active;
-    map.scales = list_of(chosen(map.active, at.scales.head(n)));
+    map.scales = list_of(active_part(map.active, at.scales.head(n)));
     Eigen::MatrixXd matrix(index(map.active.size()), index(map.active.size()));
     for (std::size_t i = 0; i < map.active.size(); ++i)
         for (std::size_t j = 0; j < map.active.size(); ++j)
             matrix(index(i), index(j)) = back.matrix(index(map.active[i]), index(map.active[j]));
     map.matrix = rows_of(matrix);
-    map.gradient = list_of(chosen(map.active, back.geometry.gradient.head(n)));
+    map.gradient = list_of(active_part(map.active, back.geometry.gradient.head(n)));
     map.multipliers = multipliers_of(map);
     if (free)
         add_parameter(map, back, back.geometry.gradient[n + index(equations.free()[*free].place())]);
@@ -244,7 +246,7 @@ CycleMap cycle_map_of(const OrbitEquations& equations, const OrbitEvaluation& at
     const Eigen::Map<const Eigen::VectorXd> gained(map.contact.direction.data(), n);
     const TouchGeometry& here = back.geometry;
     const Eigen::VectorXd shift = here.field * (here.rate_gradient.head(n).dot(gained) / here.acceleration);
-    map.impact = list_of(chosen(map.active, gained - shift));
+    map.impact = list_of(active_part(map.active, gained - shift));
     if (next_order && !map.contact.second.empty() && !touch.at_end)
         add_next_order(map, equations, at, back, functions);
     return map;
@@ -279,7 +281,7 @@ CycleMap cycle_map(const System& system, const Orbit& orbit, const OrbitTouch& t
 std::vector<double> CycleMap::image(std::span<const double> state, double clearance) const {
     if (!exists())
         throw InputError("there is no map of the cycle: " + (reason.empty() ? contact.reason : reason),
-                         "ask whether it exists");
+                         "check exists() first");
     if (state.size() != active.size() || !std::isfinite(clearance) ||
         !std::all_of(state.begin(), state.end(), [](double one) { return std::isfinite(one); }))
         throw InputError(fmt::format("{} states and the clearance {} do not fit the map", state.size(), clearance),
@@ -307,7 +309,7 @@ std::vector<double> CycleMap::projections(std::size_t count) const {
     return result;
 }
 
-/// Less the determinant of (1 - sign P, P B; g, 0), with rows and columns in units of the scales.
+/// Computed as minus the determinant of (1 - sign P, P B; g, 0), in scaled rows and columns.
 double CycleMap::sum_of_projections(int sign) const {
     if (!exists() || active.empty())
         return 0;

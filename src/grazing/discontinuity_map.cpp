@@ -40,7 +40,7 @@ std::vector<double> list_of(const Eigen::VectorXd& vector, std::size_t count) {
     return {vector.data(), vector.data() + count};
 }
 
-/// A gain of the states, in which what round-off has left is zero.
+/// Returns a gain of the states with round-off remnants set to zero.
 std::vector<double> without_remnants(const Eigen::VectorXd& gain, const Eigen::VectorXd& scales) {
     constexpr double remnant = 1e-13;
     const Eigen::VectorXd sizes = gain.cwiseQuotient(scales).cwiseAbs();
@@ -50,7 +50,7 @@ std::vector<double> without_remnants(const Eigen::VectorXd& gain, const Eigen::V
     return result;
 }
 
-/// Why a state is no proper touch. Empty if it is.
+/// Returns why a state is not a proper touch; empty if it is.
 std::string problem_of(const System& system, const TouchState& touch, const TouchGeometry& geometry,
                        const TouchSizes& sizes) {
     constexpr double degenerate = 1e-9;
@@ -59,22 +59,21 @@ std::string problem_of(const System& system, const TouchState& touch, const Touc
     const double terms = geometry.rate_gradient.head(n).cwiseAbs().dot(geometry.field.cwiseAbs());
     if (!geometry.gradient.allFinite() || !geometry.rate_gradient.allFinite() || !geometry.field.allFinite() ||
         !std::isfinite(geometry.acceleration))
-        return fmt::format("event '{}' has no rates at the touch", name);
+        return fmt::format("the rates of event '{}' are not finite at the touch", name);
     if (!(std::abs(geometry.acceleration) > degenerate * terms))
         return fmt::format("event '{}' is touched without acceleration: the tangency is degenerate", name);
     if (geometry.acceleration < 0)
-        return fmt::format("the function of event '{}' is greatest, not least, at the touch", name);
+        return fmt::format("the function of event '{}' has a maximum, not a minimum, at the touch", name);
     if (!sizes.is_zero(geometry.value, geometry.gradient))
         return fmt::format("the state is not on the surface of event '{}'", name);
     if (!sizes.is_zero_rate(geometry.rate, geometry.gradient, geometry.field))
-        return fmt::format("the surface of event '{}' is met with speed", name);
+        return fmt::format("the surface of event '{}' is reached with nonzero speed", name);
     return {};
 }
 
-/// Moves a touch that is known to the accuracy of an orbit exactly onto the surface, and to where it has no rate: a
-/// stiff contact would take what is missing for a force. The least step, in the sizes of the states, by Newton's
-/// method.
-void settle(const TouchFunctions& functions, TouchState& touch, TouchGeometry& geometry) {
+/// Moves a touch, known only to the accuracy of an orbit, exactly to zero value and zero rate of the event function by
+/// minimum-norm Newton steps in scaled states: for a stiff contact the inaccuracy would be a force.
+void project_onto_touch(const TouchFunctions& functions, TouchState& touch, TouchGeometry& geometry) {
     constexpr int iterations = 3;
     const Eigen::Index n = index(touch.state.size());
     const Eigen::Map<const Eigen::VectorXd> scales(touch.scales.data(), n);
@@ -153,11 +152,11 @@ DiscontinuityMap local_map(const TouchFunctions& functions, const TouchState& to
     TouchGeometry geometry = functions.at(touch.state, touch.parameters);
     const TouchSizes sizes(touch, geometry);
     if (asked == AskedContacts::rigid_beside)
-        settle(functions, map.touch, geometry);
+        project_onto_touch(functions, map.touch, geometry);
     map.reason = problem_of(system, touch, geometry, sizes);
     if (!map.reason.empty())
         return map;
-    settle(functions, map.touch, geometry);
+    project_onto_touch(functions, map.touch, geometry);
     map.acceleration = geometry.acceleration;
     map.gradient = list_of(geometry.gradient, n);
     map.rate_gradient = list_of(geometry.rate_gradient, n);

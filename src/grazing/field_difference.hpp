@@ -9,14 +9,14 @@
 
 namespace graze {
 
-/// What another mode's field has more than that of the touching mode, at a touch, with derivatives.
+/// The vector field of another mode minus that of the touching mode, at a touch, with derivatives.
 struct FieldDifference {
-    Eigen::VectorXd value, second; ///< and its second derivative along the touching mode's field
-    double jerk = 0;               ///< third rate of the touched function
-    Eigen::MatrixXd derivatives;   ///< states x states
-    Eigen::MatrixXd of_field;      ///< of the touching mode's field
+    Eigen::VectorXd value, second; ///< difference, and its second derivative along the field of the touching mode
+    double jerk = 0;               ///< third time derivative of the touched function
+    Eigen::MatrixXd derivatives;   ///< Jacobian of the difference, states x states
+    Eigen::MatrixXd of_field;      ///< Jacobian of the touching mode's field
 };
-/// @param mode the other one
+/// Computes the difference at a touch. @param mode the other mode
 FieldDifference difference_of(const System& system, const TouchState& touch, std::size_t mode);
 
 } // namespace graze

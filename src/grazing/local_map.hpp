@@ -5,15 +5,15 @@
 
 namespace graze {
 
-/// What is asked of a contact. Compliant ones and next orders take a while, since second derivatives of the fields are
-/// needed.
+/// The contacts for which a map is computed. Compliant contacts and next orders are expensive: they need second
+/// derivatives of the vector fields.
 enum class AskedContacts {
     all,
     rigid,
-    rigid_beside, ///< a touch may be off the surface a little, and is put there first by the least step
+    rigid_beside, ///< rigid contacts; the touch may be slightly off the surface and is first projected onto it
 };
 
-/// As `discontinuity_map`, with the touched function compiled already.
+/// Computes `discontinuity_map` with the touched function already compiled.
 DiscontinuityMap local_map(const TouchFunctions& functions, const TouchState& touch, AskedContacts asked);
 
 } // namespace graze

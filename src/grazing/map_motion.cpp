@@ -22,7 +22,7 @@ void MapMotionOptions::validate() const {
 
 namespace {
 
-/// The map with states measured in their sizes.
+/// Iterates the map in scaled states.
 class ScaledMap {
 public:
     ScaledMap(const CycleMap& map, double clearance) : map_(map), clearance_(clearance) {
@@ -39,7 +39,7 @@ public:
     }
 
     const Eigen::VectorXd& state() const { return state_; }
-    /// One cycle. @return speed or depth of its contact, 0 without one
+    /// Advances by one cycle. @return approach speed or depth of its contact, 0 without one
     double step() {
         const double depth = std::max(0.0, -(clearance_ + gradient_.dot(state_)));
         state_ += impact_ * map_.contact.by_depth(depth);
@@ -59,7 +59,7 @@ private:
 MapMotion map_motion(const CycleMap& map, double clearance, const MapMotionOptions& options) {
     options.validate();
     if (!map.exists())
-        throw InputError("there is no map to iterate: " + map.reason, "ask whether it exists");
+        throw InputError("there is no map to iterate: " + map.reason, "check exists() first");
     if (!std::isfinite(clearance))
         throw InputError("the clearance is not finite", "give a number, negative where contacts happen");
     ScaledMap scaled(map, clearance);

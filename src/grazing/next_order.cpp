@@ -12,13 +12,13 @@ namespace graze {
 
 namespace {
 
-/// Derivatives at a touch: of the field F, of the jump J, of the touched function.
+/// Derivatives at a touch of the field F, of the jump J and of the touched function.
 struct Derivatives {
-    Eigen::VectorXd curve;       ///< of F along F
-    Eigen::MatrixXd of_field;    ///< states x states
-    Eigen::MatrixXd of_jump;     ///< the same, less the identity
-    Eigen::VectorXd second_jump; ///< of J along F, twice
-    double jerk = 0;             ///< third rate of the touched function
+    Eigen::VectorXd curve;       ///< derivative of F along F
+    Eigen::MatrixXd of_field;    ///< Jacobian of F, states x states
+    Eigen::MatrixXd of_jump;     ///< Jacobian of J minus the identity
+    Eigen::VectorXd second_jump; ///< second derivative of J along F
+    double jerk = 0;             ///< third time derivative of the touched function
 };
 
 Derivatives derivatives_at(const System& system, const TouchState& touch, std::size_t transition) {
@@ -59,16 +59,17 @@ Derivatives derivatives_at(const System& system, const TouchState& touch, std::s
 
 } // namespace
 
-/// The motion meets the surface at the time -s/a - j s^2/(6 a^3), with j the function's third rate; is there moved by
-/// K = J - 1, which is zero where the surface is touched; and is compared at time 0, to which what it has gained is
-/// carried by the field. All is expanded to s^2. The motion starts off the surface by the depth s^2/(2 a).
+/// The motion reaches the surface at the time -s/a - j s^2/(6 a^3), with j the third rate of the function. There K = J
+/// - 1, which is zero on the touching states, shifts it. The shift is carried by the field to time 0 and compared
+/// there. All terms are expanded to order s^2; the motion lies off the surface by the depth s^2/(2 a).
 std::optional<Eigen::VectorXd> next_order_of_impact(const TouchFunctions& functions, const TouchState& touch,
                                                     const TouchGeometry& geometry, const TouchSizes& sizes,
                                                     std::size_t transition) {
     const Derivatives at = derivatives_at(functions.system(), touch, transition);
     const double a = geometry.acceleration;
-    const Eigen::VectorXd first = at.of_jump * geometry.field;    // of K along F
-    const Eigen::VectorXd bent = (at.second_jump - at.curve) / 2; // K twice along the motion, by half its time^2
+    const Eigen::VectorXd first = at.of_jump * geometry.field; // derivative of K along F
+    const Eigen::VectorXd bent =
+        (at.second_jump - at.curve) / 2; // second derivative of K along the motion, divided by 2
     const Eigen::VectorXd carried = at.of_field * first;
     const Eigen::VectorXd result = -first * (at.jerk / (6 * a * a * a)) + (bent - carried) / (a * a) -
                                    at.of_jump * sizes.off_surface(geometry) / (2 * a);

@@ -10,9 +10,9 @@
 
 namespace graze {
 
-/// Whether a contact with the touched surface belongs to the touch: it comes nearer to the time of one than to those at
-/// which the orbit meets the surface anyway. @param time since a touch; @param period of the orbit, or of its half,
-/// after which the surface may be its image
+/// True when a contact with the touched surface belongs to the touch: its time is nearer to that of a touch than to
+/// those of the orbit's other contacts with the surface. @param time since a touch; @param period of the orbit, or half
+/// of it where the surface may be mapped to its image
 inline bool is_at_touch(const CycleMap& map, double time, double period) {
     const auto distance = [&](const std::vector<double>& times) {
         double least = std::numeric_limits<double>::infinity();

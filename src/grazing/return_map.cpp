@@ -12,27 +12,27 @@ namespace graze {
 
 namespace {
 
-/// Share of a round below which an arc takes no time: it belongs to a contact that has lost its speed.
+/// Arcs shorter than this share of the cycle belong to a contact at zero speed.
 constexpr double no_time = 1e-6;
 
-/// Carries derivatives with respect to the state at the touch, and to a parameter, along an orbit.
-class Carrier {
+/// Propagates derivatives with respect to the state at the touch, and to a parameter, along an orbit.
+class DerivativeCarrier {
 public:
-    Carrier(const OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,
-            const TouchFunctions& functions, std::optional<std::size_t> free)
+    DerivativeCarrier(const OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,
+                      const TouchFunctions& functions, std::optional<std::size_t> free)
         : equations_(equations), at_(at), touch_(touch), functions_(functions), free_(free),
           n_(index(equations.layout().states())), flow_(flow_of(equations.simulation(), equations.free())) {
         flow_.set_parameters(at.parameters);
     }
 
-    ReturnMap carry() {
+    ReturnMap propagate() {
         if (!find_touch() || !(touch_.at_end ? pass_from_end() : pass_from_inside()))
             return std::move(result_);
-        // Onto the surface again, which may move with the parameter.
+        // Project back onto the surface of zero rate, which may move with the parameter.
         const TouchGeometry& here = result_.geometry;
         Eigen::RowVectorXd row = here.rate_gradient.head(n_).transpose() * rows_;
         if (free_)
-            row[n_] += here.rate_gradient[n_ + place_of_parameter()];
+            row[n_] += here.rate_gradient[n_ + parameter_index()];
         rows_ -= here.field * (row / here.acceleration);
         if (!rows_.allFinite())
             return fail("derivatives along the orbit are not finite");
@@ -51,14 +51,15 @@ private:
         result_.reason = std::move(reason);
         return false;
     }
-    Eigen::Index place_of_parameter() const { return index(equations_.free()[*free_].place()); }
+    Eigen::Index parameter_index() const { return index(equations_.free()[*free_].place()); }
     double duration(std::size_t piece) const { return at_.unknowns[index(equations_.layout().duration_of(piece))]; }
     std::vector<double> start(std::size_t piece) const {
         const double* first = at_.unknowns.data() + equations_.layout().start_of(piece);
         return {first, first + n_};
     }
 
-    /// The piece and time of the touch, its state, and derivatives of that with respect to the piece's start.
+    /// Finds the piece, time and state of the touch, and the derivatives of the state with respect to the start of the
+    /// piece.
     bool find_touch() {
         const OrbitLayout& layout = equations_.layout();
         piece_ = layout.last_piece(touch_.segment);
@@ -68,10 +69,10 @@ private:
             time_ = touch_.time;
             while (piece_ < layout.last_piece(touch_.segment) && time_ > duration(piece_))
                 time_ -= duration(piece_++);
-            if (!polish())
+            if (!refine_time())
                 return refuse("the orbit does not turn back from the surface near the given time");
             if (is_beyond_its_arc())
-                return refuse(fmt::format("the touch comes together with what ends segment {} or the one before",
+                return refuse(fmt::format("the touch coincides with the end of segment {} or of the one before",
                                           touch_.segment + 1));
         }
         result_.touch = {functions_.mode(), functions_.event(), start(piece_), at_.parameters, {}};
@@ -85,34 +86,34 @@ private:
         return true;
     }
 
-    /// Newton's method for the time at which the touched function has no rate.
-    bool polish() {
+    /// Refines the time of the touch by Newton's method on the rate of the touched function.
+    bool refine_time() {
         constexpr int iterations = 30;
-        constexpr double farthest = 0.05, enough = 1e-14; // of a round
-        const double round = equations_.orbit_of(at_.unknowns).round(), first = time_;
+        constexpr double farthest = 0.05, enough = 1e-14; // shares of the cycle
+        const double cycle = equations_.orbit_of(at_.unknowns).return_time(), first = time_;
         for (int iteration = 0; iteration < iterations; ++iteration) {
             std::vector<double> state = start(piece_);
             if (flow_.run(functions_.mode(), state, time_) != ModeFlow::Ending::done)
                 return false;
             const TouchGeometry here = functions_.at(state, at_.parameters);
             const double step = -here.rate / here.acceleration;
-            if (!(std::abs(time_ + step - first) < farthest * round))
+            if (!(std::abs(time_ + step - first) < farthest * cycle))
                 return false;
             time_ += step;
-            if (std::abs(step) < enough * round)
+            if (std::abs(step) < enough * cycle)
                 return true;
         }
-        // Round-off where the acceleration is small decides the last digits.
+        // Where the acceleration is small, round-off prevents full convergence.
         return true;
     }
 
-    /// Where the mode is another one already, or not yet this one.
+    /// True when the time of the touch lies outside the arc, in another mode.
     bool is_beyond_its_arc() const {
-        constexpr double late = 1e-9; // of a round
+        constexpr double late = 1e-9; // share of the cycle
         const std::size_t pieces = equations_.layout().pieces();
-        const double away = late * equations_.orbit_of(at_.unknowns).round();
-        return (time_ > duration(piece_) + away && changes_something(piece_)) ||
-               (time_ < -away && changes_something((piece_ + pieces - 1) % pieces));
+        const double away = late * equations_.orbit_of(at_.unknowns).return_time();
+        return (time_ > duration(piece_) + away && has_contact(piece_)) ||
+               (time_ < -away && has_contact((piece_ + pieces - 1) % pieces));
     }
 
     void begin() { rows_ = Eigen::MatrixXd::Identity(n_, n_ + (free_ ? 1 : 0)); }
@@ -142,18 +143,19 @@ private:
         return true;
     }
 
-    /// The contact at the touch, and what takes no time after it, are not passed.
+    /// Propagates from a touch at the end of a segment. The contact at the touch and the following segments of zero
+    /// duration are skipped.
     bool pass_from_end() {
         const OrbitLayout& layout = equations_.layout();
         const std::size_t pieces = layout.pieces();
-        const double round = equations_.orbit_of(at_.unknowns).round();
+        const double cycle = equations_.orbit_of(at_.unknowns).return_time();
         begin();
         std::size_t mode = functions_.mode(), k = 1;
         pass_symmetry(piece_, mode);
-        for (; k < pieces && std::abs(duration((piece_ + k) % pieces)) < no_time * round; ++k)
+        for (; k < pieces && std::abs(duration((piece_ + k) % pieces)) < no_time * cycle; ++k)
             pass_symmetry((piece_ + k) % pieces, mode);
         if (equations_.mode_of((piece_ + k) % pieces) != mode)
-            return refuse("after the contact that has lost its speed the orbit goes on in another mode");
+            return refuse("after the contact at zero speed the orbit continues in another mode");
         for (; k < pieces; ++k) {
             const std::size_t piece = (piece_ + k) % pieces;
             apply(at_.pieces[piece].flow);
@@ -164,7 +166,7 @@ private:
         return true;
     }
 
-    /// The symmetry's image alone, behind the last piece of a half orbit.
+    /// Applies the symmetry only, after the last piece of a half orbit.
     void pass_symmetry(std::size_t piece, std::size_t& mode) {
         if (!equations_.symmetry() || piece + 1 != equations_.layout().pieces())
             return;
@@ -182,25 +184,25 @@ private:
             const auto [row, column] = map.entries[e];
             if (index(column) < n_)
                 derivatives(index(row), index(column)) = entries[e];
-            else if (free_ && index(column) - n_ == place_of_parameter())
+            else if (free_ && index(column) - n_ == parameter_index())
                 derivatives(index(row), n_ + index(*free_)) = entries[e];
         }
         apply(derivatives);
     }
 
-    bool changes_something(std::size_t piece) const {
+    bool has_contact(std::size_t piece) const {
         const Segment& segment = equations_.signature()[equations_.layout().segment_of(piece)];
         return equations_.layout().is_last(piece) && segment.end == SegmentEnd::event &&
-               !is_harmless(equations_.system(), segment.index);
+               !is_identity_transition(equations_.system(), segment.index);
     }
 
-    /// What ends a piece: the event and not the time says when (saltation), then jump and image.
+    /// Applies the end of a piece: the correction for the event time (saltation), the jump and the symmetry.
     bool pass_end(std::size_t piece) {
         const OrbitEvaluation::Piece& one = at_.pieces[piece];
-        if (changes_something(piece)) {
+        if (has_contact(piece)) {
             const double rate = one.condition.head(n_).dot(one.field);
             const std::size_t segment = equations_.layout().segment_of(piece);
-            if (!(std::abs(rate) > least_rate * equations_.usual_rate(at_, segment)))
+            if (!(std::abs(rate) > least_rate * equations_.typical_rate(at_, segment)))
                 return refuse(fmt::format("the contact that ends segment {} has no speed", segment + 1));
             Eigen::RowVectorXd row = one.condition.head(n_).transpose() * rows_;
             if (free_)
@@ -208,12 +210,12 @@ private:
             rows_ -= one.field * (row / rate);
         }
         apply(one.jump);
-        take_out_turns(piece);
+        remove_whole_periods(piece);
         return true;
     }
 
-    /// Cyclic states come back less whole periods, which may depend on the parameter.
-    void take_out_turns(std::size_t piece) {
+    /// Removes whole periods of cyclic states, which may depend on the parameter.
+    void remove_whole_periods(std::size_t piece) {
         if (!free_)
             return;
         const System& system = equations_.system();
@@ -241,8 +243,8 @@ private:
     Eigen::Index n_;
     ModeFlow flow_;
     std::size_t piece_ = 0;
-    double time_ = 0;        ///< of the touch, since the piece's start
-    Eigen::MatrixXd before_; ///< from there to the touch
+    double time_ = 0;        ///< time of the touch since the start of the piece
+    Eigen::MatrixXd before_; ///< derivatives from there to the touch
     Eigen::MatrixXd rows_;   ///< states x (states + parameter)
     ReturnMap result_;
 };
@@ -251,7 +253,7 @@ private:
 
 ReturnMap return_map(const OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,
                      const TouchFunctions& functions, std::optional<std::size_t> free) {
-    return Carrier(equations, at, touch, functions, free).carry();
+    return DerivativeCarrier(equations, at, touch, functions, free).propagate();
 }
 
 } // namespace graze

@@ -13,28 +13,29 @@
 
 namespace graze {
 
-/// The derivative of an orbit's motion from a touch until it comes back there, on the surface where the touched
-/// function has no rate.
+/// The derivative of the return of an orbit from a touch to itself, on the surface where the touched function has zero
+/// rate.
 struct ReturnMap {
-    std::string reason; ///< why there is none; empty if there is one
+    std::string reason; ///< why the map does not exist; empty if it does
     TouchState touch;
     TouchGeometry geometry;
-    std::size_t piece = 0;     ///< in which it is
-    double time = 0;           ///< since that one's start
-    Eigen::MatrixXd matrix;    ///< states x states
-    Eigen::VectorXd parameter; ///< the same with respect to a free parameter; empty without one
+    std::size_t piece = 0;     ///< piece that contains the touch
+    double time = 0;           ///< time of the touch since the start of the piece
+    Eigen::MatrixXd matrix;    ///< derivative, states x states
+    Eigen::VectorXd parameter; ///< derivative with respect to the free parameter; empty without one
 };
 
-/// @param equations of the orbit, and their evaluation; @param functions of the touched event in the segment's mode
-/// @param free which of the free parameters of the equations counts
+/// @param equations of the orbit; @param at their evaluation; @param functions of the touched event in the segment's
+/// mode
+/// @param free index, among the free parameters of the equations, of the one to differentiate by
 ReturnMap return_map(const OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,
                      const TouchFunctions& functions, std::optional<std::size_t> free);
 
-/// The map of the cycle from it. @param free as above
+/// Computes the cycle map from the return map. @param free as above
 CycleMap cycle_map_of(const OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,
                       std::optional<std::size_t> free, AskedContacts asked = AskedContacts::all,
                       bool next_order = false);
-/// The same with the touched function compiled already.
+/// The same with the touched function already compiled.
 CycleMap cycle_map_of(const OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,
                       const TouchFunctions& functions, std::optional<std::size_t> free, AskedContacts asked,
                       bool next_order = false);

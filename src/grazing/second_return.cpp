@@ -15,17 +15,17 @@ namespace {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Carries a state x + s first + s^2 second.
-class SecondCarrier {
+/// Propagates a state x + s first + s^2 second along an orbit.
+class SecondOrderCarrier {
 public:
-    SecondCarrier(const OrbitEquations& equations, const OrbitEvaluation& at, const ReturnMap& back,
-                  const TouchFunctions& functions)
+    SecondOrderCarrier(const OrbitEquations& equations, const OrbitEvaluation& at, const ReturnMap& back,
+                       const TouchFunctions& functions)
         : equations_(equations), at_(at), back_(back), functions_(functions), n_(index(equations.layout().states())),
           system_(equations.system()), flow_(system_, equations.simulation().options().tolerance) {
         flow_.set_parameters(at.parameters);
     }
 
-    std::optional<SecondGain> carry(const Eigen::VectorXd& first, const Eigen::VectorXd& second) {
+    std::optional<SecondGain> propagate(const Eigen::VectorXd& first, const Eigen::VectorXd& second) {
         first_ = first;
         second_ = second;
         const std::size_t pieces = equations_.layout().pieces();
@@ -67,7 +67,7 @@ private:
         return true;
     }
 
-    /// Inputs of the variational system's functions, contracted with what the state gains.
+    /// Returns the inputs of functions of the variational system, contracted with the first-order gain.
     std::vector<double> inputs_at(const std::vector<double>& state) const {
         std::vector<double> inputs = state;
         inputs.insert(inputs.end(), at_.parameters.begin(), at_.parameters.end());
@@ -75,7 +75,7 @@ private:
         return inputs;
     }
 
-    /// What the rates of a mode gain by a vector.
+    /// Returns the derivative of a mode's rates along a vector.
     Eigen::VectorXd rate_along(std::size_t mode, const std::vector<double>& state,
                                const Eigen::VectorXd& vector) const {
         std::vector<double> inputs = state;
@@ -85,7 +85,7 @@ private:
         return Eigen::Map<const Eigen::VectorXd>(rates.data() + n_, n_);
     }
 
-    /// The function's own zero instead of a time ends the motion: the time that this takes more, to second order.
+    /// Moves the end of the motion from a fixed time to the zero of a function, to second order in the shift of time.
     void onto_surface(std::size_t mode, const std::vector<double>& state, const Function& function) {
         const Eigen::VectorXd field = field_of(mode, state);
         const std::vector<double> there = function(inputs_at(state));
@@ -121,7 +121,7 @@ private:
         const std::size_t s = layout.segment_of(piece);
         const Segment& segment = equations_.signature()[s];
         std::vector<double> state = at_.pieces[piece].end;
-        if (segment.end == SegmentEnd::event && !is_harmless(equations_.system(), segment.index)) {
+        if (segment.end == SegmentEnd::event && !is_identity_transition(equations_.system(), segment.index)) {
             const Transition& transition = equations_.model().transitions[segment.index];
             onto_surface(equations_.mode_of(piece), state, system_.event(transition.event));
             pass(system_.jump(transition.jump), state);
@@ -154,7 +154,7 @@ private:
 std::optional<SecondGain> second_return(const OrbitEquations& equations, const OrbitEvaluation& at,
                                         const ReturnMap& back, const TouchFunctions& functions,
                                         const Eigen::VectorXd& first, const Eigen::VectorXd& second) {
-    return SecondCarrier(equations, at, back, functions).carry(first, second);
+    return SecondOrderCarrier(equations, at, back, functions).propagate(first, second);
 }
 
 } // namespace graze

@@ -12,9 +12,9 @@ namespace graze {
 
 namespace {
 
-constexpr double small = 1e-6; // of what it is compared with: touches are located to some 1e-10
+constexpr double small = 1e-6; // relative tolerance; touches are located to about 1e-10
 
-/// Whether a jump leaves all states of the surface beside the touch where they are, to first order.
+/// True when a jump leaves all states of the surface near the touch unchanged, to first order.
 bool is_identity_on_surface(const System& system, std::size_t jump, const TouchState& touch,
                             const TouchGeometry& geometry, const TouchSizes& sizes) {
     const System::CompiledJump& compiled = system.jump(jump);
@@ -35,7 +35,7 @@ bool is_identity_on_surface(const System& system, std::size_t jump, const TouchS
     return (units.cwiseInverse().asDiagonal() * change * units.asDiagonal()).norm() <= small;
 }
 
-/// What is wrong with the way to the sliding mode and back. Empty if nothing is.
+/// Returns why the jumps into the sliding mode and back are not negligible; empty if they are.
 std::string problem_of(const TouchFunctions& functions, const TouchState& touch, const TouchGeometry& geometry,
                        const TouchSizes& sizes, std::span<const std::size_t> contacts, const Eigen::VectorXd& gain) {
     const System& system = functions.system();
@@ -48,7 +48,7 @@ std::string problem_of(const TouchFunctions& functions, const TouchState& touch,
             return refused;
         if (system.jump(jump).identity || contact != contacts.front())
             continue;
-        // Where sliding begins the motion is not at the touch: what the jump does there, by d.
+        // Sliding begins away from the touch, where the jump has an effect of order d.
         const auto by_square = next_order_of_impact(functions, touch, geometry, sizes, contact);
         if (!by_square)
             return fmt::format("the jump '{}' has no derivatives at the touch", system.model().jumps[jump].name);
@@ -75,7 +75,7 @@ SlidingContact sliding_contact(const TouchFunctions& functions, const TouchState
     const Eigen::VectorXd& units = sizes.scales();
     if (!difference.derivatives.allFinite() || !difference.second.allFinite() || !difference.of_field.allFinite() ||
         !std::isfinite(difference.jerk) || !((difference.value.cwiseQuotient(units) * sizes.time()).norm() <= small))
-        return fail(fmt::format("the field of mode '{}' is another one at the touch", name));
+        return fail(fmt::format("the vector field of mode '{}' is different at the touch", name));
     const double a = geometry.acceleration;
     const Eigen::VectorXd gradient = geometry.gradient.head(n), rate_gradient = geometry.rate_gradient.head(n);
     const Eigen::VectorXd slowing = difference.derivatives * geometry.field / a; // M
@@ -87,7 +87,8 @@ SlidingContact sliding_contact(const TouchFunctions& functions, const TouchState
           small * scaled(difference.derivatives)))
         return fail(
             fmt::format("the field of mode '{}' is not that of mode '{}' wherever the surface is touched", name, own));
-    const Eigen::VectorXd bend = difference.second - a * off - difference.jerk * slowing; // D twice, on the surface
+    // Second derivative of D, on the surface.
+    const Eigen::VectorXd bend = difference.second - a * off - difference.jerk * slowing;
     const double terms = gradient.cwiseAbs().dot(difference.second.cwiseAbs() + a * off.cwiseAbs() +
                                                  std::abs(difference.jerk) * slowing.cwiseAbs());
     if (!(std::abs(gradient.dot(slowing) + 1) <= small) ||

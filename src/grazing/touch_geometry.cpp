@@ -11,17 +11,17 @@ namespace graze {
 
 namespace {
 
-/// Shares of their sizes below which values count as zero: touches are located to some 1e-10.
+/// Relative tolerances below which values and rates count as zero; touches are located to about 1e-10.
 constexpr double small_value = 1e-7;
 constexpr double small_rate = 1e-6;
-/// The same of what cancels exactly where it is zero.
+/// The same for gains, which cancel exactly where they are zero.
 constexpr double small_gain = 1e-10;
 
 } // namespace
 
 TouchFunctions::TouchFunctions(const System& system, std::size_t mode, std::size_t event)
     : system_(system), mode_(mode), event_(event) {
-    Model model = system.model(); // whose graph may grow
+    Model model = system.model(); // a copy, whose expression graph may grow
     const Expression function = model.expand(model.events[event].function);
     const std::vector<Expression> field = model.expand(model.modes[mode].rates);
     const Expression rate = lie_derivatives(model, std::span(&function, 1), field).front();

@@ -17,7 +17,7 @@ struct TouchGeometry {
     Eigen::VectorXd field;
 };
 
-/// Compiled once for a mode and an event.
+/// The event function and its rate, compiled for a mode and an event.
 class TouchFunctions {
 public:
     TouchFunctions(const System& system, std::size_t mode, std::size_t event);
@@ -30,22 +30,22 @@ public:
 private:
     System system_;
     std::size_t mode_, event_;
-    Function rate_; ///< with its gradient, then its own rate
+    Function rate_; ///< rate of the event function, its gradient, then its own rate
 };
 
-/// What counts as zero beside a touch. Values and rates of functions are compared with what the sizes of the states and
-/// the time in which the touched function would come back from its own size make of them.
+/// Decides what counts as zero near a touch. Values and rates are compared with those that follow from the scales of
+/// the states and from the time scale sqrt(size / acceleration) of the touched function.
 class TouchSizes {
 public:
     TouchSizes(const TouchState& touch, const TouchGeometry& geometry);
 
     bool is_zero(double value, const Eigen::VectorXd& gradient) const;
     bool is_zero_rate(double rate, const Eigen::VectorXd& gradient, const Eigen::VectorXd& field) const;
-    /// What a function gains for each unit of approach speed.
+    /// True when the gain of a function per unit of approach speed is zero. @param gradient of the function
     bool is_zero_gain(double gain, const Eigen::VectorXd& gradient) const;
-    /// What the states gain.
+    /// True when the gain of the states per unit of approach speed is zero.
     bool is_zero_gain(const Eigen::VectorXd& gain) const;
-    /// A direction along which the function grows by 1 and its rate does not: the least one, in the states' sizes.
+    /// Returns the smallest direction, in scaled states, along which the function grows by 1 and its rate is constant.
     Eigen::VectorXd off_surface(const TouchGeometry& geometry) const;
     const Eigen::VectorXd& scales() const { return scales_; }
     double time() const { return time_; }

@@ -15,16 +15,16 @@ namespace graze {
 
 namespace {
 
-/// Factors of speeds that count as growth, and as agreement with the map.
-constexpr double growth = 30, alike = 3;
+/// Ratio of speeds that counts as growth; largest ratio that counts as agreement with the map.
+constexpr double growth = 30, agreement = 3;
 
-/// Notes the greatest approach speed at one event, or the greatest depth beyond it, of contacts that come nearer to
-/// the time of the touch than to those at which the orbit meets the event anyway.
-class Greatest : public Observer {
+/// Records the largest approach speed at the touched event, or the largest depth beyond it, of the contacts that belong
+/// to the touch and not to other contacts of the orbit.
+class LargestContact : public Observer {
 public:
-    /// @param start time of the first touch
-    Greatest(const System& system, const CycleMap& map, double start, std::span<const double> parameters,
-             const std::function<bool()>& interrupted)
+    /// @param time of the first touch
+    LargestContact(const System& system, const CycleMap& map, double start, std::span<const double> parameters,
+                   const std::function<bool()>& interrupted)
         : system_(system), map_(map), event_(map.contact.touch.event), start_(start),
           parameters_(parameters.begin(), parameters.end()), interrupted_(interrupted) {}
 
@@ -66,7 +66,7 @@ private:
     double speed_ = 0, depth_ = 0;
 };
 
-/// One touch, beside which motions are simulated.
+/// Simulates motions near one touch.
 class TrialExperiment {
 public:
     TrialExperiment(const System& system, const CycleMap& map, ParameterId parameter, const TrialOptions& options)
@@ -76,18 +76,19 @@ public:
             size_ += std::abs(map.contact.gradient[i]) * map.contact.touch.scales[i];
     }
 
-    /// Of the event's function.
+    /// Scale of the event function.
     double size() const { return size_; }
     bool is_compliant() const { return compliant_; }
     double speed_at(double clearance) const { return std::sqrt(-2 * map_.contact.acceleration * clearance); }
-    /// The parameter is a number with so many digits: clearances must be far larger than what they leave open.
-    double least_clearance() const {
-        constexpr double digits = 1e-15, enough = 1e3, of_states = 1e-10;
+    /// Returns the smallest useful clearance: it must exceed the resolution of the parameter and of the states in
+    /// double precision.
+    double smallest_clearance_for_trial() const {
+        constexpr double digits = 1e-15, enough = 1e3, state_resolution = 1e-10;
         const double parameter = map_.contact.touch.parameters[parameter_.place()];
-        return std::max(of_states * size_, enough * digits * std::abs(parameter * *map_.clearance_rate));
+        return std::max(state_resolution * size_, enough * digits * std::abs(parameter * *map_.clearance_rate));
     }
 
-    /// Simulates the motion that begins at the touch, where the orbit without contact would be.
+    /// Simulates the motion that starts on the orbit without contact, near the touch.
     TrialMotion run(double clearance) const {
         const TouchState& touch = map_.contact.touch;
         TrialMotion motion;
@@ -97,23 +98,23 @@ public:
         motion.parameter = parameters[parameter_.place()] += change;
         for (std::size_t i = 0; i < map_.active.size(); ++i)
             state[map_.active[i]] += map_.steady[i] * change;
-        // It begins before the contact, which is before the touch by speed over acceleration.
+        // Start before the contact, which precedes the touch by speed over acceleration.
         constexpr double earlier = 3;
         const double early = std::min(earlier * speed_at(clearance) / map_.contact.acceleration, 0.01 * map_.time);
         ModeFlow flow(simulation_.system(), simulation_.options().tolerance);
         flow.set_parameters(parameters);
         if (flow.run(touch.mode, state, -early) != ModeFlow::Ending::done)
             return motion;
-        Greatest greatest(simulation_.system(), map_, early, parameters, options_.interrupted);
-        Trajectory trajectory(simulation_, parameters, greatest);
+        LargestContact largest_contact(simulation_.system(), map_, early, parameters, options_.interrupted);
+        Trajectory trajectory(simulation_, parameters, largest_contact);
         trajectory.start(state, touch.mode, 0, static_cast<double>(options_.cycles) * map_.time + early);
         JetSet jets(simulation_, LaneKind::single);
         graze::run(trajectory, jets);
         const Ending ending = trajectory.outcome().ending;
         motion.ended = ending == Ending::singular || ending == Ending::terminal;
         motion.followed = motion.ended || ending == Ending::end_time;
-        motion.contacts = greatest.contacts();
-        motion.largest = compliant_ ? greatest.depth() : greatest.speed();
+        motion.contacts = largest_contact.contacts();
+        motion.largest = compliant_ ? largest_contact.depth() : largest_contact.speed();
         if (!map_.exists())
             return motion;
         MapMotionOptions map_options;
@@ -142,31 +143,31 @@ bool is_near(double one, double other, double factor) {
     return one <= factor * other && other <= factor * one;
 }
 
-/// The first contact must end every motion.
+/// Checks that the first contact ends every motion.
 Trial try_ending(const TrialExperiment& experiment) {
     Trial trial;
     for (const double factor : {1.0, 30.0})
-        trial.motions.push_back(experiment.run(-experiment.least_clearance() * factor));
+        trial.motions.push_back(experiment.run(-experiment.smallest_clearance_for_trial() * factor));
     const bool all_end =
         std::all_of(trial.motions.begin(), trial.motions.end(), [](const TrialMotion& motion) { return motion.ended; });
     return with_reason(trial, all_end ? TrialOutcome::agreed : TrialOutcome::contradicted,
                        all_end ? "contact ends the motion" : "contact does not end the motion");
 }
 
-/// Growth must be there at every distance, and the nearer the touch the more of it.
+/// Checks that contacts grow at every distance, the more the nearer the touch is.
 Trial try_loss(const TrialExperiment& experiment, const Verdict& verdict, const TrialOptions& options) {
     Trial trial;
-    const double least = experiment.least_clearance();
-    // Contacts go on growing only as long as they are slower than the reach of the growth. That of sliding is not
-    // known: what goes as deep as the function is large is no neighbour any more.
+    const double least = experiment.smallest_clearance_for_trial();
+    // Contacts grow only up to the reach of the growth. For sliding the reach is unknown; a share of the speed at which
+    // the depth equals the scale of the function bounds the neighbourhood.
     const double reach = verdict.reach ? *verdict.reach : 0.1 * experiment.speed_at(-experiment.size());
-    const double room = reach / experiment.speed_at(-least);
-    if (!(room > growth))
+    const double amplification = reach / experiment.speed_at(-least);
+    if (!(amplification > growth))
         return with_reason(trial, TrialOutcome::undecided,
-                           fmt::format("speeds would grow by a factor of {:.3g} only from the softest contacts that "
-                                       "numbers allow",
-                                       room));
-    // From one to the next there are so many cycles, and seven of them make a thousand of nearly nothing.
+                           fmt::format("from the softest contacts that double precision allows, speeds would grow by "
+                                       "a factor of {:.3g} only",
+                                       amplification));
+    // Number of contacts that the simulation must contain: about seven contacts amplify a tiny speed a thousandfold.
     constexpr std::size_t needed = 12;
     if (verdict.next_contact * needed > options.cycles)
         return with_reason(
@@ -192,29 +193,29 @@ Trial try_loss(const TrialExperiment& experiment, const Verdict& verdict, const 
                                 : "motions could not be followed to their end");
 }
 
-/// Speeds and depths are those of the map, and shrink with the distance.
+/// Checks that speeds or depths agree with the map and shrink with the distance.
 Trial try_persistence(const TrialExperiment& experiment) {
     Trial trial;
     constexpr double nearer = 100;
-    const double first = experiment.least_clearance();
+    const double first = experiment.smallest_clearance_for_trial();
     for (const double factor : {nearer, 1.0})
         trial.motions.push_back(experiment.run(-first * factor));
     const TrialMotion& far = trial.motions[0];
     const TrialMotion& near = trial.motions[1];
     if (!near.ended && !near.followed)
         return with_reason(trial, TrialOutcome::undecided, "the motion could not be followed to its end");
-    // Speeds by the root of the distance, depths of compliant contacts by the distance itself.
+    // Speeds scale with the square root of the distance, depths of compliant contacts with the distance.
     const double shrunk = experiment.is_compliant() ? nearer : std::sqrt(nearer);
-    const bool shrinks = is_near(far.largest, shrunk * near.largest, alike);
-    if (!far.ended && !near.ended && near.contacts > 0 && shrinks && is_near(near.largest, near.predicted, alike))
-        return with_reason(trial, TrialOutcome::agreed, "contacts are as soft as the map has them");
-    if (near.contacts > 0 && near.largest * alike > far.largest)
+    const bool shrinks = is_near(far.largest, shrunk * near.largest, agreement);
+    if (!far.ended && !near.ended && near.contacts > 0 && shrinks && is_near(near.largest, near.predicted, agreement))
+        return with_reason(trial, TrialOutcome::agreed, "contact speeds agree with the map");
+    if (near.contacts > 0 && near.largest * agreement > far.largest)
         return with_reason(trial, TrialOutcome::contradicted, "contacts do not grow softer towards the touch");
     if (!far.ended && !near.ended && near.contacts == 0)
         return with_reason(trial, TrialOutcome::undecided, "no contacts are seen so near the touch");
     if (near.ended || near.largest > growth * near.predicted)
-        return with_reason(trial, TrialOutcome::contradicted, "contacts are far harder than the map has them");
-    return with_reason(trial, TrialOutcome::undecided, "contacts are neither as the map has them nor far harder");
+        return with_reason(trial, TrialOutcome::contradicted, "contacts are much harder than the map predicts");
+    return with_reason(trial, TrialOutcome::undecided, "contacts are neither as the map predicts nor much harder");
 }
 
 } // namespace

@@ -18,12 +18,12 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Shares of what adds up to a projection below which it counts as zero, and multipliers as equal.
+/// Relative tolerance below which a projection counts as zero against its terms, and multipliers as equal.
 constexpr double vanishing = 1e-9;
 constexpr double stable = 1 - 1e-9;
 constexpr std::size_t most_cycles = 1'000'000;
 
-/// The map in units of the states' sizes.
+/// The map in scaled states.
 struct Scaled {
     explicit Scaled(const CycleMap& map) {
         const Eigen::Index n = index(map.active.size());
@@ -41,8 +41,8 @@ struct Scaled {
 
 /// Projections as sums over multipliers: weight_i multiplier_i^k.
 struct Modes {
-    std::vector<Complex> multipliers, weights; ///< by falling size of the multipliers
-    bool known = false;                        ///< false: they do not add up to the projections, as at double ones
+    std::vector<Complex> multipliers, weights; ///< in order of decreasing magnitude of the multipliers
+    bool known = false; ///< false: the sums do not reproduce the projections, as with double multipliers
 };
 
 Modes modes_of(const Scaled& map, const std::vector<double>& projections) {
@@ -72,18 +72,18 @@ Modes modes_of(const Scaled& map, const std::vector<double>& projections) {
             sum += term;
             size += std::abs(term);
         }
-        constexpr double alike = 1e-6;
-        modes.known = modes.known && std::abs(sum - projections[k - 1]) <= alike * size;
+        constexpr double agreement = 1e-6;
+        modes.known = modes.known && std::abs(sum - projections[k - 1]) <= agreement * size;
     }
     return modes;
 }
 
-/// The signs of all projections.
+/// Signs of all projections.
 struct Signs {
-    std::size_t first_negative = 0; ///< 0: none is
-    std::size_t vanishing = 0;      ///< the first that cannot be told from zero, before that
+    std::size_t first_negative = 0; ///< 0: none
+    std::size_t vanishing = 0;      ///< first projection before it that cannot be told from zero; 0: none
     bool decided = false;
-    bool none = false; ///< a contact acts on nothing later
+    bool none = false; ///< a contact has no effect on later cycles
     double leading = 0;
 };
 
@@ -95,7 +95,7 @@ Signs signs_of(const Modes& modes) {
             sum += std::abs(modes.weights[i]) * std::abs(modes.multipliers[i]);
         return sum;
     }();
-    // Those that take part. What has no weight is round-off.
+    // Terms with negligible weight are round-off and left out.
     std::vector<Complex> multipliers, terms;
     double largest = 0;
     for (std::size_t i = 0; i < modes.weights.size(); ++i)
@@ -131,8 +131,8 @@ Signs signs_of(const Modes& modes) {
             signs.decided = true;
             return signs;
         }
-        constexpr double surely = 0.5;
-        if (tail_known && others < surely * terms.front().real()) {
+        constexpr double dominance = 0.5;
+        if (tail_known && others < dominance * terms.front().real()) {
             signs.decided = true;
             return signs;
         }
@@ -145,7 +145,7 @@ AttractorKind kind_of_multiplier(double leading) {
                           : (3 * leading < 2 ? AttractorKind::periodic_windows : AttractorKind::chaotic);
 }
 
-void judge_rigid(const CycleMap& map, Verdict& verdict) {
+void classify_rigid(const CycleMap& map, Verdict& verdict) {
     const Scaled scaled(map);
     const Modes modes = modes_of(scaled, map.projections(std::max<std::size_t>(8, 2 * map.active.size())));
     if (map.clearance_rate)
@@ -164,7 +164,7 @@ void judge_rigid(const CycleMap& map, Verdict& verdict) {
         return;
     }
     if (!signs.decided) {
-        verdict.reason = fmt::format("passes up to {} do not decide", most_cycles);
+        verdict.reason = fmt::format("the first {} passes do not decide", most_cycles);
         return;
     }
     if (signs.first_negative == 0) {
@@ -182,7 +182,7 @@ void judge_rigid(const CycleMap& map, Verdict& verdict) {
         verdict.jump_growth = *verdict.growth * std::sqrt(1 + map.contact.restitution);
 }
 
-/// Largest multiplier at a depth, by its root.
+/// Returns the largest multiplier at a depth. @param root square root of the depth
 Complex largest_multiplier(const Scaled& map, double root) {
     constexpr double three_halves = 1.5;
     const Eigen::MatrixXd here = map.matrix * (Eigen::MatrixXd::Identity(map.matrix.rows(), map.matrix.cols()) -
@@ -192,7 +192,8 @@ Complex largest_multiplier(const Scaled& map, double root) {
                              [](Complex one, Complex other) { return std::abs(one) < std::abs(other); });
 }
 
-/// The least root of a depth, up to one, at which the orbit loses its stability. @return none if it does not
+/// Returns the square root of the smallest depth at which the orbit loses stability. @param greatest largest root that
+/// is searched @return empty if the orbit stays stable
 std::optional<double> loss_of_stability(const Scaled& map, double greatest) {
     constexpr int parts = 200;
     double before = 0;
@@ -213,7 +214,7 @@ std::optional<double> loss_of_stability(const Scaled& map, double greatest) {
     return std::nullopt;
 }
 
-void judge_compliant(const CycleMap& map, Verdict& verdict) {
+void classify_compliant(const CycleMap& map, Verdict& verdict) {
     const Scaled scaled(map);
     const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(scaled.matrix.rows(), scaled.matrix.cols());
     const Eigen::VectorXd passed = scaled.matrix * scaled.impact;
@@ -232,24 +233,24 @@ void judge_compliant(const CycleMap& map, Verdict& verdict) {
         if (map.clearance_rate && *map.clearance_rate != 0)
             verdict.fold_distance = *verdict.fold_clearance / *map.clearance_rate;
     }
-    // Where there is no fold, up to depths at which leading order says nothing any more.
+    // Without a fold, search up to depths at which the leading order is no longer valid.
     constexpr double beyond = 10;
     const auto lost = loss_of_stability(scaled, chi < 0 ? (1 - 1e-6) * root : beyond * root);
     if (lost)
         verdict.unstable_depth = *lost * *lost;
-    // A fold far deeper than the states go says only that there is none near.
+    // A fold far beyond the extent of the states is outside the validity of the map.
     constexpr double deepest = 10;
     const bool near = root * root < deepest * scaled.gradient.cwiseAbs().sum();
     verdict.outcome = chi < 0 && !lost && near ? GrazingOutcome::folds : GrazingOutcome::persists;
 }
 
-/// Real multipliers beyond 1 on one side. @param sign of the side
+/// Counts the real multipliers above 1 (sign 1) or below -1 (sign -1).
 std::size_t count_beyond(const Eigen::VectorXcd& multipliers, double sign) {
     return static_cast<std::size_t>(std::count_if(
         multipliers.begin(), multipliers.end(), [&](Complex one) { return one.imag() == 0 && sign * one.real() > 1; }));
 }
 
-void judge_sliding(const CycleMap& map, Verdict& verdict) {
+void classify_sliding(const CycleMap& map, Verdict& verdict) {
     const Scaled scaled(map);
     const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(scaled.matrix.rows(), scaled.matrix.cols());
     const Eigen::VectorXcd multipliers =
@@ -259,10 +260,10 @@ void judge_sliding(const CycleMap& map, Verdict& verdict) {
     const double leading = multipliers.cwiseAbs().maxCoeff();
     verdict.leading = leading;
     if ((multipliers.cwiseAbs().array() - 1).abs().minCoeff() <= vanishing) {
-        verdict.reason = "the orbit that slides has a multiplier on the unit circle";
+        verdict.reason = "the sliding orbit has a multiplier on the unit circle";
         return;
     }
-    // The orbit that touches is stable: it has no multipliers beyond.
+    // The touching orbit is stable, so only multipliers of the sliding orbit count.
     verdict.border = count_beyond(multipliers, 1) % 2 == 0 ? BorderCollision::persistence : BorderCollision::fold;
     verdict.doubles = count_beyond(multipliers, -1) % 2 == 1;
     if (leading < 1) {
@@ -271,7 +272,8 @@ void judge_sliding(const CycleMap& map, Verdict& verdict) {
         verdict.slides = verdict.in = 1;
         return;
     }
-    // All is in proportion to the clearance. What grows does so by the leading multiplier, if slowly.
+    // The map scales with the clearance, so one clearance decides. Unbounded motions grow by the leading multiplier per
+    // cycle.
     constexpr double clearance = 1e-8, far = 1e6, slow = 1.01;
     const double size = clearance * scaled.gradient.cwiseAbs().sum();
     const MapMotion motion = map_motion(map, -size);
@@ -281,7 +283,7 @@ void judge_sliding(const CycleMap& map, Verdict& verdict) {
         return;
     }
     if (motion.period == 0 && leading < slow) {
-        verdict.reason = "motions leave the orbit that slides too slowly to tell what becomes of them";
+        verdict.reason = "motions leave the sliding orbit too slowly to tell the outcome";
         return;
     }
     verdict.outcome = GrazingOutcome::persists;
@@ -347,7 +349,7 @@ Verdict verdict_of(const CycleMap& map, std::size_t shown) {
         verdict.reason = "the orbit that touches is not stable itself";
         return verdict;
     }
-    if (map.contact.ends) { // whatever else it touches
+    if (map.contact.ends) { // other touches do not matter
         verdict.outcome = GrazingOutcome::lost;
         return verdict;
     }
@@ -356,11 +358,11 @@ Verdict verdict_of(const CycleMap& map, std::size_t shown) {
         return verdict;
     }
     if (map.contact.order == MapOrder::square_root)
-        judge_rigid(map, verdict);
+        classify_rigid(map, verdict);
     else if (map.contact.order == MapOrder::linear)
-        judge_sliding(map, verdict);
+        classify_sliding(map, verdict);
     else
-        judge_compliant(map, verdict);
+        classify_compliant(map, verdict);
     return verdict;
 }
 

@@ -13,7 +13,8 @@ namespace graze {
 
 namespace {
 
-constexpr double far = 3; // standard errors from 0: a changed sign then moves a number by at least twice as much
+constexpr double far_from_zero =
+    3; // standard errors from 0: a changed sign then moves a number by at least twice as much
 
 /// Initial states of the records, and shared unknowns; unscaled.
 struct InitialConditions {
@@ -81,7 +82,7 @@ public:
 
 private:
     static bool is_sure(const FittedNumber& number) {
-        return number.estimate.freedom > 0 && std::abs(number.estimate.value) > far * number.estimate.error;
+        return number.estimate.freedom > 0 && std::abs(number.estimate.value) > far_from_zero * number.estimate.error;
     }
 
     void find_changes() {
@@ -254,7 +255,7 @@ private:
                 continue;
             solution.numbers.emplace_back(i, value);
             solution.text += fmt::format("{}{} = {:.6g}", solution.text.empty() ? "" : ", ", number.name, value);
-            sure = sure || std::abs(value - number.estimate.value) > 2 * far * number.estimate.error;
+            sure = sure || std::abs(value - number.estimate.value) > 2 * far_from_zero * number.estimate.error;
         }
         if (sure && std::none_of(solutions.begin(), solutions.end(),
                                  [&](const FoundSolution& other) { return other.solution.text == solution.text; }))

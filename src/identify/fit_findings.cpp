@@ -13,7 +13,7 @@ namespace graze {
 namespace {
 
 /// Relative accuracy of readings, at best.
-constexpr double round_off = 1e-12;
+constexpr double negligible_change = 1e-12;
 
 /// Residuals of all readings, by output and by record, in the order of records and times.
 struct Residuals {
@@ -126,7 +126,7 @@ double variance_of(const FitRows& rows, const Residuals& residuals, double freed
                 pull = u / part;
                 slope = (2 - part) / (part * part);
             }
-            const double rounded = round_off * rows.range(o) / rows.noise[o];
+            const double rounded = negligible_change * rows.range(o) / rows.noise[o];
             squares += pull * pull + rounded * rounded;
             slopes += slope;
             count += 1;
@@ -135,7 +135,8 @@ double variance_of(const FitRows& rows, const Residuals& residuals, double freed
     return mean > 0 ? unit * unit * squares / freedom / (mean * mean) : 0;
 }
 
-std::string text_of(const std::vector<FreeCombination::Part>& parts, const std::vector<FittedNumber>& numbers) {
+std::string text_of_combination(const std::vector<FreeCombination::Part>& parts,
+                                const std::vector<FittedNumber>& numbers) {
     std::string text;
     for (const FreeCombination::Part& part : parts)
         text += fmt::format("{}{} ({:+.3g} %)", text.empty() ? "" : ", ", numbers[part.number].name, part.change);
@@ -163,7 +164,7 @@ FreeCombination combination(const FitDecomposition& parts, Eigen::Index k, const
     }
     std::stable_sort(result.parts.begin(), result.parts.end(),
                      [](const auto& one, const auto& other) { return std::abs(one.change) > std::abs(other.change); });
-    result.text = text_of(result.parts, numbers);
+    result.text = text_of_combination(result.parts, numbers);
     return result;
 }
 
@@ -211,7 +212,7 @@ void describe_outputs(const FitRows& rows, const Residuals& residuals, Fit& fit)
 }
 
 /// Standard deviation of an output: the given one, or that of its residuals.
-double noise_of(const FitRows& rows, std::size_t output, std::vector<double> residuals) {
+double noise_of_output(const FitRows& rows, std::size_t output, std::vector<double> residuals) {
     if (const double given = rows.task().outputs[output].noise; given > 0)
         return given;
     const auto readings = static_cast<double>(readings_of(rows.task()));
@@ -223,7 +224,7 @@ double noise_of(const FitRows& rows, std::size_t output, std::vector<double> res
             residual = std::abs(residual);
         noise = of_normal * median(std::move(residuals)) / std::sqrt(freed);
     }
-    return std::max(noise, round_off * rows.range(output));
+    return std::max(noise, negligible_change * rows.range(output));
 }
 
 /// Fills in numbers with errors and correlations, and undetermined combinations.
@@ -379,7 +380,7 @@ double negative_log_likelihood(const FitRows& rows, const std::vector<PieceRows>
     for (std::size_t o = 0; o < residuals.of_output.size(); ++o) {
         if (residuals.of_output[o].empty())
             continue;
-        const double noise = noise_of(rows, o, residuals.of_output[o]);
+        const double noise = noise_of_output(rows, o, residuals.of_output[o]);
         sum += static_cast<double>(residuals.of_output[o].size()) * std::log(noise / rows.range(o));
         for (const double residual : residuals.of_output[o])
             sum += 0.5 * cost_of(residual / noise, rows.loss());
@@ -402,7 +403,7 @@ std::vector<double> noise_at(const FitRows& rows, const std::vector<PieceRows>& 
     std::vector<double> noise = rows.noise;
     for (std::size_t o = 0; o < noise.size(); ++o)
         if (!residuals.of_output[o].empty())
-            noise[o] = noise_of(rows, o, residuals.of_output[o]);
+            noise[o] = noise_of_output(rows, o, residuals.of_output[o]);
     return noise;
 }
 

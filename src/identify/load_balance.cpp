@@ -14,8 +14,8 @@ namespace graze {
 
 namespace {
 
-constexpr double test_level = 1e-4; // significance level of the tests
-constexpr double negligible = 1e-9; // relative to the terms of the balance: round-off
+constexpr double test_level = 1e-4;           // significance level of the tests
+constexpr double round_off_of_balance = 1e-9; // relative to the terms of the balance: round-off
 
 /// Residuals of the balances of the loads, each divided by its standard deviation.
 class LoadTest {
@@ -35,7 +35,7 @@ public:
             squares += left_.back() * left_.back();
             sizes += std::pow(weight * balance.by_beta1 * beta1, 2);
         }
-        is_exact_ = !(squares > negligible * negligible * sizes);
+        is_exact_ = !(squares > round_off_of_balance * round_off_of_balance * sizes);
     }
     bool is_exact() const { return is_exact_; }
 

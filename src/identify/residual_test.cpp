@@ -19,11 +19,11 @@ namespace graze {
 
 namespace {
 
-constexpr double deviations = 4;      ///< a level of 1/16,000 for normal variables
-constexpr double small_chance = 1e-5; ///< level for the largest line of the periodogram
-constexpr std::size_t fewest = 12;    ///< fewer residuals are not tested
-constexpr double far_off = 6;         ///< outliers, in standard deviations
-constexpr double negligible = 1e-6;   ///< smaller residuals, relative to the readings' deviation, are ignored
+constexpr double deviations = 4;             ///< a level of 1/16,000 for normal variables
+constexpr double small_chance = 1e-5;        ///< level for the largest line of the periodogram
+constexpr std::size_t fewest_residuals = 12; ///< fewer residuals are not tested
+constexpr double far_off = 6;                ///< outliers, in standard deviations
+constexpr double negligible_residual = 1e-6; ///< smaller residuals, relative to the readings' deviation, are ignored
 
 double square_sum_of(std::span<const double> values) {
     double sum = 0;
@@ -55,7 +55,7 @@ double missing_runs(std::span<const double> left) {
     }
     const double count = positive + negative, pairs = 2 * positive * negative;
     if (!(positive > 0) || !(negative > 0))
-        return count > static_cast<double>(fewest) ? std::sqrt(count) : 0;
+        return count > static_cast<double>(fewest_residuals) ? std::sqrt(count) : 0;
     const double mean = pairs / count + 1, variance = pairs * (pairs - count) / (count * count * (count - 1));
     return variance > 0 ? (mean - runs) / std::sqrt(variance) : 0;
 }
@@ -204,7 +204,7 @@ ResidualTest test_residuals(std::span<const double> left, std::span<const double
     if (!readings.empty())
         require_size(readings.size(), left.size(), "readings");
     ResidualTest test;
-    if (left.size() < fewest)
+    if (left.size() < fewest_residuals)
         return test;
     const auto count = static_cast<double>(left.size());
     test.deviation = std::sqrt(square_sum_of(left) / count);
@@ -214,7 +214,7 @@ ResidualTest test_residuals(std::span<const double> left, std::span<const double
     test.reasons = reasons_of(left, test.correlation);
     constexpr double of_step = 0.6; // independent rounding errors have 0.29
     const bool rounded = !readings.empty() && test.deviation <= of_step * step_of({readings.begin(), readings.end()});
-    const bool small = rounded || (!readings.empty() && test.deviation <= negligible * deviation_of(readings));
+    const bool small = rounded || (!readings.empty() && test.deviation <= negligible_residual * deviation_of(readings));
     if (small && !test.reasons.empty()) {
         test.reasons.clear();
         test.widening = std::sqrt(count);

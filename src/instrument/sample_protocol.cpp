@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t most_waiting = 64;
 
 template <class Number>
-bool read_number(std::string_view text, Number& value) {
+bool read_argument(std::string_view text, Number& value) {
     const auto [next, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     return error == std::errc() && next == text.data() + text.size();
 }
@@ -104,7 +104,7 @@ std::string SampleProtocol::answer(std::string_view line) {
             text += ", " + titled(channel);
         return text + '\n';
     }
-    if (double rate = 0; word == "RATE" && read_number(rest, rate)) {
+    if (double rate = 0; word == "RATE" && read_argument(rest, rate)) {
         try {
             bench_->set_rate(rate);
         } catch (const InputError& error) {
@@ -115,8 +115,8 @@ std::string SampleProtocol::answer(std::string_view line) {
     if (word == "READ") {
         const std::size_t gap = std::min(rest.find(' '), rest.size());
         std::size_t count = 0, block = most_rows;
-        const bool good = read_number(rest.substr(0, gap), count) && count <= most_rows &&
-                          (gap == rest.size() || (read_number(rest.substr(gap + 1), block) && block > 0));
+        const bool good = read_argument(rest.substr(0, gap), count) && count <= most_rows &&
+                          (gap == rest.size() || (read_argument(rest.substr(gap + 1), block) && block > 0));
         if (good) {
             reading_ = true;
             wanted_ = count;
@@ -125,7 +125,7 @@ std::string SampleProtocol::answer(std::string_view line) {
             return {};
         }
     }
-    if (std::uint64_t number = 0; (word == "MARK" || word == "RETURN") && read_number(rest, number)) {
+    if (std::uint64_t number = 0; (word == "MARK" || word == "RETURN") && read_argument(rest, number)) {
         if (word == "MARK")
             bench_->mark(number);
         else if (!bench_->return_to(number))

@@ -3,6 +3,7 @@
 #include "graze/layout/alignment_mark.hpp"
 #include "graze/layout/mask_letters.hpp"
 #include "layout/device_rules.hpp"
+#include "layout/grid_lengths.hpp"
 
 #include <fmt/format.h>
 

@@ -2,6 +2,7 @@
 
 #include "layout/box_sets.hpp"
 #include "layout/device_rules.hpp"
+#include "layout/grid_lengths.hpp"
 
 #include <algorithm>
 

@@ -1,15 +1,13 @@
 #include "graze/layout/device_measures.hpp"
 
+#include "layout/grid_lengths.hpp"
+
 #include <algorithm>
 #include <stdexcept>
 
 namespace graze {
 
 namespace {
-
-double micrometres(std::int64_t nanometres) {
-    return static_cast<double>(nanometres) / grid_per_micrometre;
-}
 
 Facing require_facing(const GridPolygon& left, const GridPolygon& right) {
     const auto found = facing(left, right);

@@ -2,6 +2,7 @@
 
 #include "graze/layout/alignment_mark.hpp"
 #include "graze/layout/mask_letters.hpp"
+#include "layout/grid_lengths.hpp"
 
 #include <fmt/format.h>
 
@@ -28,13 +29,13 @@ private:
     const DeviceFile* file_;
 };
 
-std::string at(GridPoint point) {
+std::string text_at(GridPoint point) {
     return fmt::format("({:.3f}, {:.3f}) um", static_cast<double>(point.x) / grid_per_micrometre,
                        static_cast<double>(point.y) / grid_per_micrometre);
 }
 
 /// Name of the largest of several lengths, which is most likely the one to change.
-const char* greatest(std::initializer_list<std::pair<const char*, double>> parts) {
+const char* name_of_greatest(std::initializer_list<std::pair<const char*, double>> parts) {
     return std::max_element(parts.begin(), parts.end(),
                             [](const auto& a, const auto& b) { return a.second < b.second; })
         ->first;
@@ -95,12 +96,12 @@ double sufficient_width(const DeviceDimensions& d) {
 void require_width(const Requirements& rules, const DeviceDimensions& d) {
     const double half = d.mass_half_length();
     const double across = 2 * (half + d.clearance + d.chamber_margin + d.frame_width);
-    const char* longest = greatest({{"flexure_length", 2 * d.flexure_length},
-                                    {"truss_width", 4 * d.truss_width},
-                                    {"bridge_width", d.bridge_width},
-                                    {"clearance", 4 * d.clearance},
-                                    {"chamber_margin", 2 * d.chamber_margin},
-                                    {"frame_width", 2 * d.frame_width}});
+    const char* longest = name_of_greatest({{"flexure_length", 2 * d.flexure_length},
+                                            {"truss_width", 4 * d.truss_width},
+                                            {"bridge_width", d.bridge_width},
+                                            {"clearance", 4 * d.clearance},
+                                            {"chamber_margin", 2 * d.chamber_margin},
+                                            {"frame_width", 2 * d.frame_width}});
     rules.require(
         fits(across, d.die_width), longest,
         fmt::format("flexures of {} make a mass {} long, which with clearance, chamber and frame takes {} of "
@@ -131,17 +132,17 @@ void require_length(const Requirements& rules, const DeviceDimensions& d) {
     const double length =
         left + 2 * d.bar_width + 2 * d.notch_half_width() + d.clearance + 2 * (d.chamber_margin + d.frame_width);
     const auto beams = 4 * static_cast<double>(d.folds);
-    const char* longest = greatest({{"pad_length", d.pad_length},
-                                    {"electrode_width", d.electrode_width},
-                                    {"gap", d.gap},
-                                    {"moat", d.moat},
-                                    {"bar_width", 2 * d.bar_width},
-                                    {"flexure_spacing", beams * d.flexure_spacing},
-                                    {"flexure_width", beams * d.flexure_width},
-                                    {"flexure_middle", d.flexure_middle},
-                                    {"clearance", 2 * d.clearance},
-                                    {"chamber_margin", 2 * d.chamber_margin},
-                                    {"frame_width", 2 * d.frame_width}});
+    const char* longest = name_of_greatest({{"pad_length", d.pad_length},
+                                            {"electrode_width", d.electrode_width},
+                                            {"gap", d.gap},
+                                            {"moat", d.moat},
+                                            {"bar_width", 2 * d.bar_width},
+                                            {"flexure_spacing", beams * d.flexure_spacing},
+                                            {"flexure_width", beams * d.flexure_width},
+                                            {"flexure_middle", d.flexure_middle},
+                                            {"clearance", 2 * d.clearance},
+                                            {"chamber_margin", 2 * d.chamber_margin},
+                                            {"frame_width", 2 * d.frame_width}});
     const double sufficient = std::max(length, length_of_letters(d));
     rules.require(
         fits(length, d.die_length), longest,
@@ -212,7 +213,7 @@ void require_outlines(const DeviceDrawing& drawing, const DeviceFile& file) {
             if (const auto fault = polygon_fault(polygon, least))
                 throw InputError(
                     file.place("device"),
-                    fmt::format("the outline of {} {}, at {} of the die", name, fault->text, at(fault->at)),
+                    fmt::format("the outline of {} {}, at {} of the die", name, fault->text, text_at(fault->at)),
                     "change a dimension there: two edges lie almost, or just, at one place");
     };
     check({drawing.mass}, "the mass");
@@ -224,7 +225,7 @@ void require_outlines(const DeviceDrawing& drawing, const DeviceFile& file) {
     check(drawing.chambers, "the chamber");
 }
 
-std::vector<Part> parts_of(const std::vector<GridBox>& boxes, const char* name) {
+std::vector<Part> named_parts(const std::vector<GridBox>& boxes, const char* name) {
     std::vector<Part> parts;
     for (const GridBox& box : boxes)
         parts.push_back({name, box});
@@ -237,10 +238,6 @@ void require_each_apart(const std::vector<Part>& parts, const DeviceFile& file) 
 }
 
 } // namespace
-
-std::int64_t nanometres(double micrometres) {
-    return std::llround(micrometres * grid_per_micrometre);
-}
 
 std::string label_of(const DeviceDimensions& d) {
     return fmt::format("G{:.6g} S{:.6g} W{:.6g} L{:.6g} N{}", d.gap, d.stop_gap, d.flexure_width, d.flexure_length,
@@ -264,8 +261,8 @@ void require_well_drawn(const DeviceDrawing& drawing, const DeviceFile& file) {
     require_outlines(drawing, file);
     const FlexureDrawing& flexure = drawing.flexure;
     const std::vector<Part> frame{{"the frame's finger", flexure.finger}},
-        lugs = parts_of(flexure.lugs, "the mass"), trusses = parts_of(flexure.trusses, "a truss"),
-        beams = parts_of(flexure.beams, "a beam");
+        lugs = named_parts(flexure.lugs, "the mass"), trusses = named_parts(flexure.trusses, "a truss"),
+        beams = named_parts(flexure.beams, "a beam");
     const GridBox& notch = flexure.notch;
     const std::vector<Part> bars{{"the mass", {notch.left - 1, notch.bottom, notch.left, notch.top}},
                                  {"the mass", {notch.right, notch.bottom, notch.right + 1, notch.top}},

@@ -15,7 +15,4 @@ std::string label_of(const DeviceDimensions& dimensions);
 /// Distance between the die's edge and its letters and marks. Nanometres.
 std::int64_t edge_distance(const DeviceDimensions& dimensions);
 
-/// Converts to nanometres, rounded.
-std::int64_t nanometres(double micrometres);
-
 } // namespace graze

@@ -1,5 +1,6 @@
 #include "graze/layout/drawn_design.hpp"
 
+#include "base/special_numbers.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/with_place.hpp"
 #include "graze/design/trip_location.hpp"
@@ -19,8 +20,6 @@
 namespace graze {
 
 namespace {
-
-constexpr double empty_cell = std::numeric_limits<double>::quiet_NaN(); // an empty cell
 
 /// Returns the design with the device of the folder as its first device.
 Design with_device(const Design& own, const Model& device) {
@@ -58,7 +57,7 @@ public:
         table_.add(designed);
         table_.add(drawn);
         constexpr double percent = 100;
-        table_.add(designed != 0 ? percent * (drawn / designed - 1) : empty_cell);
+        table_.add(designed != 0 ? percent * (drawn / designed - 1) : not_a_number);
         table_.add(unit);
         table_.add(text);
     }
@@ -66,7 +65,7 @@ public:
         table_.add(name);
         table_.add(designed);
         table_.add(drawn);
-        table_.add(empty_cell);
+        table_.add(not_a_number);
         table_.add("");
         table_.add(text);
     }
@@ -113,12 +112,12 @@ void add_wants(Comparison& rows, const MetWishes& drawn, const std::optional<Met
     for (std::size_t i = 0; i < drawn.found.wants.size(); ++i) {
         const Want& want = drawn.list.wants[i];
         const FoundWant& one = drawn.found.wants[i];
-        double before = empty_cell;
+        double before = not_a_number;
         if (designed)
             for (std::size_t k = 0; k < designed->found.wants.size(); ++k)
                 if (designed->list.wants[k].name == want.name)
-                    before = designed->found.wants[k].value.value_or(empty_cell);
-        rows.add("want_" + want.name, before, one.value.value_or(empty_cell), "", words_of(want, one));
+                    before = designed->found.wants[k].value.value_or(not_a_number);
+        rows.add("want_" + want.name, before, one.value.value_or(not_a_number), "", words_of(want, one));
     }
 }
 
@@ -130,12 +129,13 @@ void add_time(Comparison& rows, const Design& design, const TripPoint& drawn, co
     const auto time_of = [&](const TripPoint& trip) {
         const TripTimes times = trip_times(trip, trip.point.solution.orbit, class_at(trip), request, interrupted);
         const TripTime* best = times.rows.empty() ? nullptr : times.rows.front().best();
-        return std::pair(best ? best->time : empty_cell, times.rows.empty() ? 0 : times.rows.front().overshoot);
+        return std::pair(best ? best->time : not_a_number, times.rows.empty() ? 0 : times.rows.front().overshoot);
     };
     const auto [time, overshoot] = time_of(drawn);
     if (std::isfinite(time))
-        rows.add(fmt::format("trip_time_{:.3g}", std::abs(overshoot)), designed ? time_of(*designed).first : empty_cell,
-                 time, drawn.system.model().time_unit, "at that overshoot");
+        rows.add(fmt::format("trip_time_{:.3g}", std::abs(overshoot)),
+                 designed ? time_of(*designed).first : not_a_number, time, drawn.system.model().time_unit,
+                 "at that overshoot");
 }
 
 } // namespace
@@ -161,7 +161,7 @@ std::optional<DrawnDesign> drawn_design(const DesignedDevice& designed, const st
     const Model& model = trip->system.model();
     const std::string unit = model.parameters[*model.find_parameter(designed.own.control)].unit;
     const GrazingOutcome outcome = class_at(*trip).outcome;
-    rows.add("trip_value", before ? before->value() : empty_cell, trip->value(), unit,
+    rows.add("trip_value", before ? before->value() : not_a_number, trip->value(), unit,
              fmt::format("of {}, at {} of run '{}'", designed.own.control, trip->label, trip->run));
     rows.add("class", before ? std::string(class_name(class_at(*before).outcome)) : "not found",
              std::string(class_name(outcome)), "");

@@ -2,6 +2,7 @@
 
 #include "graze/base/input_errors.hpp"
 #include "layout/free_way.hpp"
+#include "layout/grid_lengths.hpp"
 #include "layout/mask_edges.hpp"
 
 #include <fmt/format.h>
@@ -15,10 +16,6 @@ namespace graze {
 namespace {
 
 constexpr std::size_t most_places = 5; // listed places of one rule; further ones are counted
-
-double micrometres(std::int64_t nanometres) {
-    return static_cast<double>(nanometres) / grid_per_micrometre;
-}
 
 class RuleCheck {
 public:

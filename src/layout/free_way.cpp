@@ -1,5 +1,6 @@
 #include "layout/free_way.hpp"
 
+#include "layout/grid_lengths.hpp"
 #include "layout/mask_edges.hpp"
 
 #include <algorithm>
@@ -10,10 +11,6 @@
 namespace graze {
 
 namespace {
-
-double micrometres(std::int64_t nanometres) {
-    return static_cast<double>(nanometres) / grid_per_micrometre;
-}
 
 /// A part that moves by a share of the mass's travel.
 struct SweptPart {

@@ -7,6 +7,7 @@
 #include "graze/layout/plate_attraction.hpp"
 #include "graze/layout/squeeze_film.hpp"
 #include "graze/model/catalogue.hpp"
+#include "layout/grid_lengths.hpp"
 
 #include <fmt/format.h>
 
@@ -19,10 +20,6 @@ namespace graze {
 namespace {
 
 constexpr double micrometre = 1e-6; // m
-
-double micrometres(std::int64_t nanometres) {
-    return static_cast<double>(nanometres) / grid_per_micrometre;
-}
 
 EtchedWidth in_metres(const EtchedWidth& width) {
     return {width.top * micrometre, width.bottom * micrometre};

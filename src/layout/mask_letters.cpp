@@ -73,7 +73,7 @@ const Glyph* glyph_of(char letter) {
 
 /// One box per square: all corners on an edge are ends of an edge, so that no crack opens when letters are rotated and
 /// their corners are rounded.
-void add_boxes(const Glyph& glyph, std::int64_t left, std::int64_t square, std::vector<GridBox>& boxes) {
+void add_glyph(const Glyph& glyph, std::int64_t left, std::int64_t square, std::vector<GridBox>& boxes) {
     for (std::int64_t row = 0; row < letter_rows; ++row) {
         const std::string_view squares = glyph.rows[static_cast<std::size_t>(row)];
         const std::int64_t top = (letter_rows - row) * square;
@@ -102,7 +102,7 @@ std::vector<GridBox> letter_boxes(std::string_view text, std::int64_t height) {
     std::int64_t left = 0;
     for (const char letter : text) {
         if (const Glyph* glyph = glyph_of(letter); glyph && square > 0)
-            add_boxes(*glyph, left, square, boxes);
+            add_glyph(*glyph, left, square, boxes);
         left += (letter_columns + 1) * square;
     }
     return boxes;

@@ -26,7 +26,7 @@ struct Way {
     int sign;                         ///< sign of the parameter's derivative by the number
 };
 /// Each parameter depends most on its own number, and on those before it.
-constexpr std::array ways{
+constexpr std::array matching_ways{
     Way{"d", "device", "gap", "um", &DeviceDimensions::gap, 1},
     Way{"stop", "device", "stop_gap", "um", &DeviceDimensions::stop_gap, 1},
     Way{"area", "device", "electrode_length", "um", &DeviceDimensions::electrode_length, 1},
@@ -70,7 +70,7 @@ public:
         const LumpedModel first = lumped_model_of(file); // throws if it cannot be drawn
         for (const auto& named : parameters_of(first, designed).set) {
             const std::string& name = named.first;
-            const Way& way = ways[order(name)];
+            const Way& way = matching_ways[order(name)];
             MatchedQuantity one;
             const std::size_t place = *designed.find_parameter(name);
             one.parameter = name;
@@ -90,7 +90,7 @@ public:
         bool moves = true;
         for (int round = 0; round < most_rounds && moves; ++round) {
             moves = false;
-            for (std::size_t i = 0; i < ways.size(); ++i)
+            for (std::size_t i = 0; i < matching_ways.size(); ++i)
                 moves = solve(i) || moves;
         }
         const auto drawn = parameters_of(lumped_model_of(result_.file), *model_).set;
@@ -98,22 +98,22 @@ public:
             for (const auto& [name, value] : drawn)
                 if (name == one.parameter)
                     one.drawn = value;
-        for (std::size_t i = 0; i < ways.size(); ++i)
-            result_.quantities[i].after = number_of(result_.file, ways[i]);
+        for (std::size_t i = 0; i < matching_ways.size(); ++i)
+            result_.quantities[i].after = number_of(result_.file, matching_ways[i]);
         return std::move(result_);
     }
 
 private:
     static std::size_t order(const std::string& parameter) {
-        return static_cast<std::size_t>(
-            std::find_if(ways.begin(), ways.end(), [&](const Way& way) { return parameter == way.parameter; }) -
-            ways.begin());
+        return static_cast<std::size_t>(std::find_if(matching_ways.begin(), matching_ways.end(),
+                                                     [&](const Way& way) { return parameter == way.parameter; }) -
+                                        matching_ways.begin());
     }
 
     /// Deviation of the parameter from the designed value, signed so that it increases with the number. Empty if the
     /// device cannot be drawn; `refusal_` says why.
     std::optional<double> departure(std::size_t which, double number) {
-        const Way& way = ways[which];
+        const Way& way = matching_ways[which];
         DeviceFile trial = result_.file;
         number_of(trial, way) = number;
         try {
@@ -128,7 +128,7 @@ private:
 
     /// Solves for one number. @return whether it has changed
     bool solve(std::size_t which) {
-        const Way& way = ways[which];
+        const Way& way = matching_ways[which];
         MatchedQuantity& quantity = result_.quantities[which];
         double& number = number_of(result_.file, way);
         if (result_.file.place(quantity.number).file.starts_with("--set")) {
@@ -194,10 +194,10 @@ private:
 
     void say_end(std::size_t which, double last, bool up) {
         MatchedQuantity& quantity = result_.quantities[which];
-        const std::string why = !refusal_.empty()    ? refusal_
-                                : ways[which].length ? "nothing is drawn beyond"
-                                : up                 ? "more than an atmosphere takes a vessel of its own"
-                                                     : "less is no gas";
+        const std::string why = !refusal_.empty()             ? refusal_
+                                : matching_ways[which].length ? "nothing is drawn beyond"
+                                : up                          ? "more than an atmosphere takes a vessel of its own"
+                                                              : "less is no gas";
         quantity.reason = fmt::format("{} would have to be {} than {:.6g} {}, and {}", quantity.number,
                                       up ? "more" : "less", last, quantity.number_unit, why);
     }

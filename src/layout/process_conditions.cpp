@@ -12,7 +12,7 @@ namespace {
 
 using Field = QuantityField<ProcessConditions>;
 // The limits are far beyond any real process; they keep results finite.
-constexpr std::array table{
+constexpr std::array condition_table{
     Field{"bias", &ProcessConditions::bias, "um", -1e3, 1e3, "by which silicon recedes from each drawn edge"},
     Field{"taper", &ProcessConditions::taper, "deg", -45, 45,
           "of the walls from the vertical; positive: trenches are wider at their bottom"},
@@ -26,7 +26,7 @@ constexpr std::array table{
 };
 
 using Rule = QuantityField<RuleLimits>;
-constexpr std::array rules{
+constexpr std::array condition_rules{
     Rule{"smallest_line", &RuleLimits::smallest_line, "um", 0, 1e6, "of silicon between two trenches"},
     Rule{"smallest_gap", &RuleLimits::smallest_gap, "um", 0, 1e6, "of a trench"},
     Rule{"smallest_etched_line", &RuleLimits::smallest_etched_line, "um", 0, 1e6, "of a line after the etch"},
@@ -44,7 +44,7 @@ constexpr std::array rules{
 } // namespace
 
 std::span<const Rule> rule_fields() {
-    return rules;
+    return condition_rules;
 }
 
 double no_limit(const Rule& rule) {
@@ -61,7 +61,7 @@ Gas ProcessConditions::gas() const {
 }
 
 std::span<const Field> condition_fields() {
-    return table;
+    return condition_table;
 }
 
 } // namespace graze

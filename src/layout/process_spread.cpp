@@ -14,7 +14,7 @@ namespace graze {
 
 namespace {
 
-constexpr std::array fields{
+constexpr std::array spread_fields{
     DepartureField{"bias", &ProcessSpread::bias, &ProcessDeparture::bias, "um"},
     DepartureField{"thickness", &ProcessSpread::thickness, &ProcessDeparture::thickness, "um"},
     DepartureField{"taper", &ProcessSpread::taper, &ProcessDeparture::taper, "deg"},
@@ -41,14 +41,14 @@ Eigen::MatrixXd root_of_correlations(std::span<const SitePlace> sites, double le
 } // namespace
 
 bool ProcessSpread::is_empty() const {
-    return std::all_of(fields.begin(), fields.end(), [this](const DepartureField& field) {
+    return std::all_of(spread_fields.begin(), spread_fields.end(), [this](const DepartureField& field) {
         const SpreadParts& parts = this->*field.spread;
         return parts.wafer == 0 && parts.radial == 0 && parts.device == 0;
     });
 }
 
 std::span<const DepartureField> departure_fields() {
-    return fields;
+    return spread_fields;
 }
 
 std::vector<ProcessDeparture> departures_of(const ProcessSpread& spread, std::span<const SitePlace> sites,
@@ -60,17 +60,17 @@ std::vector<ProcessDeparture> departures_of(const ProcessSpread& spread, std::sp
                          fmt::format("give no more than {} devices, or no correlation", most));
     const Eigen::MatrixXd root = is_field ? root_of_correlations(sites, spread.correlation) : Eigen::MatrixXd();
     std::vector<ProcessDeparture> result(sites.size());
-    for (std::size_t k = 0; k < fields.size(); ++k) {
-        const SpreadParts& parts = spread.*fields[k].spread;
+    for (std::size_t k = 0; k < spread_fields.size(); ++k) {
+        const SpreadParts& parts = spread.*spread_fields[k].spread;
         Eigen::VectorXd own(static_cast<Eigen::Index>(sites.size()));
         for (std::size_t i = 0; i < sites.size(); ++i)
-            own[static_cast<Eigen::Index>(i)] = drawn_normal(seed, wafer, fields.size() * (i + 1) + k);
+            own[static_cast<Eigen::Index>(i)] = drawn_normal(seed, wafer, spread_fields.size() * (i + 1) + k);
         if (is_field)
             own = root * own;
         const double common = parts.wafer * drawn_normal(seed, wafer, k);
         for (std::size_t i = 0; i < sites.size(); ++i) {
             const double distance = std::hypot(sites[i].x, sites[i].y) / wafer_radius;
-            result[i].*fields[k].departure =
+            result[i].*spread_fields[k].departure =
                 common + parts.radial * distance * distance + parts.device * own[static_cast<Eigen::Index>(i)];
         }
     }

@@ -49,7 +49,7 @@ Intervals cut(const std::vector<GridPolygon>& polygons, double y) {
 }
 
 /// Complement of intervals within the whole.
-Intervals beside(const Intervals& intervals, const Interval& whole) {
+Intervals outside_of(const Intervals& intervals, const Interval& whole) {
     Intervals rest;
     double left = whole.left;
     for (const Interval& one : intervals) {
@@ -96,18 +96,18 @@ public:
         const double front = file_->process.wafer_thickness;
         const Intervals all{whole_};
         step("1  resist on the back, opened by mask 1").add(wafer(all));
-        last().add(film_of(ProcessMaterial::resist, beside(chambers_, whole_), -film_, 0));
+        last().add(film_of(ProcessMaterial::resist, outside_of(chambers_, whole_), -film_, 0));
         step(fmt::format("2  chambers are etched, {:g} µm deep", file_->process.chamber_depth)).add(carved(all));
-        last().add(film_of(ProcessMaterial::resist, beside(chambers_, whole_), -film_, 0));
+        last().add(film_of(ProcessMaterial::resist, outside_of(chambers_, whole_), -film_, 0));
         step("3  the resist is stripped").add(carved(all));
         step("4  resist on the front, opened at marks of mask 2").add(carved(all));
-        last().add(film_of(ProcessMaterial::resist, beside(marks_, whole_), front, front + film_));
+        last().add(film_of(ProcessMaterial::resist, outside_of(marks_, whole_), front, front + film_));
         step("5  aluminium is sputtered, and lifted off but for the marks").add(carved(all));
         last().add(film_of(ProcessMaterial::aluminium, marks_, front, front + film_ / 2));
         step("6  epoxy on a second wafer").add(base());
         step("7  the wafers are bonded").add(base()).add(carved(all));
         last().add(film_of(ProcessMaterial::aluminium, marks_, front, front + film_ / 2));
-        const Intervals kept = beside(etched_, whole_);
+        const Intervals kept = outside_of(etched_, whole_);
         step("8  resist opened by mask 2; developer takes the marks").add(base()).add(carved(all));
         last().add(film_of(ProcessMaterial::resist, kept, front, front + film_));
         step("9  silicon is etched through, to the epoxy").add(base()).add(carved(kept));
@@ -168,7 +168,7 @@ private:
     Slabs coat(const Intervals& kept) const {
         const double front = file_->process.wafer_thickness, metal = film_ / 2;
         Slabs slabs = film_of(ProcessMaterial::aluminium, kept, front, front + metal);
-        const Slabs floors = film_of(ProcessMaterial::aluminium, beside(kept, whole_), 0, metal);
+        const Slabs floors = film_of(ProcessMaterial::aluminium, outside_of(kept, whole_), 0, metal);
         slabs.insert(slabs.end(), floors.begin(), floors.end());
         constexpr double beside_wall = 1e-3;
         for (const Interval& one : kept) {

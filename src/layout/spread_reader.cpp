@@ -8,7 +8,7 @@ namespace graze {
 
 namespace {
 
-constexpr double most = 1e3; // um or degrees
+constexpr double largest_spread = 1e3; // um or degrees
 
 double spread_number(const StudyReader& reader, const TomlEntry& entry, const char* unit, double least,
                      double greatest) {
@@ -25,9 +25,9 @@ SpreadParts read_parts(const StudyReader& reader, const TomlEntry& entry, const 
     SpreadParts parts;
     reader.each_of(entry, {"wafer", "radial", "device"}, [&](const TomlEntry& item) {
         if (item.name == "radial")
-            parts.radial = spread_number(reader, item, unit, -most, most);
+            parts.radial = spread_number(reader, item, unit, -largest_spread, largest_spread);
         else
-            (item.name == "wafer" ? parts.wafer : parts.device) = spread_number(reader, item, unit, 0, most);
+            (item.name == "wafer" ? parts.wafer : parts.device) = spread_number(reader, item, unit, 0, largest_spread);
     });
     return parts;
 }

@@ -1,5 +1,6 @@
 #include "graze/layout/verilog_a.hpp"
 
+#include "base/special_numbers.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/physical_unit.hpp"
 #include "graze/layout/lumped_model.hpp"
@@ -24,16 +25,15 @@ struct ModuleParameter {
     bool may_be_least; ///< whether the least value itself is allowed
 };
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr ModuleParameter permittivity{"epsilon", "F/m",    "(0:inf)", "permittivity between the electrodes",
-                                       0,         infinite, false};
-constexpr std::array parameters{
-    ModuleParameter{"m", "kg", "(0:inf)", "mass, with what moves of its springs", 0, infinite, false},
-    ModuleParameter{"f0", "Hz", "(0:inf)", "natural frequency", 0, infinite, false},
-    ModuleParameter{"zeta", "", "[0:inf)", "damping ratio", 0, infinite, true},
-    ModuleParameter{"area", "m^2", "(0:inf)", "of the capacitor, with its fringe", 0, infinite, false},
-    ModuleParameter{"d", "m", "(0:inf)", "gap of the electrodes at rest", 0, infinite, false},
-    ModuleParameter{"stop", "m", "(0:inf)", "way to the stops", 0, infinite, false},
+                                       0,         infinity, false};
+constexpr std::array circuit_parameters{
+    ModuleParameter{"m", "kg", "(0:inf)", "mass, with what moves of its springs", 0, infinity, false},
+    ModuleParameter{"f0", "Hz", "(0:inf)", "natural frequency", 0, infinity, false},
+    ModuleParameter{"zeta", "", "[0:inf)", "damping ratio", 0, infinity, true},
+    ModuleParameter{"area", "m^2", "(0:inf)", "of the capacitor, with its fringe", 0, infinity, false},
+    ModuleParameter{"d", "m", "(0:inf)", "gap of the electrodes at rest", 0, infinity, false},
+    ModuleParameter{"stop", "m", "(0:inf)", "way to the stops", 0, infinity, false},
     ModuleParameter{"e", "", "[0:1]", "coefficient of restitution of the stops", 0, 1, true},
 };
 
@@ -57,7 +57,7 @@ double value_of(const Model& model, const ModuleParameter& one) {
                                      error.problem()),
                          error.remedy());
     }
-    if (!(value > one.least || (one.may_be_least && value == one.least)) || !(value <= one.most && value < infinite))
+    if (!(value > one.least || (one.may_be_least && value == one.least)) || !(value <= one.most && value < infinity))
         throw InputError(fmt::format("'{}' of the model {} is {:.6g} {}", one.name, model.name, value, one.unit),
                          fmt::format("give a value within {}", one.range));
     return value;
@@ -105,7 +105,7 @@ endmodule
 } // namespace
 
 bool has_verilog_a(const Model& model) {
-    for (const ModuleParameter& one : parameters)
+    for (const ModuleParameter& one : circuit_parameters)
         if (!find_independent(model, one.name))
             return false;
     return true;
@@ -133,7 +133,7 @@ module {2}(fixed, moving);
         declare(one.name, fmt::format("{}", value), one.range,
                 *one.unit ? fmt::format("{}, {}", one.unit, one.text) : one.text);
     };
-    for (const ModuleParameter& one : parameters)
+    for (const ModuleParameter& one : circuit_parameters)
         declare_value(one, value_of(model, one));
     declare_value(permittivity,
                   find_independent(model, permittivity.name) ? value_of(model, permittivity) : vacuum_permittivity);

@@ -3,6 +3,7 @@
 #include "graze/layout/mask_letters.hpp"
 #include "layout/device_cells.hpp"
 #include "layout/device_rules.hpp"
+#include "layout/grid_lengths.hpp"
 #include "layout/turned_box.hpp"
 
 #include <fmt/format.h>

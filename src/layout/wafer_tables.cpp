@@ -1,5 +1,6 @@
 #include "graze/layout/wafer_tables.hpp"
 
+#include "base/special_numbers.hpp"
 #include "graze/layout/lumped_model.hpp"
 
 #include <fmt/format.h>
@@ -12,8 +13,6 @@
 namespace graze {
 
 namespace {
-
-constexpr double empty_cell = std::numeric_limits<double>::quiet_NaN(); // a cell without a number
 
 std::string unit_of(const Model& model, const std::string& parameter) {
     const auto place = model.find_parameter(parameter);
@@ -90,16 +89,16 @@ Table wafer_device_table(const WaferYield& yield, const Layout& wafer, const Mod
                 table.add(value);
         else
             for (std::size_t i = 0; i < names.size(); ++i)
-                table.add(empty_cell);
+                table.add(not_a_number);
         if (device.outcome == DeviceOutcome::found)
             table.add(device.value);
         else
-            table.add(empty_cell);
+            table.add(not_a_number);
         table.add(outcome_of(device));
         if (device.trip_time)
             table.add(*device.trip_time);
         else
-            table.add(empty_cell);
+            table.add(not_a_number);
         const DeviceDimensions& drawn = wafer.devices[wafer.sites[device.site - 1]].drawing.dimensions;
         for (const auto& field : device_fields())
             table.add(drawn.*field.member);

@@ -12,9 +12,10 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t longest = 16'000'000;
+constexpr std::size_t longest_file = 16'000'000;
 
-ParameterFile::Values values_of(const TomlReader& toml, const TomlEntry& group, std::map<std::string, Place>& places) {
+ParameterFile::Values group_values(const TomlReader& toml, const TomlEntry& group,
+                                   std::map<std::string, Place>& places) {
     ParameterFile::Values values;
     for (const TomlEntry& entry : toml.entries(toml.table(group), group.path)) {
         const auto number = entry.node->value<double>();
@@ -29,7 +30,7 @@ ParameterFile::Values values_of(const TomlReader& toml, const TomlEntry& group, 
     return values;
 }
 
-std::string quoted(const std::string& value) {
+std::string quoted_value(const std::string& value) {
     std::string text = "\"";
     for (const char c : value)
         if (c == '"' || c == '\\')
@@ -67,21 +68,21 @@ ParameterFile parse_parameter_file(const std::string& text, const std::string& p
         else
             (entry.name == "set"    ? file.set
              : entry.name == "from" ? file.from
-                                    : file.errors) = values_of(toml, entry, file.places);
+                                    : file.errors) = group_values(toml, entry, file.places);
     }
     return file;
 }
 
 ParameterFile read_parameter_file(const std::string& path) {
-    return parse_parameter_file(read_text_file(path, "parameter file", longest), path);
+    return parse_parameter_file(read_text_file(path, "parameter file", longest_file), path);
 }
 
 std::string write_parameter_file(const ParameterFile& file) {
     std::string text;
     if (!file.model.empty())
-        text += fmt::format("model = {}\n", quoted(file.model));
+        text += fmt::format("model = {}\n", quoted_value(file.model));
     if (!file.text.empty())
-        text += fmt::format("text = {}\n", quoted(file.text));
+        text += fmt::format("text = {}\n", quoted_value(file.text));
     return text + table_of("set", file.set) + table_of("from", file.from) + table_of("errors", file.errors);
 }
 

@@ -14,13 +14,13 @@ namespace graze {
 
 namespace {
 
-/// Values of event functions below this share of their size along the arc count as zero.
+/// Event function values below this fraction of the function's size along the arc count as zero.
 constexpr double on_surface = 1e-9;
 
-/// Follows the watched events along one segment.
+/// Records the minima and the first fall of each watched event function along one segment.
 class ArcWatcher {
 public:
-    /// @param touched event that is held to be touched; none: none is
+    /// @param touched event that the orbit is constrained to touch within this segment, if any
     ArcWatcher(const OrbitEquations& equations, std::size_t segment, RootFinder& roots,
                std::optional<std::size_t> touched)
         : equations_(&equations), segment_(segment), touched_(touched),
@@ -30,19 +30,19 @@ public:
           extrema_(mode_->watched.size()) {
         const System& compiled = equations.system();
         for (std::size_t w = 0; w < mode_->watched.size(); ++w)
-            harmless_.push_back(is_harmless(compiled, mode_->transitions[w]));
+            identity_.push_back(is_identity_transition(compiled, mode_->transitions[w]));
     }
 
-    /// @param begin time of the series' arc within the segment
-    void look(const WatchedSeries& series, double begin) {
+    /// @param begin start time of the arc of the series, from the start of the segment
+    void scan(const WatchedSeries& series, double begin) {
         for (std::size_t step = 0; step < series.steps().size(); ++step)
-            look(series, step, begin + series.steps()[step].time);
+            scan(series, step, begin + series.steps()[step].time);
     }
 
-    void look(const WatchedSeries& series, std::size_t step, double time) {
+    void scan(const WatchedSeries& series, std::size_t step, double time) {
         const double length = series.steps()[step].length, sign = length < 0 ? -1 : 1;
         for (std::size_t w = 0; w < mode_->watched.size(); ++w) {
-            if (harmless_[w] && !is_own(w))
+            if (identity_[w] && !is_own(w))
                 continue;
             const std::span<const double> c = series.of(step, w);
             coefficients_.assign(c.begin(), c.end());
@@ -58,7 +58,7 @@ public:
                 starts_[w] = coefficients_[0];
             note_lowest(w, evaluate_polynomial(coefficients_, std::abs(length)));
             const bool on_surface_here = first && std::abs(coefficients_[0]) <= on_surface * size;
-            look_for_extrema(w, time, length, on_surface_here ? size : 0);
+            find_extrema(w, time, length, on_surface_here ? size : 0);
             if (std::isinf(falls_[w])) {
                 Root root;
                 const bool zero = std::abs(coefficients_[0]) <= on_surface * size;
@@ -69,40 +69,41 @@ public:
         }
     }
 
-    /// What is wrong with the segment, if anything. @param ends event functions at its end, with their rates and how
-    /// much of them is round-off
-    std::string verdict(double duration, std::span<const double> ends, std::span<const double> rates,
-                        std::span<const double> round_off) const {
+    /// Returns why the model would not follow the segment; empty if it would. @param ends event functions at its end,
+    /// with their rates and round-off errors
+    std::string violation(double duration, std::span<const double> ends, std::span<const double> rates,
+                          std::span<const double> round_off) const {
         const Model& model = equations_->model();
         if (duration < 0)
             return fmt::format("segment {} has negative duration", segment_ + 1);
         for (std::size_t w = 0; w < mode_->watched.size(); ++w) {
-            if (harmless_[w] && !is_own(w))
+            if (identity_[w] && !is_own(w))
                 continue;
             const Event& event = model.events[mode_->watched[w]];
             const double zero =
                 std::max(on_surface * std::max(sizes_[w], std::numeric_limits<double>::min()), round_off[w]);
-            // Of a contact that hardly has speed the time is known to as much.
-            // Without speed it is known to a root of round-off, however small what is left of the speed.
+            // The end time is uncertain by round-off over speed. At zero speed it is known to the square root of
+            // round-off, so that the uncertainty is bounded.
             const double latest = std::abs(duration) * 1e-4;
             const double late =
                 std::max(std::abs(duration) * 1e-9,
                          is_own(w) && rates[w] != 0 ? std::min(round_off[w] / std::abs(rates[w]), latest) : 0);
             if (event.kind == EventKind::barrier && starts_[w] < -zero)
                 return fmt::format("segment {} begins beyond event '{}'", segment_ + 1, event.name);
-            // What only touches the surface, as an orbit that is held there, does so on either side of it.
+            // An orbit that only touches the surface may lie on either side of it, within round-off.
             const bool beyond = lowest_[w] < -std::max(smallest_clearance * sizes_[w], round_off[w]);
             if (falls_[w] < duration - late && beyond)
-                return fmt::format("event '{}' comes within segment {}", event.name, segment_ + 1);
-            // Without a fall: it has been left to that side with its start, without speed.
+                return fmt::format("event '{}' happens within segment {}", event.name, segment_ + 1);
+            // Without a fall the orbit entered the forbidden side at the start, with zero speed.
             if (event.kind == EventKind::barrier && std::isinf(falls_[w]) && lowest_[w] < -zero)
-                return fmt::format("segment {} leaves event '{}' on its other side", segment_ + 1, event.name);
+                return fmt::format("segment {} leaves the surface of event '{}' on the forbidden side", segment_ + 1,
+                                   event.name);
             if (!is_own(w) && event.kind == EventKind::barrier && ends[w] < -zero)
                 return fmt::format("segment {} ends beyond event '{}'", segment_ + 1, event.name);
         }
         return {};
     }
-    /// @param ends event functions at the segment's end
+    /// @param ends values of the event functions at the end of the segment
     std::vector<OrbitMinimum> minima(std::span<const double> ends) const {
         std::vector<OrbitMinimum> result;
         for (std::size_t w = 0; w < mode_->watched.size(); ++w)
@@ -115,7 +116,7 @@ public:
         const Segment& segment = equations_->signature()[segment_];
         return segment.end == SegmentEnd::event && mode_->transitions[w] == segment.index;
     }
-    bool is_harmless_here(std::size_t w) const { return harmless_[w]; }
+    bool is_identity(std::size_t w) const { return identity_[w]; }
 
 private:
     struct Extremum {
@@ -123,13 +124,13 @@ private:
         bool minimum;
     };
 
-    /// What is held on the surface has no lower value than that.
+    /// Round-off below zero does not count for the event that the orbit is constrained to touch.
     void note_lowest(std::size_t w, double value) {
         if (touched_ != mode_->watched[w] || std::abs(value) > on_surface * sizes_[w])
             lowest_[w] = std::min(lowest_[w], value);
     }
     /// @param begins_on_surface size of the function, if the segment begins where it is zero; otherwise 0
-    void look_for_extrema(std::size_t w, double time, double length, double begins_on_surface) {
+    void find_extrema(std::size_t w, double time, double length, double begins_on_surface) {
         derivative_.clear();
         for (std::size_t k = 1; k < coefficients_.size(); ++k)
             derivative_.push_back(static_cast<double>(k) * coefficients_[k]);
@@ -143,16 +144,17 @@ private:
             const double value = evaluate_polynomial(coefficients_, root.at);
             if (minimum)
                 note_lowest(w, value);
-            // A motion that leaves the surface without speed, as at the end of sticking, has its minimum at the start.
+            // A motion that leaves the surface with zero speed, as at the end of sticking, has its minimum at the
+            // start.
             constexpr double at_start = 1e-4;
             if (root.at <= at_start * reach && std::abs(value) <= on_surface * begins_on_surface)
                 continue;
             extrema_[w].push_back({time + sign * root.at, value, minimum});
         }
     }
-    /// What an event's extrema leave until it would happen. A section's function may have either sign, and falls where
-    /// it is positive before it is negative: of a least value and a greatest one before it, the one that is nearer to
-    /// zero decides. So the number that changes its sign where a fall appears is continuous there.
+    /// Appends the clearances of one event: how far its extrema are from making the event happen. A section function
+    /// may have either sign and falls through zero where a positive maximum precedes a negative minimum, so of the two
+    /// the one nearer to zero is listed: its value passes continuously through zero where a fall appears.
     void add_clearances(std::size_t w, double end, std::vector<OrbitMinimum>& result) const {
         constexpr double infinity = std::numeric_limits<double>::infinity();
         const std::vector<Extremum>& all = extrema_[w];
@@ -161,7 +163,7 @@ private:
             result.push_back({segment_, event, one.time, value, sizes_[w]});
         };
         const bool is_section = equations_->model().events[event].kind == EventKind::section;
-        std::vector<double> later(all.size() + 1, is_own(w) ? infinity : end); // least values from each one on
+        std::vector<double> later(all.size() + 1, is_own(w) ? infinity : end); // minimum from each extremum on
         for (std::size_t i = all.size(); i-- > 0;)
             later[i] = all[i].minimum ? std::min(later[i + 1], all[i].value) : later[i + 1];
         double before = starts_[w] > on_surface * sizes_[w] ? infinity : -infinity;
@@ -186,12 +188,12 @@ private:
     const System::CompiledMode* mode_;
     RootFinder* roots_;
     std::vector<double> sizes_, falls_, starts_, lowest_, coefficients_, derivative_;
-    std::vector<std::vector<Extremum>> extrema_; ///< of each event in their order
-    std::vector<bool> harmless_;
+    std::vector<std::vector<Extremum>> extrema_; ///< of each event, in the order of time
+    std::vector<bool> identity_;
     std::vector<Root> found_;
 };
 
-/// How far the alternative that leads to `next` is from not being taken: negative when it is not.
+/// Returns the margin by which guards choose the alternative that leads to `next`: negative when they do not.
 double guard_margin(const System::CompiledTransition& transition, std::size_t next, std::span<const double> inputs,
                     std::span<double> work) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -206,14 +208,14 @@ double guard_margin(const System::CompiledTransition& transition, std::size_t ne
         if (alternative.mode == next)
             best = std::max(best, std::min(before, margin));
         else
-            before = std::min(before, -margin); // those before must fail
+            before = std::min(before, -margin); // guards of earlier alternatives must fail
     }
     return best;
 }
 
 } // namespace
 
-bool is_harmless(const System& model, std::size_t transition) {
+bool is_identity_transition(const System& model, std::size_t transition) {
     const Transition& one = model.model().transitions[transition];
     return model.jump(one.jump).identity &&
            std::all_of(one.next.begin(), one.next.end(),
@@ -222,7 +224,7 @@ bool is_harmless(const System& model, std::size_t transition) {
 
 namespace {
 
-/// Looks at one segment after the other.
+/// Checks an orbit segment by segment.
 class Certifier {
 public:
     Certifier(OrbitEquations& equations, const OrbitEvaluation& at, const std::optional<HeldLimit>& held)
@@ -234,14 +236,14 @@ public:
 
     Certificate certify() {
         for (std::size_t s = 0; s < equations_->signature().size(); ++s) {
-            look_at_arc(s);
-            look_at_end(s);
+            check_arc(s);
+            check_end(s);
         }
         return std::move(certificate_);
     }
 
 private:
-    void object(std::string reason) {
+    void reject(std::string reason) {
         if (certificate_.admissible && !reason.empty()) {
             certificate_.admissible = false;
             certificate_.reason = std::move(reason);
@@ -251,12 +253,12 @@ private:
         return held_ && held_->kind == kind && held_->segment == segment;
     }
     void set_state(const std::vector<double>& state) { std::copy(state.begin(), state.end(), inputs_.begin()); }
-    /// Rate of a mode's watched event along a field, once its gradients have been evaluated.
+    /// Returns the rate of a watched event function along a vector field. Requires evaluate_gradients.
     double rate_of(std::size_t watched, const Eigen::VectorXd& field) const {
         return Eigen::Map<const Eigen::VectorXd>(&gradients_[watched * states_], index(states_)).dot(field);
     }
-    /// Of a mode's watched event at a state, once its gradients have been evaluated there: a height that is a
-    /// difference of positions is no better known than these.
+    /// Returns the round-off error of a watched event function at a state, propagated from the states: a gap that is a
+    /// difference of positions is no better known than the positions. Requires evaluate_gradients at the state.
     double round_off_of(std::size_t watched, const std::vector<double>& state) const {
         constexpr double share = 16 * std::numeric_limits<double>::epsilon();
         double sum = 0;
@@ -269,7 +271,7 @@ private:
         mode.event_gradients.evaluate(inputs_, gradients_, work_);
     }
 
-    void look_at_arc(std::size_t s) {
+    void check_arc(std::size_t s) {
         const OrbitLayout& layout = equations_->layout();
         const Segment& segment = equations_->signature()[s];
         const auto& mode = system_->mode(segment.mode);
@@ -279,9 +281,9 @@ private:
         for (std::size_t k = layout.first_piece(s); k <= layout.last_piece(s); ++k) {
             const double duration = at_->unknowns[index(layout.duration_of(k))];
             if (!at_->pieces[k].watched.steps().empty())
-                watcher.look(at_->pieces[k].watched, begin);
+                watcher.scan(at_->pieces[k].watched, begin);
             else if (!mode.watched.empty())
-                watcher.look(followed(k, duration), begin);
+                watcher.scan(integrated(k, duration), begin);
             begin += duration;
         }
         const OrbitEvaluation::Piece& last = at_->pieces[layout.last_piece(s)];
@@ -293,25 +295,26 @@ private:
         for (std::size_t w = 0; w < mode.watched.size(); ++w) {
             rates.push_back(rate_of(w, last.field));
             round_off.push_back(round_off_of(w, last.end));
-            if (!watcher.is_own(w) && !watcher.is_harmless_here(w))
+            if (!watcher.is_own(w) && !watcher.is_identity(w))
                 certificate_.end_values.push_back({s, mode.watched[w], values_[w], rates.back()});
         }
-        if (!held_ || !held_->holds_without_time(
-                          s, equations_->signature().size())) // of no time nothing can be said but round-off
-            object(watcher.verdict(begin, values_, rates, round_off));
+        if (!held_ ||
+            !held_->has_zero_duration(
+                s, equations_->signature().size())) // a verdict on a segment of no duration would be round-off
+            reject(watcher.violation(begin, values_, rates, round_off));
         for (const OrbitMinimum& minimum : watcher.minima(values_))
             certificate_.minima.push_back(minimum);
     }
 
-    /// Events along a piece that has not been followed step by step.
-    const WatchedSeries& followed(std::size_t k, double duration) {
+    /// Returns the event functions along a piece that the discretisation has not integrated.
+    const WatchedSeries& integrated(std::size_t k, double duration) {
         const double* start = at_->unknowns.data() + equations_->layout().start_of(k);
         std::vector<double> state(start, start + states_);
         equations_->flow_at(*at_).run(equations_->mode_of(k), state, duration, series_);
         return series_;
     }
 
-    void look_at_end(std::size_t s) {
+    void check_end(std::size_t s) {
         const Segment& segment = equations_->signature()[s];
         const double rate = equations_->rate_at_end(*at_, s);
         if (segment.end != SegmentEnd::event) {
@@ -321,9 +324,9 @@ private:
             return;
         }
         certificate_.approach_speeds.push_back(-rate);
-        if (rate > least_rate * equations_->usual_rate(*at_, s))
-            object(fmt::format("the event that ends segment {} rises instead of falling", s + 1));
-        // The symmetry's image is the start that the guard of a half orbit's last jump does not see.
+        if (rate > least_rate * equations_->typical_rate(*at_, s))
+            reject(fmt::format("the event that ends segment {} rises instead of falling", s + 1));
+        // Guards of a half orbit's last jump act on the state before the symmetry is applied.
         std::vector<double> after = at_->pieces[equations_->layout().last_piece(s)].end;
         set_state(after);
         const auto& jump = system_->jump(equations_->model().transitions[segment.index].jump);
@@ -333,11 +336,11 @@ private:
         const std::size_t next = mode_after(s);
         const double margin = guard_margin(system_->transition(segment.index), next, inputs_, work_);
         certificate_.guard_margins.push_back(margin);
-        // What guards see of a contact without speed may be nothing but round-off.
+        // Guards after a contact at zero speed may depend on round-off alone.
         const bool decided_by_round_off =
-            is_held(HeldLimit::Kind::guard, s) || (is_held(HeldLimit::Kind::stop, s) && held_->without_time > 0);
+            is_held(HeldLimit::Kind::guard, s) || (is_held(HeldLimit::Kind::stop, s) && held_->zero_durations > 0);
         if (margin < 0 && !decided_by_round_off)
-            object(fmt::format("the guard after segment {} leads to another mode", s + 1));
+            reject(fmt::format("the guard after segment {} leads to another mode", s + 1));
         system_->mode(next).rates.evaluate(inputs_, field_, work_);
         const auto& mode = system_->mode(segment.mode);
         const auto own = std::find(mode.transitions.begin(), mode.transitions.end(), segment.index);
@@ -346,7 +349,7 @@ private:
                                                   Eigen::Map<const Eigen::VectorXd>(field_.data(), index(states_))));
     }
 
-    /// The mode that the orbit has after a segment; of a half orbit's last one, before it is taken to its image.
+    /// Returns the mode after a segment; for the last one of a half orbit, the mode before the symmetry is applied.
     std::size_t mode_after(std::size_t s) const {
         const std::size_t segments = equations_->signature().size();
         const std::size_t next = equations_->signature()[(s + 1) % segments].mode;

@@ -12,40 +12,43 @@
 
 namespace graze {
 
-/// Whether a transition changes nothing: neither state nor mode. Orbits need not list it.
-bool is_harmless(const System& model, std::size_t transition);
+/// True when a transition changes neither state nor mode. Signatures need not list it.
+bool is_identity_transition(const System& model, std::size_t transition);
 
-/// What an orbit is held to, of which round-off would decide whether it is admissible: that an event is touched within
-/// a segment, that a contact has no speed, that a segment takes no time, that the guard after one is about to choose
-/// another mode.
+/// A constraint that places an orbit at the limit of admissibility, so that round-off alone would decide the check: an
+/// event is touched within a segment (touch), a contact has zero speed (stop), a segment has zero duration (vanishing),
+/// or the guard after a segment is about to choose another mode (guard).
 struct HeldLimit {
     enum class Kind { touch, stop, vanishing, guard };
     Kind kind = Kind::touch;
     std::size_t segment = 0, event = 0;
-    /// Of stop: segments after it that take no time either, as slip does that such a contact would set going.
-    std::size_t without_time = 0;
+    /// For stop: number of following segments whose duration is zero too, such as a slip that the contact would start.
+    std::size_t zero_durations = 0;
 
-    /// Whether a segment, of so many, is held to take no time.
-    bool holds_without_time(std::size_t one, std::size_t segments) const {
+    /// True when the constraint makes the duration of segment `one`, of `segments`, zero.
+    bool has_zero_duration(std::size_t one, std::size_t segments) const {
         return (kind == Kind::vanishing && one == segment) ||
-               (kind == Kind::stop && one != segment && (one + segments - segment) % segments <= without_time);
+               (kind == Kind::stop && one != segment && (one + segments - segment) % segments <= zero_durations);
     }
 };
 
-/// Checks every watched event over every arc, by the roots of its Taylor polynomials.
-/// @param held zero to within the accuracy of the flow: no contact, no negative duration, no other mode
+/// Checks every watched event along every arc by root isolation on its Taylor polynomials.
+/// @param held constraint of the orbit, which is zero only to the accuracy of the flow and must not cause a rejection
 Certificate certify(OrbitEquations& equations, const OrbitEvaluation& at,
                     const std::optional<HeldLimit>& held = std::nullopt);
 
-/// Whether the model would follow an orbit, all of whose segments take time. @param why not, if it is known
+/// True when the model would follow the orbit and all its durations are positive. @param why set to the reason
+/// otherwise, if it is known
 bool is_admissible(const Simulation& simulation, const Orbit& orbit, std::string& why);
 
-/// How many states the orbit brings back to whatever they were although they change along it: each tells one of many
-/// orbits side by side. What rests all along the orbit is no more than a parameter of it.
+/// Returns the number of neutral states that change along the orbit: the orbit returns them to any value that they
+/// start with, so that each parametrises a family of orbits. States that are constant along the orbit do not count;
+/// they act as parameters.
 std::size_t moving_neutral_states(const OrbitEquations& equations, const OrbitEvaluation& at);
-/// Floquet multipliers of the section map at the start of the first segment, largest first: of the half orbit for one
-/// that is given by its half. Without those that drifting or unchanged states, and shifts along the flow, would add.
-/// Empty where an event is reached without speed.
+/// Returns the Floquet multipliers of the section map at the start of the first segment, largest first; of the half map
+/// for a half orbit. The trivial multipliers of drifting states, constant states and shifts along the flow are left
+/// out. Empty where an event is reached with zero speed. Method: product of saltation and flow matrices (Aizerman and
+/// Gantmakher 1958).
 std::vector<std::complex<double>> floquet_multipliers(const OrbitEquations& equations, const OrbitEvaluation& at);
 
 } // namespace graze

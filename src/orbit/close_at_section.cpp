@@ -14,19 +14,19 @@ class PassageRecorder : public Observer {
 public:
     explicit PassageRecorder(std::size_t mode) : mode_(mode) {}
     void passage(const Passage& passage) override {
-        strayed = strayed || passage.mode != mode_;
+        left_mode = left_mode || passage.mode != mode_;
         times.push_back(passage.time);
         states.emplace_back(passage.state.begin(), passage.state.end());
     }
     std::vector<double> times;
     std::vector<std::vector<double>> states;
-    bool strayed = false; ///< into another mode
+    bool left_mode = false; ///< the motion has passed the section in another mode
 
 private:
     std::size_t mode_;
 };
 
-/// The sections in the order in which they are tried.
+/// Returns the sections in the order in which they are tried: phase sections first, the preferred one first among them.
 std::vector<std::size_t> candidates(const Model& model, const std::string& preferred) {
     std::vector<std::size_t> result;
     const auto add = [&](bool phase, bool named) {
@@ -39,7 +39,7 @@ std::vector<std::size_t> candidates(const Model& model, const std::string& prefe
     return result;
 }
 
-/// Whether the last passage is the first one again must not depend on round-off.
+/// Passages whose times differ by less than this share of the period are the same one, whatever round-off does.
 constexpr double same_time = 1e-6;
 
 } // namespace
@@ -47,16 +47,16 @@ constexpr double same_time = 1e-6;
 Orbit cut_at_section(const System& system, const Orbit& arcs, std::size_t section) {
     const Model& model = system.model();
     SimulationOptions options;
-    options.tolerance = 1e-13; // as orbits are computed
-    // The smooth motion alone, in which what is only touched does not happen.
+    options.tolerance = 1e-13; // the tolerance with which orbits are computed
+    // Integrates the smooth motion without events, so that a touched event does not happen.
     const Simulation simulation(system.without_events(), {section_probe(model, model.sections[section].name)}, {},
                                 options);
     JetSet jets(simulation, LaneKind::single);
     const std::size_t mode = arcs.signature.front().mode;
-    const double period = arcs.round(), near = same_time * period;
+    const double period = arcs.return_time(), near = same_time * period;
     Orbit orbit;
     orbit.parameters = arcs.parameters;
-    double begun = 0, before = 0; // of the segment; of the arc
+    double begun = 0, before = 0; // start times of the current segment and of the current arc
     const auto cut = [&](double time, const std::vector<double>& state) {
         orbit.durations.push_back(time - begun);
         orbit.starts.push_back(state);
@@ -71,12 +71,12 @@ Orbit cut_at_section(const System& system, const Orbit& arcs, std::size_t sectio
         run(trajectory, jets);
         for (std::size_t i = 0; i < recorder.times.size(); ++i) {
             const double time = recorder.times[i];
-            if (time < near) // where the arc begins, which has been seen at the end of the one before
+            if (time < near) // the start of the arc, already recorded at the end of the previous one
                 continue;
             const bool at_end = time > duration - near;
             if (!at_end)
                 cut(before + time, recorder.states[i]);
-            else if (k + 1 < arcs.segments()) // which is known better than by following the arc
+            else if (k + 1 < arcs.segments()) // the next start is known better than the end of the arc
                 cut(before + duration, arcs.starts[k + 1]);
         }
         before += duration;
@@ -97,7 +97,7 @@ std::optional<Orbit> close_at_section(const System& system, const std::vector<do
         trajectory.start(state, mode, 0, (2 + same_time) * duration);
         JetSet jets(simulation, LaneKind::single);
         run(trajectory, jets);
-        if (recorder.times.empty() || recorder.strayed)
+        if (recorder.times.empty() || recorder.left_mode)
             continue;
         const Segment segment{mode, SegmentEnd::section, index};
         if (symmetry)

@@ -16,20 +16,20 @@ namespace {
 
 constexpr std::size_t points = Collocation::points;
 
-/// The start of an interval, then Gauss's points on it.
+/// The start of the unit interval, then its Gauss points.
 constexpr std::array<double, points + 1> nodes{0, 0.06943184420297371, 0.33000947820757187, 0.6699905217924281,
                                                0.9305681557970263};
 
-/// Of polynomials through values at the nodes.
+/// Weights of the polynomial through values at the nodes.
 struct Basis {
-    Eigen::Matrix<double, points, points + 1> slopes; ///< at Gauss's points, for an interval of length 1
+    Eigen::Matrix<double, points, points + 1> slopes; ///< at the Gauss points, for an interval of length 1
     Eigen::Matrix<double, 1, points + 1> end;         ///< value at the interval's end
 };
 
 Basis make_basis() {
     Basis basis;
     for (std::size_t j = 0; j <= points; ++j) {
-        // Lagrange's polynomial of node j, and its derivative, at a place.
+        // The Lagrange polynomial of node j and its derivative.
         const auto value = [&](double s) {
             double product = 1;
             for (std::size_t k = 0; k <= points; ++k)
@@ -66,7 +66,7 @@ Collocation::Collocation(const Simulation& simulation, const Orbit& orbit, std::
         Rates rates;
         for (const Expression& rate : scratch.expand(scratch.modes[segment.mode].rates)) {
             rates.functions.push_back(system().with_gradient(rate));
-            rates.resting.push_back(rate.is_number(0));
+            rates.constant.push_back(rate.is_number(0));
         }
         for (const Function& rate : rates.functions)
             work_.resize(std::max(work_.size(), rate.workspace()));
@@ -107,8 +107,8 @@ void Collocation::rates_at(const Rates& rates, const double* state, const OrbitE
     }
 }
 
-/// Solves the linearised equations of each interval in its turn. Everything depends on the segment's start, its
-/// duration, the free parameters, and on how far the inner unknowns are off: the columns of `changes`.
+/// Solves the linearised equations interval by interval. The columns of `changes` are the derivatives with respect to
+/// the start, the duration and the free parameters of the segment, then the defect of the inner unknowns.
 bool Collocation::follow(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEvaluation& at) {
     static const Basis basis = make_basis();
     const Eigen::Index n = index(layout().states()), q = index(layout().free()), m = index(points),
@@ -150,8 +150,8 @@ bool Collocation::follow(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEv
         }
     }
     start += changes.rightCols(1);
-    for (Eigen::Index i = 0; i < n; ++i) // whatever round-off says
-        if (rates_[k].resting[static_cast<std::size_t>(i)]) {
+    for (Eigen::Index i = 0; i < n; ++i) // constant states keep their value exactly, free of round-off
+        if (rates_[k].constant[static_cast<std::size_t>(i)]) {
             start[i] = unknowns[index(layout().start_of(k)) + i];
             changes.row(i).setZero();
             changes(i, i) = 1;

@@ -7,27 +7,28 @@
 
 namespace graze {
 
-/// The equations of an orbit by collocation: on each of equal intervals of a segment the motion is a polynomial that
-/// satisfies the differential equations at Gauss's four points (C. de Boor and B. Swartz, "Collocation at Gaussian
-/// points", SIAM J. Numer. Anal. 10, 1973), where its values are inner unknowns. Errors at the ends of intervals fall
-/// with the eighth power of their lengths. A method that has nothing in common with Shooting but the ends of segments:
-/// what both find is right.
+/// The equations of an orbit by collocation. On each of the equal intervals of a segment the motion is a polynomial
+/// that satisfies the differential equations at the four Gauss points (C. de Boor and B. Swartz, "Collocation at
+/// Gaussian points", SIAM J. Numer. Anal. 10, 1973); its values there are the inner unknowns. Errors at the ends of
+/// intervals fall with the eighth power of the interval length. Collocation shares only the treatment of segment ends
+/// with Shooting, so agreement of the two is an independent check.
 ///
-/// Inner unknowns are eliminated within their segment, as in AUTO (E. J. Doedel, H. B. Keller and J. P. Kernevez 1991).
+/// The inner unknowns are eliminated segment by segment, as in AUTO (E. J. Doedel, H. B. Keller and J. P. Kernevez
+/// 1991).
 class Collocation : public OrbitEquations {
 public:
     static constexpr std::size_t points = 4;
 
-    /// @param intervals of each segment; fixed, and equal
+    /// @param intervals number of equal intervals of each segment
     /// @throws InputError when the orbit does not fit the model, or there are no intervals
     Collocation(const Simulation& simulation, const Orbit& orbit, std::vector<ParameterId> free, std::size_t intervals,
                 std::vector<double> ranges = {});
 
 private:
-    /// Of a mode: for each state its rate and the derivatives of that, and whether nothing moves it there.
+    /// Rates of a mode with their derivatives, and which states are constant in it.
     struct Rates {
         std::vector<Function> functions;
-        std::vector<bool> resting;
+        std::vector<bool> constant;
     };
 
     bool follow(std::size_t piece, const Eigen::VectorXd& unknowns, OrbitEvaluation& at) override;

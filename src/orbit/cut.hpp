@@ -8,26 +8,30 @@
 
 namespace graze {
 
-/// A periodic orbit does not depend on where it is cut. Sections say so as long as the motion crosses them: where it
-/// only touches one, equations that are made with the section turn back although the orbits go on. A cut, a plane laid
-/// across the motion itself, takes the place of the section there.
+/// A periodic orbit does not depend on the section at which its segments end, as long as the motion crosses the
+/// section. Where the motion only touches it, the branch of the equations has a spurious fold. There a cut, a plane
+/// laid across the motion itself, replaces the section.
 
-/// The rates at which the motion passes the sections that end segments, in units of usual ones; of a cut only the way
-/// it is passed, 1 or -1; 1 for other ends.
+/// Returns for each segment the rate at which the motion crosses the section that ends it, divided by the typical rate;
+/// for a cut only the direction of crossing, 1 or -1; 1 for events.
 std::vector<double> passing_rates(const OrbitEquations& equations, const OrbitEvaluation& at);
-/// The segment whose section the motion passes so slowly that it is about to touch it only.
+/// Returns the first segment whose section the motion crosses so slowly that it nearly only touches it; empty if there
+/// is none.
 std::optional<std::size_t> touched_section(const std::vector<double>& rates);
-/// The segment whose section or cut is passed the other way than before: in between it has been touched.
-std::optional<std::size_t> turned_section(const std::vector<double>& before, const std::vector<double>& rates);
-/// Whether the motion has turned so far from the normal of a cut that the plane is to be laid anew.
+/// Returns the first segment whose section or cut is now crossed in the opposite direction: in between, the motion
+/// touched it.
+std::optional<std::size_t> reversed_section(const std::vector<double>& before, const std::vector<double>& rates);
+/// True when the motion has turned so far from the normal of a cut that the plane should be laid anew.
 bool cuts_are_oblique(const OrbitEquations& equations, const OrbitEvaluation& at);
 
-/// The same orbit without its sections, with a direction of it: without contacts it ends its segments by cuts; with
-/// contacts they go on to these. None where that is impossible, as of a half orbit with contacts that a section ends.
+/// An orbit and a direction of change, without sections: without contacts, cuts replace the sections; with contacts,
+/// segments are merged up to the next contact.
 struct UncutOrbit {
     Orbit orbit;
     OrbitDirection direction;
 };
+/// Removes the sections of an orbit. @return empty where that is impossible, as for a half orbit with contacts that a
+/// section ends
 std::optional<UncutOrbit> without_sections(const Model& model, const Orbit& orbit, const OrbitDirection& direction);
 
 } // namespace graze

@@ -17,7 +17,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Multipliers of a relation first * x_0 + last * x_m = 0 with x_m = mu x_0, but for infinite ones.
+/// Finite multipliers mu of a relation first * x_0 + last * x_m = 0 with x_m = mu x_0.
 struct CycleSpectrum {
     explicit CycleSpectrum(const CyclicSystem& system) : relation(system.relation()) {
         if (relation.first.rows() == 0)
@@ -29,7 +29,7 @@ struct CycleSpectrum {
                 all.push_back(one);
         }
     }
-    /// Takes out the one nearest to a number. @return none where there is none
+    /// Removes and returns the multiplier nearest to `wanted`; empty when none is left.
     std::optional<Complex> take(Complex wanted) {
         const auto nearest = std::min_element(
             all.begin(), all.end(), [&](Complex a, Complex b) { return std::abs(a - wanted) < std::abs(b - wanted); });
@@ -39,7 +39,7 @@ struct CycleSpectrum {
         all.erase(nearest);
         return result;
     }
-    /// The start that belongs to one of them: what the relation with it takes to nothing.
+    /// Returns the start x_0 that belongs to a multiplier: the null vector of the relation with x_m = mu x_0.
     Eigen::VectorXcd vector_of(Complex multiplier) const {
         return null_vector(relation.first + multiplier * relation.second);
     }
@@ -48,10 +48,11 @@ struct CycleSpectrum {
     std::vector<Complex> all;
 };
 
-/// The plane of two multipliers next to one another, by subspace iteration with the relation inverted beside them.
+/// Returns a basis of the invariant plane of two close multipliers, by inverse subspace iteration with a shift beside
+/// them.
 Eigen::MatrixXd plane_of_close(const CycleSpectrum& others, double middle) {
-    constexpr double share = 0.1;   // of the way to the nearest of the others
-    constexpr int repetitions = 20; // each makes of what does not belong to it a tenth or less
+    constexpr double share = 0.1;   // offset of the shift, as a share of the distance to the nearest other multiplier
+    constexpr int repetitions = 20; // each reduces components outside the plane to a tenth or less
     const auto& [first, last] = others.relation;
     double nearest = std::abs(middle);
     for (const Complex one : others.all)
@@ -65,9 +66,10 @@ Eigen::MatrixXd plane_of_close(const CycleSpectrum& others, double middle) {
     return starts;
 }
 
-/// The plane, as starts, that belongs to two multipliers, and what one round makes of it.
+/// Computes the invariant plane of two multipliers, as a basis of starts x_0, and the map of the plane to itself in one
+/// period.
 bool plane_of(const CyclicSystem& system, Complex one, Complex other, Eigen::MatrixXd& starts, Eigen::Matrix2d& map) {
-    constexpr double close = 1e-3; // vectors of multipliers that differ by so little are nearly the same
+    constexpr double close = 1e-3; // multipliers that differ by a smaller share have nearly parallel vectors
     CycleSpectrum spectrum(system);
     const auto& [first, last] = spectrum.relation;
     const auto at = spectrum.take(one), beside = spectrum.take(other);
@@ -88,7 +90,7 @@ bool plane_of(const CyclicSystem& system, Complex one, Complex other, Eigen::Mat
     return map.allFinite();
 }
 
-/// All unknowns between such starts and what comes of them.
+/// Returns all unknowns along the cycle, between these starts and their images.
 Eigen::MatrixXd between(const CyclicSystem& system, const Eigen::MatrixXd& starts, const Eigen::Matrix2d& map) {
     const Eigen::MatrixXd ends = starts * map;
     Eigen::MatrixXd result(system.unknowns(), 2);
@@ -127,7 +129,7 @@ CyclicSystem CyclicMatrix::direct(const Eigen::VectorXd& column) const {
     return result;
 }
 
-/// Its unknowns are left vectors in reverse order, for each block the weights of the closing rows first.
+/// The unknowns are left vectors in reverse order; in each block the weights of the continuity rows come first.
 CyclicSystem CyclicMatrix::transposed(const Eigen::VectorXd& column) const {
     const Eigen::Index q = column.size() > 0 ? 1 : 0;
     CyclicSystem result(static_cast<std::size_t>(n_), static_cast<std::size_t>(q));
@@ -211,10 +213,11 @@ bool CyclicMatrix::plane_near(std::complex<double> one, std::complex<double> oth
     result.left.resize(left.rows(), 2);
     for (Eigen::Index i = 0; i < 2; ++i)
         result.left.col(i) = restored(left.col(i));
-    // A(mu) = A_0 + mu N, where N closes: what the left plane makes of N times the right one is to be one.
+    // A(mu) = A_0 + mu N, where N is the closing block. Normalise: left^T N right is the identity.
     const Eigen::Matrix2d product =
         result.left.bottomRows(n_ + 1).transpose() * (next_.back() * result.right.topRows(n_));
-    constexpr double least = 1e-20; // of both angles between the planes: with less, other multipliers are as near
+    // Of the product of angles between left and right plane: below it, other multipliers are as near.
+    constexpr double least = 1e-20;
     const double sizes = result.left.colwise().norm().prod() * result.right.colwise().norm().prod();
     if (!(std::abs(product.determinant()) > least * sizes))
         return false;

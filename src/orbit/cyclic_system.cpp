@@ -12,11 +12,11 @@ namespace graze {
 
 namespace {
 
-/// Singular values below this share of the largest one are what rounding and integration leave of zero.
-constexpr double hardly_determined = 1e-8;
+/// Singular values below this share of the largest one count as zero: they are errors of rounding and integration.
+constexpr double rank_tolerance = 1e-8;
 
-/// Makes the first columns of [a | b] upper triangular by reflections x - m (m^T x), whose mirrors m have the length
-/// sqrt(2). @return the sign of their determinant
+/// Makes the first columns of [a | b] upper triangular by Householder reflections x - m (m^T x), |m| = sqrt(2). @return
+/// the sign of their determinant
 double reflect(Eigen::MatrixXd& a, Eigen::MatrixXd& b, Eigen::MatrixXd& mirrors) {
     double sign = 1;
     mirrors.setZero();
@@ -41,7 +41,7 @@ double reflect(Eigen::MatrixXd& a, Eigen::MatrixXd& b, Eigen::MatrixXd& mirrors)
     return sign;
 }
 
-/// What the same reflections make of a vector.
+/// Applies the same reflections to a vector.
 void reflect(Eigen::VectorXd& vector, const Eigen::MatrixXd& mirrors) {
     for (Eigen::Index c = 0; c < mirrors.cols(); ++c) {
         const Eigen::Index rows = vector.size() - c;
@@ -72,7 +72,7 @@ void CyclicSystem::resize(std::size_t segments) {
 
 bool CyclicSystem::factor() {
     const Eigen::Index n = index(n_), q = index(q_);
-    // A copy of x_0, to which all others are related: C x_0 + D x_k + E p is known, at first x_0 - x_0 = 0.
+    // Relates each x_k to x_0: C x_0 + D x_k + E p is known. Initially x_0 - x_0 = 0.
     Eigen::MatrixXd relation = Eigen::MatrixXd::Zero(n, 2 * n + q); // C, D, E
     relation.leftCols(n).setIdentity();
     relation.middleCols(n, n) = -Eigen::MatrixXd::Identity(n, n);
@@ -119,7 +119,7 @@ double CyclicSystem::antiperiodic_noise() const {
 }
 
 double CyclicSystem::noise(double closing) const {
-    constexpr double round_off = 1e-9; // of derivatives, which are integrated
+    constexpr double round_off = 1e-9; // error of the integrated derivatives
     const Eigen::Index n = index(n_);
     const Eigen::VectorXd values =
         singular_values(Eigen::MatrixXd(final_.leftCols(n) + closing * final_.middleCols(n, n)), SingularVectors::none)
@@ -127,15 +127,15 @@ double CyclicSystem::noise(double closing) const {
     return n == 0 ? 0 : round_off * values[0] * values.head(n - 1).prod();
 }
 
-/// The matrix of the equations of x_0 and p alone.
+/// Returns the matrix of the condensed equations, in x_0 and p alone.
 Eigen::MatrixXd CyclicSystem::condense(const Eigen::MatrixXd& borders, std::vector<Eigen::MatrixXd>& shares) const {
     const Eigen::Index n = index(n_), q = index(q_);
     Eigen::MatrixXd result(n + q, n + q);
     result.topLeftCorner(n, n) = final_.leftCols(n) + final_.middleCols(n, n);
     result.topRightCorner(n, q) = final_.middleCols(2 * n, q);
-    // In the further equations each start is replaced in its turn by x_0, the next start and p.
+    // In the border equations each start is expressed in turn by x_0, the next start and p.
     Eigen::MatrixXd rows = borders;
-    Eigen::MatrixXd start = Eigen::MatrixXd::Zero(q, n); // coefficients of the copy of x_0
+    Eigen::MatrixXd start = Eigen::MatrixXd::Zero(q, n); // coefficients of x_0
     shares.resize(count_);
     for (std::size_t k = 0; k < count_; ++k) {
         const Eliminated& gone = eliminated_[k];
@@ -158,8 +158,8 @@ Eigen::MatrixXd CyclicSystem::condense(const Eigen::MatrixXd& borders, std::vect
     return result;
 }
 
-/// All unknowns, from the first start and the parameters, and the start after the last segment.
-/// @param constants of what is left of each segment; empty: zero
+/// Returns all unknowns from (x_0, p) and the start after the last segment, by back substitution.
+/// @param constants right-hand sides of the eliminated equations of each segment; empty: zero
 Eigen::VectorXd CyclicSystem::expand(const Eigen::VectorXd& first, const Eigen::VectorXd& last,
                                      const std::vector<Eigen::VectorXd>& constants) const {
     const Eigen::Index n = index(n_), q = index(q_);
@@ -213,7 +213,7 @@ bool CyclicSystem::solve(const Closed& closed, const Eigen::VectorXd* blocks, co
     return solution.allFinite();
 }
 
-/// The right-hand side of the equations of x_0 alone, and what the eliminated ones keep of theirs.
+/// Returns the right-hand side of the condensed equations of x_0, and sets those of the eliminated equations.
 Eigen::VectorXd CyclicSystem::reduced(const Eigen::VectorXd& blocks, std::vector<Eigen::VectorXd>& constants) const {
     const Eigen::Index n = index(n_);
     Eigen::VectorXd values = Eigen::VectorXd::Zero(n);
@@ -227,14 +227,15 @@ Eigen::VectorXd CyclicSystem::reduced(const Eigen::VectorXd& blocks, std::vector
     return values;
 }
 
-bool CyclicSystem::solve_nearest(const Eigen::VectorXd& blocks, Eigen::VectorXd& solution, std::size_t& lost) const {
+bool CyclicSystem::solve_nearest(const Eigen::VectorXd& blocks, Eigen::VectorXd& solution,
+                                 std::size_t& deficiency) const {
     const Eigen::Index n = index(n_);
     std::vector<Eigen::VectorXd> constants;
     const Eigen::VectorXd values = reduced(blocks, constants);
     const SingularValues factors =
         singular_values(Eigen::MatrixXd(final_.leftCols(n) + final_.middleCols(n, n)), SingularVectors::full);
-    const Eigen::Index kept = std::min(factors.rank(hardly_determined), n - index(lost));
-    lost = static_cast<std::size_t>(n - kept);
+    const Eigen::Index kept = std::min(factors.rank(rank_tolerance), n - index(deficiency));
+    deficiency = static_cast<std::size_t>(n - kept);
     const Eigen::VectorXd first =
         factors.right.leftCols(kept) *
         (factors.left.leftCols(kept).transpose() * values).cwiseQuotient(factors.values.head(kept));
@@ -246,7 +247,7 @@ std::size_t CyclicSystem::undetermined() const {
     const Eigen::Index n = index(n_);
     Eigen::MatrixXd matrix(n, n + index(q_));
     matrix << final_.leftCols(n) + final_.middleCols(n, n), final_.rightCols(index(q_));
-    return static_cast<std::size_t>(n - singular_values(matrix, SingularVectors::none).rank(hardly_determined));
+    return static_cast<std::size_t>(n - singular_values(matrix, SingularVectors::none).rank(rank_tolerance));
 }
 
 bool CyclicSystem::null_vector(const Eigen::MatrixXd& borders, Eigen::VectorXd& vector) const {

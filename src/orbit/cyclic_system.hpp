@@ -10,14 +10,14 @@
 
 namespace graze {
 
-/// The linear equations of multiple shooting: for each of m segments its start x_k (n numbers) and duration T_k, and q
-/// parameters p that all share,
+/// The linear equations of multiple shooting: the unknowns are for each of m segments its start x_k (n numbers) and
+/// duration T_k, and q shared parameters p,
 ///
 ///     own_k (x_k, T_k) + next_k x_{k+1} + parameters_k p = right_k     (n + 1 equations; x_m = x_0),
 ///
-/// closed by q further equations in all unknowns. Starts are eliminated one after another by orthogonal transformations
+/// closed by q border equations in all unknowns. Starts are eliminated one after another by orthogonal transformations
 /// (S. J. Wright, "Stable parallel algorithms for two-point boundary value problems", SIAM J. Sci. Stat. Comput. 13,
-/// 1992), which stays accurate however much arcs expand and costs in proportion to m.
+/// 1992), which is stable however much arcs expand; the cost is proportional to m.
 class CyclicSystem {
 public:
     struct Block {
@@ -29,63 +29,64 @@ public:
 
     CyclicSystem(std::size_t states, std::size_t parameters);
 
-    /// Keeps the memory of blocks that exist already.
+    /// Sets the number of segments; keeps the memory of existing blocks.
     void resize(std::size_t segments);
     std::size_t segments() const { return count_; }
     std::size_t unknowns() const { return count_ * (n_ + 1) + q_; }
     Block& block(std::size_t k) { return blocks_[k]; }
     const Block& block(std::size_t k) const { return blocks_[k]; }
 
-    /// Factors the blocks, but for their right-hand sides. @return false when a number is not finite
+    /// Factors the blocks without their right-hand sides. @return false when a number is not finite
     bool factor();
-    /// Determinants of the system without parameters, up to a positive factor that does not vanish where the system
-    /// is regular for some closure: of the periodic one, zero where a multiplier is 1, and of that with x_m = -x_0,
-    /// zero where one is -1. To be called after `factor`, like all below.
+    /// Determinants of the system without parameters, up to a positive factor: of the periodic closure x_m = x_0, zero
+    /// where a multiplier is 1, and of the antiperiodic closure x_m = -x_0, zero where a multiplier is -1. Requires
+    /// `factor`, like all functions below.
     double periodic_determinant() const;
     double antiperiodic_determinant() const;
-    /// Values of these below which their signs are round-off.
+    /// Magnitudes of the determinants below which their signs are round-off.
     double periodic_noise() const;
     double antiperiodic_noise() const;
 
-    /// The system closed by q further equations, factored: for as many right-hand sides as one likes. Unknowns are
-    /// (x_0, T_0, x_1, T_1, ..., p). A value of its own, but it is solved with the system that it was made from.
+    /// The factored system with its q border equations, which serves any number of right-hand sides. Unknowns are (x_0,
+    /// T_0, x_1, T_1, ..., p). It can be copied, but must be used with the system that made it.
     class Closed {
     public:
-        /// False when the whole is singular to working precision.
+        /// False when the bordered system is singular to working precision.
         bool is_regular() const { return regular_; }
-        /// Of the whole, up to the same factor as those of the system.
+        /// Determinant of the bordered system, up to the same factor as those of the system.
         double determinant() const { return determinant_; }
 
     private:
         friend class CyclicSystem;
         FullLU<double> lu_;
-        std::vector<Eigen::MatrixXd> shares_; ///< of each segment's equations in the further ones; empty: none
+        /// Per segment: coefficients by which its equations enter the borders; empty: zero.
+        std::vector<Eigen::MatrixXd> shares_;
         bool regular_ = false;
         double determinant_ = 0;
     };
     /// @param borders q x unknowns()
     Closed close(const Eigen::MatrixXd& borders) const;
-    /// @param blocks right-hand sides of all blocks, one after another; null: zero. @param right of the further
+    /// @param blocks right-hand sides of all blocks, one after another; null: zero. @param right those of the border
     /// equations
     /// @return false when the system is singular
     bool solve(const Closed& closed, const Eigen::VectorXd* blocks, const Eigen::VectorXd& right,
                Eigen::VectorXd& solution) const;
-    /// The same without further equations, for systems without parameters: the solution of least first start, in all
-    /// directions but those that the equations hardly determine, whose equations are left out.
-    /// @param lost how many these are; given, how many they are at least
-    bool solve_nearest(const Eigen::VectorXd& blocks, Eigen::VectorXd& solution, std::size_t& lost) const;
-    /// How many directions of the first start the equations hardly determine, beyond one for each parameter.
+    /// For systems without parameters and borders: the solution with the smallest x_0. Directions of x_0 that the
+    /// equations hardly determine (small singular values) stay zero.
+    /// @param deficiency number of undetermined directions; on entry a lower bound for it
+    bool solve_nearest(const Eigen::VectorXd& blocks, Eigen::VectorXd& solution, std::size_t& deficiency) const;
+    /// Returns the number of directions of x_0 that the equations hardly determine, beyond one for each parameter.
     std::size_t undetermined() const;
-    /// The blocks' own.
+    /// Returns the right-hand sides of all blocks, one after another.
     Eigen::VectorXd right_hand_sides() const;
-    /// The vector that the blocks and the further equations' left-hand sides take nearest to zero, of any length: where
-    /// they are singular, in the null space. @return false when a number is not finite
+    /// Computes a vector in the null space of blocks and borders, of any length; where they are not singular, the right
+    /// singular vector of the smallest singular value. @return false when a number is not finite
     bool null_vector(const Eigen::MatrixXd& borders, Eigen::VectorXd& vector) const;
 
-    /// What is left of the homogeneous equations without parameters: first * x_0 + last * x_m = 0. To be called after
-    /// `factor`, like those above.
+    /// Returns the matrices (first, last) of the condensed homogeneous equations without parameters: first * x_0 + last
+    /// * x_m = 0.
     std::pair<Eigen::MatrixXd, Eigen::MatrixXd> relation() const;
-    /// Starts and durations between such x_0 and x_m: (x_0, T_0, x_1, ..., T_{m-1}).
+    /// Returns starts and durations between x_0 and x_m that satisfy this relation: (x_0, T_0, x_1, ..., T_{m-1}).
     Eigen::VectorXd between(const Eigen::VectorXd& first, const Eigen::VectorXd& last) const;
 
 private:
@@ -95,11 +96,11 @@ private:
     Eigen::VectorXd expand(const Eigen::VectorXd& first, const Eigen::VectorXd& last,
                            const std::vector<Eigen::VectorXd>& constants) const;
 
-    /// What is left of a segment: triangle (x_k, T_k) + rest (x_0, x_{k+1}, p) = a constant; and by which reflections
-    /// it came to that, for the constant.
+    /// Eliminated equations of a segment: triangle (x_k, T_k) + rest (x_0, x_{k+1}, p) = constant; the reflections that
+    /// produced them are kept for the constants of other right-hand sides.
     struct Eliminated {
         Eigen::MatrixXd triangle, rest;
-        Eigen::MatrixXd mirrors; ///< columns; of zero length where there is nothing to reflect
+        Eigen::MatrixXd mirrors; ///< reflection vectors in columns; zero where no reflection was needed
     };
     std::size_t n_, q_, count_ = 0;
     std::vector<Block> blocks_;

@@ -15,7 +15,7 @@ void join_drifts(const Simulation& simulation, Orbit& orbit) {
     OrbitEvaluation at = shooting.evaluation();
     if (!shooting.evaluate(shooting.unknowns_of(orbit), at))
         return;
-    // Nothing depends on where a drifting state is, so that all segments can be followed before any is moved.
+    // The motion does not depend on drifting states, so all segments are integrated before any start is shifted.
     std::vector<double> shift(states.size(), 0.0);
     for (std::size_t s = 0; s + 1 < orbit.segments(); ++s)
         for (std::size_t i = 0; i < states.size(); ++i) {

@@ -6,7 +6,7 @@
 
 namespace graze {
 
-/// Eigen counts with signed numbers.
+/// Converts an index to Eigen's signed type.
 inline Eigen::Index index(std::size_t i) {
     return static_cast<Eigen::Index>(i);
 }

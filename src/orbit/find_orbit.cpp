@@ -16,7 +16,7 @@ namespace graze {
 
 namespace {
 
-/// Writes down the contacts of a motion.
+/// Records the segments of a motion.
 class SegmentRecorder : public Observer {
 public:
     SegmentRecorder(const System& model, FollowedMotion& motion) : model_(&model), motion_(&motion) {}
@@ -29,7 +29,7 @@ public:
                                            model_->model().events[contact.event].name, contact.time);
             return;
         }
-        if (is_harmless(*model_, contact.transition))
+        if (is_identity_transition(*model_, contact.transition))
             return;
         motion_->segments.push_back({contact.mode_before, SegmentEnd::event, contact.transition});
         motion_->durations.push_back(contact.time - last_);
@@ -44,9 +44,10 @@ private:
     double last_ = 0;
 };
 
-/// One period of a motion that has been followed for more than two and a half. It begins after the contact which the
-/// longest time without contacts follows, so that round-off does not decide whether the last contact belongs to it.
-void cut_out(const FollowedMotion& motion, double duration, Orbit& orbit) {
+/// Extracts one period from a motion that was followed for more than two and a half. The period begins after the
+/// contact that is followed by the longest time without contacts, so that round-off does not decide whether the last
+/// contact belongs to it.
+void extract_period(const FollowedMotion& motion, double duration, Orbit& orbit) {
     std::vector<double> times;
     double time = 0;
     for (const double each : motion.durations)
@@ -105,7 +106,7 @@ std::optional<OrbitSolution> find_orbit(const System& system, const AttractorOpt
         run(search->trajectory(), jets);
     } while (search->proceed());
     const PointResult& result = search->result();
-    // At sections of a clock an equilibrium returns like any orbit.
+    // With a clock section an equilibrium returns like any orbit.
     const bool returns = result.label == Label::equilibrium && result.period > 0;
     const auto no_orbit = [&] {
         return InputError(fmt::format("the motion does not settle on a periodic orbit: it is {}{}{}",
@@ -120,7 +121,7 @@ std::optional<OrbitSolution> find_orbit(const System& system, const AttractorOpt
     if (!motion.problem.empty())
         throw InputError("the orbit has no signature: " + motion.problem,
                          "choose parameters at which contacts do not accumulate");
-    // What round-off still lets happen next to where a motion comes to rest is no part of an orbit.
+    // Near an equilibrium, contacts of the motion may be due to round-off: they belong to no orbit.
     if (returns && !motion.segments.empty())
         throw no_orbit();
     Orbit orbit;
@@ -132,12 +133,12 @@ std::optional<OrbitSolution> find_orbit(const System& system, const AttractorOpt
             throw InputError("the orbit passes none of the model's sections", "declare one that it passes");
         orbit = *closed;
     } else {
-        cut_out(motion, result.duration, orbit);
+        extract_period(motion, result.duration, orbit);
     }
     if (const auto half = half_orbit(system, orbit))
         return solve_orbit(system, *half, options);
     OrbitSolution solution = solve_orbit(system, orbit, options);
-    // What has not decayed yet hides that the orbit itself is its own image.
+    // A transient may have hidden the symmetry of the orbit, so it is tested again after refinement.
     const auto half = solution.outcome == OrbitOutcome::converged ? half_orbit(system, solution.orbit) : std::nullopt;
     return half ? solve_orbit(system, *half, options) : solution;
 }

@@ -14,7 +14,7 @@ namespace graze {
 
 namespace {
 
-/// The largest difference of two states, in units of how far each state goes along the orbit.
+/// Returns the largest difference of two states, relative to the extent of each state along the orbit.
 double distance(std::span<const double> a, std::span<const double> b, const OrbitEquations& equations,
                 std::span<const double> periods) {
     double result = 0;
@@ -32,13 +32,13 @@ bool is_smooth(const Orbit& orbit) {
                        [](const Segment& segment) { return segment.end != SegmentEnd::event; });
 }
 
-/// Ends an orbit without contacts after half its time, which is within its middle segment; the state there is appended
-/// to its starts. @return whether that makes sense
+/// Cuts an orbit without contacts after half its period, within its middle segment, and appends the state there to its
+/// starts. @return false where the orbit has no middle segment or the symmetry changes the mode
 bool cut_in_half(const Simulation& simulation, Orbit& orbit, const Symmetry& symmetry) {
     const std::size_t mode = orbit.signature[0].mode, count = orbit.segments() / 2 + 1;
     if (orbit.segments() % 2 == 0 || symmetry.modes[mode] != mode)
         return false;
-    double left = 0.5 * orbit.round();
+    double left = 0.5 * orbit.return_time();
     orbit.signature.resize(count);
     orbit.starts.resize(count);
     orbit.durations.resize(count);
@@ -54,17 +54,17 @@ bool cut_in_half(const Simulation& simulation, Orbit& orbit, const Symmetry& sym
     return true;
 }
 
-/// Whether the symmetry takes the event that ends a segment to the one that ends another.
-bool takes_end_to(const System& system, const Orbit& orbit, std::size_t symmetry, std::size_t from, std::size_t to) {
+/// True when the symmetry maps the event that ends segment `from` to the event that ends segment `to`.
+bool maps_end_to(const System& system, const Orbit& orbit, std::size_t symmetry, std::size_t from, std::size_t to) {
     try {
         return image_of(system, symmetry, orbit.signature[from], orbit) == orbit.signature[to];
-    } catch (const InputError&) { // no event is its image
+    } catch (const InputError&) { // the event has no image
         return false;
     }
 }
 
-/// Whether the second half of an orbit's segments is the image of the first, and the first that of the second: a map
-/// that is a symmetry in one mode only, as of a clock that is set back, is none of the orbit.
+/// True when the second half of an orbit's segments is the image of the first half and vice versa. Both directions are
+/// checked because a map may be a symmetry in one mode only, as for a clock that is reset.
 bool repeats_as_image(const Orbit& orbit, std::size_t index, const OrbitEquations& equations,
                       std::span<const double> periods, double tolerance) {
     const Symmetry& symmetry = equations.model().symmetries[index];
@@ -72,7 +72,7 @@ bool repeats_as_image(const Orbit& orbit, std::size_t index, const OrbitEquation
     const std::size_t half = orbit.segments() / 2;
     if (orbit.segments() % 2 != 0)
         return false;
-    const auto is_taken_to = [&](std::size_t from, std::size_t to) {
+    const auto maps_start_to = [&](std::size_t from, std::size_t to) {
         std::vector<double> state = orbit.starts[from];
         state.insert(state.end(), orbit.parameters.begin(), orbit.parameters.end());
         return symmetry.modes[orbit.signature[from].mode] == orbit.signature[to].mode &&
@@ -83,11 +83,11 @@ bool repeats_as_image(const Orbit& orbit, std::size_t index, const OrbitEquation
             (orbit.signature[k].end != SegmentEnd::event &&
              orbit.signature[k].index != orbit.signature[k + half].index) ||
             std::abs(orbit.durations[k] - orbit.durations[k + half]) > tolerance * orbit.period() ||
-            !is_taken_to(k + half, k) || !is_taken_to(k, k + half))
+            !maps_start_to(k + half, k) || !maps_start_to(k, k + half))
             return false;
     for (std::size_t k = 0; k < half; ++k)
-        if (!takes_end_to(equations.system(), orbit, index, k, k + half) ||
-            !takes_end_to(equations.system(), orbit, index, k + half, k))
+        if (!maps_end_to(equations.system(), orbit, index, k, k + half) ||
+            !maps_end_to(equations.system(), orbit, index, k + half, k))
             return false;
     return true;
 }

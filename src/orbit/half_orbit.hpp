@@ -6,8 +6,8 @@
 
 namespace graze {
 
-/// The half of an orbit that is its own image under a symmetry of the model, or none if it is not.
-/// @param shooting of that orbit, or one like it, whose scales measure differences
+/// Returns the first half of an orbit that is its own image under a symmetry of the model; empty if it is not.
+/// @param equations of this or a similar orbit, whose scales measure differences
 std::optional<Orbit> half_of(const OrbitEquations& equations, const Orbit& orbit, double tolerance);
 
 } // namespace graze

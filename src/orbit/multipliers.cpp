@@ -16,29 +16,30 @@ namespace graze {
 
 namespace {
 
-/// Contraction within one factor beyond which small multipliers would be round-off.
+/// Largest condition number of one factor: beyond it small multipliers would be lost in round-off.
 constexpr double most_contraction = 1e5;
-/// Into how many parts a piece is cut for that at most.
+/// Largest number of parts into which a piece is divided to keep the condition number low.
 constexpr double most_parts = 1024;
 
-/// Derivatives of the start of the next piece from those of the end of this one at fixed time, where the end condition
-/// and not the time says when it ends (saltation: Aizerman and Gantmakher 1958). Empty when it is met without speed.
-Eigen::MatrixXd passed(const OrbitEquations& equations, const OrbitEvaluation& at, std::size_t k,
-                       Eigen::MatrixXd flow) {
+/// Returns the derivatives of the start of the next piece from those of the end of this one at fixed time, corrected
+/// for the end time that the end condition determines (saltation: Aizerman and Gantmakher 1958). Empty when the end
+/// condition is reached with zero speed.
+Eigen::MatrixXd with_saltation(const OrbitEquations& equations, const OrbitEvaluation& at, std::size_t k,
+                               Eigen::MatrixXd flow) {
     const OrbitLayout& layout = equations.layout();
     const auto n = index(layout.states());
     const OrbitEvaluation::Piece& piece = at.pieces[k];
     if (layout.is_last(k)) {
         const Eigen::RowVectorXd gradient = piece.condition.head(n).transpose();
         const double rate = gradient.dot(piece.field);
-        if (!(std::abs(rate) > least_rate * equations.usual_rate(at, layout.segment_of(k))))
+        if (!(std::abs(rate) > least_rate * equations.typical_rate(at, layout.segment_of(k))))
             return {};
         flow -= piece.field * (gradient * flow) / rate;
     }
     return piece.jump.leftCols(n) * flow;
 }
 
-/// Orthonormal basis of what is orthogonal to a vector, in columns.
+/// Returns an orthonormal basis of the orthogonal complement of a vector, in columns.
 Eigen::MatrixXd complement(const Eigen::VectorXd& vector) {
     const Eigen::Index n = vector.size();
     if (!(vector.norm() > 0))
@@ -46,7 +47,7 @@ Eigen::MatrixXd complement(const Eigen::VectorXd& vector) {
     return orthogonal_complement(vector);
 }
 
-/// The section map as factors, restricted to active states and measured in units in which they are balanced.
+/// The derivative of the section map as a product of factors, restricted to active states, in balanced units.
 class SectionMapFactors {
 public:
     SectionMapFactors(const OrbitEquations& equations, const OrbitEvaluation& at)
@@ -60,7 +61,7 @@ public:
         balance();
     }
 
-    /// Adds those of a piece. @return false when its end is met without speed
+    /// Appends the factors of a piece. @return false when its end is reached with zero speed
     bool add(std::size_t k) {
         const OrbitLayout& layout = equations_->layout();
         const auto n = index(layout.states());
@@ -70,7 +71,7 @@ public:
         std::vector<std::vector<double>> starts{{start, start + n}};
         if (contracts(flows[0]))
             split(at_->unknowns[index(layout.duration_of(k))], flows, starts);
-        flows.back() = passed(*equations_, *at_, k, flows.back());
+        flows.back() = with_saltation(*equations_, *at_, k, flows.back());
         if (flows.back().size() == 0)
             return false;
         for (std::size_t part = 0; part < flows.size(); ++part) {
@@ -82,12 +83,13 @@ public:
         return true;
     }
 
-    /// Shifts along the flow are taken out at the start of each factor: what is left lives in the quotient by it.
+    /// Returns the factors projected onto the complement of the flow direction at each start: shifts along the flow are
+    /// removed.
     std::vector<Eigen::MatrixXd> without_shifts() const;
 
 private:
-    /// Chooses units in which what acts on a state is as large as what it does (E. E. Osborne 1960): those of an orbit
-    /// say little of states that it leaves at rest, and where those of position and speed differ, every oscillation
+    /// Chooses units that balance rows and columns of the derivatives (E. E. Osborne 1960). The scales of the orbit are
+    /// arbitrary for constant states, and where the units of position and velocity do not match, every oscillation
     /// would look like a contraction.
     void balance() {
         constexpr int sweeps = 4;
@@ -129,15 +131,15 @@ private:
             result[index(i)] = field[(*active_)[i]] / units_[index(i)];
         return result;
     }
-    /// Whether one direction shrinks too much against another: by the matrix and its inverse.
+    /// True when the condition number of the restricted matrix is too large.
     bool contracts(const Eigen::MatrixXd& flow) const {
         const Eigen::MatrixXd matrix = restricted(flow);
         if (matrix.size() == 0 || !matrix.allFinite())
             return false;
         return !(matrix.norm() * PartialLU<double>(matrix).inverse().norm() < most_contraction);
     }
-    /// Follows a piece in parts of which none contracts too much, or what there is must do: each as long as the last
-    /// one that was good, shorter where that is too long.
+    /// Divides a piece into parts of which none contracts too much. The length of a part adapts to the last accepted
+    /// one, down to a smallest length; where the integration fails, the piece stays undivided.
     void split(double duration, std::vector<Eigen::MatrixXd>& flows, std::vector<std::vector<double>>& starts) {
         constexpr double shorter = 0.5, longer = 1.5;
         const auto n = index(equations_->layout().states());
@@ -151,7 +153,7 @@ private:
         const double shortest = duration / most_parts;
         double length = shorter * duration;
         for (double remaining = duration; remaining != 0;) {
-            // Not a remnant in the end.
+            // The last part takes a short remainder with it.
             const double here = std::abs(remaining) < longer * std::abs(length) ? remaining : length;
             next = state;
             Eigen::MatrixXd flow;
@@ -174,12 +176,12 @@ private:
     const OrbitEquations* equations_;
     const OrbitEvaluation* at_;
     const std::vector<std::size_t>* active_;
-    Eigen::VectorXd units_;        ///< of active states
-    std::optional<ModeFlow> flow_; ///< once it is needed
+    Eigen::VectorXd units_;        ///< units of the active states
+    std::optional<ModeFlow> flow_; ///< made when first needed
     std::size_t mode_ = 0;
     std::vector<double> work_, inputs_;
     std::vector<Eigen::MatrixXd> factors_;
-    std::vector<Eigen::VectorXd> directions_; ///< of the flow at the start of each
+    std::vector<Eigen::VectorXd> directions_; ///< direction of the flow at the start of each factor
 };
 
 std::vector<Eigen::MatrixXd> SectionMapFactors::without_shifts() const {
@@ -223,10 +225,10 @@ std::vector<std::complex<double>> floquet_multipliers(const OrbitEquations& equa
             return {};
     const std::size_t neutral = moving_neutral_states(equations, at);
     const std::vector<Eigen::MatrixXd> map = factors.without_shifts();
-    // Of a single state nothing is left but the shift along the flow: the map of its section forgets all.
-    const bool forgets = at.active.size() == 1 && map.front().size() == 0;
+    // With a single active state only the shift along the flow remains: the section map is constant.
+    const bool constant_map = at.active.size() == 1 && map.front().size() == 0;
     std::vector<std::complex<double>> result;
-    if (!forgets)
+    if (!constant_map)
         result = product_eigenvalues(map);
     else if (neutral == 0)
         result = {0.0};

@@ -6,14 +6,14 @@
 
 namespace graze {
 
-/// How orbits are integrated. @param tolerance raised to the smallest that makes sense
+/// Returns the simulation options for integrating orbits. @param tolerance raised to smallest_tolerance if below it
 SimulationOptions integration(double tolerance);
-/// Newton's method for equations without free parameters, damped where it would overshoot.
-/// @param at their evaluation at the last iterate, which is also its `unknowns` unless they are undefined there
+/// Solves equations without free parameters by damped Newton's method.
+/// @param at set to the evaluation at the last iterate; its `unknowns` are empty if the equations are undefined there
 OrbitOutcome solve_equations(OrbitEquations& equations, Eigen::VectorXd& unknowns, const OrbitOptions& options,
                              OrbitEvaluation& at, std::size_t& iterations, std::string& detail);
-/// Everything that is known of an orbit from an evaluation of its equations: multipliers and certificate.
-/// @param held to what it is held
+/// Sets residual, multipliers and certificate of a solution from an evaluation of its equations.
+/// @param held constraint at the limit of admissibility, if any
 void describe_orbit(OrbitEquations& equations, const OrbitEvaluation& at, OrbitSolution& solution,
                     const std::optional<HeldLimit>& held = std::nullopt);
 

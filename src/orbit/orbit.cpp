@@ -13,21 +13,22 @@
 
 namespace graze {
 
-double Orbit::round() const {
+double Orbit::return_time() const {
     return std::accumulate(durations.begin(), durations.end(), 0.0);
 }
 
 double Orbit::period() const {
-    return round() * (symmetry ? 2 : 1);
+    return return_time() * (symmetry ? 2 : 1);
 }
 
 namespace {
 
-/// Whether one function is the image of another, judged by values at states of an orbit. Images of cyclic states are
-/// taken whole turns further: events of a clock may be those of one period only, as `pi - theta` and `2*pi - theta`.
+/// True when one function is the image of another, judged by their values at and near states of an orbit. Images of
+/// cyclic states are shifted by `turns` periods, because events of a clock may hold in one period only, as `pi - theta`
+/// and `2*pi - theta`.
 bool is_image(const Function& own, const Function& other, const Function& map, const Orbit& orbit,
               std::span<const double> periods, double turns) {
-    constexpr double nothing = 1e-9; // a start that round-off has left beside zero says nothing of a size
+    constexpr double nothing = 1e-9; // states below this are round-off of zero and give no scale
     const std::size_t states = periods.size();
     const auto at = [&](std::vector<double> state) {
         state.insert(state.end(), orbit.parameters.begin(), orbit.parameters.end());
@@ -39,15 +40,15 @@ bool is_image(const Function& own, const Function& other, const Function& map, c
             sizes[i] = std::max(sizes[i], std::abs(start[i]));
     double size = 0, difference = 0;
     for (const std::vector<double>& start : orbit.starts)
-        // Also away from the orbit, where different functions happen to be equal less often.
+        // Away from the orbit too: different functions may coincide on the orbit.
         for (const double displacement : {0.0, 0.37, -0.61}) {
             std::vector<double> state = start;
             for (std::size_t i = 0; i < states; ++i)
                 state[i] += displacement * (sizes[i] > nothing ? sizes[i] : 1) / static_cast<double>(i + 2);
-            std::vector<double> taken = map(at(state));
+            std::vector<double> image_state = map(at(state));
             for (std::size_t i = 0; i < states; ++i)
-                taken[i] += turns * periods[i];
-            const double value = own(at(state))[0], image = other(at(taken))[0];
+                image_state[i] += turns * periods[i];
+            const double value = own(at(state))[0], image = other(at(image_state))[0];
             if (std::isfinite(value) != std::isfinite(image))
                 return false;
             if (std::isfinite(value)) {
@@ -58,8 +59,7 @@ bool is_image(const Function& own, const Function& other, const Function& map, c
     return difference <= 1e-9 * size;
 }
 
-/// The image of a segment that an event ends: in the image of its mode, the transition whose event function is the
-/// image of its own.
+/// Returns, in the image mode, the transition whose event function is the image of the given transition's.
 std::size_t image_of_transition(const System& system, std::size_t symmetry, std::size_t mode, std::size_t transition,
                                 const Orbit& orbit) {
     const Model& model = system.model();
@@ -81,7 +81,7 @@ std::size_t image_of_transition(const System& system, std::size_t symmetry, std:
 Segment image_of(const System& system, std::size_t symmetry, const Segment& segment, const Orbit& orbit) {
     require_index(symmetry, system.model().symmetries.size(), "symmetry");
     require_index(segment.mode, system.model().modes.size(), "mode");
-    end_name(system.model(), segment); // throws when there is no such end
+    end_name(system.model(), segment); // throws when the end does not exist
     Segment image = segment;
     image.mode = system.model().symmetries[symmetry].modes[segment.mode];
     if (segment.end == SegmentEnd::event)
@@ -104,7 +104,7 @@ Orbit whole_orbit(const System& system, const Orbit& orbit) {
         const Segment segment = image_of(system, *orbit.symmetry, orbit.signature[k], orbit);
         std::vector<double> values = orbit.starts[k];
         values.insert(values.end(), orbit.parameters.begin(), orbit.parameters.end());
-        // The image of a section is no section of the model: the motion just goes on.
+        // The image of a section is not a section of the model: merge the two segments.
         if (k == 0 && !smooth && orbit.signature.back().end == SegmentEnd::section) {
             whole.signature.back() = segment;
             whole.durations.back() += orbit.durations[0];

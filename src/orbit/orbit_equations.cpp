@@ -51,7 +51,7 @@ void OrbitEquations::lay_out(const Orbit& orbit, const std::vector<std::size_t>&
     set_scales(unknowns);
     ends_.lay_cuts(orbit, scales_.head(index(layout_.states())));
     OrbitEvaluation at = evaluation();
-    if (layout_.free() > 0 && evaluate(unknowns, at)) // only now is known what the parameters do
+    if (layout_.free() > 0 && evaluate(unknowns, at)) // the evaluation has measured the effects of the parameters
         set_scales(unknowns);
 }
 
@@ -73,13 +73,13 @@ Eigen::VectorXd OrbitEquations::unknowns_of(const Orbit& orbit) {
     for (std::size_t f = 0; f < layout_.free(); ++f)
         unknowns[index(layout_.parameter(f))] = orbit.parameters[free()[f].place()];
     set_inner(orbit, unknowns);
-    clear_remnants(unknowns);
+    clear_vanishing_states(unknowns);
     return unknowns;
 }
 
-/// States that are next to nothing against the others everywhere are on their way to zero, where a symmetry holds them.
-/// Left alone they would shrink until they underflow.
-void OrbitEquations::clear_remnants(Eigen::VectorXd& unknowns) const {
+/// Sets states to zero that are negligible against the others all along the orbit: they are decaying to zero, as a
+/// symmetry demands, and would otherwise shrink until they underflow.
+void OrbitEquations::clear_vanishing_states(Eigen::VectorXd& unknowns) const {
     constexpr double remnant = 1e-25;
     const std::vector<double>& periods = ends_.periods();
     std::vector<double> sizes(layout_.states(), 0.0);
@@ -96,7 +96,7 @@ void OrbitEquations::clear_remnants(Eigen::VectorXd& unknowns) const {
                 unknowns[index(layout_.start_of(k) + i)] = 0;
 }
 
-/// Starts and durations of the segments, of an orbit or of what it gains.
+/// Appends the starts and durations of the segments, of an orbit or of a direction.
 void OrbitEquations::take_segments(const Eigen::VectorXd& unknowns, std::vector<std::vector<double>>& starts,
                                    std::vector<double>& durations) const {
     for (std::size_t s = 0; s < layout_.segments(); ++s) {
@@ -169,10 +169,10 @@ void OrbitEquations::set_scales(const Eigen::VectorXd& unknowns) {
     raise_above_round_off(unknowns, parameters);
 }
 
-/// What nothing moves but the rounding of its rate, as a mode that symmetry leaves at rest, has no extent of its own:
-/// it is measured by that.
+/// Raises scales above the round-off of the integrated rates: a state that only round-off moves, as one that a symmetry
+/// keeps at rest, has no extent of its own.
 void OrbitEquations::raise_above_round_off(const Eigen::VectorXd& unknowns, const std::vector<double>& parameters) {
-    constexpr double noise_share = 1e-11; // of the scale: less than by which orbits are to be accurate
+    constexpr double noise_share = 1e-11; // share of the scale: below the accuracy of orbits
     const std::size_t n = layout_.states();
     std::vector<double> inputs(n + parameters.size()), errors(inputs.size()), bounds(n), noise(n, 0.0),
         work(2 * system().workspace());
@@ -183,7 +183,7 @@ void OrbitEquations::raise_above_round_off(const Eigen::VectorXd& unknowns, cons
     for (std::size_t k = 0; k < layout_.pieces(); ++k) {
         std::copy_n(unknowns.data() + layout_.start_of(k), n, inputs.begin());
         std::fill(errors.begin(), errors.end(), 0.0);
-        // What round-off makes of a speed it makes of the position, too.
+        // The second pass propagates the error of a velocity to its position.
         for (int order = 0; order < 2; ++order) {
             system().mode(mode_of(k)).rates.error_bounds(inputs, errors, bounds, work);
             for (std::size_t i = 0; i < n; ++i) {
@@ -257,7 +257,7 @@ bool OrbitEquations::evaluate_piece(std::size_t k, const Eigen::VectorXd& unknow
     return false;
 }
 
-/// Fills the linear system, in units of the scales.
+/// Fills the blocks of the linear system, in scaled unknowns and equations.
 void OrbitEquations::assemble(const Eigen::VectorXd& unknowns, OrbitEvaluation& at) {
     std::vector<bool> neutral(layout_.states(), true);
     at.effects.setZero(index(layout_.free()));
@@ -275,26 +275,29 @@ void OrbitEquations::assemble(const Eigen::VectorXd& unknowns, OrbitEvaluation& 
         }
         assemble_closure(k, unknowns, at, neutral);
     }
-    // One that is reversed an odd number of times must be zero.
+    // A state whose sign is reversed an odd number of times must be zero: it is not neutral.
     for (std::size_t i = 0; i < layout_.states(); ++i)
         for (std::size_t k = 0, reversed = 0; neutral[i] && k < layout_.pieces(); ++k) {
             reversed += at.system.block(k).own(1 + index(i), index(i)) > 0 ? 1 : 0;
             neutral[i] = k + 1 < layout_.pieces() || reversed % 2 == 0;
         }
-    drop_neutral_by_chance(at, neutral);
+    drop_accidentally_neutral(at, neutral);
     pin(unknowns, neutral, at);
 }
 
-/// At a branch point a state that is zero all along the orbit may be left exactly as it is, and not so beside that
-/// point: it is neutral only where it stays so at other parameters, at which a small change of it is left as it is too.
-void OrbitEquations::drop_neutral_by_chance(const OrbitEvaluation& at, std::vector<bool>& neutral) {
-    constexpr double aside = 1e-2, small = 1e-9, as_it_is = 1e-6; // of the scales, twice; of the change
+/// Clears the neutral flag of states that are neutral only at this parameter: at a branch point a state that is zero
+/// along the orbit may have an identity return map by accident. A state counts as neutral only if at shifted parameters
+/// the flow and the jump still return a small change of it.
+void OrbitEquations::drop_accidentally_neutral(const OrbitEvaluation& at, std::vector<bool>& neutral) {
+    constexpr double parameter_shift = 1e-2, state_shift = 1e-9,
+                     // Shift of parameters and of the state, in scales; tolerance, as a share of the latter.
+        identity_tolerance = 1e-6;
     const std::size_t n = layout_.states();
     if (free().empty() || std::find(neutral.begin(), neutral.end(), true) == neutral.end())
         return;
     std::vector<double> parameters = at.parameters;
     for (std::size_t f = 0; f < free().size(); ++f)
-        parameters[free()[f].place()] += aside * scales_[index(layout_.parameter(f))];
+        parameters[free()[f].place()] += parameter_shift * scales_[index(layout_.parameter(f))];
     ends_.set_parameters(parameters);
     Eigen::VectorXd rates;
     for (std::size_t k = 0; k < layout_.pieces(); ++k) {
@@ -302,13 +305,13 @@ void OrbitEquations::drop_neutral_by_chance(const OrbitEvaluation& at, std::vect
         const auto state_scales = scales_.segment(index(layout_.start_of(k)), index(n));
         std::vector<double> state = at.pieces[k].end;
         for (std::size_t i = 0; i < n; ++i)
-            state[i] += neutral[i] ? small * state_scales[index(i)] : 0;
+            state[i] += neutral[i] ? state_shift * state_scales[index(i)] : 0;
         ends_.field(segment, state, rates);
         std::vector<double> after = state;
         double condition = 0;
         const bool jumps = layout_.is_last(k) && ends_.pass(segment, after, condition);
         for (std::size_t i = 0; i < n; ++i) {
-            const double most = as_it_is * small * state_scales[index(i)],
+            const double most = identity_tolerance * state_shift * state_scales[index(i)],
                          same = without_turns(after[i] - state[i], at.periods[i]),
                          reversed = without_turns(after[i] + state[i], at.periods[i]);
             const bool moves = std::abs(rates[index(i)]) * scales_[index(layout_.duration_of(k))] > most;
@@ -319,8 +322,8 @@ void OrbitEquations::drop_neutral_by_chance(const OrbitEvaluation& at, std::vect
     ends_.set_parameters(at.parameters);
 }
 
-/// The condition that ends a segment. Event functions have units of their own: measured by how much they change along
-/// the scales.
+/// Fills the row of the end condition of a segment. Event functions have units of their own, so the row is divided by
+/// their change over the scales of the states.
 void OrbitEquations::assemble_end(std::size_t k, OrbitEvaluation& at) const {
     const auto n = index(layout_.states()), q = index(layout_.free());
     OrbitEvaluation::Piece& piece = at.pieces[k];
@@ -339,8 +342,9 @@ void OrbitEquations::assemble_end(std::size_t k, OrbitEvaluation& at) const {
     block.right[0] = -piece.condition_value / unit;
 }
 
-/// What follows a piece begins where its jump leads: (x, T, p) -> end -> after.
-/// @param neutral states that all pieces so far have left exactly as they are, or reversed
+/// Fills the rows of continuity: the next piece starts in the state after the jump of this one, (x, T, p) -> end ->
+/// after.
+/// @param neutral states that all pieces so far have returned exactly, or with reversed sign
 void OrbitEquations::assemble_closure(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEvaluation& at,
                                       std::vector<bool>& neutral) const {
     const auto n = index(layout_.states()), q = index(layout_.free());
@@ -375,7 +379,7 @@ void OrbitEquations::assemble_closure(std::size_t k, const Eigen::VectorXd& unkn
     block.next.bottomRows(n).setIdentity();
 }
 
-/// Instead of being closed, pinned states are held at their first value.
+/// Replaces the continuity rows of neutral and drifting states of the last piece: they are held at their first value.
 void OrbitEquations::pin(const Eigen::VectorXd& unknowns, const std::vector<bool>& neutral, OrbitEvaluation& at) const {
     CyclicSystem::Block& block = at.system.block(layout_.pieces() - 1);
     at.active.clear();
@@ -393,8 +397,8 @@ void OrbitEquations::pin(const Eigen::VectorXd& unknowns, const std::vector<bool
     }
 }
 
-/// Borders in which inner unknowns are replaced by what they follow from, in units of the scales: starts and durations,
-/// then parameters.
+/// Returns the borders with the inner unknowns eliminated, in scaled unknowns: starts and durations, then parameters.
+/// @param lack set to the contribution of the inner defects
 Eigen::MatrixXd OrbitEquations::condensed(const OrbitEvaluation& at, const Eigen::MatrixXd& borders,
                                           Eigen::VectorXd& lack) const {
     const Eigen::Index width = index(layout_.states()) + 1, q = index(layout_.free()), inner = index(layout_.inner()),
@@ -413,7 +417,7 @@ Eigen::MatrixXd OrbitEquations::condensed(const OrbitEvaluation& at, const Eigen
     return result;
 }
 
-/// All unknowns, from those in units of the scales that are left without the inner ones.
+/// Returns all unknowns from the scaled ones without the inner ones.
 Eigen::VectorXd OrbitEquations::expanded(const OrbitEvaluation& at, const Eigen::VectorXd& outer,
                                          bool homogeneous) const {
     const Eigen::Index width = index(layout_.states()) + 1, q = index(layout_.free()), inner = index(layout_.inner()),
@@ -456,9 +460,9 @@ bool OrbitEquations::respond(const OrbitEvaluation& at, const Eigen::VectorXd& c
     return true;
 }
 
-bool OrbitEquations::solve_nearest(const OrbitEvaluation& at, Eigen::VectorXd& step, std::size_t& lost) const {
+bool OrbitEquations::solve_nearest(const OrbitEvaluation& at, Eigen::VectorXd& step, std::size_t& deficiency) const {
     Eigen::VectorXd outer;
-    if (!at.system.solve_nearest(at.system.right_hand_sides(), outer, lost))
+    if (!at.system.solve_nearest(at.system.right_hand_sides(), outer, deficiency))
         return false;
     step = expanded(at, outer, false);
     return true;
@@ -478,7 +482,7 @@ bool OrbitEquations::chord(const OrbitEvaluation& at, const Closed& closed, cons
     return true;
 }
 
-/// The right-hand side of a piece's equations at other unknowns than those of an evaluation, in its units.
+/// Sets the right-hand side of a piece's equations at other unknowns than those of the evaluation, in its units.
 bool OrbitEquations::set_right(std::size_t k, const Eigen::VectorXd& unknowns, const OrbitEvaluation& at,
                                Eigen::VectorXd& right) {
     const std::size_t n = layout_.states(), place = layout_.start_of(k), segment = layout_.segment_of(k);
@@ -536,21 +540,21 @@ double OrbitEquations::rate_at_end(const OrbitEvaluation& at, std::size_t segmen
     return piece.condition.head(index(layout_.states())).dot(piece.field);
 }
 
-double OrbitEquations::usual_change(const OrbitEvaluation& at, const Eigen::VectorXd& gradient) const {
+double OrbitEquations::typical_change(const OrbitEvaluation& at, const Eigen::VectorXd& gradient) const {
     double change = 0;
     for (const std::size_t i : at.active)
         change += std::abs(gradient[index(i)]) * at.scales[index(i)];
     return change / at.scales[index(layout_.duration_of(0))];
 }
 
-double OrbitEquations::usual_rate(const OrbitEvaluation& at, std::size_t segment) const {
-    return usual_change(at, at.pieces[layout_.last_piece(segment)].condition);
+double OrbitEquations::typical_rate(const OrbitEvaluation& at, std::size_t segment) const {
+    return typical_change(at, at.pieces[layout_.last_piece(segment)].condition);
 }
 
-double OrbitEquations::usual_rate(const OrbitEvaluation& at, std::size_t segment, std::size_t event) const {
+double OrbitEquations::typical_rate(const OrbitEvaluation& at, std::size_t segment, std::size_t event) const {
     std::vector<double> inputs = at.pieces[layout_.last_piece(segment)].end;
     inputs.insert(inputs.end(), at.parameters.begin(), at.parameters.end());
-    return usual_change(at, gradient_of(system().event(event)(inputs)));
+    return typical_change(at, gradient_of(system().event(event)(inputs)));
 }
 
 } // namespace graze

@@ -21,7 +21,7 @@ namespace {
 
 struct Cell {
     std::string text;
-    int column = 1; ///< where it begins, for messages
+    int column = 1; ///< column of the line where the cell begins, for messages
 };
 
 constexpr std::string_view blanks_and_quotes = " \t\r\"";
@@ -96,7 +96,7 @@ public:
         if (orbit_.starts.empty())
             fail(1, 1, "the table has no rows", "give a first and a last row for each segment");
         if (signature.empty() && !end_)
-            fail(1, 1, "nothing says what ends the segments", "give a signature, or a column 'end'");
+            fail(1, 1, "the ends of the segments are not given", "give a signature, or a column 'end'");
         orbit_.parameters = model_->parameter_values();
         orbit_.signature = parse_signature(*model_, signature.empty() ? ends_ : std::string(signature), {file_, 1, 1});
         if (orbit_.signature.size() != orbit_.starts.size())
@@ -113,7 +113,7 @@ public:
     }
 
 private:
-    /// Further columns may have whatever can be computed of the motion, but no misspelt names.
+    /// Refuses unknown column names. Other columns may hold any quantity that can be computed along the motion.
     void check_name(const std::vector<Cell>& cells, const Cell& cell, int line) const {
         if (std::count_if(cells.begin(), cells.end(), [&](const Cell& one) { return one.text == cell.text; }) > 1)
             fail(line, cell.column, fmt::format("there are two columns '{}'", cell.text), "leave one of them out");
@@ -124,7 +124,7 @@ private:
             return;
         try {
             named_value(*model_, cell.text, {file_, line, cell.column});
-        } catch (const InputError&) { // then it is no quantity either
+        } catch (const InputError&) { // the name is not a quantity either
             const std::string nearest = nearest_name(cell.text, known);
             fail(line, cell.column, fmt::format("there is a column '{}', which means nothing", cell.text),
                  nearest.empty() ? "leave it out" : fmt::format("did you mean '{}'?", nearest));

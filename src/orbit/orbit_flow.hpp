@@ -12,12 +12,12 @@
 
 namespace graze {
 
-/// The flow of the modes of a simulation, at its tolerance.
+/// Returns the flow of a simulation's modes, at its tolerance.
 inline ModeFlow flow_of(const Simulation& simulation, std::vector<ParameterId> free = {}) {
     return {simulation.system(), simulation.options().tolerance, simulation.order(), std::move(free)};
 }
 
-/// ModeFlow::run with the derivatives as a matrix.
+/// Calls ModeFlow::run with the derivatives as a matrix.
 inline ModeFlow::Ending run(ModeFlow& flow, std::size_t mode, std::span<double> state, double duration,
                             Eigen::MatrixXd& derivatives, WatchedSeries* watched = nullptr) {
     using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;

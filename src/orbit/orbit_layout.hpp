@@ -5,15 +5,16 @@
 
 namespace graze {
 
-/// Where the unknowns of an orbit's equations are. Each segment is split into pieces, each of which has a start and a
+/// Positions of the unknowns of an orbit's equations. Each segment is split into pieces, each with a start and a
 /// duration:
 ///
 ///     (x_0, T_0, x_1, T_1, ..., inner unknowns, free parameters).
 ///
-/// Inner unknowns are states within the pieces that a discretisation has besides; shooting has none.
+/// Inner unknowns are states within the pieces, as in collocation; shooting has none.
 class OrbitLayout {
 public:
-    /// @param counts of the pieces of each segment, at least one; @param inner unknowns of each piece
+    /// @param counts number of pieces of each segment, at least one; @param inner number of inner unknowns of each
+    /// piece
     OrbitLayout(std::size_t states, const std::vector<std::size_t>& counts, std::size_t inner, std::size_t free)
         : states_(states), inner_(inner), free_(free) {
         for (const std::size_t count : counts) {
@@ -36,7 +37,7 @@ public:
 
     std::size_t segment_of(std::size_t piece) const { return segments_[piece]; }
     std::size_t first_piece(std::size_t segment) const { return first_[segment]; }
-    /// The one that the segment's event or section ends.
+    /// The piece that ends with the end of the segment.
     std::size_t last_piece(std::size_t segment) const {
         return (segment + 1 < first_.size() ? first_[segment + 1] : pieces()) - 1;
     }

@@ -7,11 +7,11 @@
 
 namespace graze {
 
-OrbitScales::OrbitScales(std::size_t states, std::vector<double> usual, std::vector<double> ranges)
-    : states_(states), usual_(std::move(usual)), ranges_(std::move(ranges)), largest_(usual_.size(), 0.0),
+OrbitScales::OrbitScales(std::size_t states, std::vector<double> nominal, std::vector<double> ranges)
+    : states_(states), nominal_(std::move(nominal)), ranges_(std::move(ranges)), largest_(nominal_.size(), 0.0),
       coupling_(Eigen::MatrixXd::Zero(index(states), index(states))), arcs_(coupling_),
-      effects_(Eigen::VectorXd::Zero(index(usual_.size()))) {
-    ranges_.resize(usual_.size(), 0.0);
+      effects_(Eigen::VectorXd::Zero(index(nominal_.size()))) {
+    ranges_.resize(nominal_.size(), 0.0);
 }
 
 Eigen::VectorXd OrbitScales::choose(const OrbitLayout& layout, const Eigen::VectorXd& unknowns,
@@ -25,7 +25,7 @@ Eigen::VectorXd OrbitScales::choose(const OrbitLayout& layout, const Eigen::Vect
         std::vector<double> state(start, start + layout.states());
         time += std::abs(duration);
         states_.note(state);
-        // Extents along the motion: those of an orbit with a single piece are not seen from its start.
+        // Samples along the motion: the start alone does not show the extent of an orbit with a single piece.
         constexpr int parts = 8;
         for (int part = 0; part < parts; ++part) {
             if (flow.run(modes[layout.segment_of(k)], state, duration / parts) != ModeFlow::Ending::done)
@@ -46,15 +46,16 @@ Eigen::VectorXd OrbitScales::choose(const OrbitLayout& layout, const Eigen::Vect
     return scales;
 }
 
-/// Near zero a parameter says nothing of its own size. What is said instead by the range in which it is looked at must
-/// agree with what it does to the orbit: the one may be given without thought, the other may be nothing.
+/// Returns the scale of a free parameter: its largest or nominal magnitude, or near zero the smaller of its range and
+/// of the change that affects the orbit by its size. Both are consulted since a range may be arbitrary and an effect
+/// may vanish.
 double OrbitScales::parameter_scale(std::size_t f, double value) {
     constexpr double smallest = 1e-2, nothing = 1e-12;
-    const double usual = std::abs(usual_[f]), effect = effects_[index(f)];
+    const double nominal = std::abs(nominal_[f]), effect = effects_[index(f)];
     double& largest = largest_[f];
-    largest = std::max({largest, std::abs(value), smallest * usual});
+    largest = std::max({largest, std::abs(value), smallest * nominal});
     double scale = largest;
-    if (effect > nothing && ranges_[f] == 0 && usual == 0)
+    if (effect > nothing && ranges_[f] == 0 && nominal == 0)
         scale = std::max(scale, smallest / effect);
     if (effect > 0 && ranges_[f] > 0)
         scale = std::max(scale, smallest * std::min(ranges_[f], 1 / effect));

@@ -12,29 +12,30 @@
 
 namespace graze {
 
-/// Sizes of the unknowns of an orbit's equations, by which residuals and steps are measured: extents of the states
-/// along the orbit, the period, the parameters. Those of the parameters never shrink, those of the states only so far.
-/// A parameter that is small or zero is measured by what it does to the orbit.
+/// Scales of the unknowns of an orbit's equations, which normalise residuals and steps: extents of the states along the
+/// orbit, the period, magnitudes of the parameters. Scales of parameters never shrink, those of states only to a share
+/// of their largest value. A parameter near zero is scaled by its effect on the orbit.
 class OrbitScales {
 public:
-    /// @param usual values of the free parameters
-    /// @param ranges in which they are looked at, where that is known; 0 where it is not
-    OrbitScales(std::size_t states, std::vector<double> usual, std::vector<double> ranges);
+    /// @param nominal values of the free parameters: those of the model
+    /// @param ranges lengths of the intervals in which the free parameters vary; 0 where unknown
+    OrbitScales(std::size_t states, std::vector<double> nominal, std::vector<double> ranges);
 
-    /// How strongly states act on one another over some time: the greatest derivatives count.
+    /// Records derivatives of states with respect to earlier states; the largest magnitudes count.
     void note_coupling(const Eigen::MatrixXd& derivatives) { coupling_ = coupling_.cwiseMax(derivatives.cwiseAbs()); }
-    /// The same along an arc rather than by a jump.
+    /// The same for derivatives along an arc, without a jump.
     void note_arc(const Eigen::MatrixXd& derivatives) {
         arcs_ = arcs_.cwiseMax(derivatives.cwiseAbs());
         note_coupling(derivatives);
     }
     const Eigen::MatrixXd& coupling() const { return coupling_; }
     const Eigen::MatrixXd& arcs() const { return arcs_; }
-    /// What the free parameters do to the equations, in units of the states' scales.
+    /// Records the largest derivative of the scaled equations with respect to each free parameter.
     void note_effects(const Eigen::VectorXd& effects) { effects_ = effects; }
 
-    /// Scales at some unknowns. Inner ones are states, one after the other.
-    /// @param modes of the segments; @param flow with the parameters set; @param periods of cyclic states
+    /// Returns the scales at given unknowns. Inner unknowns are states, one after another.
+    /// @param modes mode of each segment; @param flow with the parameters set; @param periods of cyclic states, 0 for
+    /// others
     Eigen::VectorXd choose(const OrbitLayout& layout, const Eigen::VectorXd& unknowns,
                            std::span<const std::size_t> modes, ModeFlow& flow, std::span<const double> periods);
 
@@ -44,8 +45,8 @@ private:
     double parameter_scale(std::size_t f, double value);
 
     StateScales states_;
-    std::vector<double> usual_, ranges_;
-    std::vector<double> largest_; ///< that the free parameters have been
+    std::vector<double> nominal_, ranges_;
+    std::vector<double> largest_; ///< largest magnitude so far of each free parameter
     Eigen::MatrixXd coupling_, arcs_;
     Eigen::VectorXd effects_;
 };

@@ -14,8 +14,9 @@ namespace {
 
 /// Enough to separate eigenvalues whose moduli differ by a factor of six.
 constexpr int sweeps = 16;
-constexpr double separated = 1e-13;
-/// What a factor takes to this share of its size or less it takes to zero, as a jump that sets a speed to zero does.
+constexpr double coupling_tolerance = 1e-13;
+/// Diagonal elements below this share of the factor's norm count as zero: the factor is singular, as the jump that sets
+/// a velocity to zero.
 constexpr double round_off = 4e-16;
 
 } // namespace
@@ -39,7 +40,7 @@ std::vector<std::complex<double>> product_eigenvalues(const std::vector<Eigen::M
     const Eigen::MatrixXd turn = before.transpose() * basis;
     for (Eigen::Index begin = 0; begin < n;) {
         Eigen::Index end = begin + 1;
-        while (end < n && turn.block(end, begin, n - end, end - begin).norm() > separated)
+        while (end < n && turn.block(end, begin, n - end, end - begin).norm() > coupling_tolerance)
             ++end;
         const Eigen::Index size = end - begin;
         Eigen::MatrixXd block = Eigen::MatrixXd::Identity(size, size);

@@ -49,10 +49,10 @@ bool SecondVariation::contract(const OrbitEquations& equations, const OrbitEvalu
                 pass(system_.jump(transition->jump), tangent);
             if (half)
                 pass(system_.symmetry(*equations.symmetry()), tangent);
-            if (cut) // a linear condition of where the next segment starts
+            if (cut) // the condition of a cut is linear in the start of the next segment
                 change += weights.row(0).transpose() * (equations.cut_normal(s).transpose() * tangent.of_gain);
         }
-        if (k + 1 == layout.pieces()) // states that are held instead of being closed
+        if (k + 1 == layout.pieces()) // neutral and drifting states are held, not closed
             for (std::size_t i = 0; i < states_; ++i)
                 if (std::find(at.active.begin(), at.active.end(), i) == at.active.end())
                     weights.row(1 + index(i)).setZero();
@@ -63,7 +63,7 @@ bool SecondVariation::contract(const OrbitEquations& equations, const OrbitEvalu
     return gradients.allFinite();
 }
 
-/// The end of a piece, and what it gains where its start and duration do.
+/// Computes the end of a piece and its variation along the directions `gain` of the start and `longer` of the duration.
 bool SecondVariation::follow(const OrbitEquations& equations, const OrbitEvaluation& at, std::size_t piece,
                              const Eigen::VectorXd& gain, double longer, Tangent& result) {
     const auto n = index(states_), q = index(free_);
@@ -79,7 +79,7 @@ bool SecondVariation::follow(const OrbitEquations& equations, const OrbitEvaluat
     if (flow_.run(mode, result.state, at.unknowns[index(equations.layout().duration_of(piece))], vector, numbers(first),
                   numbers(second)) != ModeFlow::Ending::done)
         return false;
-    // The rates f at the end make the gain (x_e)_x v + f tau; their own derivatives do the rest.
+    // The variation of the end is (x_e)_x v + f tau, with the rates f at the end; its derivatives need those of f.
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(q), carried = first.leftCols(n) * gain;
     const Eigen::VectorXd by_time = rate_along(mode, result.state, carried, zero);
     const Eigen::VectorXd field = Eigen::Map<const Eigen::VectorXd>(values_.data(), n);
@@ -97,7 +97,7 @@ bool SecondVariation::follow(const OrbitEquations& equations, const OrbitEvaluat
     return true;
 }
 
-/// What the rates of a mode gain; the rates themselves are the first of the values.
+/// Returns the directional derivative of a mode's rates; `values_` then begins with the rates.
 Eigen::VectorXd SecondVariation::rate_along(std::size_t mode, const std::vector<double>& state,
                                             const Eigen::VectorXd& by_state, const Eigen::VectorXd& by_parameters) {
     inputs_ = state;
@@ -109,7 +109,7 @@ Eigen::VectorXd SecondVariation::rate_along(std::size_t mode, const std::vector<
     return Eigen::Map<const Eigen::VectorXd>(values_.data() + states_, index(states_));
 }
 
-/// A function's values with derivatives and with second ones, contracted with what the state gains.
+/// Evaluates a function with first derivatives and second derivatives contracted with the variation of the state.
 void SecondVariation::evaluate(const Function& function, const Tangent& tangent) {
     inputs_ = tangent.state;
     inputs_.insert(inputs_.end(), parameters_.begin(), parameters_.end());
@@ -119,7 +119,8 @@ void SecondVariation::evaluate(const Function& function, const Tangent& tangent)
     function.evaluate(inputs_, values_, work_);
 }
 
-/// Of h_x times the gain, after `evaluate`, with respect to start, duration and free parameters.
+/// Returns the derivatives of h_x times the variation with respect to start, duration and free parameters, after
+/// `evaluate`.
 Eigen::MatrixXd SecondVariation::derivative_of_gain(const Tangent& tangent, std::size_t values) const {
     const auto n = index(states_), q = index(free_), count = index(values);
     const Eigen::Map<const RowMajor> first(values_.data() + values, count, n + q),

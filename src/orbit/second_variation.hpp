@@ -10,26 +10,26 @@
 
 namespace graze {
 
-/// Derivatives of the matrix of an orbit's equations, contracted: with A(u) their derivatives with respect to starts
-/// and durations, the gradient of l^T A(u) r at fixed vectors l and r. That is what conditions ask for that are made
-/// from the matrix, as that of a fold, in which it is singular (W. Govaerts, "Numerical Methods for Bifurcations of
-/// Dynamical Equilibria", 2000, for -l^T A_u r). Second derivatives come from the flow of the first variational
-/// equations and from symbolic differentiation of events and jumps; none are differences.
+/// Computes the gradient of l^T A(u) r at fixed vectors l and r, where A(u) is the matrix of derivatives of an orbit's
+/// equations with respect to starts and durations. Conditions that the matrix is singular, such as that of a fold, need
+/// it (W. Govaerts, "Numerical Methods for Bifurcations of Dynamical Equilibria", 2000, for -l^T A_u r). Second
+/// derivatives come from the flow of the first variational equations and from symbolic differentiation of events and
+/// jumps, not from differences.
 ///
-/// Pieces are followed by the flow, whatever the discretisation is.
+/// Pieces are integrated, whatever the discretisation is.
 class SecondVariation {
 public:
     explicit SecondVariation(const OrbitEquations& equations);
 
-    /// @param left one column for each vector: for each piece the weight of its end condition, then those of what
-    /// closes it, pieces (1 + states); @param right what starts and durations gain, likewise pieces (states + 1)
-    /// @param gradients of the products, one row for each vector, with respect to all unknowns
+    /// @param left one column for each l: per piece the weight of its end condition, then those of its continuity rows,
+    /// pieces (1 + states) rows; @param right the vector r: directions of starts and durations, pieces (states + 1)
+    /// @param gradients of the products with respect to all unknowns, one row for each l
     /// @return false where a piece cannot be followed
     bool contract(const OrbitEquations& equations, const OrbitEvaluation& at, const Eigen::MatrixXd& left,
                   const Eigen::VectorXd& right, Eigen::MatrixXd& gradients);
 
 private:
-    /// A state and what it gains, both with derivatives with respect to start, duration and free parameters.
+    /// A state and its variation (gain), both with derivatives with respect to start, duration and free parameters.
     struct Tangent {
         std::vector<double> state;
         Eigen::VectorXd gain;

@@ -19,12 +19,12 @@ SegmentEnds::SegmentEnds(const System& system, const Orbit& orbit, std::vector<P
         if (segment.end == SegmentEnd::event) {
             end.value = &system_.event(system_.model().transitions[segment.index].event);
         } else if (segment.end == SegmentEnd::cut) {
-            end.normal = end.through = Eigen::VectorXd::Zero(index(n_)); // until it is laid
+            end.normal = end.through = Eigen::VectorXd::Zero(index(n_)); // until lay_cuts
         } else {
             const Section& section = system_.model().sections[segment.index];
             end.cyclic = section.state.has_value();
             end.state = section.state.value_or(0);
-            // A half orbit ends where its image passes the section.
+            // The last segment of a half orbit ends where its image passes the section.
             const bool at_image = symmetry_ && k + 1 == signature_.size();
             end.value = &system_.section(segment.index, at_image ? symmetry_ : std::nullopt);
         }
@@ -52,7 +52,7 @@ void SegmentEnds::lay_cuts(const Orbit& orbit, const Eigen::VectorXd& scales) {
         const std::size_t next = (k + 1) % ends_.size();
         const std::vector<double>& start = orbit.starts[next];
         field(next, start, rates);
-        for (std::size_t i = 0; i < n_; ++i) // where a drifting state is says nothing
+        for (std::size_t i = 0; i < n_; ++i) // the position of a drifting state is arbitrary
             if (system_.model().states[i].drifting)
                 rates[index(i)] = 0;
         const Eigen::VectorXd direction = rates.cwiseQuotient(scales);
@@ -62,8 +62,8 @@ void SegmentEnds::lay_cuts(const Orbit& orbit, const Eigen::VectorXd& scales) {
     }
 }
 
-/// How far a state is from the plane of a cut. @param turns if not null: whole periods of cyclic states that were left
-/// out of its difference
+/// Returns the signed distance of a state from the plane of a cut. @param turns if not null, set to the whole periods
+/// of cyclic states that were removed from the difference
 double SegmentEnds::off_cut(const EndFunction& end, std::span<const double> after, Eigen::VectorXd* turns) const {
     double off = 0;
     for (std::size_t i = 0; i < n_; ++i) {
@@ -75,7 +75,7 @@ double SegmentEnds::off_cut(const EndFunction& end, std::span<const double> afte
     return off;
 }
 
-/// The condition of a cut, which is one of the state that the next segment starts with.
+/// Sets the end condition of a cut, a function of the start of the next segment.
 void SegmentEnds::pass_cut(const EndFunction& end, OrbitEvaluation::Piece& piece) const {
     Eigen::VectorXd turns = Eigen::VectorXd::Zero(index(n_));
     piece.condition_value = off_cut(end, piece.after, &turns);
@@ -145,7 +145,7 @@ bool SegmentEnds::pass(std::size_t k, std::vector<double>& state, double& condit
     return std::all_of(state.begin(), state.end(), [](double value) { return std::isfinite(value); });
 }
 
-/// A map of states after those that have been applied, by the chain rule; parameters are handed through.
+/// Applies a map of states after the previous ones, with derivatives by the chain rule.
 void SegmentEnds::apply(const System::CompiledJump& map, OrbitEvaluation::Piece& piece) {
     if (map.identity)
         return;

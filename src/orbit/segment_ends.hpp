@@ -12,8 +12,9 @@
 
 namespace graze {
 
-/// What ends the segments of an orbit - event, section or cut, jump, the symmetry's image after a half orbit's last one
-/// - with derivatives with respect to states and free parameters: the same for every discretisation.
+/// The ends of an orbit's segments, with derivatives with respect to states and free parameters, for every
+/// discretisation: the end condition (event, section or cut), the jump and, after the last segment of a half orbit, the
+/// symmetry.
 class SegmentEnds {
 public:
     SegmentEnds(const System& system, const Orbit& orbit, std::vector<ParameterId> free);
@@ -23,32 +24,34 @@ public:
     const std::vector<ParameterId>& free() const { return free_; }
 
     void set_parameters(std::span<const double> parameters);
-    /// Lays the planes of cuts across the motion, through where the next segments start in an orbit.
+    /// Lays the planes of cuts across the motion, through the starts of the next segments of an orbit.
     /// @param scales of the states
     void lay_cuts(const Orbit& orbit, const Eigen::VectorXd& scales);
     /// The normal of the plane in which the segment after a cut starts; empty for other ends.
     const Eigen::VectorXd& cut_normal(std::size_t segment) const { return ends_[segment].normal; }
-    /// Of cyclic states, 0 of others.
+    /// Periods of cyclic states, 0 for others.
     const std::vector<double>& periods() const { return periods_; }
-    /// Their derivatives, states x free.
+    /// Derivatives of the periods, states x free.
     const Eigen::MatrixXd& period_rates() const { return period_rates_; }
 
-    /// The vector field at a state.
+    /// Evaluates the vector field of a segment's mode at a state.
     void field(std::size_t segment, std::span<const double> state, Eigen::VectorXd& result);
-    /// Sets all but the flow of a segment's last piece from its end. @return false where the jump is not defined
+    /// Sets end condition, jump and state after it, with derivatives, from the end of a segment's last piece. @return
+    /// false where the jump is not defined
     bool pass(std::size_t segment, OrbitEvaluation::Piece& piece);
-    /// The same without derivatives. @param state at the segment's end, replaced by the one after the jump
-    /// @param condition zero on the orbit
+    /// The same without derivatives. @param state at the end of the segment; replaced by the state after the jump
+    /// @param condition value of the end condition, zero on the orbit
     bool pass(std::size_t segment, std::vector<double>& state, double& condition);
-    /// Of values as System::with_gradient gives them the gradient with respect to states and free parameters.
+    /// Returns the gradient with respect to states and free parameters, from values in the order of
+    /// System::with_gradient.
     Eigen::VectorXd gradient_of(std::span<const double> values) const;
 
 private:
     struct EndFunction {
-        const Function* value = nullptr; ///< and its gradient, of the system; null for a cut
-        bool cyclic = false;             ///< a phase section: holds up to whole periods of `state`
+        const Function* value = nullptr; ///< value and gradient of the condition, owned by the system; null for a cut
+        bool cyclic = false;             ///< phase section: the condition holds up to whole periods of `state`
         std::size_t state = 0;
-        Eigen::VectorXd normal, through; ///< of a cut: its plane, of states after the segment
+        Eigen::VectorXd normal, through; ///< plane of a cut, in the state space of the next segment
     };
     void apply(const System::CompiledJump& map, OrbitEvaluation::Piece& piece);
     double off_cut(const EndFunction& end, std::span<const double> after, Eigen::VectorXd* turns) const;

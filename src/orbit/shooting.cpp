@@ -11,7 +11,7 @@ namespace graze {
 
 namespace {
 
-/// Growth of derivatives over one piece above which a segment is split.
+/// Growth of the scaled derivatives along a segment above which it is split.
 constexpr double most_growth = 1e3;
 constexpr std::size_t most_splits = 64;
 
@@ -23,10 +23,11 @@ Shooting::Shooting(const Simulation& simulation, const Orbit& orbit, std::vector
     lay_out(orbit, split(orbit));
 }
 
-/// Derivatives of the state after a time, and on the way how far states go and how strongly they act on one another.
-bool Shooting::run_noting(std::size_t mode, std::span<double> state, double duration, Eigen::MatrixXd& derivatives,
-                          StateScales& sizes) {
-    constexpr int parts = 4; // whose derivatives do not vanish together, as they may after whole periods
+/// Computes the derivatives of the state after a time, and records the extents of the states and their coupling on the
+/// way.
+bool Shooting::run_recorded(std::size_t mode, std::span<double> state, double duration, Eigen::MatrixXd& derivatives,
+                            StateScales& sizes) {
+    constexpr int parts = 4; // several parts, since derivatives may vanish after whole periods
     const Eigen::Index n = index(state.size());
     derivatives = Eigen::MatrixXd::Identity(n, n);
     sizes.note(state);
@@ -41,8 +42,8 @@ bool Shooting::run_noting(std::size_t mode, std::span<double> state, double dura
     return true;
 }
 
-/// What a jump makes of states acts on others too: one that only impacts set going has no extent where these lose their
-/// speed, and would be measured by round-off there.
+/// Records the coupling by the jump after a segment: a state that only impacts excite has no extent where the impacts
+/// lose their speed, and its scale would be round-off there.
 void Shooting::note_jump(std::size_t segment, const std::vector<double>& end) {
     const auto n = index(layout().states());
     OrbitEvaluation::Piece piece;
@@ -52,8 +53,7 @@ void Shooting::note_jump(std::size_t segment, const std::vector<double>& end) {
         orbit_scales().note_coupling(piece.jump.leftCols(n));
 }
 
-/// Chooses into how many pieces each segment is split, by how much derivatives grow along it, in units of the states'
-/// extents.
+/// Returns the number of pieces of each segment, from the growth of the scaled derivatives along it.
 std::vector<std::size_t> Shooting::split(const Orbit& orbit) {
     StateScales sizes(layout().states());
     sizes.begin();
@@ -61,7 +61,7 @@ std::vector<std::size_t> Shooting::split(const Orbit& orbit) {
     for (std::size_t s = 0; s < orbit.segments(); ++s) {
         std::vector<double> state = orbit.starts[s];
         if (!(orbit.durations[s] > 0) ||
-            !run_noting(orbit.signature[s].mode, state, orbit.durations[s], derivatives[s], sizes))
+            !run_recorded(orbit.signature[s].mode, state, orbit.durations[s], derivatives[s], sizes))
             derivatives[s].resize(0, 0);
         note_jump(s, state);
     }

@@ -11,17 +11,17 @@ namespace graze {
 /// tolerance.
 class Shooting : public OrbitEquations {
 public:
-    /// @param simulation whose model the orbit belongs to
-    /// @param free parameters that are unknown
-    /// @param ranges in which they are looked at, where that is known; 0 where it is not
+    /// @param simulation of the orbit's model, with the tolerance of the integration
+    /// @param parameters that are unknowns of the equations
+    /// @param ranges lengths of the intervals in which the free parameters vary; 0 where unknown
     /// @throws InputError when the orbit does not fit the model
     Shooting(const Simulation& simulation, const Orbit& orbit, std::vector<ParameterId> free,
              std::vector<double> ranges = {});
 
 private:
     std::vector<std::size_t> split(const Orbit& orbit);
-    bool run_noting(std::size_t mode, std::span<double> state, double duration, Eigen::MatrixXd& derivatives,
-                    StateScales& sizes);
+    bool run_recorded(std::size_t mode, std::span<double> state, double duration, Eigen::MatrixXd& derivatives,
+                      StateScales& sizes);
     void note_jump(std::size_t segment, const std::vector<double>& end);
     bool follow(std::size_t piece, const Eigen::VectorXd& unknowns, OrbitEvaluation& at) override;
 };

@@ -26,7 +26,7 @@ struct Name {
     int column = 0;
 };
 
-/// Names and groups with repetitions, made flat.
+/// Parses names and groups with repetitions into a flat list.
 class SignatureReader {
 public:
     SignatureReader(std::string_view text, const Place& place) : text_(text), place_(place) {}
@@ -107,7 +107,7 @@ private:
     std::size_t at_ = 0;
 };
 
-/// Everything that a name may stand for.
+/// Returns all segments that a name may denote.
 std::vector<Segment> candidates(const Model& model, const std::string& name) {
     std::vector<Segment> result;
     const auto colon = name.find(':');
@@ -138,7 +138,8 @@ bool can_follow(const Model& model, const Segment& before, const Segment& after)
                                            : before.mode == after.mode;
 }
 
-/// Chooses one candidate for each place so that each can follow the one before, cyclically.
+/// Chooses one candidate for each place so that each can follow the previous one, cyclically; empty if that is
+/// impossible.
 std::optional<Signature> choose(const Model& model, const std::vector<std::vector<Segment>>& places) {
     const std::size_t count = places.size();
     for (const Segment& first : places[0]) {
@@ -178,7 +179,7 @@ std::string joined(const std::vector<std::string>& names, std::size_t first, std
     return text;
 }
 
-/// Repetitions from `begin` on: the block length whose repetition covers most.
+/// Returns the length and repetition count of the block whose repetitions from `begin` on cover the most names.
 std::pair<std::size_t, std::size_t> best_repetition(const std::vector<std::string>& names, std::size_t begin) {
     constexpr std::size_t longest_block = 64;
     std::size_t best_length = 1, best_times = 1;
@@ -251,7 +252,7 @@ Signature parse_signature(const Model& model, std::string_view text, const Place
 }
 
 std::string to_string(const Model& model, const Signature& signature) {
-    // A name that could mean several segments is qualified by its mode.
+    // An ambiguous name is qualified by its mode.
     std::vector<std::string> names;
     for (const Segment& segment : signature) {
         require_index(segment.mode, model.modes.size(), "mode");
@@ -296,7 +297,7 @@ void validate_signature(const Model& model, const Signature& signature, const Pl
         const Segment& before = signature[k];
         Segment after = signature[(k + 1) % signature.size()];
         if (symmetry && k + 1 == signature.size()) {
-            // The motion goes on in the mode whose image is the first.
+            // The mode after the last segment of a half orbit is the one whose image is the first mode.
             const auto& images = model.symmetries[*symmetry].modes;
             after.mode = static_cast<std::size_t>(std::find(images.begin(), images.end(), after.mode) - images.begin());
         }

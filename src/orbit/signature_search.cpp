@@ -21,7 +21,7 @@ std::vector<Probe> probes_of(const Model& model, const Signature& signature) {
     return probes;
 }
 
-/// Follows a motion and tries its pieces.
+/// Follows a motion and tries each piece of it that has the signature as a first guess.
 class SignatureSearch : public Observer {
 public:
     SignatureSearch(const System& system, const Signature& wanted, const OrbitOptions& options,
@@ -39,7 +39,7 @@ public:
 
     void step(const Step& step) override {
         ++steps_;
-        looked_at_ = time_ = step.start;
+        followed_time_ = time_ = step.start;
     }
     void contact(const Contact& contact) override {
         if (contact.kind == ContactKind::touch)
@@ -50,7 +50,7 @@ public:
             return;
         }
         const Segment segment{contact.mode_before, SegmentEnd::event, contact.transition};
-        if (is_wanted(segment) || !is_harmless(simulation_.system(), contact.transition))
+        if (is_wanted(segment) || !is_identity_transition(simulation_.system(), contact.transition))
             note(contact.time, segment, contact.after);
     }
     void passage(const Passage& passage) override {
@@ -68,7 +68,7 @@ public:
                entries_.size() > search_->segments + wanted_->size() || trials_ >= search_->trials;
     }
 
-    /// Looks at what the last step has brought.
+    /// Tries the pieces that the last step has completed.
     void conclude(const Outcome& outcome) {
         if (interrupted_ || found_)
             return;
@@ -82,15 +82,15 @@ public:
     const std::optional<OrbitSolution>& found() const { return found_; }
     const std::optional<OrbitSolution>& unphysical() const { return unphysical_; }
     const std::optional<OrbitSolution>& failed() const { return failed_; }
-    /// How far the motion has been followed, and why no further.
+    /// Returns how far the motion was followed, or why it ended.
     std::string extent() const {
         return problem_.empty()
-                   ? fmt::format("{} segments in a time of {:.6g} were looked at", entries_.size() - 1, looked_at_)
+                   ? fmt::format("{} segments in a time of {:.6g} were looked at", entries_.size() - 1, followed_time_)
                    : problem_;
     }
 
 private:
-    /// The end of a segment, and the state just after.
+    /// The end of a segment and the state just after it.
     struct Entry {
         double time;
         Segment segment;
@@ -100,7 +100,7 @@ private:
     bool is_wanted(const Segment& segment) const {
         return std::find(wanted_->begin(), wanted_->end(), segment) != wanted_->end();
     }
-    /// Contacts and passages come in their own orders.
+    /// Inserts an entry in the order of time: contacts and passages within a step arrive separately.
     void note(double time, const Segment& segment, std::span<const double> state) {
         auto place = entries_.end();
         while (place > entries_.begin() + 1 && (place - 1)->time > time)
@@ -108,7 +108,7 @@ private:
         entries_.insert(place, {time, segment, {state.begin(), state.end()}});
     }
     void try_pieces() {
-        // What has happened within the last step may not be complete.
+        // Entries within the current step may be incomplete.
         for (; next_ + wanted_->size() < entries_.size() && entries_[next_ + wanted_->size()].time < time_ && !found_ &&
                trials_ < search_->trials;
              ++next_) {
@@ -150,7 +150,7 @@ private:
     std::vector<Entry> entries_;
     std::optional<OrbitSolution> found_, unphysical_, failed_;
     std::size_t steps_ = 0, trials_ = 0, next_ = 0;
-    double time_ = 0, looked_at_ = 0;
+    double time_ = 0, followed_time_ = 0;
     bool interrupted_ = false;
     std::string problem_;
 };

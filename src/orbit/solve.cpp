@@ -19,7 +19,7 @@ namespace graze {
 namespace {
 
 constexpr int most_halvings = 8;
-constexpr double no_time = 1e-9; ///< share of the candidate's period
+constexpr double no_time = 1e-9; ///< share of the candidate's period below which an orbit has collapsed
 
 double largest(const Eigen::VectorXd& step, const Eigen::VectorXd& scales) {
     return step.cwiseQuotient(scales).cwiseAbs().maxCoeff();
@@ -59,7 +59,7 @@ std::string_view name_of(OrbitOutcome outcome) {
 
 namespace {
 
-/// Multipliers of located flips and folds are 1 in size up to this.
+/// Magnitudes of multipliers at located folds and flips differ from 1 by less than this.
 constexpr double on_circle = 1e-8;
 
 } // namespace
@@ -77,7 +77,7 @@ std::size_t unstable_directions(const OrbitSolution& solution) {
 
 namespace {
 
-/// Goes a step, or as much of it as makes the residuals smaller. @param tried set to the evaluation there
+/// Takes a step, halved until the residual decreases. @param tried set to the evaluation there
 bool improves(OrbitEquations& equations, const Eigen::VectorXd& unknowns, const Eigen::VectorXd& step,
               const OrbitEvaluation& at, OrbitEvaluation& tried) {
     const double size = largest(step, equations.scales());
@@ -86,7 +86,7 @@ bool improves(OrbitEquations& equations, const Eigen::VectorXd& unknowns, const 
     tried.took_too_long = false;
     for (int halving = 0; halving < most_halvings && !improved && !tried.took_too_long; ++halving, factor *= 0.5) {
         const bool possible = equations.evaluate(unknowns + factor * step, tried);
-        // Near the solution round-off decides, and any residual will do.
+        // Near the solution the residual is round-off, and any value is accepted.
         improved = possible && (tried.residual <= (1 - 0.1 * factor) * at.residual || size < 1e-6);
     }
     return improved;
@@ -102,7 +102,7 @@ OrbitOutcome solve_equations(OrbitEquations& equations, Eigen::VectorXd& unknown
         detail = at.problem;
         return OrbitOutcome::undefined;
     }
-    constexpr double far_off = 1e8; // a step, for residuals that are round-off
+    constexpr double far_off = 1e8; // ratio of step to residual that indicates singular equations
     constexpr double round_off = 1e-11;
     const auto singular = [&] {
         detail = "the equations are singular: at a fold, or because states are not determined";
@@ -112,24 +112,24 @@ OrbitOutcome solve_equations(OrbitEquations& equations, Eigen::VectorXd& unknown
     const auto damped = [&](const Eigen::VectorXd& step) { return improves(equations, unknowns, step, at, tried); };
     for (iterations = 1; iterations <= options.iterations; ++iterations) {
         Eigen::VectorXd step;
-        std::size_t lost = 0;
+        std::size_t deficiency = 0;
         const bool solved = equations.solve(at, no_borders, nothing, false, step);
-        // Of a family of orbits the nearest one will do: round-off would lead anywhere along it.
+        // In a family of orbits take the nearest one: along the family, round-off determines the step.
         if (!solved || largest(step, equations.scales()) > far_off * at.residual) {
             Eigen::VectorXd nearest;
-            if (equations.solve_nearest(at, nearest, lost) && lost > 0)
+            if (equations.solve_nearest(at, nearest, deficiency) && deficiency > 0)
                 step = nearest;
             else if (!solved)
                 return singular();
         }
         bool improved = damped(step);
-        // Beside a family equations are hardly regular, and steps along it lead far: the nearest member will do.
-        if (!improved && lost == 0 && tried.problem.empty()) {
-            lost = 1;
-            improved = equations.solve_nearest(at, step, lost) && damped(step);
+        // Near a family the equations are nearly singular and steps along it are too long: try the minimum-norm step.
+        if (!improved && deficiency == 0 && tried.problem.empty()) {
+            deficiency = 1;
+            improved = equations.solve_nearest(at, step, deficiency) && damped(step);
         }
         if (!improved) {
-            if (lost > 0 && !solved && tried.problem.empty())
+            if (deficiency > 0 && !solved && tried.problem.empty())
                 return singular();
             detail =
                 tried.problem.empty() ? fmt::format("residuals do not fall below {:.3g}", at.residual) : tried.problem;
@@ -137,9 +137,9 @@ OrbitOutcome solve_equations(OrbitEquations& equations, Eigen::VectorXd& unknown
         }
         std::swap(at, tried);
         unknowns = at.unknowns;
-        // What is left free says nothing of how far off the equation is that does not determine it.
+        // A minimum-norm step does not reduce the residual of a dependent equation, so the residual is checked too.
         if (largest(step, equations.scales()) < options.accuracy)
-            return lost == 0 || at.residual < round_off ? OrbitOutcome::converged : singular();
+            return deficiency == 0 || at.residual < round_off ? OrbitOutcome::converged : singular();
     }
     detail = fmt::format("{} iterations were not enough; the residual is {:.3g}", options.iterations, at.residual);
     return OrbitOutcome::not_converged;
@@ -159,32 +159,33 @@ void describe_orbit(OrbitEquations& equations, const OrbitEvaluation& at, OrbitS
 
 namespace {
 
-/// A segment whose duration round-off of the states could change by all of it: at a double root, Newton's method comes
-/// closer and closer to where a slip vanishes, until what it moves is less than round-off and closes the orbit.
-/// @return none when there is none, or number of segments
-std::size_t segment_lost_in_round_off(const OrbitEquations& equations, const OrbitEvaluation& at, const Orbit& orbit) {
-    constexpr double shorter = 1e-2; ///< share of the period, for others are not looked at
+/// Returns the first segment whose duration is smaller than its change by round-off of the states. At a double root,
+/// Newton's method converges slowly to an orbit with a vanishing slip, until the slip is below round-off and the
+/// equations appear solved.
+/// @return number of segments when there is none
+std::size_t segment_below_round_off(const OrbitEquations& equations, const OrbitEvaluation& at, const Orbit& orbit) {
+    constexpr double shorter = 1e-2; ///< only segments shorter than this share of the period are checked
     constexpr double round_off = 16 * std::numeric_limits<double>::epsilon();
     const std::size_t none = orbit.segments();
     if (std::ranges::none_of(orbit.durations, [&](double one) { return one < shorter * orbit.period(); }))
         return none;
     const OrbitLayout& layout = equations.layout();
     const std::size_t last = layout.pieces() - 1;
-    std::vector<double> lost(orbit.segments(), 0.0);
+    std::vector<double> deficiency(orbit.segments(), 0.0);
     for (std::size_t i = 0; i < layout.states(); ++i) {
         if (at.periods[i] > 0)
             continue;
-        // The orbit comes back to a state that differs by its round-off.
+        // Perturbs the state to which the orbit returns by its round-off.
         Eigen::VectorXd change = Eigen::VectorXd::Zero(index(layout.start_of(layout.pieces()))), step;
         change[index(layout.start_of(last) + 1 + i)] =
             round_off * std::abs(at.pieces[last].after[i]) / at.scales[index(layout.start_of(0) + i)];
         if (!equations.respond(at, change, step))
             return none;
         for (std::size_t k = 0; k < layout.pieces(); ++k)
-            lost[layout.segment_of(k)] += std::abs(step[index(layout.duration_of(k))]);
+            deficiency[layout.segment_of(k)] += std::abs(step[index(layout.duration_of(k))]);
     }
     for (std::size_t s = 0; s < none; ++s)
-        if (orbit.durations[s] < shorter * orbit.period() && lost[s] >= orbit.durations[s])
+        if (orbit.durations[s] < shorter * orbit.period() && deficiency[s] >= orbit.durations[s])
             return s;
     return none;
 }
@@ -205,16 +206,16 @@ OrbitSolution solve_orbit(const System& system, const Orbit& candidate, const Or
     solution.residual = at.residual;
     if (solution.outcome == OrbitOutcome::converged && !(solution.orbit.period() > no_time * candidate.period())) {
         solution.outcome = OrbitOutcome::not_converged;
-        solution.detail = "Newton's method has gone to an orbit that takes no time";
+        solution.detail = "Newton's method converged to an orbit of zero duration";
     }
     if (solution.outcome != OrbitOutcome::converged)
         return solution;
     describe_orbit(shooting, at, solution);
-    const std::size_t lost_segment = segment_lost_in_round_off(shooting, at, solution.orbit);
-    if (lost_segment < solution.orbit.segments() && solution.certificate.admissible) {
+    const std::size_t spurious_segment = segment_below_round_off(shooting, at, solution.orbit);
+    if (spurious_segment < solution.orbit.segments() && solution.certificate.admissible) {
         solution.certificate.admissible = false;
-        solution.certificate.reason = fmt::format(
-            "segment {} takes so little time that round-off decides whether it takes any", lost_segment + 1);
+        solution.certificate.reason =
+            fmt::format("the duration of segment {} is below round-off", spurious_segment + 1);
     }
     if (moving_neutral_states(shooting, at) > 0 || is_in_family(shooting, at))
         solution.detail = "one of a family of orbits at the same parameters: a multiplier is 1";
@@ -224,10 +225,10 @@ OrbitSolution solve_orbit(const System& system, const Orbit& candidate, const Or
         Eigen::VectorXd step;
         OrbitEvaluation there = again.evaluation();
         const Eigen::MatrixXd no_borders(0, static_cast<Eigen::Index>(again.unknowns()));
-        std::size_t lost = 0;
+        std::size_t deficiency = 0;
         const bool defined = again.evaluate(again.unknowns_of(solution.orbit), there);
         if (defined && there.system.undetermined() > 0
-                ? again.solve_nearest(there, step, lost)
+                ? again.solve_nearest(there, step, deficiency)
                 : defined && again.solve(there, no_borders, Eigen::VectorXd(0), false, step))
             solution.error = largest(step, again.scales());
     }

@@ -12,12 +12,13 @@ namespace graze {
 
 namespace {
 
-/// Tells attractors apart: by what they are and, for orbits and equilibria, which Newton's method has computed to many
-/// digits, by the mean, least and greatest of every value along them, which do not depend on where along the orbit one
-/// begins.
+/// Distinguishes attractors by their kind. Orbits and equilibria, which Newton's method has computed to many digits,
+/// are distinguished also by the mean, least and greatest of every value, which do not depend on the first point of an
+/// orbit.
 class AttractorNames {
 public:
-    /// @param marks of the orbit, three for each value; @param spreads of the values
+    /// Index of an attractor, a new one if it is not known yet.
+    /// @param marks mean, least and greatest of each value along the orbit; @param spreads ranges of the values
     std::size_t index(const std::string& kind, const std::vector<double>& marks, const std::vector<double>& spreads) {
         constexpr double same_orbit = 1e-6;
         for (std::size_t i = 0; i < known_.size(); ++i) {
@@ -49,12 +50,12 @@ std::string kind_text(const ResultFile::Rows& row) {
     return text;
 }
 
-/// What an attractor is like, of pictures that do not tell it from others like it.
+/// The kind of an attractor in maps, which do not distinguish attractors of the same kind.
 std::string short_kind(const ResultFile::Rows& row) {
     return row.text(0) == name_of(Label::periodic) ? fmt::format("period {}", row.text(1)) : row.text(0);
 }
 
-/// The values of one axis of a grid, and where one cell ends and the next begins.
+/// The values of one axis of a grid, and the edges between their cells.
 class GridAxis {
 public:
     GridAxis(const std::vector<PlanePoint>& points, double PlanePoint::*coordinate, bool logarithmic)
@@ -68,7 +69,7 @@ public:
     std::size_t index(double value) const {
         return static_cast<std::size_t>(std::lower_bound(values_.begin(), values_.end(), value) - values_.begin());
     }
-    /// From the edge before one value to that behind another.
+    /// Edges of the cell of value i.
     double edge_before(std::size_t i) const { return i == 0 ? beyond(0, 1) : middle(i - 1, i); }
     double edge_behind(std::size_t i) const { return i + 1 == size() ? beyond(i, i - 1) : middle(i, i + 1); }
 
@@ -76,16 +77,16 @@ private:
     double middle(std::size_t i, std::size_t k) const {
         return is_logarithmic() ? std::sqrt(values_[i] * values_[k]) : (values_[i] + values_[k]) / 2;
     }
-    double beyond(std::size_t i, std::size_t neighbour) const {
-        return is_logarithmic() ? values_[i] * std::sqrt(values_[i] / values_[neighbour])
-                                : values_[i] + (values_[i] - values_[neighbour]) / 2;
+    double beyond(std::size_t i, std::size_t adjacent) const {
+        return is_logarithmic() ? values_[i] * std::sqrt(values_[i] / values_[adjacent])
+                                : values_[i] + (values_[i] - values_[adjacent]) / 2;
     }
     bool is_logarithmic() const { return logarithmic_ && values_.front() > 0; }
     bool logarithmic_;
     std::vector<double> values_;
 };
 
-/// Fills the cells around points of a grid; of points that are on none the dots stay.
+/// Replaces dots on a grid by filled cells; dots that do not form a grid stay.
 void fill_cells(FigurePanel& panel) {
     std::vector<PlanePoint> all;
     for (const FigureSeries& series : panel.series)
@@ -99,7 +100,7 @@ void fill_cells(FigurePanel& panel) {
             cells.emplace_back(y.index(point.y), x.index(point.x));
         std::sort(cells.begin(), cells.end());
         for (std::size_t i = 0; i < cells.size();) {
-            std::size_t last = i; // neighbours in a row are one
+            std::size_t last = i; // adjacent cells in a row are joined
             while (last + 1 < cells.size() && cells[last + 1].first == cells[i].first &&
                    cells[last + 1].second <= cells[last].second + 1)
                 ++last;
@@ -132,12 +133,12 @@ public:
                                 .directions = {direction}});
         while (rows.next()) {
             std::vector<double> marks(map_ ? 0 : 3 * run_->record.values.size());
-            const bool told_apart =
+            const bool distinguished =
                 rows.text(0) == name_of(Label::periodic) || rows.text(0) == name_of(Label::equilibrium);
-            for (std::size_t v = 0; told_apart && v < marks.size(); ++v)
+            for (std::size_t v = 0; distinguished && v < marks.size(); ++v)
                 marks[v] = rows.number(7 + v);
             add(names_.index(map_ ? short_kind(rows) : kind_text(rows), marks, spreads), rows.text(0),
-                {rows.number(5), rows.number(6)}, static_cast<std::size_t>(rows.integer(4)), told_apart);
+                {rows.number(5), rows.number(6)}, static_cast<std::size_t>(rows.integer(4)), distinguished);
         }
         name_all(table);
         fill_cells(panel_);
@@ -147,11 +148,11 @@ public:
     }
 
 private:
-    /// How far values go over all attractors: motions that run away are no measure of how different these are.
+    /// Ranges of the values over all attractors, as the scale of their differences; unbounded motions do not count.
     std::vector<double> spreads_of_attractors(const std::string& direction) const {
         const std::size_t values = run_->record.values.size();
         constexpr double none = std::numeric_limits<double>::infinity();
-        constexpr double rounding = 1e-6; // of which the same millionth tells attractors apart
+        constexpr double rounding = 1e-6; // for values that are nearly constant
         std::vector<double> least(values, none), greatest(values, -none), spreads;
         auto rows = run_->rows({.columns = {"label"}, .statistics = run_->value_names(), .directions = {direction}});
         while (rows.next())
@@ -165,11 +166,12 @@ private:
         return spreads;
     }
 
-    void add(std::size_t index, const std::string& label, const PlanePoint& at, std::size_t number, bool told_apart) {
+    void add(std::size_t index, const std::string& label, const PlanePoint& at, std::size_t number,
+             bool distinguished) {
         if (index >= panel_.series.size()) {
             const bool settled = drawn_as(label) == DrawnAs::attractor;
             FigureSeries series{"", FigureSeries::Style::dots, attractors_, {}};
-            if (!settled) { // seen to be no attractor, and of what kind
+            if (!settled) { // symbol and hatch show that it is no attractor, and its label
                 const MarkOfLabel mark = mark_of_label(label);
                 series.style = FigureSeries::Style::symbols;
                 series.colour = mark.colour;
@@ -178,7 +180,7 @@ private:
             }
             attractors_ += settled ? 1 : 0;
             panel_.series.push_back(std::move(series));
-            first_points_.push_back(told_apart ? std::optional(number) : std::nullopt);
+            first_points_.push_back(distinguished ? std::optional(number) : std::nullopt);
         }
         panel_.series[index].points.push_back(at);
     }
@@ -194,7 +196,7 @@ private:
         }
     }
 
-    /// Where both axes are sampled values, the samples of each attractor, with the number that the table gives it.
+    /// Marks the samples of each attractor with its number in the table, if both axes are sampled values.
     void mark_attractors() {
         if (!run_->has_value(x_) || !run_->has_value(y_))
             return;
@@ -224,7 +226,7 @@ private:
     FigurePanel panel_;
     AttractorNames names_;
     std::size_t attractors_ = 0;
-    std::vector<std::optional<std::size_t>> first_points_; ///< of each attractor
+    std::vector<std::optional<std::size_t>> first_points_; ///< number of the first point of each attractor
 };
 
 } // namespace

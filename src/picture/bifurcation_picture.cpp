@@ -14,12 +14,12 @@ namespace graze {
 namespace {
 
 constexpr std::size_t most_marks = 8;
-constexpr std::size_t most_circles = 200; ///< of what is drawn over; beyond, crosses are seen better
-constexpr double least_stretch = 0.01;    ///< share of a sweep on both sides of a change that is marked
-/// What the dotted lines mean: where consecutive stretches of a sweep differ in this.
+constexpr std::size_t most_circles = 200; ///< in a series drawn over another run; more are drawn as crosses
+constexpr double least_stretch = 0.01;    ///< least fraction of a sweep on either side of a marked change
+/// Meaning of the dotted lines: consecutive stretches of a sweep differ in one of these.
 constexpr const char* meaning_of_marks = "label, period, signature or symmetry changes";
 
-/// Where something changes that lasted before and lasts after.
+/// Coordinates at which the kind of attractor changes between two stretches of a sweep that are long enough.
 std::vector<double> changes(const StoredRun& run, const std::string& direction) {
     auto rows = run.rows({.columns = {"label", "period", "symmetric", "chain", "signature"},
                           .quantities = {run.record.coordinates.front().name},
@@ -33,7 +33,7 @@ std::vector<double> changes(const StoredRun& run, const std::string& direction) 
     std::size_t all = 0;
     while (rows.next()) {
         if (rows.integer(3) != 0)
-            return {}; // several chains: their changes would hide one another
+            return {}; // changes of several chains would overlap
         const std::string kind = fmt::format("{} {} {} {}", rows.text(0), rows.text(1), rows.text(2), rows.text(4));
         if (stretches.empty() || stretches.back().kind != kind)
             stretches.push_back({kind, rows.number(5), rows.number(5), 0});
@@ -43,7 +43,7 @@ std::vector<double> changes(const StoredRun& run, const std::string& direction) 
     }
     struct Mark {
         double at;
-        std::size_t points; ///< of the shorter of the stretches that it separates
+        std::size_t points; ///< number of points of the shorter of the two stretches
     };
     std::vector<Mark> found;
     const double least = least_stretch * static_cast<double>(all);
@@ -55,7 +55,7 @@ std::vector<double> changes(const StoredRun& run, const std::string& direction) 
             found.push_back({0.5 * (before->last + stretch.first), std::min(before->points, stretch.points)});
         before = &stretch;
     }
-    // Of many, those that part the longest stretches.
+    // Keep the changes between the longest stretches.
     std::stable_sort(found.begin(), found.end(), [](const Mark& a, const Mark& b) { return a.points > b.points; });
     found.resize(std::min(found.size(), most_marks));
     std::vector<double> marks;
@@ -64,7 +64,7 @@ std::vector<double> changes(const StoredRun& run, const std::string& direction) 
     return marks;
 }
 
-/// Panels of the same value get the same axis, for up and down to be compared.
+/// Gives panels of the same value the same axis, so that up and down can be compared.
 void share_axes(Figure& figure) {
     std::map<std::string, std::pair<double, double>> extents;
     for (const FigurePanel& panel : figure.panels)
@@ -84,12 +84,13 @@ void share_axes(Figure& figure) {
         }
 }
 
-/// What a panel shows, for others to be drawn over it.
+/// Value and direction of a panel, over which other runs may be drawn.
 struct ShownPanel {
     std::string value, direction;
 };
 
-/// Seen on a band full of dots: black, then colours, upright and slanting in turn.
+/// Draws a series as crosses, which are visible on a band of dots: the first black, the others in colours; upright and
+/// diagonal crosses alternate.
 void mark_by_crosses(FigureSeries& series, std::size_t index) {
     series.style = FigureSeries::Style::symbols;
     series.symbol = index % 2 == 0 ? 1 : 2; // gnuplot's crosses
@@ -97,18 +98,18 @@ void mark_by_crosses(FigureSeries& series, std::size_t index) {
         series.colour = FigureSeries::black;
 }
 
-/// A text, behind a name if there is one.
+/// The text, with "name: " before it if there is a name.
 std::string named_with(std::string_view text, const std::string& name) {
     return name.empty() ? std::string(text) : fmt::format("{}: {}", name, text);
 }
 
-/// Adds a series for each sampling of a run: what settled, then crosses for what did not.
-/// @param over named by the run, too, and seen over what is there
+/// Adds a series for each sampling of a run, for attractors, and one of crosses for motions that did not settle.
+/// @param over the run is drawn over others: its series are named after it and drawn as circles or crosses
 void add_samples(FigurePanel& panel, const StudyPicture& picture, const StoredRun& run, const std::string& x,
                  const ShownPanel& shown, bool over) {
     const std::vector<std::string> samplings = shown_points(picture, run);
     const std::size_t before = panel.series.size();
-    // What did not settle has no colour of its own, or panels with some and panels without would differ.
+    // Motions that did not settle are grey and do not count, so that colours are the same in all panels.
     const auto first_colour =
         static_cast<std::size_t>(std::count_if(panel.series.begin(), panel.series.end(), [](const FigureSeries& one) {
             return one.title.empty() || one.colour != FigureSeries::grey;
@@ -118,7 +119,7 @@ void add_samples(FigurePanel& panel, const StudyPicture& picture, const StoredRu
         series[samplings[s]] = before + s;
         const std::string run_name = shown_name(picture, run.record.name);
         const std::string title = samplings.size() > 1 ? shown_name(picture, samplings[s]) : "";
-        // Where another run lies over it, both are named.
+        // If other runs are drawn over this one, its series are named after it too.
         const bool named = over || (!title.empty() && !picture.over.empty());
         panel.series.push_back({!named          ? title
                                 : title.empty() ? run_name
@@ -159,18 +160,18 @@ void add_samples(FigurePanel& panel, const StudyPicture& picture, const StoredRu
             mark_by_crosses(panel.series[s], s - before);
 }
 
-/// From the first to the last point of a run; where it is known by measurement alone, no point is to lie on the frame.
+/// Range of a run's first coordinate; for measured records with a margin, so that no point lies on the frame.
 std::optional<std::pair<double, double>> shown_extent(const StoredRun& run) {
     auto extent = run.extent(run.record.coordinates.front().name);
     constexpr double margin = 0.01;
     if (extent && run.record.kind == "record") {
-        const double room = margin * (extent->second - extent->first);
-        extent = std::pair(extent->first - room, extent->second + room);
+        const double added = margin * (extent->second - extent->first);
+        extent = std::pair(extent->first - added, extent->second + added);
     }
     return extent;
 }
 
-/// Runs that are drawn over panels of the same values.
+/// Draws the runs of the key `over` into the panels of the same values.
 void add_over(Figure& figure, const StudyPicture& picture, const std::vector<ShownPanel>& shown,
               const ResultFile& file) {
     for (const std::string& name : picture.over) {
@@ -182,11 +183,11 @@ void add_over(Figure& figure, const StudyPicture& picture, const std::vector<Sho
                 const std::string x = first_coordinate(picture, run);
                 add_samples(panel, picture, run, x, shown[p], true);
                 if (const auto extent = run.extent(x); extent && panel.x_range && !picture.x_range) {
-                    // What was measured may lie beside what was computed by its noise alone: not on the frame.
+                    // Noise may move measured points beyond the computed ones: the margin keeps them off the frame.
                     constexpr double margin = 0.01;
-                    const double room = margin * (panel.x_range->second - panel.x_range->first);
-                    panel.x_range = std::pair(std::min(panel.x_range->first, extent->first - room),
-                                              std::max(panel.x_range->second, extent->second + room));
+                    const double added = margin * (panel.x_range->second - panel.x_range->first);
+                    panel.x_range = std::pair(std::min(panel.x_range->first, extent->first - added),
+                                              std::max(panel.x_range->second, extent->second + added));
                 }
                 drawn = true;
             }

@@ -29,8 +29,8 @@ struct Box {
     }
 };
 
-/// Which part of a line between two points runs through a box: shares of its length, or nothing (Liang and Barsky
-/// 1984).
+/// The part of a line between two points that lies in a box: fractions of its length at which it enters and leaves, or
+/// none (Liang and Barsky 1984).
 inline std::optional<std::pair<double, double>> part_within(const PlanePoint& from, const PlanePoint& to,
                                                             const Box& box) {
     double first = 0, last = 1;

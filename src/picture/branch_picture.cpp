@@ -24,23 +24,23 @@ namespace {
 
 constexpr std::size_t most_panels = 4;
 
-/// What is known of an orbit as far as it decides how a branch is drawn there.
+/// The property of an orbit that decides how the branch is drawn there.
 enum class Look { stable, unstable, unphysical };
 constexpr std::array<std::pair<Look, const char*>, 3> looks{
     {{Look::stable, "stable"}, {Look::unstable, "unstable"}, {Look::unphysical, "unphysical"}}};
 
 struct DrawnPoint {
     std::string part, label;
-    std::string name; ///< what is shown in the place of the label
+    std::string name; ///< text that is shown for the label
     PointType type = PointType::regular;
     Look look = Look::stable;
     std::int64_t step = 0;
-    double along = 0; ///< the branch
+    double along = 0; ///< arclength along the branch
     double x = 0;
     std::vector<double> y;
 };
 
-/// Curves are drawn by what they are curves of: touches solid, folds dashed, all else dotted.
+/// The style of a curve depends on its type: touches are solid, folds dashed, others dotted.
 FigureSeries::Style style_of(PointType kept) {
     return kept == PointType::grazing ? FigureSeries::Style::line
            : kept == PointType::fold  ? FigureSeries::Style::dashed
@@ -51,7 +51,7 @@ FigureSeries::Style style_of(Look look) {
     return look == Look::unstable ? FigureSeries::Style::dashed : FigureSeries::Style::line;
 }
 
-/// Names that can be drawn of a branch, besides expressions in SQL.
+/// Names of the values of a branch that can be drawn, besides expressions in SQL.
 std::vector<std::string> known_names(const StoredRun& run) {
     std::vector<std::string> names{"multiplier"};
     for (const auto& list : {run.value_names(), run.coordinate_names(), run.number_columns()})
@@ -66,7 +66,7 @@ void require_known(const StudyPicture& picture, const StoredRun& run, const std:
                          name_advice(name, known, ""));
 }
 
-/// What a run is a curve of, by its first point; none: it is a branch.
+/// The type of points that a curve follows, from the point where it starts; none: the run is a branch.
 std::optional<PointType> kept_of(const StoredRun& run) {
     if (run.record.kind != name_of(RunKind::curve))
         return std::nullopt;
@@ -77,7 +77,7 @@ std::optional<PointType> kept_of(const StoredRun& run) {
     return parent ? orbit_to_start_from(*asked.start, stored_run(*parent), *run.file).point.type : PointType::regular;
 }
 
-/// Monitors of the first run that all have, or the period; of a curve its second parameter.
+/// Monitors of the first run that all runs have, or the period; for a curve its second parameter.
 std::vector<std::string> default_values(const std::vector<StoredRun>& runs) {
     std::vector<std::string> names;
     if (runs.front().record.kind == name_of(RunKind::curve))
@@ -118,7 +118,7 @@ std::vector<DrawnPoint> points_of(const StoredRun& run, const StudyPicture& pict
         point.type = point_type(rows.text(2)).value_or(PointType::regular);
         point.look = rows.integer(4) == 0 ? Look::unphysical : rows.integer(3) == 0 ? Look::unstable : Look::stable;
         point.step = rows.integer(5);
-        const auto number = [&](std::size_t column) { // what is infinite has no place in a picture
+        const auto number = [&](std::size_t column) { // infinite values cannot be drawn
             return rows.is_null(column) || std::isinf(rows.number(column)) ? nothing : rows.number(column);
         };
         point.along = number(6);
@@ -129,18 +129,19 @@ std::vector<DrawnPoint> points_of(const StoredRun& run, const StudyPicture& pict
     return points;
 }
 
-/// A stretch of a branch along which orbits are of one kind; its ends belong to its neighbours too.
+/// A stretch of a branch with one look; its end points belong to the adjacent stretches too.
 struct Stretch {
     Look look;
     std::vector<std::size_t> points;
 };
 
-/// Parts one after the other. What an orbit at a special point is like is a matter of round-off; so looks are those of
-/// the ordinary points around, and change at the first special point between those that differ.
+/// The stretches of all parts of a branch, one after the other. At a special point stability is decided by rounding
+/// errors; so the look is that of the adjacent ordinary points, and changes at the first special point between
+/// different ones.
 std::vector<Stretch> stretches_of(const std::vector<DrawnPoint>& points) {
     std::vector<Stretch> stretches;
     for (std::size_t i = 0; i < points.size();) {
-        std::size_t end = i + 1; // parts may have the same name, but steps are counted anew
+        std::size_t end = i + 1; // two parts may have the same name, but the number of steps begins again
         while (end < points.size() && points[end].part == points[i].part && points[end].step >= points[end - 1].step)
             ++end;
         const auto next_ordinary = [&](std::size_t at) {
@@ -165,14 +166,14 @@ std::vector<Stretch> stretches_of(const std::vector<DrawnPoint>& points) {
     return stretches;
 }
 
-/// Which labels matter most where there is no room for all: of points where the model's motions change, then others, of
-/// each those where other branches leave first; then those that the model does not follow.
+/// Rank of a label when not all fit, the lowest first: points at which the model's motions change, then others; among
+/// these, points from which other branches start come first. Labels of inadmissible orbits come last.
 int rank_of(const DrawnPoint& point) {
     const PointKind& kind = kind_of(point.type);
     return (point.look == Look::unphysical ? 4 : 0) + (kind.changes || kind.limits ? 0 : 2) + (kind.leads_on ? 0 : 1);
 }
 
-/// Whether a point is marked: all those with a symbol are, unless types or labels are chosen.
+/// True for points that are marked: all whose type has a symbol, unless the picture chooses types or labels.
 bool is_marked(const StudyPicture& picture, const DrawnPoint& point) {
     const auto names = [&](std::string_view name) {
         return std::find(picture.points.begin(), picture.points.end(), name) != picture.points.end();
@@ -181,12 +182,13 @@ bool is_marked(const StudyPicture& picture, const DrawnPoint& point) {
            (picture.points.empty() || names(short_name(point.type)) || names(point.label) || names(point.name));
 }
 
-/// @param kept what it is a curve of; none: it is a branch, drawn by how stable orbits are
-/// @param owner what the branch is called, where there are several; empty: it is alone, and its labels are black
+/// Adds the lines, symbols and labels of a branch or curve to a panel.
+/// @param kept type of the curve; none: a branch, whose line style shows stability
+/// @param owner name of the branch if there are several; empty: its labels are black
 void add_branch(FigurePanel& panel, const StudyPicture& picture, const std::vector<DrawnPoint>& points,
                 const std::optional<PointType>& kept, std::size_t value, std::size_t colour, const std::string& owner) {
     const std::size_t labels = owner.empty() ? FigureSeries::black : colour;
-    // What is unphysical lies beneath.
+    // Unphysical stretches are drawn first, below the others.
     const std::vector<Stretch> stretches = stretches_of(points);
     for (const bool unphysical : {true, false})
         for (const Stretch& stretch : stretches) {
@@ -195,7 +197,8 @@ void add_branch(FigurePanel& panel, const StudyPicture& picture, const std::vect
             FigureSeries series{
                 "", kept ? style_of(*kept) : style_of(stretch.look), unphysical ? FigureSeries::grey : colour, {}};
             for (const std::size_t at : stretch.points) {
-                if (kind_of(points[at].type).limits) // other segments give greatest values from there on
+                if (kind_of(points[at].type)
+                        .limits) // the segment with the greatest value changes there: the line has a corner
                     series.corners.push_back(series.points.size());
                 series.points.push_back({points[at].x, points[at].y[value]});
                 series.along.push_back(points[at].along);
@@ -221,7 +224,7 @@ void add_branch(FigurePanel& panel, const StudyPicture& picture, const std::vect
         panel.series.push_back({"", FigureSeries::Style::circles, colour, {{points[0].x, points[0].y[value]}}});
 }
 
-/// Runs that are called the same are one curve to the reader.
+/// Colours of the runs; runs with the same shown name have the same colour.
 std::vector<std::size_t> colours_of(const StudyPicture& picture, const std::vector<StoredRun>& runs) {
     std::map<std::string, std::size_t> known;
     std::vector<std::size_t> colours;
@@ -230,7 +233,7 @@ std::vector<std::size_t> colours_of(const StudyPicture& picture, const std::vect
     return colours;
 }
 
-/// Says what each symbol that is there means, and the letters of its labels.
+/// Adds the meaning of each used symbol, and of its labels, to the legend.
 void add_symbols(FigurePanel& panel, const StudyPicture& picture, const std::vector<std::vector<DrawnPoint>>& points,
                  std::size_t colour) {
     std::set<PointType> types;
@@ -248,14 +251,14 @@ void add_symbols(FigurePanel& panel, const StudyPicture& picture, const std::vec
     }
 }
 
-/// What each style means of curves: several runs have it, and their names may not say.
+/// Meanings of the line styles of curves; empty if each style belongs to one run, whose name tells it.
 std::map<FigureSeries::Style, std::string> curve_styles(const std::vector<std::optional<PointType>>& kept) {
     std::set<PointType> types;
     for (const std::optional<PointType>& type : kept)
         if (type)
             types.insert(*type);
     std::map<FigureSeries::Style, std::string> meanings;
-    if (types.size() < 2 || types.size() == kept.size()) // each style is that of one run
+    if (types.size() < 2 || types.size() == kept.size())
         return meanings;
     for (const PointType type : types) {
         std::string& meaning = meanings[style_of(type)];
@@ -264,7 +267,7 @@ std::map<FigureSeries::Style, std::string> curve_styles(const std::vector<std::o
     return meanings;
 }
 
-/// Says which colour is which run, and what the styles and symbols mean that are there.
+/// Adds the colours of the runs and the meanings of the used styles and symbols to the legend.
 void add_legend(FigurePanel& panel, const StudyPicture& picture, const std::vector<StoredRun>& runs,
                 const std::vector<std::vector<DrawnPoint>>& points, const std::vector<std::optional<PointType>>& kept) {
     const std::vector<std::size_t> colours = colours_of(picture, runs);
@@ -309,7 +312,7 @@ Figure branch_picture(const StudyPicture& picture, const ResultFile& file) {
     for (const StoredRun& run : runs) {
         points.push_back(points_of(run, picture, x, values));
         kept.push_back(kept_of(run));
-        // Where a multiplier is 1 or -1 all along, stability says nothing.
+        // On a curve of bifurcations one multiplier is always 1 or -1: stability is not shown.
         for (DrawnPoint& point : points.back())
             if (kept.back() && point.look == Look::unstable)
                 point.look = Look::stable;

@@ -9,7 +9,7 @@ namespace graze {
 
 namespace {
 
-/// Of 1, 2 and 5 times a power of ten the one next above.
+/// The next number 1, 2 or 5 times a power of ten that is not below the step.
 double round_step(double step) {
     const double decade = std::pow(10.0, std::floor(std::log10(step)));
     for (const double factor : {1.0, 2.0, 5.0})
@@ -31,9 +31,9 @@ std::vector<double> contour_levels(const ContourGrid& grid, std::size_t about) {
     if (!(least < greatest) || about == 0)
         return levels;
     const double step = round_step((greatest - least) / static_cast<double>(about));
-    // Multiples of the step, so that levels are as round as it is; values far from zero may leave no room for any.
+    // Levels are multiples of the step. Rounding may leave none between values that are large and nearly equal.
     const double first = std::ceil(least / step), last = std::floor(greatest / step);
-    // As many rounds as levels may be: one is not always more than nothing.
+    // The loop is bounded: for large values, adding 1 may not change `first`.
     for (std::size_t k = 0; k <= 2 * about + 2 && first + static_cast<double>(k) <= last; ++k)
         if (const double level = (first + static_cast<double>(k)) * step; level > least && level < greatest)
             if (levels.empty() || level > levels.back())
@@ -65,7 +65,7 @@ std::vector<PlanePoint> contour_line(const ContourGrid& grid, double level) {
                 crossings.push_back({corners[k].x + share * (corners[next].x - corners[k].x),
                                      corners[k].y + share * (corners[next].y - corners[k].y)});
             }
-            // Two, or four at a saddle, where either pairing will do.
+            // Two crossings, or four at a saddle, where either pairing is valid.
             for (std::size_t k = 0; k + 1 < crossings.size(); k += 2)
                 points.insert(points.end(), {crossings[k], crossings[k + 1], {nothing, nothing}});
         }

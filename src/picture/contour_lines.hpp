@@ -7,17 +7,17 @@
 
 namespace graze {
 
-/// Values over a rectangular grid, row by row from the lowest; one that is not finite is missing.
+/// Values over a rectangular grid, row by row from the lowest y; a value that is not finite is missing.
 struct ContourGrid {
     std::vector<double> x, y; ///< rising
     std::vector<double> values;
 };
 
-/// Levels at round numbers strictly between the least and the greatest value: some `about`, or fewer.
+/// Levels at round numbers strictly between the least and the greatest value, approximately `about` of them.
 std::vector<double> contour_levels(const ContourGrid& grid, std::size_t about);
 
-/// The line on which the values, bilinear between the grid's points, have this level: pieces of two points each, with a
-/// point that is not finite behind each.
+/// The contour line of a level, with values interpolated along the edges of cells: pieces of two points each, with a
+/// point that is not finite after each piece.
 std::vector<PlanePoint> contour_line(const ContourGrid& grid, double level);
 
 } // namespace graze

@@ -12,11 +12,11 @@ namespace graze {
 
 namespace {
 
-constexpr double side = 0.4;    ///< of a square, in points: lines further apart than that are both seen
-constexpr double together = 30; ///< points for which lines must run along one another; such as cross do so for fewer
-constexpr double covered_share = 0.7; ///< of a line: of the others enough is seen
+constexpr double side = 0.4;          ///< side of a square in points; lines that are further apart are both visible
+constexpr double together = 30;       ///< least common length in points of covered lines; crossings are shorter
+constexpr double covered_share = 0.7; ///< least covered fraction of a line; otherwise enough of it is visible
 constexpr std::size_t most_layers = 2;
-constexpr double longest = 1e5; ///< points: of a piece of a line that leaves the page
+constexpr double longest = 1e5; ///< points; limits the work for lines that leave the page
 
 using Squares = std::unordered_set<std::uint64_t>;
 
@@ -25,12 +25,12 @@ bool is_line(const FigureSeries& series) {
     return series.style == Style::line || series.style == Style::dashed || series.style == Style::dotted;
 }
 
-/// Of a point of the page, whose coordinates are not negative.
+/// The square of a point of the page; coordinates are not negative.
 std::uint64_t square_at(const PlanePoint& point) {
     return static_cast<std::uint64_t>(point.x / side) << 32 | static_cast<std::uint64_t>(point.y / side);
 }
 
-/// Calls `visit` with points of a line in the frame, one for each half of a square.
+/// Calls `visit` with points of a line in the frame, at most half a square apart.
 template <class Visit>
 void walk(const FigureSeries& series, const FigurePanel& panel, const PanelLayout& layout, Visit visit) {
     const Box& frame = layout.frame;

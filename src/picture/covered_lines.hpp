@@ -7,8 +7,8 @@
 
 namespace graze {
 
-/// For each series of a panel, along how many colours that are drawn later much of it runs, rather than cross them: it
-/// would be hidden unless it were wider. Up to 2; all lines of one colour have the same number, other series 0.
+/// For each series of a panel, the number of colours that are drawn later and cover most of its line; it must be drawn
+/// wider to be visible. At most 2; all lines of a colour have the same number, series that are no lines have 0.
 std::vector<std::size_t> covering_lines(const FigurePanel& panel, const PanelLayout& layout);
 
 } // namespace graze

@@ -13,7 +13,7 @@ namespace graze {
 
 namespace {
 
-/// Distance of p from the stretch between a and b.
+/// Distance of p from the segment between a and b.
 double distance_from(PlanePoint p, PlanePoint a, PlanePoint b) {
     const double dx = b.x - a.x, dy = b.y - a.y;
     const double square = dx * dx + dy * dy;
@@ -58,7 +58,7 @@ Polyline simplified(std::span<const PlanePoint> line, double width, double heigh
 
 namespace {
 
-/// Of a coordinate at a point between two intervals with these lengths and slopes: zero at extrema.
+/// Slope of the cubics at a point between two intervals with these lengths and slopes; zero at extrema.
 double slope_between(double length, double slope, double next_length, double next_slope) {
     if (slope * next_slope <= 0)
         return 0;
@@ -66,7 +66,7 @@ double slope_between(double length, double slope, double next_length, double nex
     return (one + other) / (one / slope + other / next_slope);
 }
 
-/// The same at an end: that of the parabola through three points, unless it turns the wrong way.
+/// Slope at an end: that of the parabola through three points, limited so that the cubic is monotone.
 double slope_at_end(double length, double slope, double next_length, double next_slope) {
     const double parabola = ((2 * length + next_length) * slope - length * next_slope) / (length + next_length);
     if (parabola * slope <= 0)
@@ -75,7 +75,7 @@ double slope_at_end(double length, double slope, double next_length, double next
     return slope * next_slope < 0 && std::abs(parabola) > steepest * std::abs(slope) ? steepest * slope : parabola;
 }
 
-/// A piece of a curve without corners, all of whose points lie farther along than the one before.
+/// Adds the cubics of a piece without corners. @param along strictly increasing
 void add_smoothed(Polyline& result, std::span<const PlanePoint> line, std::span<const double> along) {
     constexpr int parts = 8; // of each interval
     const std::size_t count = line.size();
@@ -119,7 +119,7 @@ Polyline smoothed(std::span<const PlanePoint> line, std::span<const double> alon
                   std::span<const std::size_t> corners) {
     if (line.empty() || along.size() != line.size())
         return {line.begin(), line.end()};
-    const auto is_whole = [&](std::size_t i) { // the interval behind a point
+    const auto is_whole = [&](std::size_t i) { // the interval after point i can be smoothed
         return std::isfinite(line[i].x) && std::isfinite(line[i].y) && std::isfinite(line[i + 1].x) &&
                std::isfinite(line[i + 1].y) && along[i + 1] > along[i];
     };
@@ -142,7 +142,7 @@ Polyline smoothed(std::span<const PlanePoint> line, std::span<const double> alon
 
 void require_drawable(double low, double high, const std::string& name) {
     const double size = std::max(std::abs(low), std::abs(high));
-    constexpr double largest = 1e280, smallest = 1e-280; // squares of their ratios are numbers still
+    constexpr double largest = 1e280, smallest = 1e-280; // squares of ratios neither overflow nor vanish
     if (!(size >= smallest && size <= largest && high > low))
         throw InputError(fmt::format("the axis '{}' from {:.3g} to {:.3g} cannot be drawn", name, low, high),
                          fmt::format("draw numbers between {:g} and {:g}, in another unit", smallest, largest));
@@ -153,7 +153,7 @@ Axis axis_for(double least, double greatest, int tics, double margin) {
         return {};
     double span = greatest - least;
     const double size = std::max(std::abs(least), std::abs(greatest));
-    if (span <= 1e-9 * size || span == 0) { // a constant: room for its value in the middle
+    if (span <= 1e-9 * size || span == 0) { // a constant value lies in the middle of the axis
         span = size > 0 ? 0.2 * size : 2;
         least -= span / 2;
         greatest += span / 2;

@@ -10,20 +10,19 @@ namespace graze {
 
 using Polyline = std::vector<PlanePoint>;
 
-/// Leaves out points that nobody would miss: the rest is nowhere further than `distance` from the line that was
-/// given (Ramer 1972; Douglas and Peucker 1973).
-/// @param width, height what the two axes span; distances are in terms of them
+/// Leaves out points of a line: the result is nowhere farther than `distance` from the given line (Ramer 1972; Douglas
+/// and Peucker 1973).
+/// @param width, height ranges of the two axes, which are the units of `distance`
 Polyline simplified(std::span<const PlanePoint> line, double width, double height, double distance);
 
-/// More points between those that are given, along cubics that keep the direction at each of them and go beyond none
-/// (Fritsch and Butland 1984). Where there is a corner, and between points that are not farther along, lines stay
-/// straight or begin anew.
-/// @param along how far along the curve each point is; @param corners indices of points
+/// Adds points between the given ones along monotone cubics with continuous direction, which do not overshoot (Fritsch
+/// and Butland 1984). At corners a new piece begins; intervals in which `along` does not increase stay straight.
+/// @param along arclength or time of each point; of another length: no smoothing. @param corners indices of points
 Polyline smoothed(std::span<const PlanePoint> line, std::span<const double> along,
                   std::span<const std::size_t> corners);
 
-/// @param name of the axis, for the message
-/// @throws InputError unless numbers from `low` to `high` can be told apart on an axis
+/// Checks the limits of an axis. @param name of the axis, for the message
+/// @throws InputError unless numbers from `low` to `high` can be drawn in double precision
 void require_drawable(double low, double high, const std::string& name);
 
 /// Limits and tic distance of an axis.

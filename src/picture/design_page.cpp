@@ -55,11 +55,11 @@ public:
     }
 
 private:
-    /// So many columns that the page is hardly higher than a sheet of paper; panels keep a size in which they are
-    /// legible, so that a page of more columns is a wider one.
+    /// Chooses the number of columns so that the page is about as high as a sheet of paper. Panels keep a legible size:
+    /// a page with more columns is wider.
     void arrange() {
         constexpr std::size_t most_rows = 4;
-        constexpr double column = 85, font = 9; // mm and points: of a page of two columns
+        constexpr double column = 85, font = 9; // mm and points, as for a page of two columns
         const std::size_t panels = figure_.panels.size();
         figure_.columns = std::max<std::size_t>(2, (panels + most_rows - 1) / most_rows);
         figure_.style.width = column * static_cast<double>(figure_.columns);
@@ -95,7 +95,7 @@ private:
         return trip_.point.solution.orbit.parameters[dimension.parameter.place()];
     }
 
-    /// Where the device is.
+    /// A symbol at the values of the device.
     static FigureSeries mark(PlanePoint at, const std::string& title) {
         FigureSeries series;
         series.title = title;
@@ -105,7 +105,7 @@ private:
         return series;
     }
 
-    /// A line for each class; it goes on to the first point of another one.
+    /// One line for each class; it extends to the first point of the next class.
     void add_curve(const DimensionCurve& curve) {
         const DesignDimension& dimension = design_.dimensions[curve.dimension];
         FigurePanel panel = value_panel(dimension);
@@ -144,7 +144,7 @@ private:
         figure_.panels.push_back(std::move(panel));
     }
 
-    /// A field of dots, coloured by class, beneath the contours.
+    /// Cells coloured by class, below the contours.
     static void add_classes(FigurePanel& panel, const DimensionPlane& plane, const DesignDimension& x,
                             const DesignDimension& y) {
         const auto points = static_cast<double>(std::lround(std::sqrt(static_cast<double>(plane.points.size()))));
@@ -173,7 +173,7 @@ private:
         }
         for (const MappedValue& one : plane.points)
             grid.values.push_back(one.found && one.admissible ? one.value : nothing);
-        constexpr std::size_t about = 8; // levels
+        constexpr std::size_t about = 8; // approximate number of levels
         for (const double level : contour_levels(grid, about)) {
             FigureSeries series;
             series.style = FigureSeries::Style::line;
@@ -243,7 +243,7 @@ private:
                 picture.panels.front().title =
                     fmt::format("{:.1f} percent within the limits", 100 * report_.yield->within->value);
             figure_.panels.push_back(std::move(picture.panels.front()));
-        } catch (const InputError&) { // all devices are alike: there is nothing to draw
+        } catch (const InputError&) { // all devices are equal: the distribution has no width
         }
     }
 

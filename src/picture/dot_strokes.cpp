@@ -10,13 +10,13 @@ namespace graze {
 namespace {
 
 constexpr double column_width = 0.42; ///< points
-/// Points: viewers move lines that are quite upright to whole dots of the screen, and slender curves become jagged.
+/// Slant of strokes in points: viewers align exactly vertical lines with pixels, which makes thin curves jagged.
 constexpr double slant = 0.06;
-constexpr double joined = 1; ///< widths: dots this far above one another touch
-/// By how much the ink of a dot reaches above its middle, in widths: a rectangle of this width then has its area.
+constexpr double joined = 1; ///< greatest vertical distance of joined dots, in widths
+/// Extension of a stroke beyond the centre of its last dot, in widths: pi/8, so that a single dot keeps its area.
 constexpr double reach_of_dot = 0.39;
 
-/// A dot on the page, relative to its frame.
+/// A dot on the page, in points from the lower left corner of the frame.
 struct PageDot {
     double x = 0, y = 0;
     std::size_t series = 0;
@@ -27,7 +27,7 @@ struct Run {
     std::size_t series = 0, dots = 0;
 };
 
-/// As if by chance, and the same each time (a step of SplitMix64, as in mingled_dots.cpp).
+/// A pseudo-random layer that is the same in each run (a step of SplitMix64, as in interleaved_dots.cpp).
 std::size_t layer_of(std::uint64_t column, double low) {
     std::uint64_t value = column * 1'000'003 + static_cast<std::uint64_t>(low / 2.4);
     value = (value ^ (value >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -35,10 +35,10 @@ std::size_t layer_of(std::uint64_t column, double low) {
     return static_cast<std::size_t>((value ^ (value >> 31)) % stroke_layers);
 }
 
-/// Of several dots in one small square only the one that is seen.
-std::vector<PageDot> seen_dots(std::span<const MingledDot> dots, const PanelLayout& layout) {
+/// The last dot in each small square, which covers the others; sorted by columns, then upwards.
+std::vector<PageDot> seen_dots(std::span<const InterleavedDot> dots, const PanelLayout& layout) {
     std::unordered_map<std::uint64_t, PageDot> squares;
-    for (const MingledDot& dot : dots) {
+    for (const InterleavedDot& dot : dots) {
         const PageDot here{layout.x.share(dot.at.x) * layout.frame.width(),
                            layout.y.share(dot.at.y) * layout.frame.height(), dot.series};
         const auto column = static_cast<std::uint64_t>(here.x / column_width),
@@ -58,7 +58,7 @@ std::vector<PageDot> seen_dots(std::span<const MingledDot> dots, const PanelLayo
 
 } // namespace
 
-std::vector<DotStroke> dot_strokes(std::span<const MingledDot> dots, const PanelLayout& layout, double width) {
+std::vector<DotStroke> dot_strokes(std::span<const InterleavedDot> dots, const PanelLayout& layout, double width) {
     const double reach = reach_of_dot * width;
     const std::vector<PageDot> seen = seen_dots(dots, layout);
     std::vector<DotStroke> strokes;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "picture/figure_layout.hpp"
-#include "picture/mingled_dots.hpp"
+#include "picture/interleaved_dots.hpp"
 
 #include <cstddef>
 #include <span>
@@ -9,20 +9,20 @@
 
 namespace graze {
 
-/// Dots of a series that lie above one another so densely that they make a line.
+/// A vertical stroke that replaces dots of a series that touch one another.
 struct DotStroke {
-    PlanePoint from, to; ///< in the coordinates of the panel; the ends of the ink
+    PlanePoint from, to; ///< ends of the stroke in the coordinates of the panel
     std::size_t series = 0;
-    std::size_t layer = 0; ///< strokes of a layer are drawn series by series, and layers one after the other
+    std::size_t layer = 0; ///< layers are drawn one after the other, and the strokes of a layer series by series
 };
 
-/// How many layers there are: in which one a stroke is looks like chance, so that no series lies on the others.
+/// Number of layers. Strokes are assigned to layers pseudo-randomly, so that no series covers the others.
 inline constexpr std::size_t stroke_layers = 6;
 
-/// The ink of crowds of dots as upright strokes. What hundreds of thousands of dots show is shown by a tenth as many:
-/// where they are is rounded sidewise to less than half a point, which nobody sees in print; upward it is not.
-/// @param dots in the order in which they are drawn: the last one in a place is seen
+/// Replaces dense dots by vertical strokes with the same appearance, about a tenth as many. Horizontal positions are
+/// rounded to less than half a point, which is invisible in print; vertical positions are exact.
+/// @param dots in drawing order: a later dot covers earlier ones
 /// @param width of the dots, and of the strokes, in points
-std::vector<DotStroke> dot_strokes(std::span<const MingledDot> dots, const PanelLayout& layout, double width);
+std::vector<DotStroke> dot_strokes(std::span<const InterleavedDot> dots, const PanelLayout& layout, double width);
 
 } // namespace graze

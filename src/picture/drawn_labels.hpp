@@ -8,28 +8,28 @@
 
 namespace graze {
 
-/// What a picture makes of a motion's label: only what settled is drawn as an attractor.
+/// How a picture draws a motion with a label (of the enumeration Label).
 enum class DrawnAs {
-    attractor,
-    uncertain, ///< it goes on but has not settled: crosses, whose meaning the legend says
-    nothing    ///< it ended, ran away or failed: counted under the picture
+    attractor, ///< the motion has settled
+    uncertain, ///< the motion has not settled: drawn as crosses, which the legend explains
+    nothing    ///< the motion ended, is unbounded or failed: not drawn, but counted under the picture
 };
 
-/// @param label as results have it
+/// @param label name of a Label, as in result files
 DrawnAs drawn_as(std::string_view label);
-/// Whether a run's points are meant to be attractors: those of sweeps and basins.
+/// True for runs whose points should be attractors: sweeps and basins.
 bool seeks_attractors(const RunRecord& run);
 
-/// How many points of a run are not drawn as attractors, by their labels, as a sentence; empty when all are.
-/// @param directions only those; empty: all
+/// A sentence with the numbers of points that are not drawn, by label; empty if all are drawn.
+/// @param directions only points of these; empty: all
 std::string note_of_left_out(const StoredRun& run, const std::vector<std::string>& directions);
 
-/// How points without an attractor are told apart: by gnuplot's symbol where they are points, its pattern where they
-/// are cells.
+/// The mark of points without an attractor, by their label: gnuplot's symbol for points, gnuplot's pattern for cells.
 struct MarkOfLabel {
     std::size_t colour = 0;
     int symbol = 0, hatch = 0;
 };
+/// The mark of a label. @param label name of a Label
 MarkOfLabel mark_of_label(std::string_view label);
 
 } // namespace graze

@@ -12,7 +12,7 @@ namespace graze {
 
 namespace {
 
-// Pixels, as all places on the page.
+// In pixels, like all positions on the page.
 constexpr double page_width = 1000, margin = 20, title_height = 26, section_height = 112, gap = 16, letter = 14;
 constexpr std::size_t columns = 2;
 
@@ -20,13 +20,13 @@ struct MaterialLook {
     ProcessMaterial material;
     const char *name, *colour;
 };
-/// From the lowest to the uppermost; told apart in grey, too.
+/// Materials in drawing order, from the lowest layer upwards; the colours differ in grey too.
 constexpr std::array<MaterialLook, 4> looks{{{ProcessMaterial::silicon, "silicon", "#b8bec6"},
                                              {ProcessMaterial::epoxy, "epoxy (SU-8)", "#3f7f4f"},
                                              {ProcessMaterial::resist, "photoresist", "#e8a33d"},
                                              {ProcessMaterial::aluminium, "aluminium", "#1c2f5c"}}};
 
-/// From the least to the greatest coordinate of all sections, so that all have one scale.
+/// Range of the coordinates of all cross-sections, which have one scale.
 struct Extent {
     double left = 0, right = 0, low = 0, high = 0;
 };
@@ -67,7 +67,7 @@ public:
     }
 
 private:
-    /// Upper left corner of a step's place.
+    /// Upper left corner of a step's cross-section.
     std::pair<double, double> corner(std::size_t place) const {
         const double width = page_width / static_cast<double>(columns);
         const std::size_t row = place / columns;
@@ -77,7 +77,7 @@ private:
     static double section_width() { return page_width / static_cast<double>(columns) - 2 * margin; }
 
     void rectangle(double left, double top, double right, double bottom, const char* colour) {
-        // With an edge of its own colour, or seams would show where slabs touch.
+        // The border has the same colour, so that no seams appear between touching slabs.
         commands_ += fmt::format("set object rectangle from {:.6g},{:.6g} to {:.6g},{:.6g} fc rgb '{}' fs solid border "
                                  "lc rgb '{}' lw 0.3\n",
                                  left, bottom, right, top, colour, colour);
@@ -99,7 +99,7 @@ private:
                               look.colour);
     }
 
-    /// In the place after the last step.
+    /// Writes the legend in the place after the last step.
     void write_legend(std::size_t place) {
         constexpr double box = 18, row = 25;
         const auto [left, top] = corner(place);

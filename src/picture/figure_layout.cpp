@@ -9,17 +9,17 @@ namespace graze {
 namespace {
 
 constexpr double points_per_mm = 72 / 25.4;
-constexpr double usual_width = 170; ///< mm: that of a page's text
-constexpr double narrow = 120;      ///< mm: a column of text, for which letters are smaller
+constexpr double usual_width = 170; ///< mm; width of the text of a page
+constexpr double narrow = 120;      ///< mm; narrower pictures, as for a column of text, have a smaller font
 constexpr double narrow_font = 8, usual_font = 9;
-constexpr double least_panel = 42;  ///< mm: of the axes of panels that stand beside one another
-constexpr double flat = 0.62;       ///< height of a panel, of its width
-constexpr double flattest = 0.38;   ///< where a picture has only one column, or one panel stands beside several
-constexpr double least_height = 30; ///< points: of panels, whatever height was asked for
-constexpr double sheet = 250;       ///< mm: pictures whose height nobody asked for go onto a sheet of A4
-constexpr double legible = 20;      ///< mm: of panels that are made less high for that
+constexpr double least_panel = 42;  ///< mm; least width of the axes of panels in several columns
+constexpr double flat = 0.62;       ///< height of a panel divided by its width
+constexpr double flattest = 0.38;   ///< the same if the picture has one column, or a panel spans several rows
+constexpr double least_height = 30; ///< points; least height of panels, even if a smaller picture was asked for
+constexpr double sheet = 250;       ///< mm; greatest height of pictures without a given height, as on a sheet of A4
+constexpr double legible = 20;      ///< mm; least height of panels that are made lower for that
 
-// In sizes of the font.
+// In units of the font size.
 constexpr double line = 1.3, note_line = 1.25, margin = 0.6, tic_length = 0.45, gap_at_tic = 0.3, gap_of_panels = 1,
                  title_size = 1.1;
 constexpr std::size_t most_title_lines = 3, most_note_lines = 3;
@@ -44,10 +44,11 @@ bool is_one_word(const std::string& text) {
     return text.find(' ') == std::string::npos;
 }
 
-/// What stands beside an axis: words and symbol, or less of it, so that it fits into two lines.
+/// The label of an axis in at most two lines of length `room` (in font sizes): words, symbol and unit, or fewer of them
+/// if they do not fit.
 std::vector<RichText> axis_label(const std::string& name, const std::string& words, const std::string& unit, int power,
                                  double room, const std::vector<std::string>& symbols) {
-    RichText bracket, tail; // the same behind a blank
+    RichText bracket, tail; // the unit in parentheses; the same after a blank
     if (!unit.empty() || power != 0) {
         bracket = rich("(") + (power != 0 ? rich_power(power) : RichText{}) +
                   rich(power != 0 && !unit.empty() ? " " : "") + rich_unit(unit) + rich(")");
@@ -75,10 +76,10 @@ std::vector<RichText> axis_label(const std::string& name, const std::string& wor
     return {symbol + tail};
 }
 
-/// Works out the places of one figure.
+/// Computes the layout of one figure.
 class Arrangement {
 public:
-    /// @param columns of panels, at most
+    /// @param columns greatest number of columns of panels
     Arrangement(const Figure& figure, std::size_t columns) : figure_(&figure) {
         const double width = figure.style.width > 0 ? figure.style.width : usual_width;
         page_.font = font_of(figure.style, width);
@@ -99,13 +100,13 @@ public:
     }
 
     FigureLayout arrange() {
-        // Heights decide on numbers beside axes, these on widths, these on legends and heights; where labels find no
-        // room they are listed, which needs height too.
+        // A fixed-point iteration: heights decide on the tic labels, these on widths, and these on legends and heights.
+        // Labels that do not fit are listed below the panel, which needs height too.
         constexpr int rounds = 3;
         for (int round = 0; round < rounds; ++round)
             measure();
         place_all();
-        while (needs_more_lines()) { // ends, for the room of lists only grows, and no list is longer than its names
+        while (needs_more_lines()) { // ends, since the reserved lines only grow, and the lists are bounded
             for (int round = 0; round < rounds; ++round)
                 measure();
             place_all();
@@ -114,7 +115,7 @@ public:
             write_notes(p);
         return std::move(page_);
     }
-    /// Whether panels are too flat to be read because so many stand below one another.
+    /// True when panels are too low to be legible because there are too many rows.
     bool is_crowded() const { return crowded_; }
     std::size_t columns() const { return columns_; }
 
@@ -141,7 +142,7 @@ private:
             page_.panels[p].legend = legends[p];
     }
 
-    /// Row by row, from left to right, where no panel that spans several rows is.
+    /// Assigns cells row by row, from left to right, and skips cells of panels that span several rows.
     void choose_cells() {
         std::vector<std::size_t> taken(columns_, 0); // rows of each column
         std::size_t row = 0, column = 0;
@@ -179,24 +180,24 @@ private:
         const std::vector<PanelAxis::Tic>& tics = page_.panels[p].x.tics;
         return font() * (tics.empty() ? margin : margin + width_of(tics.back().text) / 2);
     }
-    /// Texts that depend on how much room there is.
+    /// Wraps title and axis labels to the available lengths.
     void write_labels(std::size_t p) {
         const FigurePanel& panel = figure_->panels[p];
         const double width = frame_width_ / font();
         titles_[p] = wrapped_lines(panel.title, width, 2);
         x_labels_[p] =
             axis_label(panel.x_label, panel.x_words, panel.x_unit, page_.panels[p].x.power, width, figure_->symbols);
-        // Beside title and numbers below there is room for it as well.
+        // The label of the vertical axis may extend beside the title and the tic labels below.
         const double height = (height_of(p) + 2 * std::min(room_above(p), room_of_axis(p))) / font();
         y_labels_[p] =
             axis_label(panel.y_label, panel.y_words, panel.y_unit, page_.panels[p].y.power, height, figure_->symbols);
     }
     double room_above(std::size_t p) const { return font() * (line * static_cast<double>(titles_[p].size()) + 0.5); }
-    /// Where a height was asked for, panels come first.
+    /// Height of the lines reserved for notes.
     double room_of_notes(std::size_t p) const {
         return note_line * legend_font(font()) * static_cast<double>(reserved_[p]);
     }
-    /// What a panel says of itself, then what its labels' places do, as lines.
+    /// Lines of a panel's own notes, then of the lists of its labels; at most two if the figure's height is given.
     std::vector<std::string> notes_of(std::size_t p) const {
         constexpr std::size_t most_on_given_height = 2;
         std::vector<std::string> all = figure_->panels[p].notes;
@@ -213,7 +214,7 @@ private:
         }
         return lines;
     }
-    /// Takes over the notes that there are now. @return whether they need more room than is left for them
+    /// Updates the notes. @return true if they need more lines than are reserved
     bool needs_more_lines() {
         bool more = false;
         for (std::size_t p = 0; p < page_.panels.size(); ++p) {
@@ -314,7 +315,7 @@ private:
         panel.labels = place_labels(figure_->panels[p], frame, panel.x, panel.y, font());
     }
 
-    /// Below the legend.
+    /// Places the notes below the legend.
     void write_notes(std::size_t p) {
         PanelLayout& panel = page_.panels[p];
         const double size = legend_font(font()), left = panel.frame.left - left_[column_of(p)];
@@ -336,7 +337,7 @@ private:
         panel.texts.push_back(placed);
     }
 
-    /// Everything around the frame.
+    /// Places all texts around the frame: title, tic labels and axis labels.
     void write(std::size_t p) {
         using Align = PlacedText::Align;
         PanelLayout& panel = page_.panels[p];
@@ -374,14 +375,14 @@ private:
     struct Cell {
         std::size_t column, row, rows;
     };
-    std::vector<Cell> cells_; ///< of each panel
+    std::vector<Cell> cells_; ///< the cell of each panel
     std::size_t columns_ = 1, rows_ = 1;
     double frame_width_ = 0, frame_height_ = 0, title_height_ = 0, legend_height_ = 0;
-    std::vector<double> left_, right_; ///< of each column: room beside its frames
+    std::vector<double> left_, right_; ///< for each column: space beside its frames in points
     std::vector<double> above_, below_;
     bool crowded_ = false;
-    std::vector<std::vector<std::string>> titles_, notes_; ///< lines, of each panel
-    std::vector<std::size_t> reserved_;                    ///< room for so many lines of notes
+    std::vector<std::vector<std::string>> titles_, notes_; ///< lines for each panel
+    std::vector<std::size_t> reserved_;                    ///< number of reserved lines of notes for each panel
     std::vector<std::vector<RichText>> x_labels_, y_labels_;
 };
 
@@ -392,7 +393,7 @@ FigureLayout layout_of(const Figure& figure) {
         Arrangement arrangement(figure, columns);
         FigureLayout layout = arrangement.arrange();
         const bool wider = arrangement.is_crowded() && columns < figure.panels.size();
-        if (!wider || arrangement.columns() < columns) // a row has as many panels as are legible beside one another
+        if (!wider || arrangement.columns() < columns) // no more panels fit into a row
             return layout;
     }
 }

@@ -10,8 +10,8 @@ namespace graze {
 
 namespace {
 
-/// Those of Okabe and Ito (2008), which the colour-blind tell apart too, brown and grey in the place of yellow and
-/// black; then those of Tol's muted scheme (2021) that are unlike them.
+/// The colours of Okabe and Ito (2008), which colour-blind readers can distinguish, with brown and grey instead of
+/// yellow and black; then colours of Tol's muted scheme (2021) that differ from them.
 constexpr std::array<std::uint32_t, 16> palette{0x0072b2, 0xd55e00, 0x009e73, 0xe69f00, 0xcc79a7, 0x56b4e9,
                                                 0x7f4f24, 0x606060, 0x332288, 0x882255, 0x999933, 0x44aa99,
                                                 0xcc3311, 0xaa4499, 0x117733, 0xbbaa66};
@@ -21,7 +21,7 @@ constexpr std::array<std::uint32_t, 4> dot_shades{0x000000, 0x9a9a9a, 0x585858, 
 constexpr std::array<std::uint32_t, 4> cell_shades{0x585858, 0xd8d8d8, 0x8c8c8c, 0xb4b4b4};
 constexpr std::array<int, 6> line_marks{5, 9, 7, 13, 11, 15}, circle_marks{6, 4, 8, 10, 12, 14}; // gnuplot's symbols
 
-/// Of more than the palette has the same, darker.
+/// A darker shade, for colours beyond the end of the palette.
 std::uint32_t darker(std::uint32_t colour, std::size_t times) {
     for (std::size_t i = 0; i < times; ++i)
         colour =

@@ -6,23 +6,23 @@
 
 namespace graze {
 
-// What an index of a series' colour is on paper, with colours or without.
+// Translation of the colour index of a series into colours or, for grey pictures, into shades and symbols.
 
-/// As 0xrrggbb. No two of the first 48 are the same in colour. In grey shades repeat: `line_mark`, `circle_mark` and
-/// `cell_hatch` then tell them apart.
+/// The colour as 0xrrggbb. The first 48 colours differ. Shades of grey repeat, and `line_mark`, `circle_mark` and
+/// `cell_hatch` distinguish them.
 std::uint32_t colour_number(std::size_t colour, bool grey = false);
-/// The same as gnuplot reads it, such as "#0072b2".
+/// The colour as gnuplot reads it, such as "#0072b2".
 std::string colour_text(std::size_t colour, bool grey = false);
-/// Shades of dots, which are too small to have a shape.
+/// The colour of dots, which are too small for different symbols: in grey pictures four shades.
 std::uint32_t dot_number(std::size_t colour, bool grey);
-/// Shades of areas, which are not to hide what lies on them.
+/// The colour of filled areas; grey shades are light enough to see symbols on them.
 std::uint32_t cell_number(std::size_t colour, bool grey);
 
-/// In pictures without colours: which of gnuplot's symbols stands along lines of a colour; 0: none.
+/// In grey pictures: gnuplot's symbol that marks lines of a colour; 0: none.
 int line_mark(std::size_t colour);
-/// And which stands for circles of it.
+/// In grey pictures: gnuplot's symbol that replaces circles of a colour.
 int circle_mark(std::size_t colour);
-/// And which of gnuplot's patterns fills cells of it; 0: the shade alone.
+/// In grey pictures: gnuplot's pattern that fills cells of a colour; 0: solid.
 int cell_hatch(std::size_t colour);
 
 } // namespace graze

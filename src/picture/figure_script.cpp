@@ -8,8 +8,8 @@
 #include "picture/figure_look.hpp"
 #include "picture/figure_terminal.hpp"
 #include "picture/gnuplot_text.hpp"
-#include "picture/mingled_crosses.hpp"
-#include "picture/mingled_dots.hpp"
+#include "picture/interleaved_crosses.hpp"
+#include "picture/interleaved_dots.hpp"
 #include "picture/page_line.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ namespace graze {
 
 namespace {
 
-/// By how much of a panel's size a line may be moved.
+/// Greatest deviation of a simplified line, as a fraction of the panel's size.
 constexpr double unseen = 1e-4;
 
 bool draws_line(FigureSeries::Style style) {
@@ -32,14 +32,14 @@ bool draws_line(FigureSeries::Style style) {
            style == FigureSeries::Style::dotted;
 }
 
-/// Diameter of dots in points, where they are so many: all panels of a picture have the same.
+/// Diameter of dots in points, smaller if there are many dots; it is the same in all panels of a picture.
 double dot_width(std::size_t dots, bool pixels) {
     constexpr double largest = 2, few = 50, falling = 0.27;
     return std::clamp(largest * std::pow(few / static_cast<double>(std::max<std::size_t>(dots, 1)), falling),
                       pixels ? 0.36 : 0.5, largest);
 }
 
-/// Writes one figure in the language of gnuplot.
+/// Writes the gnuplot commands of one figure.
 class FigureScript {
 public:
     FigureScript(const Figure& figure, const std::string& ending)
@@ -47,7 +47,7 @@ public:
           symbol_(terminal_.point * mark_size(page_.font) / 4.5) {
         std::size_t most = 0;
         for (std::size_t p = 0; p < figure.panels.size(); ++p) {
-            dots_.push_back(mingled_dots(figure.panels[p], page_.panels[p]));
+            dots_.push_back(interleaved_dots(figure.panels[p], page_.panels[p]));
             most = std::max(most, dots_.back().size());
         }
         dot_width_ = dot_width(most, terminal_.pixels) * stroke();
@@ -73,14 +73,14 @@ public:
 
 private:
     bool grey() const { return figure_->style.grey; }
-    /// How thick lines are, compared to those beside usual letters.
+    /// Factor of all line widths, which are proportional to the font size.
     double stroke() const { return page_.font / font_of_strokes; }
 
     std::string at(const PlanePoint& point) const {
         return fmt::format("screen {:.6f},{:.6f}", point.x / page_.width, point.y / page_.height);
     }
 
-    /// LaTeX is told the size of letters in the text: gnuplot's own would not reach it.
+    /// The markup of a text. LaTeX gets the font size as a command in the text, since it ignores gnuplot's.
     std::string text_of(const RichText& rich, double size) const {
         const std::string text = terminal_.text(rich);
         return terminal_.latex && size != page_.font
@@ -99,7 +99,7 @@ private:
         return style == FigureSeries::Style::dotted || style == FigureSeries::Style::impulses ? 1.1 : 1.3;
     }
 
-    /// @param over how many series lie on this one
+    /// @param over number of series that cover this one
     std::string style_text(const FigureSeries& series, std::size_t over) const {
         const auto wider = static_cast<double>(over);
         const std::string colour = fmt::format("lc rgb '{}'", colour_text(series.colour, grey()));
@@ -110,7 +110,7 @@ private:
             return fmt::format("with points pt {} ps {:.3g} lw 1.2 {}", grey() ? circle_mark(series.colour) : 6,
                                circle_size(series.colour), colour);
         case FigureSeries::Style::symbols: {
-            constexpr std::size_t many = 200; // beyond, thin small ones hide less of one another
+            constexpr std::size_t many = 200; // more symbols are drawn smaller and thinner, so that they overlap less
             constexpr std::size_t very_many = 1000;
             const std::size_t count = series.points.size();
             return fmt::format("with points pt {} ps {:.3g} lw {} {}", series.symbol,
@@ -120,25 +120,24 @@ private:
                                    symbol_,
                                count > many ? 0.7 : 1.2, colour);
         }
-        case FigureSeries::Style::impulses: // Spectra may coincide: the first are drawn wide, to be seen beside the
-                                            // others
+        case FigureSeries::Style::impulses: // spectra may coincide: the first are drawn wider than the later ones
             return fmt::format("with linespoints pt 7 ps {:.3g} lw {:.3g} {}", (0.45 + 0.2 * wider) * symbol_,
                                line_width(series.style) + 0.6 * wider, colour);
         case FigureSeries::Style::cells:
             return fmt::format("with boxxyerror {} lc rgb '#{:06x}'", fill_text(series.colour, series.hatch),
                                cell_number(series.colour, grey()));
-        default: // each line on it leaves an edge of it
+        default: // wider than the lines that cover it, so that its edges are visible
             return fmt::format("with lines lw {:.3g} {}", line_width(series.style) + 1.6 * wider, colour);
         }
     }
 
-    /// How cells are filled: with a pattern, if the shade alone does not tell what they are.
+    /// The fill of cells: a pattern if the colour alone does not distinguish them.
     std::string fill_text(std::size_t colour, int hatch) const {
         const int pattern = hatch != 0 ? hatch : grey() ? cell_hatch(colour) : 0;
         return pattern != 0 ? fmt::format("fs transparent pattern {} noborder", pattern) : "fs solid 1 noborder";
     }
 
-    /// Circles of different colours may lie in one place, where each is to be seen.
+    /// Diameter of circles: it depends on the colour, so that circles at the same point are all visible.
     double circle_size(std::size_t colour) const {
         constexpr double wider = 0.4;
         if (colour >= FigureSeries::grey)
@@ -146,7 +145,7 @@ private:
         return symbol_ * (1 + wider * static_cast<double>(colour % 3));
     }
 
-    /// A sample of each style, and what it is.
+    /// Commands for the samples and texts of a legend.
     std::string legend_commands(const std::vector<LegendEntry>& legend) const {
         std::string text;
         for (const LegendEntry& entry : legend) {
@@ -191,7 +190,7 @@ private:
         }
     }
 
-    /// A line of a style, dash by dash.
+    /// Commands for a sample of a line style, dash by dash.
     std::string line_sample(const LegendEntry& entry, double y, const std::string& colour) const {
         const double left = entry.box.left, right = left + entry.sample;
         const bool whole = entry.style == FigureSeries::Style::line || entry.style == FigureSeries::Style::impulses;
@@ -251,7 +250,7 @@ private:
         const FigurePanel& panel = figure_->panels[number];
         const PanelLayout& layout = page_.panels[number];
         std::string plots, data;
-        // Inline data: what gnuplot calls blocks takes it quadratic time to read.
+        // Inline data ('-'), since gnuplot needs quadratic time to read datablocks.
         const auto add = [&](const std::string& points, const std::string& style) {
             if (points.find_first_not_of('\n') == std::string::npos)
                 return;
@@ -275,14 +274,15 @@ private:
             }
             if (const std::size_t last = last_of_crosses(panel, s); last > s) {
                 FigureSeries part = series;
-                for (CrossLayer& layer : mingled_crosses(panel, s, last)) {
+                for (CrossLayer& layer : interleaved_crosses(panel, s, last)) {
                     part.points = std::move(layer.points);
                     add(data_text(part, panel, layout), style_text(panel.series[layer.series], covering[layer.series]));
                 }
                 s = last;
                 continue;
             }
-            if (cells && series.style == FigureSeries::Style::symbols) // seen on any colour
+            if (cells && series.style ==
+                             FigureSeries::Style::symbols) // a white disc below makes the symbol visible on any colour
                 add(data_text(series, panel, layout),
                     fmt::format("with points pt 7 ps {:.3g} lc rgb 'white'", 2 * symbol_));
             add(data_text(series, panel, layout),
@@ -296,15 +296,15 @@ private:
         return data.empty() ? "" : "plot " + plots + '\n' + data;
     }
 
-    /// The points of a line that shows the same: of others so near that they are level gnuplot moves some to whole
-    /// dots, which is seen as a notch.
+    /// Leaves out points of a line that do not change its appearance. gnuplot rounds dense points of nearly horizontal
+    /// lines to pixels, which would be visible as notches.
     static Polyline thinned(const Polyline& line, const PanelLayout& layout) {
         if (layout.x.logarithmic || layout.y.logarithmic)
             return line;
         return simplified(line, layout.x.high - layout.x.low, layout.y.high - layout.y.low, unseen);
     }
 
-    /// Dashes are laid here, where those of lines that coincide can be made to coincide.
+    /// Data of a line. Dashes are computed here rather than by gnuplot, so that dashes of coinciding lines coincide.
     std::string line_text(const Polyline& line, FigureSeries::Style style, const PanelLayout& layout) const {
         std::string text;
         if (style == FigureSeries::Style::line) {
@@ -329,7 +329,7 @@ private:
         return placed;
     }
 
-    /// Symbols along a line, which tell it from others where there are no colours.
+    /// Data of the symbols along a line, which distinguish lines in grey pictures.
     static std::string marks_text(const FigureSeries& series, const FigurePanel& panel, const PanelLayout& layout) {
         constexpr double distance = 60, first = 12, later = 9; // points
         std::string text;
@@ -374,19 +374,19 @@ private:
         return text;
     }
 
-    /// @param add is given data and style
+    /// Adds the dots of a panel. @param add receives data and style
     template <class Add>
     void add_dots(std::size_t number, const Add& add) const {
         constexpr std::size_t few = 1000;
         const FigurePanel& panel = figure_->panels[number];
-        const std::vector<MingledDot>& dots = dots_[number];
+        const std::vector<InterleavedDot>& dots = dots_[number];
         if (dots.size() > few && !terminal_.pixels)
             return add_strokes(number, add);
         std::string text;
-        for (const MingledDot& dot : dots)
+        for (const InterleavedDot& dot : dots)
             text += fmt::format("{:.7g} {:.7g} {}\n", dot.at.x, dot.at.y,
                                 dot_number(panel.series[dot.series].colour, grey()));
-        constexpr double of_pixel = 0.4; ///< points: such dots are as large as gnuplot's own, which are drawn fast
+        constexpr double of_pixel = 0.4; ///< points; smaller dots are drawn as gnuplot's dots, which is fast
         const std::string style =
             terminal_.pixels && dot_width_ < of_pixel
                 ? "with dots"
@@ -394,10 +394,10 @@ private:
         add(text, style + " lc rgb variable");
     }
 
-    /// A file with each dot of a crowd would have tens of megabytes.
+    /// Adds the dots of a panel as strokes: a file with every dot could have tens of megabytes.
     template <class Add>
     void add_strokes(std::size_t number, const Add& add) const {
-        constexpr double of_unit = 0.75; ///< points: what is as wide as gnuplot's unit where lines are as usual
+        constexpr double of_unit = 0.75; ///< points; width of gnuplot's line width 1 at the usual font size
         std::map<std::pair<std::size_t, std::size_t>, std::string> texts; // by layer, then by series
         for (const DotStroke& stroke : dot_strokes(dots_[number], page_.panels[number], dot_width_))
             texts[{stroke.layer, stroke.series}] +=
@@ -407,13 +407,13 @@ private:
                                   dot_number(figure_->panels[number].series[key.second].colour, grey())));
     }
 
-    static constexpr double line_mark_size = 0.75; ///< of symbols along lines, compared to those of points
+    static constexpr double line_mark_size = 0.75; ///< size of symbols along lines, relative to those of points
     const Figure* figure_;
     FigureLayout page_;
     FigureTerminal terminal_;
-    double symbol_;                             ///< gnuplot's size of symbols
-    std::vector<std::vector<MingledDot>> dots_; ///< of each panel
-    double dot_width_ = 0;                      ///< points
+    double symbol_;                                 ///< gnuplot's size of symbols
+    std::vector<std::vector<InterleavedDot>> dots_; ///< dots of each panel
+    double dot_width_ = 0;                          ///< points
 };
 
 } // namespace

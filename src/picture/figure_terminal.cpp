@@ -25,7 +25,7 @@ FigureTerminal terminal_of(const FigureStyle& style, const FigureLayout& page, c
     require_quotable(style.font);
     terminal.font = style.font.empty() ? "sans" : style.font;
     const double width = page.width / points_per_inch, height = page.height / points_per_inch;
-    const double stroke = page.font / font_of_strokes; // lines become thicker as letters become larger
+    const double stroke = page.font / font_of_strokes; // line widths are proportional to the font size
     if (ending == "png") {
         terminal.pixels = true;
         const double scale = dots_per_inch / svg_per_inch;

@@ -21,10 +21,10 @@ void require_quotable(const std::string& text) {
 
 std::string plain(const std::string& given) {
     require_quotable(given);
-    const std::string text = printable_line(given); // what is no UTF-8, too
+    const std::string text = printable_line(given); // also replaces invalid UTF-8
     std::string result;
     for (const char c : text) {
-        // By its code: in no other way do all versions leave it alone.
+        // As an octal code, the only form that all versions of gnuplot print unchanged.
         if (c == '`')
             result += "\\140";
         else if (c == '@')
@@ -59,7 +59,7 @@ std::string with_unit(const std::string& label, const std::string& unit) {
 }
 
 std::string firm_blanks(std::string markup) {
-    // librsvg drops every kind of blank at the end of a span, but not before a mark of no width.
+    // librsvg drops blanks at the end of a span, except before a character of zero width.
     const std::string blank = "\u00a0", mark = "\u200b";
     for (const auto& [soft, firm] : {std::pair{std::string("} "), "}" + mark + blank}, {" {", blank + mark + "{"}})
         for (std::size_t at = markup.find(soft); at != std::string::npos; at = markup.find(soft, at))

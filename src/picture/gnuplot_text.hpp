@@ -4,25 +4,27 @@
 
 namespace graze {
 
-// All text that comes from a model, study, result file or command line and goes to gnuplot goes through here. Gnuplot
-// can run a shell: what cannot be quoted is refused.
+// All text from models, studies, result files and the command line that goes to gnuplot is quoted by these functions.
+// gnuplot can run a shell: text that cannot be quoted is refused.
 
-/// A line that ends within quotes ends a command, and what stands on the next one is obeyed.
+/// Checks that a text can be quoted: a line feed within quotes would end the command, and gnuplot would run the next
+/// line.
 /// @throws InputError for control characters
 void require_quotable(const std::string& text);
-/// For double quotes: what gnuplot's enhanced text would take for markup, and what it would have a shell run, is taken
-/// as it stands. @throws InputError for control characters
+/// Escapes a text for double quotes, so that gnuplot prints it unchanged, neither as markup of enhanced text nor as a
+/// command for a shell. @throws InputError for control characters
 std::string plain(const std::string& text);
-/// A path between single quotes. @throws InputError for control characters
+/// A path in single quotes. @throws InputError for control characters
 std::string quoted_path(const std::string& path);
-/// A unit such as m/s^2, with raised exponents.
+/// Markup of a unit such as m/s^2, with raised exponents.
 std::string unit_text(const std::string& unit);
-/// A name such as x_nd or q1 as a symbol with an index; longer names are words, and expressions stay as they are.
+/// Markup of a name: x_nd or q1 is a symbol with an index, longer names are words, and expressions stay unchanged.
 std::string name_text(const std::string& name);
-/// A label with its unit in parentheses.
+/// A label with its unit in parentheses, as markup.
 std::string with_unit(const std::string& label, const std::string& unit);
-/// Markup in which viewers of SVG keep the blanks beside changes of the letters.
+/// Replaces blanks at changes of the font, which SVG viewers would drop, by blanks that they keep.
 std::string firm_blanks(std::string markup);
+/// A number with ten significant digits.
 std::string number_text(double value);
 
 } // namespace graze

@@ -16,26 +16,26 @@ namespace graze {
 
 namespace {
 
-// In heights of a label.
+// In units of the height of a label.
 constexpr double letters_beyond = 0.25, gap_at_mark = 0.1;
 constexpr std::array<double, 14> distances{0, 0.1, 0.5, 0.8, 1.1, 1.4, 1.8, 2.3, 2.8, 3.4, 4, 4.7, 5.5, 6.5};
-constexpr double led_from = 0.3; ///< distance from which on a line is needed to see what belongs together
+constexpr double led_from = 0.3; ///< least distance of a label from its symbol at which a leader line joins them
 constexpr std::size_t directions = 32;
 
 constexpr double cost_of_distance = 3, cost_of_curve = 8, cost_of_crossing = 0.5, cost_of_side = 0.3;
-constexpr double cost_of_any_curve = 35; ///< a longer leader is better than a label that a curve runs through
+constexpr double cost_of_any_curve = 35; ///< so large that a long leader is preferred to a label on a curve
 constexpr std::size_t most_labels = 30, most_in_one = 3, most_listed = 40;
-constexpr double room_of_label = 8; ///< area of a panel for each label, in areas of labels with four letters
-// In diameters of a symbol.
-constexpr double as_one = 0.5;       ///< symbols this near cannot be told apart: they have one label
-constexpr double nearer = 0.2;       ///< by which a label is nearer to its own symbol than to any other
-constexpr double clear_of_led = 0.3; ///< between a label at the end of a line and symbols that it does not belong to
+constexpr double room_of_label = 8; ///< area of a panel for each label, in areas of a label with four characters
+// In units of the diameter of a symbol.
+constexpr double as_one = 0.5;       ///< closer symbols cannot be distinguished: they have one label
+constexpr double nearer = 0.2;       ///< margin by which a label is nearer to its own symbol than to others
+constexpr double clear_of_led = 0.3; ///< least distance of a label with a leader from symbols of others
 
 double length_of(const PlanePoint& vector) {
     return std::hypot(vector.x, vector.y);
 }
 
-/// Whether a line between two points runs through a box.
+/// True when the line between two points intersects a box.
 bool crosses(const PlanePoint& from, const PlanePoint& to, const Box& box) {
     return part_within(from, to, box).has_value();
 }
@@ -47,7 +47,7 @@ bool lines_cross(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, 
     return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
 }
 
-/// Where curves run: small squares of a panel, with sums over rectangles of them.
+/// Raster of the squares of a panel that curves cross, with a summed-area table for counts in rectangles.
 class CurveMap {
 public:
     explicit CurveMap(const Box& frame)
@@ -75,7 +75,7 @@ public:
                 sums_[(r + 1) * (columns_ + 1) + c + 1] =
                     cells_[index(c, r)] + sum(c, r + 1) + sum(c + 1, r) - sum(c, r);
     }
-    /// How much of a box has curves, from 0 to 1.
+    /// Fraction of a box's squares that curves cross.
     double share(const Box& box) const {
         const std::size_t left = column(box.left), right = column(box.right) + 1, low = row(box.low),
                           high = row(box.high) + 1;
@@ -85,7 +85,7 @@ public:
     bool is_taken(const PlanePoint& point) const { return cells_[index(column(point.x), row(point.y))] != 0; }
 
 private:
-    static constexpr double side = 2; ///< of a square, in points
+    static constexpr double side = 2; ///< side of a square in points
     std::size_t column(double x) const {
         return static_cast<std::size_t>(std::clamp((x - frame_.left) / side, 0.0, static_cast<double>(columns_ - 1)));
     }
@@ -100,15 +100,15 @@ private:
     std::vector<int> cells_, sums_;
 };
 
-/// Labels of one place.
+/// The labels of points whose symbols coincide, which are placed as one.
 struct WantedLabel {
-    std::vector<const FigureLabel*> labels; ///< those of lower rank first; none twice
+    std::vector<const FigureLabel*> labels; ///< lower ranks first; without duplicates
     std::size_t colour = 0;
     int rank = 0;
     PlanePoint point{};
 };
 
-/// As it stands in a list under the picture.
+/// The name of a label in a list under the panel.
 std::string listed_name(const FigureLabel& label) {
     return label.owner.empty() ? label.text : fmt::format("{} ({})", label.text, label.owner);
 }
@@ -120,7 +120,7 @@ std::vector<std::string> listed_names(const WantedLabel& wanted) {
     return names;
 }
 
-/// Each text once, though points of several curves may have it.
+/// The texts of the labels without duplicates; points of several curves may have the same text.
 std::vector<std::string> texts_of(const WantedLabel& wanted) {
     std::vector<std::string> texts;
     for (const FigureLabel* label : wanted.labels)
@@ -129,17 +129,19 @@ std::vector<std::string> texts_of(const WantedLabel& wanted) {
     return texts;
 }
 
-/// What stands for names that are listed under the panel.
+/// The number in brackets that refers to names in a list under the panel.
 std::string key_text(std::size_t number) {
     return fmt::format("[{}]", number + 1);
 }
 
-/// From a box to a point outside of it.
+/// Distance between a box and a point; 0 inside.
 double distance_to(const Box& box, const PlanePoint& point) {
     return std::hypot(std::max({box.left - point.x, point.x - box.right, 0.0}),
                       std::max({box.low - point.y, point.y - box.high, 0.0}));
 }
 
+/// Search for the places of a panel's labels: each label takes the free place of least cost among candidates at 32
+/// directions and 14 distances.
 class LabelSearch {
 public:
     LabelSearch(const FigurePanel& panel, const Box& frame, const PanelAxis& x, const PanelAxis& y, double font)
@@ -229,14 +231,14 @@ private:
             });
             if (!known)
                 same->labels.insert(label.rank < same->rank ? same->labels.begin() : same->labels.end(), &label);
-            if (label.colour != same->colour) // it belongs to none of the curves alone
+            if (label.colour != same->colour) // a label of several curves is black
                 same->colour = FigureSeries::black;
             same->rank = std::min(same->rank, label.rank);
         }
         return wanted;
     }
 
-    /// @return whether there is room
+    /// Places one label. @return false if no candidate is free
     bool place(const WantedLabel& wanted) {
         PlacedLabel label;
         const std::vector<std::string> texts = texts_of(wanted);
@@ -250,16 +252,16 @@ private:
         PlacedLabel best;
         for (const double distance : distances)
             for (std::size_t d = 0; d < directions; ++d) {
-                // Along a square, beginning at its upper right corner, where labels stand best.
+                // Directions to points on a square, from its upper right corner, the preferred place.
                 const double angle = 2 * std::numbers::pi * (static_cast<double>(d) / directions + 0.125);
                 const double size = std::max(std::abs(std::cos(angle)), std::abs(std::sin(angle)));
-                const PlanePoint way{std::cos(angle) / size, std::sin(angle) / size};
+                const PlanePoint direction{std::cos(angle) / size, std::sin(angle) / size};
                 const double away = radius + distance * height_;
-                label.box = Box::around(
-                    {label.point.x + way.x * (width / 2 + away), label.point.y + way.y * (height_ / 2 + away)}, width,
-                    height_);
+                label.box = Box::around({label.point.x + direction.x * (width / 2 + away),
+                                         label.point.y + direction.y * (height_ / 2 + away)},
+                                        width, height_);
                 label.led = distance > led_from;
-                lead(label, way);
+                lead(label, direction);
                 const double cost = cost_of_distance * distance + cost_of_side * static_cast<double>(d) / directions;
                 if (cost >= least || !is_free(label))
                     continue;
@@ -278,8 +280,8 @@ private:
         return true;
     }
 
-    /// From the edge of the symbol to the nearest point of the box.
-    void lead(PlacedLabel& label, const PlanePoint& way) const {
+    /// Sets the leader from the edge of the symbol to the nearest point of the box.
+    void lead(PlacedLabel& label, const PlanePoint& direction) const {
         const Box& box = label.box;
         label.leader_end = {std::clamp(label.point.x, box.left, box.right),
                             std::clamp(label.point.y, box.low, box.high)};
@@ -287,14 +289,14 @@ private:
         const double length = std::max(length_of(to), 1e-9);
         label.leader_start = {label.point.x + to.x * mark_ / 2 / length, label.point.y + to.y * mark_ / 2 / length};
         if (length <= mark_ / 2)
-            label.leader_start = {label.point.x + way.x * mark_ / 2, label.point.y + way.y * mark_ / 2};
+            label.leader_start = {label.point.x + direction.x * mark_ / 2, label.point.y + direction.y * mark_ / 2};
     }
 
     bool is_free(const PlacedLabel& label) const {
         if (!frame_.grown(-1).holds(label.box))
             return false;
         for (const Box& mark : found_.marks)
-            if (label.box.meets(mark) || belongs_to(label, mark))
+            if (label.box.meets(mark) || seems_to_belong_to(label, mark))
                 return false;
         return std::none_of(found_.labels.begin(), found_.labels.end(), [&](const PlacedLabel& other) {
             return label.box.meets(other.box) ||
@@ -305,8 +307,8 @@ private:
         });
     }
 
-    /// Whether one who reads the picture could take the label for that of a symbol which is not its own.
-    bool belongs_to(const PlacedLabel& label, const Box& mark) const {
+    /// True when a reader could take the label for that of another symbol.
+    bool seems_to_belong_to(const PlacedLabel& label, const Box& mark) const {
         const PlanePoint middle{(mark.left + mark.right) / 2, (mark.low + mark.high) / 2};
         if (length_of({middle.x - label.point.x, middle.y - label.point.y}) < as_one * mark_)
             return false;
@@ -336,7 +338,7 @@ private:
     const PanelAxis *x_, *y_;
     double font_, mark_, height_;
     CurveMap curves_;
-    std::size_t keys_ = 0; ///< that stand for names in the list
+    std::size_t keys_ = 0; ///< number of references to lists of names
     LabelPlaces found_;
 };
 

@@ -12,30 +12,31 @@ namespace graze {
 struct PlacedLabel {
     std::string text;
     std::size_t colour = 0;
-    PlanePoint point{}; ///< on the page, to which it belongs
+    PlanePoint point{}; ///< the labelled point on the page
     Box box;
-    bool led = false; ///< it stands off its point, and a thin line leads from there to it
+    bool led = false; ///< the label is away from its point, and a thin leader line joins them
     PlanePoint leader_start{}, leader_end{};
 };
 
+/// Result of place_labels.
 struct LabelPlaces {
     std::vector<PlacedLabel> labels;
-    std::vector<Box> marks;         ///< of the points that have symbols
-    std::size_t omitted = 0;        ///< places of labels in the panel that found no room
-    std::vector<std::string> notes; ///< names that stand under the panel: those that a key stands for, and the omitted
+    std::vector<Box> marks;         ///< boxes of the symbols of points
+    std::size_t omitted = 0;        ///< number of labels that did not fit
+    std::vector<std::string> notes; ///< lists under the panel: names of numbered labels, and omitted labels
 };
 
-/// Diameter of a point's symbol, for a size of the font.
+/// Diameter of a point's symbol for a font size, both in points.
 double mark_size(double font);
-/// Size of the font of labels, for that of the axes.
+/// Font size of labels for the font size of the axes.
 double label_font(double font);
 
-/// Finds room for a panel's labels: within the frame, clear of one another, of one another's leaders and of all
-/// symbols, and of curves as far as there is room. Each stands nearer to its own symbol than to any other, and no
-/// leader meets another symbol: a label that can be read as that of another point is not drawn. Labels of points whose
-/// symbols lie on one another become one, in black if they have several colours; a number stands for more than three,
-/// which are listed. Lower ranks come first, then those that stand first in the list; what finds no room is listed too.
-/// @param frame of the panel on the page
+/// Places a panel's labels within the frame, without overlaps with other labels, leaders and symbols, and if possible
+/// not on curves. Each label is nearer to its own symbol than to any other, and no leader crosses another symbol: a
+/// label that could be read as that of another point is not drawn. Points whose symbols coincide have one label, in
+/// black if their colours differ; more than three texts are replaced by a number and listed under the panel. Labels are
+/// placed in the order of rank, then of the list; labels that do not fit are listed too.
+/// @param frame of the panel on the page, in points
 LabelPlaces place_labels(const FigurePanel& panel, const Box& frame, const PanelAxis& x, const PanelAxis& y,
                          double font);
 

@@ -9,7 +9,7 @@ namespace graze {
 
 namespace {
 
-/// The upright side of an outline that lies farthest to the right or to the left: its span along y.
+/// The outermost vertical side of an outline, to the right or to the left, as a box of width 0.
 GridBox outermost_side(const GridPolygon& outline, bool to_right) {
     const GridBox all = bounding_box(outline);
     const std::int64_t x = to_right ? all.right : all.left;
@@ -26,7 +26,7 @@ std::int64_t share(std::int64_t low, std::int64_t high, double part) {
     return low + std::llround(part * static_cast<double>(high - low));
 }
 
-/// Within a box, counted from its lower left corner.
+/// A point in a box, given by fractions of its sides from the lower left corner.
 GridPoint within(const GridBox& box, double along_x, double along_y) {
     return {share(box.left, box.right, along_x), share(box.bottom, box.top, along_y)};
 }
@@ -38,7 +38,7 @@ std::int64_t on_grid(double micrometres) {
 std::vector<PartLabel> labels_of_electrode(const DeviceDrawing& drawing) {
     const DeviceDimensions& d = drawing.dimensions;
     const GridBox mass = bounding_box(drawing.mass), &chamber = drawing.chamber_box;
-    // The face towards the mass, the pad's end, and that of the base below it.
+    // The face towards the mass, the outer end of the pad, and the outer end of the base below it.
     const GridBox face = outermost_side(drawing.electrode, true), pad = outermost_side(drawing.electrode, false);
     const GridBox base = outermost_side(drawing.base, false);
     const GridBox gap{face.right, face.bottom, mass.left, face.top};
@@ -59,14 +59,14 @@ std::vector<PartLabel> part_labels(const DeviceDrawing& drawing) {
     const DeviceDimensions& d = drawing.dimensions;
     const FlexureDrawing& flexure = drawing.flexure;
     const GridBox mass = bounding_box(drawing.mass), stop = bounding_box(drawing.stops.front());
-    const std::size_t first = flexure.beams.size() / 2; // to the right of the middle
+    const std::size_t first = flexure.beams.size() / 2; // the first beam to the right of the centre
     const GridBox beam = drawing.in_device(flexure.beams[first], false),
                   next = drawing.in_device(flexure.beams[first + 1], false),
                   finger = drawing.in_device(flexure.finger, false),
                   lug = drawing.in_device(flexure.lugs.back(), false),
                   truss = drawing.in_device(flexure.trusses.front(), true);
     const GridBox bar{mass.right - on_grid(d.bar_width), mass.bottom, mass.right, mass.top};
-    // The frame above its chamber, or just beyond where that ends with the trench.
+    // The label of the frame lies above the chamber, or beyond the trench if the chamber ends there.
     const std::int64_t trench = mass.right + on_grid(d.clearance),
                        beyond = on_grid(d.chamber_margin > 0 ? d.chamber_margin : d.clearance);
     std::vector<PartLabel> labels = labels_of_electrode(drawing);

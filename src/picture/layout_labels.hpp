@@ -7,17 +7,17 @@
 
 namespace graze {
 
-/// What is written beside a drawing, and where its line leads.
+/// A text beside a drawing, with a leader line to a part.
 struct PartLabel {
     std::string text;
-    GridPoint at; ///< of the die, on the part
-    bool to_left;
+    GridPoint at; ///< end of the leader on the part, in the coordinates of the die
+    bool to_left; ///< the text stands to the left of the drawing
 };
 
-/// Names of a device's parts. Each place is taken from the part's own outline.
+/// Labels of a device's parts. Each position is computed from the part's own outline.
 std::vector<PartLabel> part_labels(const DeviceDrawing& drawing);
 
-/// The greatest of 1, 2 and 5 times a power of ten that is no longer than a length: for a scale bar.
+/// The greatest length 1, 2 or 5 times a power of ten that is not above `longest`, for a scale bar.
 double round_length(double longest);
 
 } // namespace graze

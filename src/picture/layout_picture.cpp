@@ -15,10 +15,10 @@ namespace graze {
 
 namespace {
 
-constexpr double page_width = 1000, page_of_all = 1420; ///< pixels, as all places on the page
-constexpr double letter = 15;                           ///< height of letters
+constexpr double page_width = 1000, page_of_all = 1420; ///< pixels, like all positions on the page
+constexpr double letter = 15;                           ///< font height
 
-/// A rectangle of the page, from the upper left corner.
+/// A rectangle on the page; `top` is measured downwards from the upper edge.
 struct PageBox {
     double left, top, width, height;
 };
@@ -28,7 +28,7 @@ struct LayerStyle {
     const char* colour;
 };
 
-/// From the lowest to the uppermost.
+/// Layers in drawing order, the lowest first.
 constexpr LayerStyle device_styles[] = {
     {mask_layers::die, "#d9d9d9"},           {mask_layers::wafer, "#d9d9d9"},       {mask_layers::front, "#ffffff"},
     {mask_layers::front_letters, "#ffffff"}, {mask_layers::front_marks, "#ffffff"}, {mask_layers::electrode, "#ee7733"},
@@ -61,7 +61,7 @@ public:
         return head(output) + data_ + commands_ + "unset multiplot\nset output\n";
     }
 
-    /// One mask alone.
+    /// The picture of one mask.
     std::string text_of_mask(const std::string& output, int mask) {
         page_height_ = page_width + 30; // the mask is a square below its name
         const bool is_wafer = !layout_->sites.empty();
@@ -109,7 +109,8 @@ private:
         return box;
     }
 
-    /// What is drawn fills a part of the page, in its own proportions. @param margin of its larger side
+    /// Begins a panel in which `box` is drawn as large as possible, with equal scales.
+    /// @param margin fraction of the box that stays free on each side; @param side_room pixels for labels on both sides
     void begin_panel(const PageBox& place, const GridBox& box, double margin, double side_room = 0) {
         const double width = static_cast<double>(box.width()) / grid_per_micrometre;
         const double height = static_cast<double>(box.height()) / grid_per_micrometre;
@@ -134,7 +135,8 @@ private:
         plots_.clear();
     }
 
-    /// @param closed or else without the seam at y = 0, along which polygons touch
+    /// Adds the polygons of a layer as a datablock. @return its name
+    /// @param closed false: without edges on y = 0, where the halves of a shape touch
     std::string block(MaskLayer layer, bool closed) {
         const std::string name = fmt::format("$l{}_{}_{}", layer.layer, layer.datatype, ++blocks_);
         data_ += name + " << EOD\n";
@@ -157,7 +159,7 @@ private:
             return;
         if (!plots_.empty())
             plots_ += ", ";
-        // With an edge of its own colour, or seams would show where polygons touch.
+        // The border has the same colour, so that no seams appear between touching polygons.
         plots_ += fmt::format("{} with filledcurves closed fc rgb '{}' fs solid border lc rgb '{}' lw 0.7",
                               block(style.layer, true), style.colour, style.colour);
     }
@@ -192,7 +194,7 @@ private:
         end_panel();
     }
 
-    /// Below one another on one side, near to where their lines lead.
+    /// Writes the labels of one side below one another, each as near as possible to the height of its part.
     void write_labels(const std::vector<PartLabel>& labels, bool to_left) {
         std::vector<PartLabel> here;
         std::copy_if(labels.begin(), labels.end(), std::back_inserter(here),
@@ -208,9 +210,9 @@ private:
         for (std::size_t i = places.size(); i-- > 0;)
             places[i] = std::max(places[i], i + 1 < places.size() ? places[i + 1] + step : least);
         for (std::size_t i = 0; i < here.size(); ++i) {
-            const double room = 225 * scale_;
-            const double x = to_left ? left_ + room : right_ - room;
-            // Letters cover what is below them.
+            const double inset = 225 * scale_;
+            const double x = to_left ? left_ + inset : right_ - inset;
+            // `boxed` texts have an opaque background.
             commands_ += fmt::format("set label \"{}\" at {:.10g},{:.10g} {} front boxed\n", plain(here[i].text),
                                      to_left ? x - 8 * scale_ : x + 8 * scale_, places[i], to_left ? "right" : "left");
             commands_ += fmt::format("set arrow from {:.10g},{:.10g} to {:.10g},{:.10g} nohead lw 0.8 lc rgb '#000000' "
@@ -222,7 +224,7 @@ private:
         }
     }
 
-    /// In the lower right corner.
+    /// Draws the scale bar in the lower right corner.
     void write_scale() {
         const double length = round_length(0.2 * (right_ - left_));
         const double to = right_ - letter * scale_, y = bottom_ + letter * scale_;
@@ -250,7 +252,7 @@ private:
         end_panel();
     }
 
-    /// Beside their dies, towards the middle of the wafer.
+    /// Writes the number of each device beside its die, towards the centre of the wafer.
     void number_devices() {
         const std::vector<const GridPolygon*>& dies = by_layer_[mask_layers::die];
         for (std::size_t i = 0; i < dies.size(); ++i) {
@@ -259,7 +261,7 @@ private:
             const double y = static_cast<double>(box.bottom + box.top) / 2 / grid_per_micrometre;
             const double size = static_cast<double>(box.width()) / grid_per_micrometre, from = std::hypot(x, y);
             const double inwards = from > 0 ? 1 - (size / 2 + letter * scale_) / from : 1;
-            if (size > 2 * letter * scale_) // smaller ones would be covered
+            if (size > 2 * letter * scale_) // numbers would cover smaller dies
                 commands_ +=
                     fmt::format("set label \"{}\" at {:.10g},{:.10g} center front\n", i + 1, x * inwards, y * inwards);
         }
@@ -270,7 +272,8 @@ private:
     std::string ending_;
     std::vector<PlacedShape> shapes_;
     std::map<MaskLayer, std::vector<const GridPolygon*>> by_layer_;
-    double scale_ = 1, left_ = 0, right_ = 0, bottom_ = 0, top_ = 0; ///< micrometres, the first for a pixel
+    double scale_ = 1, left_ = 0, right_ = 0, bottom_ = 0,
+           top_ = 0; ///< micrometres per pixel; edges of the panel in micrometres
     std::string data_, commands_, plots_;
     std::size_t blocks_ = 0;
 };

@@ -9,7 +9,7 @@ namespace graze {
 namespace {
 
 constexpr std::size_t most_entries = 24;
-// In sizes of the legend's font.
+// In units of the legend's font size.
 constexpr double line_sample = 2.4, symbol_sample = 0.9, space = 0.5, gap_of_columns = 1.6, row_height = 1.4;
 
 double sample_of(const LegendEntry& entry) {
@@ -21,7 +21,7 @@ double sample_of(const LegendEntry& entry) {
     return line ? line_sample : symbol_sample;
 }
 
-/// Entries that say what a style means, whatever the colour.
+/// True for entries that explain a style, independent of the colour.
 bool is_of_style(const LegendEntry& entry) {
     return entry.colour == FigureSeries::black || entry.colour == FigureSeries::grey;
 }
@@ -106,8 +106,8 @@ double place_legend(std::vector<LegendEntry>& entries, double left, double top, 
         widest = std::max(widest, entry.box.right);
     }
     const double step = widest + gap_of_columns * size;
-    const auto room = static_cast<std::size_t>(std::max(1.0, (width + gap_of_columns * size) / step));
-    const std::size_t rows = (entries.size() + room - 1) / room, columns = (entries.size() + rows - 1) / rows;
+    const auto most = static_cast<std::size_t>(std::max(1.0, (width + gap_of_columns * size) / step));
+    const std::size_t rows = (entries.size() + most - 1) / most, columns = (entries.size() + rows - 1) / rows;
     const double start = left + (width - (static_cast<double>(columns) * step - gap_of_columns * size)) / 2;
     for (std::size_t i = 0; i < entries.size(); ++i) {
         const double x = start + step * static_cast<double>(i % columns);

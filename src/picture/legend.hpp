@@ -10,32 +10,33 @@
 
 namespace graze {
 
-/// A line of a legend: what is drawn like this is that.
+/// An entry of a legend: a sample of a style, and its meaning.
 struct LegendEntry {
     std::string title;
-    RichText text{}; ///< the title as it is to be seen, as far as there is room
+    RichText text{}; ///< the title as it is drawn, shortened if it is too long
     FigureSeries::Style style = FigureSeries::Style::line;
     std::size_t colour = 0;
     int symbol = 0;
-    int hatch = 0;       ///< of cells
-    bool sampled = true; ///< a sample of the style stands before the title
-    Box box{};           ///< on the page, with the sample
+    int hatch = 0;       ///< for cells: gnuplot's pattern
+    bool sampled = true; ///< a sample of the style is drawn before the title
+    Box box{};           ///< box on the page, including the sample
     double sample = 0;   ///< width of the sample
     double title_left = 0;
 };
 
-/// What a panel's legend says: each title once, what its vertical lines mean, and of very many the first and how many
-/// more there are.
+/// The legend of a panel: each title once, and the meaning of its vertical lines. Of more than 24 entries the first
+/// ones, and the number of the others.
 std::vector<LegendEntry> legend_entries(const FigurePanel& panel);
-/// One legend for all panels, if each shows some of the same, or nothing that needs one: what a panel lacks, as motions
-/// that did not settle, is no reason to repeat all else. None where a look or a title would have two meanings.
+/// A common legend of all panels. A panel may lack some entries, as of motions that did not settle, but must share one
+/// or have none. None if a title or a look would have two meanings.
 std::optional<std::vector<LegendEntry>> joined_legend(const std::vector<std::vector<LegendEntry>>& legends);
 
-/// Places entries in rows and columns, in the middle. @return how high the legend is
-/// @param left, top, width of the room; @param font size of the axes' font; @param symbols names that are set as such
+/// Places entries in centred rows and columns. @return the height of the legend
+/// @param left, top, width of the available area in points; @param font font size of the axes
+/// @param symbols names that are written as symbols
 double place_legend(std::vector<LegendEntry>& entries, double left, double top, double width, double font,
                     const std::vector<std::string>& symbols = {});
-/// Size of the legend's font.
+/// Font size of the legend for the font size of the axes.
 double legend_font(double font);
 
 } // namespace graze

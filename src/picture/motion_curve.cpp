@@ -5,7 +5,7 @@
 
 namespace graze {
 
-bool comes_round(double from, double to, double period) {
+bool wraps_around(double from, double to, double period) {
     return period > 0 && std::abs(to - from) > period / 2;
 }
 
@@ -17,8 +17,8 @@ std::vector<PlanePoint> curve_of(const DenseMotion& motion, std::size_t x, std::
     for (std::size_t i = 0; i < xs.size(); ++i) {
         const bool begins = arc < motion.begins.size() && motion.begins[arc] == i;
         arc += begins ? 1 : 0;
-        if (i > 0 && (begins || comes_round(xs[i - 1], xs[i], motion.periods[x]) ||
-                      comes_round(ys[i - 1], ys[i], motion.periods[y])))
+        if (i > 0 && (begins || wraps_around(xs[i - 1], xs[i], motion.periods[x]) ||
+                      wraps_around(ys[i - 1], ys[i], motion.periods[y])))
             points.push_back({nothing, nothing});
         points.push_back({xs[i], ys[i]});
     }

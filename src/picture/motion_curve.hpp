@@ -8,11 +8,11 @@
 
 namespace graze {
 
-/// Whether a cyclic value begins anew between two rows. @param period 0: it is none
-bool comes_round(double from, double to, double period);
+/// True when a cyclic value wraps around between two rows. @param period 0: the value is not cyclic
+bool wraps_around(double from, double to, double period);
 
-/// The curve through rows of a motion, interrupted where another arc begins and where a phase begins anew.
-/// @param x, y which of its values
+/// The curve through the rows of a motion, interrupted at the beginning of arcs and where a phase wraps around.
+/// @param x, y indices of its values
 std::vector<PlanePoint> curve_of(const DenseMotion& motion, std::size_t x, std::size_t y);
 
 } // namespace graze

@@ -14,7 +14,7 @@ namespace graze {
 
 namespace {
 
-/// The picture once for each point that it shows.
+/// A copy of the picture for each point that it shows.
 std::vector<StudyPicture> one_for_each_point(const StudyPicture& picture) {
     std::vector<StudyPicture> chosen;
     for (const auto& at : picture.at) {
@@ -36,8 +36,8 @@ std::string title_of(const StudyPicture& one, const StoredRun& run, const PointR
     return title;
 }
 
-/// Rows of a record as a line, no more of them than can be seen: of a history in a thousand parts the first, least,
-/// greatest and last of each, otherwise the last ones.
+/// Reduces the rows of a record to what is visible: a history to the first, least, greatest and last row of each of a
+/// thousand parts, a portrait to its last rows.
 std::vector<PlanePoint> seen_rows(std::vector<PlanePoint> points, const StudyPicture& picture, bool portrait) {
     constexpr std::size_t parts = 1000, most_of_portrait = 20'000;
     if (!portrait && picture.x_range)
@@ -69,7 +69,7 @@ std::vector<PlanePoint> seen_rows(std::vector<PlanePoint> points, const StudyPic
     return seen;
 }
 
-/// From just before each jump to just after it, where these are different points of the panel.
+/// Lines from just before to just after each jump, if these points of the panel differ.
 std::vector<PlanePoint> jumps_of(const DenseMotion& motion, std::size_t value) {
     constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
     const std::vector<double>&xs = motion.values[0], &ys = motion.values[value];
@@ -81,7 +81,7 @@ std::vector<PlanePoint> jumps_of(const DenseMotion& motion, std::size_t value) {
     return points;
 }
 
-/// Adds the motions of points, one after the other.
+/// Adds the motions of points to the panels of a figure, one after the other.
 class MotionPanels {
 public:
     MotionPanels(const StudyPicture& picture, MotionView view)
@@ -92,7 +92,7 @@ public:
         const std::string x = !portrait_ ? "t" : picture_->x.empty() ? values.front() : picture_->x;
         const PointRecord point = chosen_point(run, one.at, one.directions, one.place);
         if (!shown_.insert({run.record.name, point.number}).second)
-            return; // nearest to two of the places asked for
+            return; // the point is nearest to two of the requested values
         const bool curve =
             view_ != MotionView::section && (run.record.kind == "simulate" || point.result.label == Label::periodic);
         std::vector<std::string> names{x};
@@ -115,7 +115,7 @@ public:
         }
         ++colour_;
     }
-    /// From now on what comes is drawn over the panels that there are.
+    /// Draws the following motions into the existing panels.
     void draw_over() { over_ = true; }
     Figure take() {
         figure_.columns = portrait_ && figure_.panels.size() > 1 ? 2 : 1;
@@ -123,9 +123,9 @@ public:
     }
 
 private:
-    /// Whether panels say above themselves what they show; the legend does where others lie over it.
+    /// True when panels have titles; if other runs are drawn over them, the legend names the runs instead.
     bool is_titled() const { return portrait_ && picture_->over.empty(); }
-    /// A new one in portraits; in histories that of the value.
+    /// The panel of a value: portraits have a new panel for each point, histories one panel for each value.
     FigurePanel& panel_for(const StoredRun& run, const std::string& x, const std::string& y, std::size_t value,
                            const std::string& title) {
         const std::size_t index = portrait_ && !over_ ? figure_.panels.size() : value;
@@ -140,7 +140,7 @@ private:
     }
     void add_curve(FigurePanel& panel, const DenseMotion& motion, std::size_t value, const std::string& title,
                    const std::string& time_unit) const {
-        constexpr std::size_t most_marked = 2000; // of more, marks hide the curve
+        constexpr std::size_t most_marked = 2000; // more marks would hide the curve
         const std::size_t colour = portrait_ && !over_ ? 7 : colour_;
         panel.series.push_back(
             {is_titled() ? "" : title, FigureSeries::Style::line, colour, curve_of(motion, 0, value)});
@@ -159,13 +159,13 @@ private:
     void add_samples(FigurePanel& panel, const StoredRun& run, const PointRecord& point, const std::string& x,
                      const std::string& y, FigureSeries::Style style) const {
         const auto samplings = shown_samplings(*picture_, run), rows = row_samplings(run);
-        std::size_t points = 0; // samplings that are circles: lines through rows do not count among their colours
+        std::size_t points = 0; // number of samplings drawn as circles, which have their own colours
         for (std::size_t s = 0; s < samplings.size(); ++s) {
             std::vector<double> times;
             const auto ys = samples_of(point, run, y, samplings[s], &times);
             const auto xs = portrait_ ? samples_of(point, run, x, samplings[s], nullptr) : times;
             const bool is_record = std::find(rows.begin(), rows.end(), samplings[s]) != rows.end();
-            const bool is_line = is_record && !over_; // what was measured lies over a curve as dots
+            const bool is_line = is_record && !over_; // measured rows drawn over a curve are dots
             const bool is_point = run.record.kind == "record" && !is_record;
             FigureSeries series{is_record               ? shown_name(*picture_, run.record.name)
                                 : portrait_ || is_point ? shown_name(*picture_, samplings[s])
@@ -183,7 +183,7 @@ private:
                 series.points.push_back({xs[i], ys[i]});
             if (is_record)
                 series.points = seen_rows(std::move(series.points), *picture_, portrait_);
-            // On the lines of a history circles have the lines' colours; the legend says once what they are.
+            // Circles on the lines of a history have the colours of the lines; the legend explains them once.
             const bool on_line = !portrait_ && run.record.kind != "record" && !series.points.empty();
             panel.series.push_back(std::move(series));
             if (on_line) {
@@ -197,7 +197,7 @@ private:
     const StudyPicture* picture_;
     MotionView view_;
     bool portrait_, over_ = false;
-    std::set<std::pair<std::string, std::size_t>> shown_; ///< runs and points
+    std::set<std::pair<std::string, std::size_t>> shown_; ///< runs and points that are drawn already
     Figure figure_;
     std::size_t colour_ = 0;
 };

@@ -7,7 +7,7 @@ namespace graze {
 
 namespace {
 
-/// A step of high order covers a good part of an oscillation; the curve is thinned out again before it is drawn.
+/// A step of high order covers a large part of an oscillation; superfluous points are left out before drawing.
 constexpr int points_of_step = 32;
 constexpr std::size_t most_recorded = 2'000'000;
 

@@ -33,7 +33,7 @@ std::size_t nearest_number(const StoredRun& run, const StudyPicture& picture,
     return *number;
 }
 
-/// Those asked for, or the first few at which something happens.
+/// The orbits that the picture chooses, or the first few special points.
 std::vector<OrbitRecord> shown_orbits(const ResultFile& file, const StoredRun& run, const StudyPicture& picture) {
     std::vector<OrbitRecord> orbits;
     for (const std::string& point : picture.points)
@@ -56,10 +56,10 @@ std::vector<OrbitRecord> shown_orbits(const ResultFile& file, const StoredRun& r
     return orbits;
 }
 
-/// What the axes show: x first.
+/// The values on the axes; the first is x unless time is.
 struct Axes {
     std::vector<NamedValue> values;
-    std::vector<double> periods; ///< of cyclic states, over whose ends no line is drawn; 0 for others
+    std::vector<double> periods; ///< periods of cyclic states, at which lines are interrupted; 0 for others
     bool over_time = false;
 };
 
@@ -84,7 +84,7 @@ Axes axes_of(const Model& model, const StudyPicture& picture, bool portrait) {
     return axes;
 }
 
-/// An orbit's motion with the values that are drawn.
+/// An orbit's motion, and its values on the axes.
 struct DrawnOrbit {
     OrbitRecord record;
     std::vector<SegmentMotion> motion;
@@ -110,7 +110,7 @@ DrawnOrbit drawn_orbit(const StoredRun& run, OrbitRecord record, const StudyPict
     return drawn;
 }
 
-/// One panel's curves: a value over time, or over the first.
+/// The curves of one panel: a value over time, or over the first value.
 class OrbitCurves {
 public:
     OrbitCurves(const DrawnOrbit& orbit, std::size_t value) : orbit_(orbit), value_(value) {}
@@ -129,8 +129,7 @@ public:
         }
         return points;
     }
-    /// From the end of each segment to the start of the next, where that is elsewhere: by more than the error of the
-    /// orbit.
+    /// Lines from the end of each segment to the start of the next, if they differ by more than the orbit's error.
     std::vector<PlanePoint> jumps() const {
         constexpr double unseen = 1e-5;
         std::vector<PlanePoint> points;
@@ -149,7 +148,7 @@ public:
         }
         return points;
     }
-    /// Where a segment ends by an event, rather than a section.
+    /// End points of the segments that end at an event, not at a section.
     std::vector<PlanePoint> events(const Signature& signature) const {
         std::vector<PlanePoint> points;
         for (std::size_t s = 0; s < std::min(signature.size(), orbit_.motion.size()); ++s)
@@ -168,7 +167,7 @@ public:
     }
 
 private:
-    /// How far the curves go, either way.
+    /// Ranges of the curves in x and y.
     PlanePoint extent() const {
         constexpr double none = std::numeric_limits<double>::infinity();
         PlanePoint least{none, none}, greatest{-none, -none};
@@ -182,7 +181,8 @@ private:
     }
     bool is_interrupted(const PlanePoint& a, const PlanePoint& b) const {
         const std::vector<double>& periods = orbit_.axes.periods;
-        return comes_round(a.y, b.y, periods[value_]) || (!orbit_.axes.over_time && comes_round(a.x, b.x, periods[0]));
+        return wraps_around(a.y, b.y, periods[value_]) ||
+               (!orbit_.axes.over_time && wraps_around(a.x, b.x, periods[0]));
     }
     const DrawnOrbit& orbit_;
     std::size_t value_;
@@ -200,7 +200,7 @@ std::string title_with_parameter(const StudyPicture& picture, const StoredRun& r
     return title;
 }
 
-/// What ends a segment; a transition without a label of its own is called by its event alone, behind its mode.
+/// The end of a segment in the legend. The name of a transition without label is MODE:EVENT, of which EVENT is shown.
 std::string shown_end(const StudyPicture& picture, const DrawnOrbit& orbit, std::size_t segment) {
     const std::string& end = orbit.motion[segment].end;
     const std::string mode = orbit.model.modes[orbit.motion[segment].mode].name + ":";
@@ -208,7 +208,8 @@ std::string shown_end(const StudyPicture& picture, const DrawnOrbit& orbit, std:
     return shown_name(picture, !given && end.starts_with(mode) ? end.substr(mode.size()) : end);
 }
 
-/// @param colour of all segments; none: one for each, which those of an image in the second half share
+/// Adds the curves of an orbit to a panel.
+/// @param colour colour of all segments; none: one for each segment, the same in both halves of a symmetric orbit
 void add_curves(FigurePanel& panel, const StudyPicture& picture, const DrawnOrbit& orbit, std::size_t value,
                 std::optional<std::size_t> colour, const std::string& title) {
     const OrbitCurves curves(orbit, value);
@@ -251,7 +252,7 @@ Figure orbit_picture(const StudyPicture& picture, const ResultFile& file, bool p
     Figure figure;
     std::vector<DrawnOrbit> orbits;
     std::vector<std::string> titles;
-    bool all_alone = true; // each is the only one of its run
+    bool all_alone = true; // all runs consist of a single orbit
     for (const std::string& name : picture.runs) {
         const StoredRun run(file, name, picture.place);
         for (OrbitRecord& record : shown_orbits(file, run, picture)) {
@@ -262,7 +263,7 @@ Figure orbit_picture(const StudyPicture& picture, const ResultFile& file, bool p
             orbits.push_back(drawn_orbit(run, std::move(record), picture, portrait));
         }
     }
-    const bool together = all_alone && orbits.size() > 1; // to be compared, one panel has them all
+    const bool together = all_alone && orbits.size() > 1; // single orbits share one panel, for comparison
     for (std::size_t o = 0; o < orbits.size(); ++o) {
         const DrawnOrbit& orbit = orbits[o];
         const Axes& axes = orbit.axes;

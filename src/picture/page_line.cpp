@@ -11,7 +11,7 @@ PlanePoint between(const PlanePoint& from, const PlanePoint& to, double part) {
     return {from.x + part * (to.x - from.x), from.y + part * (to.y - from.y)};
 }
 
-/// Collects dashes that go on from one piece of a line to the next.
+/// Collects the dashes of a line; a dash may continue from one segment of the line to the next.
 class Dashes {
 public:
     explicit Dashes(const DashPattern& pattern) : pattern_(pattern) {}
@@ -28,7 +28,7 @@ public:
             const bool ahead = size > 0;
             const double next = edge_beyond(place, ahead);
             const double end = std::min(1.0, (next - start) / size);
-            if (!(end > part)) // rounding: the edge is here
+            if (!(end > part)) // the edge coincides up to rounding
                 break;
             const double middle = start + (part + end) / 2 * size;
             if (phase(middle) < pattern_.dash)
@@ -50,7 +50,7 @@ public:
 
 private:
     double phase(double place) const { return place - std::floor(place / pattern_.length()) * pattern_.length(); }
-    /// Where a dash or a gap ends next.
+    /// The next edge of a dash or gap. @param ahead in the direction of increasing coordinate
     double edge_beyond(double place, bool ahead) const {
         const double tiny = 1e-9 * pattern_.length();
         const double first = std::floor(place / pattern_.length()) * pattern_.length();

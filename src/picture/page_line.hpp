@@ -7,29 +7,30 @@
 
 namespace graze {
 
-// Lines in the coordinates of the page, where lengths are points.
+// Lines in the coordinates of the page, in points (1/72 inch).
 
-/// Where a point of a panel lies on the page.
+/// Position on the page of a point of a panel.
 PlanePoint on_page(const PlanePoint& point, const PanelLayout& layout);
-/// And back.
+/// The point of a panel at a position on the page.
 PlanePoint off_page(const PlanePoint& point, const PanelLayout& layout);
 
-/// A dash and the gap behind it, in points.
+/// A dash and the gap after it, in points.
 struct DashPattern {
     double dash = 0, gap = 0;
     double length() const { return dash + gap; }
 };
-/// That of dashed or dotted lines. Two periods of the dots are one of the dashes.
+/// The pattern of dashed or dotted lines; a period of the dashes is two periods of the dots.
+/// @param stroke factor of line widths
 DashPattern dash_pattern(FigureSeries::Style style, double stroke);
 
-/// The dashes of a line as far as it runs in the frame. Where they lie depends on the place on the page alone, across
-/// it where a line is rather level, up it where it is steep, and not on where the line begins: dashes of lines that
-/// coincide coincide, and their gaps stay open.
-/// @param line on the page
+/// The dashes of a line within the frame. Their positions depend only on the horizontal coordinate on the page, or on
+/// the vertical one where the line is steep, and not on the beginning of the line: if lines coincide, so do their
+/// dashes, and the gaps stay open.
+/// @param line in the coordinates of the page
 std::vector<Polyline> dashes_of(const Polyline& line, const DashPattern& pattern, const Box& frame);
 
-/// Points along a line in the frame, at equal distances.
-/// @param first distance of the first from where the line begins
+/// Equidistant points on the part of a line within the frame.
+/// @param first distance of the first point from the beginning of the line
 std::vector<PlanePoint> spread_along(const Polyline& line, double distance, double first, const Box& frame);
 
 } // namespace graze

@@ -12,11 +12,11 @@ namespace graze {
 
 namespace {
 
-/// Shares of an axis that stay free on both sides of what is drawn.
+/// Fractions of an axis that stay free on both sides of the data.
 constexpr double roomy_margin = 0.08, usual_margin = 0.03;
-/// A range that is narrower, compared to its values, is drawn as a constant.
+/// A range that is narrower than this, relative to its values, is drawn as a constant.
 constexpr double resolved = 1e-9;
-constexpr int least_power = -3, greatest_power = 5; ///< between which numbers are written in full
+constexpr int least_power = -3, greatest_power = 5; ///< numbers outside these powers of ten get a common factor
 constexpr int most_tics = 6;
 
 struct Extent {
@@ -46,14 +46,14 @@ Extent extent_of(const FigurePanel& panel, bool horizontal) {
     return extent;
 }
 
-/// A range about a constant, whose digits beside the axis differ.
-void make_room(double& low, double& high, bool logarithmic) {
+/// Widens the range of a constant, so that tic labels differ.
+void widen_constant(double& low, double& high, bool logarithmic) {
     const double size = std::max(std::abs(low), std::abs(high));
     if (high - low > resolved * size && high > low)
         return;
-    const double room = logarithmic || size == 0 ? 1 : 0.1 * size;
-    low -= room;
-    high += room;
+    const double added = logarithmic || size == 0 ? 1 : 0.1 * size;
+    low -= added;
+    high += added;
 }
 
 void choose_range(PanelAxis& axis, const FigurePanel& panel, bool horizontal) {
@@ -67,7 +67,7 @@ void choose_range(PanelAxis& axis, const FigurePanel& panel, bool horizontal) {
             axis.high - axis.low > resolved * std::max(std::abs(axis.low), std::abs(axis.high)))
             return;
         double low = there(axis.low), high = there(axis.high);
-        make_room(low, high, axis.logarithmic);
+        widen_constant(low, high, axis.logarithmic);
         axis.low = back(low);
         axis.high = back(high);
         return;
@@ -82,7 +82,7 @@ void choose_range(PanelAxis& axis, const FigurePanel& panel, bool horizontal) {
                                        [](const FigureSeries& series) { return !series.cells.empty(); });
     const double margin = has_cells ? 0 : (horizontal ? panel.roomy_x : panel.roomy_y) ? roomy_margin : usual_margin;
     double low = there(extent.least), high = there(extent.greatest);
-    make_room(low, high, axis.logarithmic);
+    widen_constant(low, high, axis.logarithmic);
     const double free = margin * (high - low);
     axis.low = back(low - free);
     axis.high = back(high + free);
@@ -97,9 +97,9 @@ RichText number(double value, double tic, int power) {
     return rich(text);
 }
 
-/// Whether numbers keep clear of one another.
+/// True when tic labels do not overlap.
 bool fits(const PanelAxis& axis, bool horizontal, double length, double font) {
-    constexpr double gap = 0.8, line = 1.5; // in sizes of the font
+    constexpr double gap = 0.8, line = 1.5; // in units of the font size
     for (std::size_t i = 1; i < axis.tics.size(); ++i) {
         const PanelAxis::Tic &one = axis.tics[i - 1], &next = axis.tics[i];
         const double distance = length * (axis.share(next.value) - axis.share(one.value));
@@ -111,16 +111,16 @@ bool fits(const PanelAxis& axis, bool horizontal, double length, double font) {
 }
 
 void write_linear(PanelAxis& axis, int wanted) {
-    constexpr double slack = 1e-6; // by which a tic may lie outside for rounding
+    constexpr double slack = 1e-6; // a tic may lie outside by rounding errors
     const double tic = axis_for(axis.low, axis.high, wanted, 0).tic;
     axis.tics.clear();
     const double first = std::ceil(axis.low / tic - slack);
-    constexpr int most = 4 * most_tics; // whatever a range does to the arithmetic, the loop ends
+    constexpr int most = 4 * most_tics; // bounds the loop, even if adding a tic does not change the value
     for (int i = 0; i < most && (first + i) * tic <= axis.high + slack * tic; ++i)
         axis.tics.push_back({(first + i) * tic + 0.0, number((first + i) * tic, tic, axis.power)});
 }
 
-/// Every so many decades.
+/// Sets tics with labels at every `step`-th decade, and minor tics between them.
 void write_decades(PanelAxis& axis, int step) {
     axis.tics.clear();
     axis.minor.clear();
@@ -180,7 +180,8 @@ PanelAxis panel_axis(const FigurePanel& panel, bool horizontal, double length, d
         if (fits(axis, horizontal, length, font))
             return axis;
     }
-    while (axis.tics.size() > 1 && !fits(axis, horizontal, length, font)) // long numbers on a short axis
+    while (axis.tics.size() > 1 &&
+           !fits(axis, horizontal, length, font)) // labels are too long for the axis: remove every second one
         for (std::size_t i = 1; i < axis.tics.size(); ++i)
             axis.tics.erase(axis.tics.begin() + static_cast<std::ptrdiff_t>(i));
     return axis;

@@ -76,13 +76,13 @@ FigurePanel empty_panel(const StudyPicture& picture) {
 
 std::string panel_letter(std::size_t index) {
     std::string letters;
-    for (std::size_t rest = index + 1; rest > 0; rest = (rest - 1) / 26)
-        letters.insert(letters.begin(), static_cast<char>('a' + (rest - 1) % 26));
+    for (std::size_t remaining = index + 1; remaining > 0; remaining = (remaining - 1) / 26)
+        letters.insert(letters.begin(), static_cast<char>('a' + (remaining - 1) % 26));
     return fmt::format("({})", letters);
 }
 
 void drop_constant_panels(Figure& figure) {
-    std::map<std::string, std::pair<double, double>> extents; // of what each axis shows in all its panels
+    std::map<std::string, std::pair<double, double>> extents; // range of each y label over all its panels
     for (const FigurePanel& panel : figure.panels)
         for (const FigureSeries& series : panel.series)
             for (const PlanePoint& point : series.points)

@@ -11,50 +11,52 @@
 
 namespace graze {
 
-// What the kinds of pictures have in common: which values, samplings and axes of a run are shown.
+// Functions common to all kinds of pictures: the values, samplings and axes of a run that are shown.
 
-/// The values asked for, or all of the run.
+/// The values that the picture chooses, or all values of the run.
 std::vector<std::string> chosen_values(const StudyPicture& picture, const StoredRun& run);
-/// @throws InputError naming the first that the run does not have
+/// @throws InputError for the first name that is no value of the run
 void require_values(const StudyPicture& picture, const StoredRun& run, const std::vector<std::string>& names);
-/// What is drawn along x: as asked for, or what the run varies first.
+/// The horizontal axis: as the picture chooses, or the first coordinate that the run varies.
 std::string first_coordinate(const StudyPicture& picture, const StoredRun& run);
-/// Of runs of kind record, samplings that are all rows of a record rather than points of it.
+/// For runs of kind record: the samplings that hold all rows of a record.
 std::vector<std::string> row_samplings(const StoredRun& run);
-/// Those asked for, or all but these.
+/// The samplings that the picture chooses, or all except row_samplings.
 std::vector<std::string> shown_points(const StudyPicture& picture, const StoredRun& run);
+/// The samplings that the picture chooses, or all.
 std::vector<std::string> shown_samplings(const StudyPicture& picture, const StoredRun& run);
-/// Whether values within these limits differ by no more than rounding does.
+/// True when values within these limits differ by no more than rounding errors.
 bool is_constant(double least, double greatest);
-/// By which a panel is known where there are several: (a) to (z), then (aa) and so on.
+/// The letter of a panel: (a) to (z), then (aa) and so on.
 std::string panel_letter(std::size_t index);
-/// A panel without anything in it, and with axes as far as the picture itself says.
+/// A panel without series, with the ranges and scales of the picture.
 FigurePanel empty_panel(const StudyPicture& picture);
-/// The same with what is beside its axes. @param index of the value that is its y
+/// The same with axis labels. @param index index of y among the picture's values
 FigurePanel panel_of(const StudyPicture& picture, const StoredRun& run, const std::string& x, const std::string& y,
                      std::size_t index);
-/// A value at the samples of one point. @param times where to add their times; may be null
+/// A value at the samples of one point. @param times receives their times; may be null
 std::vector<double> samples_of(const PointRecord& point, const StoredRun& run, const std::string& value,
                                const std::string& sampling, std::vector<double>* times);
 
-/// Leaves out values that are the same in all their panels, where others change; the letters of those that stay go on.
+/// Removes panels of values that are constant in all their panels, unless all values are. Letters of the remaining
+/// panels are consecutive.
 void drop_constant_panels(Figure& figure);
 
 Figure bifurcation_picture(const StudyPicture& picture, const ResultFile& file);
-/// Two of the things that vary, and which attractor (or, of maps, which kind of one) is reached.
+/// The attractor that is reached over two varied coordinates. @param map show only the kind of attractor
 ResultPicture basin_picture(const StudyPicture& picture, const ResultFile& file, bool map);
 ResultPicture spectrum_picture(const StudyPicture& picture, const ResultFile& file);
-/// How a motion is looked at: values over time, values over another, or only its samples over one another.
+/// View of a motion: values over time, values over another value, or only samples over another value.
 enum class MotionView { history, portrait, section };
-/// One panel for each value (histories), or for each point and value.
+/// Motions of points: one panel for each value (histories), or for each point and value.
 Figure motion_picture(const StudyPicture& picture, const ResultFile& file, MotionView view);
-/// The same of orbits of branches, along the segments that were computed.
+/// The same for orbits of branches, along their computed segments.
 Figure orbit_picture(const StudyPicture& picture, const ResultFile& file, bool portrait);
 /// Branches of orbits: one panel for each monitor.
 Figure branch_picture(const StudyPicture& picture, const ResultFile& file);
 ResultPicture regression_picture(const StudyPicture& picture, const ResultFile& file);
 Figure scatter_picture(const StudyPicture& picture, const ResultFile& file);
-/// What runs of kind identify have measured and fitted, and what is left.
+/// Measured and fitted values and residuals of runs of kind identify.
 Figure residual_picture(const StudyPicture& picture, const ResultFile& file);
 
 } // namespace graze

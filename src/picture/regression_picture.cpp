@@ -15,7 +15,7 @@ namespace graze {
 
 namespace {
 
-/// Points through which lines are laid, by the value of what makes the groups.
+/// The points of each regression line, by the value of the grouping variable.
 std::map<double, std::vector<PlanePoint>> groups_of(const StudyPicture& picture, const StoredRun& run,
                                                     const std::string& x, const std::string& y) {
     auto rows = run.rows({.samples = true,
@@ -30,7 +30,7 @@ std::map<double, std::vector<PlanePoint>> groups_of(const StudyPicture& picture,
     const bool judged = seeks_attractors(run.record);
     while (rows.next()) {
         if (judged && drawn_as(rows.text(1)) == DrawnAs::nothing)
-            continue; // no line through what ran away or failed
+            continue; // no regression through unbounded or failed motions
         const double value = rows.number(4);
         if (!picture.successive)
             groups[rows.number(2)].push_back({rows.number(3), value});
@@ -42,7 +42,7 @@ std::map<double, std::vector<PlanePoint>> groups_of(const StudyPicture& picture,
     return groups;
 }
 
-/// The line through points, and from where to where they go.
+/// The regression line, and the range of x of its points.
 struct RegressionLine {
     Regression line;
     double least = std::numeric_limits<double>::infinity(), greatest = -least;
@@ -156,7 +156,7 @@ Figure scatter_picture(const StudyPicture& picture, const ResultFile& file) {
                 figure.panels[v].notes.push_back(note);
         }
     }
-    constexpr std::size_t most_circles = 300; // of more none would be told from its neighbours
+    constexpr std::size_t most_circles = 300; // more circles would overlap
     for (FigurePanel& panel : figure.panels) {
         std::size_t points = 0;
         for (const FigureSeries& series : panel.series)

@@ -8,7 +8,7 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t most_circles = 200; ///< beyond, dots are seen better
+constexpr std::size_t most_circles = 200; ///< more points are drawn as dots
 
 void add_points(FigureSeries& series, const Identification::Curve& curve) {
     for (std::size_t i = 0; i < curve.x.size(); ++i)
@@ -20,10 +20,10 @@ void add_points(FigureSeries& series, const Identification::Curve& curve) {
 void add_residual_panels(Figure& figure, FigurePanel panel, const std::vector<Identification::Shown>& shown) {
     using Style = FigureSeries::Style;
     panel.roomy_x = panel.roomy_y = true;
-    FigurePanel rest = panel;
-    rest.y_label = "measured less fitted";
-    rest.y_words.clear();
-    rest.y_range.reset();
+    FigurePanel residuals = panel;
+    residuals.y_label = "measured less fitted";
+    residuals.y_words.clear();
+    residuals.y_range.reset();
     FigureSeries measured{"measured", Style::circles, 0, {}}, fitted{"fitted", Style::line, 1, {}},
         left{"", Style::dots, 0, {}};
     for (const Identification::Shown& one : shown) {
@@ -35,9 +35,9 @@ void add_residual_panels(Figure& figure, FigurePanel panel, const std::vector<Id
     if (measured.points.size() > most_circles)
         measured.style = Style::dots;
     panel.series = {std::move(measured), std::move(fitted)};
-    rest.series = {std::move(left)};
+    residuals.series = {std::move(left)};
     figure.panels.push_back(std::move(panel));
-    figure.panels.push_back(std::move(rest));
+    figure.panels.push_back(std::move(residuals));
 }
 
 Figure residual_figure(const Identification& found) {

@@ -7,8 +7,8 @@
 
 namespace graze {
 
-/// Two panels more: what was measured and what was fitted, and what is left.
-/// @param panel with its axes
+/// Adds two panels: measured and fitted values, and the residuals.
+/// @param panel an empty panel with axis labels
 void add_residual_panels(Figure& figure, FigurePanel panel, const std::vector<Identification::Shown>& shown);
 
 } // namespace graze

@@ -11,7 +11,7 @@ namespace graze {
 
 namespace {
 
-/// The curves of one value, record by record.
+/// The curves of one value, one for each record.
 std::vector<Identification::Shown> shown_of(const StoredRun& run, const PointRecord& point, std::size_t value) {
     const SampleSet& samples = point.result.samples;
     std::map<double, Identification::Shown> records;

@@ -34,7 +34,8 @@ StudyPicture default_picture(const RunRecord& run) {
 
 namespace {
 
-/// Whether a picture is made from orbits of branches. @throws InputError when its kind does not go with them
+/// True when a picture shows branches. @throws InputError when its kind cannot show branches, or other runs are mixed
+/// in
 bool shows_branches(const StudyPicture& picture, const ResultFile& file) {
     std::size_t branches = 0;
     for (const std::string& name : picture.over)
@@ -49,7 +50,8 @@ bool shows_branches(const StudyPicture& picture, const ResultFile& file) {
         return false;
     if (branches < picture.runs.size())
         throw InputError(picture.place, "branches and other runs cannot be drawn together", "make a picture of each");
-    for (const char* kind : {"branch", "history", "portrait", "scatter"}) // samples for other kinds they do not have
+    for (const char* kind :
+         {"branch", "history", "portrait", "scatter"}) // other kinds need samples, which branches lack
         if (picture.kind == kind)
             return true;
     throw InputError(picture.place,
@@ -57,7 +59,7 @@ bool shows_branches(const StudyPicture& picture, const ResultFile& file) {
                      "choose branch, portrait, history or scatter");
 }
 
-/// Names of parameters and states, for them to be set as such in what the study says.
+/// Names of parameters and states, which are written as symbols in titles and labels.
 std::vector<std::string> symbols_of(const StudyPicture& picture, const ResultFile& file) {
     std::set<std::string> names;
     for (const std::string& run : picture.runs) {
@@ -70,7 +72,7 @@ std::vector<std::string> symbols_of(const StudyPicture& picture, const ResultFil
     return {names.begin(), names.end()};
 }
 
-/// What is named twice is drawn once.
+/// Removes repeated names, so that each run is drawn once.
 void remove_repeated(std::vector<std::string>& names) {
     std::set<std::string> known;
     std::erase_if(names, [&](const std::string& name) { return !known.insert(name).second; });

@@ -18,10 +18,10 @@ namespace {
 
 using Look = TextRun::Look;
 
-constexpr double wide = 0.84;          ///< what a letter that is not in the table may take
-constexpr double width_of_index = 0.8; ///< of an index's font, in that of its text
+constexpr double wide = 0.84;          ///< upper bound of the width of characters that are not in the table
+constexpr double width_of_index = 0.8; ///< font size of an index, relative to its text
 
-/// Of the letters from the blank to the tilde, in thousandths of the font's size.
+/// Widths of the ASCII characters from blank to tilde, in thousandths of the font size.
 constexpr std::array<int, 95> widths{318,  401, 460, 838, 636, 950, 780, 275, 390, 390, 500, 838, 318, 361, 318, 337,
                                      636,  636, 636, 636, 636, 636, 636, 636, 636, 636, 337, 337, 838, 838, 838, 531,
                                      1000, 684, 686, 698, 770, 632, 575, 775, 752, 295, 295, 656, 557, 863, 748, 787,
@@ -34,12 +34,12 @@ double width_of_letters(const std::string& text) {
     for (const unsigned char c : text)
         if (c >= ' ' && c <= '~')
             width += 1e-3 * widths[c - ' '];
-        else if ((c & 0xc0) != 0x80) // not the second byte of a letter
+        else if ((c & 0xc0) != 0x80) // not a continuation byte of UTF-8
             width += wide;
     return width;
 }
 
-/// The last one, with all its bytes.
+/// Removes the last character, with all its bytes.
 void drop_letter(std::string& text) {
     const auto is_continued = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; };
     while (text.size() > 1 && is_continued(text.back()))
@@ -51,7 +51,7 @@ bool is_index(const TextRun& run) {
     return run.look == Look::lowered || run.look == Look::raised;
 }
 
-/// A letter beyond ASCII as LaTeX writes it, of those that graze itself uses; others go as they are.
+/// Escapes a text for LaTeX. Of characters beyond ASCII only those that graze itself uses are replaced.
 std::string latex_letters(const std::string& text) {
     static const std::map<std::string, std::string> known{{"→", "$\\rightarrow$"}, {"−", "$-$"},
                                                           {"·", "$\\cdot$"},       {"°", "$^\\circ$"},
@@ -128,7 +128,7 @@ RichText rich_name(const std::string& name) {
 
 namespace {
 
-/// The end of a unit's exponent, as of ^-1 behind a letter; where it would begin if there is none.
+/// The end of an exponent such as ^-1 after a letter; `begin` if there is none.
 std::size_t power_at(const std::string& text, std::size_t begin) {
     if (begin == 0 || begin >= text.size() || text[begin] != '^' ||
         std::isalpha(static_cast<unsigned char>(text[begin - 1])) == 0)
@@ -281,7 +281,7 @@ std::string latex_markup(const RichText& text) {
             break;
         }
     }
-    std::string quoted; // each backslash twice: gnuplot reads double quotes before LaTeX does
+    std::string quoted; // backslashes doubled, since gnuplot reads the double quotes before LaTeX does
     for (const char c : result)
         quoted += c == '\\' ? std::string("\\\\") : std::string(1, c);
     return quoted;

@@ -6,38 +6,40 @@
 
 namespace graze {
 
-/// Letters of one look.
+/// A piece of text in one style.
 struct TextRun {
     enum class Look { upright, italic, lowered, raised };
     std::string text;
     Look look = Look::upright;
 };
 
-/// A line of text as it is to be seen, whoever draws it: names with their indices, units with raised exponents.
+/// A line of formatted text, independent of the drawing program: names with indices, units with raised exponents.
 using RichText = std::vector<TextRun>;
 
-/// As it stands.
+/// The text without formatting.
 RichText rich(const std::string& text);
-/// A name such as x_nd or q1 as a symbol with an index; longer names are words, and what is no name stays as it is.
+/// A name such as x_nd or q1 as a symbol with an index; longer names become words, other texts stay unchanged.
 RichText rich_name(const std::string& name);
-/// A text in which some names are set as symbols: those with an index, and others where "=", "up" or "down" follows.
+/// A text in which names from `symbols` are symbols: those with an index, and others if "=", "up" or "down" follows.
 RichText rich_words(const std::string& text, const std::vector<std::string>& symbols);
 /// A unit such as m/s^2, with raised exponents.
 RichText rich_unit(const std::string& unit);
-/// A power of ten.
+/// The power of ten with this exponent.
 RichText rich_power(int exponent);
 RichText operator+(RichText one, const RichText& other);
+/// The text without formatting.
 std::string letters_of(const RichText& text);
 
-/// How wide a text is, in sizes of its font: that of DejaVu Sans, which is wider than other common fonts.
+/// Width of a text in units of the font size, for DejaVu Sans, which is wider than other common fonts.
 double width_of(const RichText& text);
-/// Lines of no more than so many sizes of the font, broken at blanks, but not beside "=" and behind "Fig.". Words that
-/// are too long are cut short; lines beyond the most are left out.
+/// Breaks a text at blanks, but not beside "=" or after "Fig.". Words that are too long are cut.
+/// @param width of lines in units of the font size; @param most number of lines; further lines are left out
 std::vector<std::string> wrapped_lines(const std::string& text, double width, std::size_t most);
 
-/// For double quotes in gnuplot, as its own enhanced text. @throws InputError for control characters
+/// Markup of gnuplot's enhanced text, for double quotes. @throws InputError for control characters
 std::string gnuplot_markup(const RichText& text);
-/// For double quotes in gnuplot, when LaTeX sets the text. No letter of it can be a command.
+/// Markup for LaTeX, for double quotes in gnuplot. No character of the text is taken as a command.
+/// @throws InputError for control characters
 std::string latex_markup(const RichText& text);
 
 } // namespace graze

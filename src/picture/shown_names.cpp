@@ -14,7 +14,7 @@ namespace graze {
 
 namespace {
 
-/// What every run has, in words.
+/// Descriptions of values that every run has.
 constexpr std::array<std::pair<const char*, const char*>, 9> words_of_columns{{
     {"t", "time"},
     {"period", "period"},
@@ -27,8 +27,8 @@ constexpr std::array<std::pair<const char*, const char*>, 9> words_of_columns{{
     {"error", "error"},
 }};
 
-/// Of runs that find parameters from measurements: what lies over what.
-constexpr std::array<std::pair<const char*, const char*>, 4> words_of_findings{{
+/// Descriptions of the values of runs of kind identify.
+constexpr std::array<std::pair<const char*, const char*>, 4> words_of_estimates{{
     {"t", "time"},
     {"peak", "peak of the decay"},
     {"before", "velocity before an impact"},
@@ -58,7 +58,7 @@ std::string words_of_model(const Model& model, const std::string& name) {
     return "";
 }
 
-/// Of monitors that every branch has unless the study names others: max_x and the like.
+/// Descriptions of the default monitors of branches, such as max_x.
 std::string words_of_extremum(const StoredRun& run, const std::string& name) {
     for (const auto& [start, kind, which] : {std::tuple{"max_", Monitor::Kind::maximum, "greatest"},
                                              std::tuple{"min_", Monitor::Kind::minimum, "least"}}) {
@@ -70,13 +70,13 @@ std::string words_of_extremum(const StoredRun& run, const std::string& name) {
             for (const Monitor& monitor : branch.branch().settings.monitors)
                 if (!words.empty() && monitor.name == name && monitor.kind == kind)
                     return fmt::format("{} {}", which, words);
-        } catch (const InputError&) { // settings of another version: the name must do
+        } catch (const InputError&) { // settings of another version: only the name is shown
         }
     }
     return "";
 }
 
-/// A name with what the study says of it as the label of an axis.
+/// Sets the label of an axis to the name that the study gives, or to the value's name and its description.
 void label(std::string& label, std::string& words, const StudyPicture& picture, const StoredRun& run,
            const std::string& name) {
     label = name;
@@ -108,14 +108,14 @@ std::string shown_value(const StudyPicture& picture, const StoredRun& run, const
 }
 
 std::string words_of(const StoredRun& run, const std::string& name) {
-    // A value or monitor may have the name of a column; what it is then the study knows.
+    // A value or monitor of the study may have the name of a column: the column's description is wrong then.
     if (std::string words = words_of_model(run.model, name);
         !words.empty() && !(run.record.is_branch() && run.has_value(name)))
         return words;
     if (run.record.is_branch() && run.has_value(name))
         return words_of_extremum(run, name);
     if (run.record.kind == name_of(RunKind::identify))
-        for (const auto& [column, words] : words_of_findings)
+        for (const auto& [column, words] : words_of_estimates)
             if (name == column)
                 return words;
     for (const auto& [column, words] : words_of_columns)

@@ -9,23 +9,23 @@
 
 namespace graze {
 
-// What readers of a picture see in the place of names: what the study says, or else what the model says.
+// Texts that pictures show instead of names: those of the study, otherwise those of the model.
 
-/// A text up to its first remark.
+/// A text up to the first of the characters ; , ( and :.
 std::string first_words(const std::string& text);
-/// The study's name for it, or its own with blanks in the place of underscores.
+/// The text that the picture gives for a name, or the name with blanks instead of underscores.
 std::string shown_name(const StudyPicture& picture, const std::string& name);
-/// NAME = VALUE with its unit.
+/// The text "NAME = VALUE UNIT".
 std::string shown_value(const StudyPicture& picture, const StoredRun& run, const std::string& name, double value);
-/// What the model, or what every run has, says of a value in a few words; empty if it says nothing.
+/// A short description of a value, from the model or for values that every run has; empty if there is none.
 std::string words_of(const StoredRun& run, const std::string& name);
 
-/// Says what a panel's axes are, with words and units.
+/// Sets labels, descriptions and units of a panel's axes.
 void label_axes(FigurePanel& panel, const StudyPicture& picture, const StoredRun& run, const std::string& x,
                 const std::string& y);
 void label_axis(std::string& label, std::string& words, std::string& unit, const StudyPicture& picture,
                 const NamedValue& value);
-/// What the study says of the axes, if anything, in the place of what they have. @param index of the panel's y
+/// Replaces axis labels by those that the picture gives. @param index index of the panel's y among the picture's values
 void apply_labels(FigurePanel& panel, const StudyPicture& picture, std::size_t index);
 
 } // namespace graze

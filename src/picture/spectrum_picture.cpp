@@ -13,7 +13,7 @@ namespace graze {
 
 namespace {
 
-/// Of a long record the mean over parts, of which there are no more frequencies than can be seen.
+/// The spectrum of a record; of a long one the mean over parts, with fewer frequencies.
 Spectrum spectrum_of_rows(const std::vector<double>& times, const std::vector<double>& values) {
     constexpr std::size_t most = 16'384, part = 8192;
     if (values.size() <= most)
@@ -55,7 +55,7 @@ ResultPicture spectrum_picture(const StudyPicture& picture, const ResultFile& fi
                 throw InputError(picture.place,
                                  fmt::format("run '{}' has too few samples for a spectrum", run.record.name),
                                  "choose another sampling or point");
-            // Of all rows of a record amplitudes are shown as they are, which is what its mean does not tell.
+            // Rows of a record have absolute amplitudes; samples of motions have amplitudes relative to the mean.
             const auto rows = row_samplings(run);
             const bool absolute = std::find(rows.begin(), rows.end(), sampling) != rows.end();
             const Spectrum parts = absolute ? spectrum_of_rows(times, values) : spectrum(values, 1 / spacing);

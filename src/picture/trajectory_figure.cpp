@@ -17,9 +17,9 @@ namespace graze {
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-constexpr double unseen = 2e-4;           ///< of a panel's size
-constexpr double last_moments = 0.005;    ///< of a motion that ends in a singularity: they do not count for the axes
-constexpr std::size_t most_marked = 2000; ///< contacts: of more, marks hide the curve
+constexpr double unseen = 2e-4;           ///< greatest deviation of simplified curves, as a fraction of the panel
+constexpr double last_moments = 0.005;    ///< final fraction of a motion to a singularity that the axes ignore
+constexpr std::size_t most_marked = 2000; ///< number of contacts; more marks would hide the curve
 constexpr std::size_t section_colour = 1;
 
 struct ValueRange {
@@ -61,11 +61,11 @@ public:
     }
 
 private:
-    static constexpr std::size_t time = 0; ///< of the motion's values; columns come behind it
+    static constexpr std::size_t time = 0; ///< index of the time among the motion's values; columns follow
 
     const DenseMotion& motion() const { return recorder_->motion(); }
 
-    /// Portraits share the height of the histories beside them.
+    /// Number of rows of a portrait: portraits share the height of the histories beside them.
     static std::size_t rows_of(std::size_t portrait, std::size_t portraits, std::size_t histories) {
         if (histories <= portraits)
             return 1;
@@ -73,7 +73,7 @@ private:
     }
 
     std::vector<std::size_t> shown_histories() const {
-        constexpr double resolved = 1e-9; // as an axis shows a constant
+        constexpr double resolved = 1e-9; // smaller relative ranges are drawn as constants
         const MotionPanelChoice& contents = recorder_->contents();
         std::vector<std::size_t> shown;
         for (const std::size_t column : contents.histories) {
@@ -129,8 +129,8 @@ private:
         constexpr double margin = 0.08, after = 0.01;
         const auto roomy = [&](std::size_t value) {
             const ValueRange& range = ranges_[value];
-            const double room = margin * (range.span() > 0 ? range.span() : std::max(std::abs(range.least), 1.0));
-            return std::pair(range.least - room, range.greatest + room);
+            const double added = margin * (range.span() > 0 ? range.span() : std::max(std::abs(range.least), 1.0));
+            return std::pair(range.least - added, range.greatest + added);
         };
         if (const auto singularity = recorder_->singularity()) {
             panel.y_range = roomy(y);
@@ -146,7 +146,7 @@ private:
         }
     }
 
-    /// Less what nobody would miss, so that all that looks at figures has less to look at.
+    /// The curve without points that do not change its appearance, so that drawing is faster.
     std::vector<PlanePoint> seen_curve(std::size_t x, std::size_t y) const {
         const std::vector<PlanePoint> curve = curve_of(motion(), x, y);
         const double width = x == time ? end() - start() : ranges_[x].span(), height = ranges_[y].span();
@@ -195,7 +195,7 @@ private:
     }
 
     const MotionRecorder* recorder_;
-    std::vector<ValueRange> ranges_; ///< of each value
+    std::vector<ValueRange> ranges_; ///< range of each value
 };
 
 } // namespace

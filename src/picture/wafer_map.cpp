@@ -12,7 +12,7 @@ namespace graze {
 
 namespace {
 
-constexpr double pitch = 2.25;     // between the middles of wafers, in radii
+constexpr double pitch = 2.25;     // distance of the centres of wafers, in radii
 constexpr double wafer_size = 240; // pixels
 
 class WaferMap {
@@ -28,13 +28,13 @@ public:
     std::string text(const std::string& ending, const std::string& output) {
         std::string text = head(ending, output);
         text += outlines();
-        text += devices(); // says what there is to be plotted
+        text += devices(); // before plot(), which depends on the kinds of devices found
         text += plot();
         return text;
     }
 
 private:
-    /// Middle of a wafer in radii.
+    /// Centre of a wafer, in radii.
     std::pair<double, double> middle(std::size_t wafer) const {
         const std::size_t column = (wafer - 1) % columns_, row = (wafer - 1) / columns_;
         return {pitch * static_cast<double>(column), -pitch * static_cast<double>(row)};
@@ -63,7 +63,7 @@ private:
             labels_->unit.empty() ? "" : " (" + plain(labels_->unit) + ")");
     }
 
-    /// Each with its flat, below.
+    /// Outlines of the wafers, each with its flat at the bottom.
     std::string outlines() const {
         const double half = std::clamp(plan_->flat_length / plan_->diameter, 0.0, 1.0);
         const double from = std::numbers::pi * 1.5 + std::asin(half), turn = 2 * std::numbers::pi - 2 * std::asin(half);
@@ -71,7 +71,7 @@ private:
         for (std::size_t wafer = 1; wafer <= wafers_; ++wafer) {
             const auto [x, y] = middle(wafer);
             constexpr int corners = 180;
-            for (int i = 0; i <= corners + 1; ++i) { // the last one closes it along the flat
+            for (int i = 0; i <= corners + 1; ++i) { // the last point closes the outline along the flat
                 const double angle = from + turn * (i % (corners + 1)) / corners;
                 data += fmt::format("{:.6g} {:.6g}\n", x + std::cos(angle), y + std::sin(angle));
             }
@@ -86,7 +86,7 @@ private:
                (!labels_->greatest || value <= *labels_->greatest);
     }
 
-    /// Of all values, so that the greatest has four digits.
+    /// Number of decimals of all values, so that the greatest has four digits.
     int decimals() const {
         double greatest = 0;
         for (const WaferDevice& device : yield_->devices)
@@ -114,9 +114,9 @@ private:
                 rings += at + "\n";
                 has_rings_ = true;
             }
-            // On the inner side of what lies to the sides, beyond what lies above or below: there the values of eight
-            // devices have room.
-            constexpr std::size_t few = 12; // devices on a wafer
+            // The value is written towards the centre for devices at the sides, and beyond devices above and below:
+            // eight devices fit so.
+            constexpr std::size_t few = 12; // greatest number of devices on a wafer with labels
             const bool aside = std::abs(dx) > std::abs(dy);
             const double farther = aside ? 1 : 1.36, beside = aside ? std::copysign(0.09, -dx) : 0;
             if (plan_->devices <= few)

@@ -11,8 +11,8 @@ namespace graze {
 
 namespace {
 
-/// Twice the range of the middle half by the third root of the number (D. Freedman and P. Diaconis, "On the histogram
-/// as a density estimator", 1981).
+/// Number of bars of a histogram: their width is twice the interquartile range divided by the cube root of the number
+/// of values (D. Freedman and P. Diaconis, "On the histogram as a density estimator", 1981).
 std::size_t bars_of(const std::vector<double>& sorted) {
     constexpr double fewest = 5, most = 200;
     const std::size_t n = sorted.size();

@@ -1,10 +1,10 @@
 #include "graze/acquire/acquisition.hpp"
 #include "graze/base/input_error.hpp"
 #include "program/commands.hpp"
-#include "program/guardian.hpp"
 #include "program/interrupt.hpp"
 #include "program/live_picture.hpp"
 #include "program/status_line.hpp"
+#include "program/watchdog.hpp"
 
 #include <fmt/format.h>
 
@@ -16,7 +16,8 @@ namespace graze {
 
 namespace {
 
-/// The experiment with what the command line has in the place of it.
+/// Reads the experiment file; --port and --device replace its addresses.
+/// @throws InputError when an address is missing, unless nothing is to be sent (--dry-run)
 Experiment asked_experiment(const AcquireArguments& arguments) {
     Experiment experiment = read_experiment(arguments.experiment);
     if (!arguments.port.empty()) {
@@ -66,10 +67,10 @@ std::unique_ptr<InstrumentLine> open_device(const Experiment& experiment) {
     return open_serial_line(settings);
 }
 
-/// What is shown while it goes on.
-class Watcher {
+/// Shows an acquisition while it runs: a line of progress and, with --live, a picture of the records.
+class AcquisitionDisplay {
 public:
-    Watcher(const RecordFolder& folder, const AcquireArguments& arguments, const Console& console)
+    AcquisitionDisplay(const RecordFolder& folder, const AcquireArguments& arguments, const Console& console)
         : folder_(folder), console_(console), line_(console, arguments.progress || console.terminal) {
         if (arguments.live.empty())
             return;
@@ -108,7 +109,7 @@ private:
     void add(const RecordEntry& entry) {
         attempt([&] { picture_->add(folder_.path_of(entry.level), entry.level.amplitude, entry.level.direction); });
     }
-    /// No picture is worth an experiment.
+    /// Does work for the picture. If it fails, drawing ends with a warning and the experiment continues.
     template <class Work>
     void attempt(const Work& work) {
         if (!picture_)
@@ -128,13 +129,13 @@ private:
     std::size_t recorded_ = 0;
 };
 
-AcquisitionReport carried_out(const Experiment& experiment, RecordFolder& folder, Watcher& watcher) {
-    Guardian guardian(experiment, folder);
+AcquisitionReport run_experiment(const Experiment& experiment, RecordFolder& folder, AcquisitionDisplay& display) {
+    Watchdog watchdog(experiment, folder);
     AcquisitionOptions options;
     options.interrupted = [] { return InterruptGuard::requested(); };
-    options.progress = [&](const AcquisitionProgress& progress) { watcher.progress(progress); };
-    options.begun = [&] { guardian.arm(); };
-    options.recorded = [&](const RecordEntry& entry) { watcher.record(entry); };
+    options.progress = [&](const AcquisitionProgress& progress) { display.progress(progress); };
+    options.begun = [&] { watchdog.arm(); };
+    options.recorded = [&](const RecordEntry& entry) { display.record(entry); };
     AcquisitionReport report;
     try {
         const auto generator = open_generator_line(experiment.serial);
@@ -146,14 +147,14 @@ AcquisitionReport carried_out(const Experiment& experiment, RecordFolder& folder
         report.detail = error.what();
         report.before = folder.entries().size();
     } catch (...) {
-        guardian.disarm();
+        watchdog.disarm();
         throw;
     }
-    guardian.disarm();
+    watchdog.disarm();
     return report;
 }
 
-/// What helps: to call the command again does not always.
+/// What the user can do after this ending. Calling the command again does not always help.
 const char* remedy_of(AcquisitionEnding ending) {
     switch (ending) {
     case AcquisitionEnding::complete:
@@ -220,9 +221,9 @@ int acquire_command(const AcquireArguments& arguments, const Console& console) {
     RecordFolder records(folder, experiment);
     AcquisitionReport report;
     {
-        Watcher watcher(records, arguments, console);
-        report = carried_out(experiment, records, watcher);
-        watcher.draw(true);
+        AcquisitionDisplay display(records, arguments, console);
+        report = run_experiment(experiment, records, display);
+        display.draw(true);
     }
     return tell(report, experiment, folder, console);
 }

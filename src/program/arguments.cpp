@@ -35,8 +35,8 @@ namespace {
 
 constexpr const char* general_text =
     R"(Simulates hybrid dynamical systems: smooth motion interrupted by impacts, switches, stick and slip,
-sweeps them through their parameters, and follows branches of periodic orbits. A model is a text file of equations, a
-study one of computations with it; several of both come with graze.)";
+sweeps their parameters, and follows branches of periodic orbits. A model is a text file of equations. A study is a text
+file that lists computations with models. Several of both come with graze.)";
 
 constexpr const char* general_examples = R"(Start here:
   graze models                                     what comes with graze
@@ -44,23 +44,23 @@ constexpr const char* general_examples = R"(Start here:
   graze models bouncing-ball --write my-ball.toml  a model file to change
   graze check my-ball.toml                         is it right?
   graze run --list                                 studies that come with graze: bifurcation diagrams and more
-  graze run mems-switch --output switch            do one; its results and pictures go to a folder
+  graze run mems-switch --output switch            run one; results and pictures go to the folder switch
   graze points results                             special points of branches of periodic orbits
-  graze grazing results GR1                        whether a motion that touches persists, or trips
-  graze trip results GR1                           and how fast it trips
+  graze grazing results GR1                        does the attractor survive this grazing, or is it lost?
+  graze trip results GR1                           how fast it is lost
   graze COMMAND --help                             all options of a command)";
 
-constexpr const char* check_text = R"(Check a model and say what is in it.
-Warnings go to standard error: things that are allowed but
-probably not meant, such as an event that nobody watches.)";
+constexpr const char* check_text = R"(Check a model and list its contents.
+Warnings go to standard error. They name what is allowed but
+probably a mistake, such as an event that no mode watches.)";
 
 constexpr const char* check_examples = R"(Examples:
   graze check my-model.toml
   graze check impact-microactuator --graph modes.svg)";
 
-constexpr const char* models_text = R"(List the shipped models, tell about one, or write its file.
-The microbeam is a family:
---beam-modes chooses how many eigenmodes carry its motion.)";
+constexpr const char* models_text = R"(List the shipped models, describe one, or write its file.
+The microbeam is a family of models: --beam-modes
+is the number of eigenmodes in which its motion is expanded.)";
 
 constexpr const char* models_examples = R"(Examples:
   graze models
@@ -69,8 +69,8 @@ constexpr const char* models_examples = R"(Examples:
   graze models microbeam --beam-modes 9 --write beam9.toml)";
 
 constexpr const char* simulate_text = R"(Compute a trajectory.
-Follows one trajectory from contact to contact, missing none, and prints a table of it: states at equal
-distances of time unless --section, --contacts, --extrema, --minima or --derivatives ask for another.
+Follows one trajectory from contact to contact without missing any, and prints a table: the states at equally spaced
+times, unless --section, --contacts, --extrema, --minima or --derivatives asks for another table.
 Values are numbers or expressions in the model's parameters, such as --time 2*pi/omega.)";
 
 constexpr const char* simulate_examples = R"(Examples:
@@ -84,8 +84,9 @@ void declare_check(CLI::App& app, CheckArguments& arguments) {
     command.footer(check_examples);
     command.add_option("MODEL", arguments.model, "Name of a shipped model, or a file")->type_name("")->required();
     command
-        .add_option("--graph", arguments.graph,
-                    "Draw the modes and the transitions between them (svg, png or pdf by Graphviz; dot without it)")
+        .add_option(
+            "--graph", arguments.graph,
+            "Draw the modes and the transitions between them (.svg, .png or .pdf by Graphviz; .dot needs no Graphviz)")
         ->type_name("FILE");
     declare_output(command, arguments.output);
 }
@@ -93,24 +94,26 @@ void declare_check(CLI::App& app, CheckArguments& arguments) {
 void declare_models(CLI::App& app, ModelsArguments& arguments) {
     CLI::App& command = *app.add_subcommand("models", models_text);
     command.footer(models_examples);
-    command.add_option("NAME", arguments.name, "The model to tell about")->type_name("");
+    command.add_option("NAME", arguments.name, "The model to describe; without it all are listed")->type_name("");
     command.add_flag("--show", arguments.show, "Print the model file");
-    command.add_option("--write", arguments.file, "Write the model file there")->type_name("FILE");
-    command.add_option("--beam-modes", arguments.beam_modes, "Eigenmodes of the microbeam (1)")
+    command.add_option("--write", arguments.file, "Write the model file to FILE")->type_name("FILE");
+    command
+        .add_option("--beam-modes", arguments.beam_modes,
+                    "Number of eigenmodes of the microbeam (1); more are more accurate and slower")
         ->type_name("N")
         ->group("Microbeam");
     command
         .add_option("--quadrature", arguments.quadrature,
-                    "Rule for its electrostatic force: simpson (default) or gauss")
+                    "Quadrature rule of the electrostatic force: simpson (default) or gauss")
         ->type_name("RULE")
         ->group("Microbeam");
-    command.add_option("--points", arguments.points, "Simpson's intervals (even) or Gauss's nodes (20)")
+    command.add_option("--points", arguments.points, "Number of Simpson's intervals (even) or of Gauss's nodes (20)")
         ->type_name("N")
         ->group("Microbeam");
     declare_digits(command, arguments.output);
 }
 
-/// In the list of commands only the first line of each one's description is shown.
+/// Shows only the first line of each command's description in the list of commands.
 class BriefFormatter : public CLI::Formatter {
 public:
     std::string make_subcommand(const CLI::App* command) const override {
@@ -122,85 +125,92 @@ public:
 };
 
 void declare_length(CLI::App& command, SimulateArguments& arguments) {
-    const char* group = "How long (20 periods unless told)";
-    declare_option(command, group, "--time", arguments.time, "T", "For this time");
-    declare_option(command, group, "--periods", arguments.periods, "N", "For so many periods of the cyclic state");
+    const char* group = "How long (default: 20 periods)";
+    declare_option(command, group, "--time", arguments.time, "T", "Simulate this time, in the model's unit");
+    declare_option(command, group, "--periods", arguments.periods, "N", "Simulate N periods of the cyclic state");
     declare_option(command, group, "--contacts", arguments.contact_count, "[N]",
-                   "With a number: until so many contacts; without: the table of contacts");
+                   "With a number: simulate until N contacts; without: print the table of contacts");
     declare_option(command, group, "--phase", arguments.phase, "STATE",
-                   "The cyclic state whose periods count, if there are several");
+                   "Cyclic state whose periods are counted, if the model has several");
     declare_option(command, group, "--skip", arguments.skip, "N",
-                   "First let pass so many periods, of which nothing is shown");
+                   "Simulate N periods before the output begins, as to skip a transient (0)");
     declare_option(command, group, "--after", arguments.after, "T",
-                   "First let pass this time, of which nothing is shown");
+                   "Simulate this time before the output begins, as to skip a transient (0)");
 }
 
 void declare_tables(CLI::App& command, SimulateArguments& arguments) {
     const char* group = "What to show";
     declare_option(command, group, "--section", arguments.sections, "NAME",
-                   "States whenever these sections are passed");
+                   "Print the states at each passage of these sections");
     declare_option(command, group, "--extrema", arguments.extrema, "EXPR",
-                   "States at maxima and minima of these expressions");
+                   "Print the states at maxima and minima of these expressions");
     declare_option(command, group, "--event", arguments.events, "NAME",
-                   "Of all contacts, show and count only these events'");
+                   "Show and count only the contacts at these events (all)");
     declare_option(command, group, "--quantity", arguments.quantities, "EXPR",
                    "More columns: quantities of the model, or any expressions in its names");
     command
-        .add_flag("--minima", arguments.minima, "Guaranteed least values of the watched event functions in each arc")
+        .add_flag("--minima", arguments.minima,
+                  "Print the least value of each watched event function in each arc, with a guaranteed lower bound")
         ->group(group);
-    declare_option(command, group, "--derivatives", arguments.derivatives, "NAME",
-                   "Derivatives of the final state with respect to initial states and parameters, or `all`");
-    declare_option(command, group, "--samples", arguments.samples, "N",
-                   "Number of rows at equal distances of time (500)");
+    declare_option(
+        command, group, "--derivatives", arguments.derivatives, "NAME",
+        "Print derivatives of the final state with respect to these initial states and parameters, or `all`");
+    declare_option(command, group, "--samples", arguments.samples, "N", "Number of rows at equally spaced times (500)");
     declare_option(command, group, "--every", arguments.every, "DT",
-                   "Distance of these rows in time, instead of their number");
+                   "Time between these rows, instead of their number");
     declare_option(command, group, "--table", arguments.table, "TABLE",
-                   "samples, contacts, sections, extrema, minima, derivatives or summary, if the above leaves it open");
+                   "samples, contacts, sections, extrema, minima, derivatives or summary; needed only if the options "
+                   "above ask for several");
 }
 
 void declare_plot(CLI::App& command, SimulateArguments& arguments) {
     const char* group = "Picture";
-    declare_option(
-        command, group, "--plot", arguments.plot, "FILE",
-        "Time histories and phase portrait as svg, png, pdf or eps, by gnuplot. --quantity chooses what is shown");
+    declare_option(command, group, "--plot", arguments.plot, "FILE",
+                   "Draw time histories and phase portraits as svg, png, pdf or eps, by gnuplot; --quantity chooses "
+                   "the histories");
     declare_option(command, group, "--portrait", arguments.portraits, "X,Y",
-                   "Phase portraits of these (a state and its velocity)")
+                   "Axes of phase portraits, a pair for each (a state and its velocity)")
         ->expected(1, -1);
     declare_option(command, group, "--size", arguments.style.size, "W[xH]",
-                   "Width of the picture in mm, such as 85 or 170, and height (as wide as it takes)");
+                   "Width of the picture in mm, such as 85 or 170 for the columns of a journal, and its height "
+                   "(chosen by the contents)");
     declare_option(command, group, "--font", arguments.style.font, "FONT",
-                   "Size of its letters in points, or NAME or NAME,SIZE (9)");
-    command.add_flag("--grey", arguments.style.grey, "Without colours, for printers that have none")->group(group);
+                   "Font size in points, font name, or NAME,SIZE (9)");
+    command.add_flag("--grey", arguments.style.grey, "Draw in grey, for print without colours")->group(group);
     declare_option(command, group, "--data,--plot-data", arguments.plot_data, "FILE",
-                   "Keep data and commands of the picture, to be changed and drawn by `gnuplot FILE`");
+                   "Keep the data and commands of the picture; `gnuplot FILE` draws it again after changes");
 }
 
 void declare_method(CLI::App& command, SimulateArguments& arguments) {
     const char* group = "Method";
-    declare_option(command, group, "--tolerance", arguments.tolerance, "TOL", "Relative error of each step (1e-12)");
-    declare_option(command, group, "--order", arguments.order, "N", "Of the Taylor polynomials (chosen by tolerance)");
-    declare_option(command, group, "--largest-step", arguments.largest_step, "T", "Bound on steps (none)");
-    declare_option(command, group, "--steps", arguments.steps, "N", "End after so many steps (100 million)")
+    declare_option(command, group, "--tolerance", arguments.tolerance, "TOL",
+                   "Relative error of each step, 1e-16 to 1e-2 (1e-12)");
+    declare_option(command, group, "--order", arguments.order, "N",
+                   "Order of the Taylor polynomials (chosen by the tolerance)");
+    declare_option(command, group, "--largest-step", arguments.largest_step, "T",
+                   "Largest step in time (unbounded); contacts are found without it");
+    declare_option(command, group, "--steps", arguments.steps, "N", "End after N steps (100 million)")
         ->check(whole_number(1, 1'000'000'000'000));
     command.add_flag("--progress", arguments.progress, "Show progress even if standard error is no terminal")
         ->group(group);
-    command.add_flag("--quiet", arguments.quiet, "Say how the trajectory ended only if it broke off")->group(group);
+    command.add_flag("--quiet", arguments.quiet, "Report how the trajectory ended only if it broke off")->group(group);
 }
 
 void declare_simulate(CLI::App& app, SimulateArguments& arguments) {
     CLI::App& command = *app.add_subcommand("simulate", simulate_text);
     command.footer(simulate_examples);
     command.add_option("MODEL", arguments.model, "Name of a shipped model, or a file")->type_name("")->required();
-    const char* group = "Where from";
-    declare_option(command, group, "--set", arguments.set, "NAME=VALUE", "Values of parameters");
-    declare_option(command, group, "--from", arguments.from, "NAME=VALUE", "Initial values of states");
-    declare_option(command, group, "--mode", arguments.mode, "NAME", "Initial mode");
+    const char* group = "Parameters and initial state";
+    declare_option(command, group, "--set", arguments.set, "NAME=VALUE", "Values of parameters (the model's)");
+    declare_option(command, group, "--from", arguments.from, "NAME=VALUE", "Initial values of states (the model's)");
+    declare_option(command, group, "--mode", arguments.mode, "NAME", "Initial mode (the model's)");
     declare_length(command, arguments);
     command.add_flag("--contact-table", arguments.contacts)->group(""); // see with_joined_counts
     declare_tables(command, arguments);
     declare_plot(command, arguments);
     declare_output(command, arguments.output);
-    command.add_flag("--all", arguments.output.all, "All columns of a table, also those that do not fit a terminal")
+    command
+        .add_flag("--all", arguments.output.all, "Show all columns of a table, even if they do not fit the terminal")
         ->group("Output");
     declare_method(command, arguments);
 }
@@ -211,7 +221,7 @@ bool is_integer(const std::string& text) {
                                               [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-/// The command that was being read when things went wrong.
+/// The command in which the parser failed; the program itself if it had not reached one.
 const CLI::App& innermost(const CLI::App& app) {
     const auto commands = app.get_subcommands();
     return commands.empty() ? app : *commands.front();
@@ -284,7 +294,7 @@ std::string explain_required(const std::string& message, const CLI::App& command
                        name, all);
 }
 
-/// @param allowed whether a finite number will do; @param words for such numbers
+/// Refuses texts that are not finite numbers for which `allowed` is true. @param words description of allowed numbers
 template <class Allowed>
 CLI::Validator checked_number(const Allowed& allowed, const std::string& words) {
     return CLI::Validator(
@@ -404,7 +414,7 @@ std::string explain(const CLI::ParseError& error, const CLI::App& app) {
         if (const std::vector<std::string> extras = app.remaining(true); !extras.empty())
             return explain_extra(extras.front(), command, help);
     if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
-        // Without a command, or without the model.
+        // The command, or a required argument of it, is missing.
         const std::vector<std::string> extras = app.remaining(true);
         if (!extras.empty())
             return explain_extra(extras.front(), command, help);

@@ -15,12 +15,12 @@
 
 namespace graze {
 
-/// What comes with every table.
+/// Options of the output of tables, which many commands share.
 struct OutputArguments {
     TableFormat format = TableFormat::table;
-    int digits = 0;   ///< 0: as many as go with the format
+    int digits = 0;   ///< significant digits; 0: the default of the format
     std::string file; ///< empty: standard output
-    bool all = false; ///< tables for people have all columns, however wide they are
+    bool all = false; ///< show all columns, even if the table is wider than the terminal
 
     int shown_digits() const { return digits > 0 ? digits : format == TableFormat::table ? 8 : 17; }
 };
@@ -37,13 +37,13 @@ struct ModelsArguments {
     OutputArguments output;
 };
 
-/// Texts are expressions in the model's parameters, still to be evaluated. Empty ones were not given.
-/// How a picture looks, rather than what it shows.
+/// The appearance of a picture.
 struct StyleArguments {
     std::string size, font;
     bool grey = false;
 };
 
+/// Texts are expressions in the model's parameters, not yet evaluated; an empty text was not given.
 struct SimulateArguments {
     std::string model, mode;
     std::vector<std::string> set, from;
@@ -153,7 +153,7 @@ struct LayoutArguments {
     OutputArguments output;
 };
 
-/// Numbers that are not given are missing; lists are still to be split.
+/// Items of lists may hold several values, separated by commas.
 struct RecordArguments {
     std::vector<std::string> files;
     std::string columns, group;
@@ -175,22 +175,22 @@ struct RecordArguments {
 
 struct IdentifyArguments {
     std::string what;
-    RecordArguments reading; ///< files, and what is done to them before; output and picture
+    RecordArguments reading; ///< the files and how they are read; the output and the picture
     std::string channel, displacement, voltage, current;
     std::size_t peaks = 10;
     ImpactWindow impacts;
     std::optional<double> gap, stiffness, frequency;
     double gap_error = 0, stiffness_error = 0, clamped = 0;
-    std::vector<double> noise; ///< of displacement and current; empty: not given
+    std::vector<double> noise; ///< standard deviations of displacement and current; empty: not given
     std::string beta1, beta2;
-    // Of fits: NAME=VALUE and the like, still to be split.
+    // For fits: lists of NAME=VALUE and similar items, not yet parsed.
     std::vector<std::string> free, set, start, known, meanings, gains, offsets, noises, own;
     std::string mode, loss = "squares", piece, table = "numbers", save;
-    std::optional<double> time_limit; ///< s, of a fit
+    std::optional<double> time_limit; ///< for a fit, in seconds
     bool progress = false;
 };
 
-/// Lists are of NAME=VALUE, still to be split.
+/// Lists hold texts NAME=VALUE, not yet parsed.
 struct BenchArguments {
     std::string model;
     std::vector<std::string> set, from;
@@ -266,24 +266,24 @@ struct Arguments {
     }
 };
 
-/// Refuses anything but whole numbers within these bounds.
+/// Accepts only whole numbers within these bounds.
 CLI::Validator whole_number(long least, long most);
-/// Refuse anything but finite numbers: any, those above zero, those from zero, and those within bounds.
+/// These four accept only finite numbers: all, those above zero, those not below zero, and those within bounds.
 CLI::Validator finite_number();
 CLI::Validator positive_number();
 CLI::Validator non_negative_number();
 CLI::Validator number_between(double least, double most);
-/// Refuses anything but these words.
+/// Accepts only these words.
 CLI::Validator one_of(const std::vector<std::string>& words);
 
-/// Threads of an option `--jobs`: as many as there are cores if it is 0.
+/// Number of threads for the option `--jobs`: the number of cores if it is 0.
 int threads_for(int jobs);
 
-/// Declares the command line: one sub-command each for the members of `arguments`. Empty values are refused, but of
-/// options declared as TEXT: what an unset variable of a script leaves would silently count as if nothing were there.
+/// Declares the command line: one sub-command for each member of `arguments`. Empty values are refused, except for
+/// options declared as TEXT: an unset variable of a script would otherwise silently count as an option not given.
 void declare_arguments(CLI::App& app, Arguments& arguments);
 
-/// Makes `--contacts 4` one word, since `--contacts` may also stand alone before the model's name.
+/// Joins `--contacts 4` into one word, since `--contacts` may also stand alone before the model's name.
 std::vector<std::string> with_joined_counts(std::vector<std::string> arguments);
 
 /// One line about what is wrong with a command line, and what to do.

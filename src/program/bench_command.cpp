@@ -13,7 +13,7 @@ namespace graze {
 
 namespace {
 
-/// What is measured unless somebody says so: the drive, and how the model moves.
+/// Channels without --channel: the quantity `voltage`, and all states that are not cyclic.
 std::vector<std::string> usual_channels(const Model& model) {
     std::vector<std::string> texts;
     if (const auto voltage = model.find_quantity("voltage"))
@@ -24,7 +24,7 @@ std::vector<std::string> usual_channels(const Model& model) {
     return texts;
 }
 
-/// Carries out NAME=VALUE for a property of channels.
+/// Sets a property of channels from texts NAME=VALUE.
 void set_each(BenchSettings& settings, const std::vector<std::string>& texts, const char* option,
               double BenchChannel::*property) {
     std::vector<std::string> names;
@@ -89,7 +89,7 @@ int bench_command(const BenchArguments& arguments, const Console& console) {
     settings.seed = arguments.seed;
     const InterruptGuard guard;
     BenchService service(bench, settings);
-    // Whoever waits for the first line can connect.
+    // A script may wait for the first line, after which it can connect.
     console.out << fmt::format("generator {}\nsamples tcp:127.0.0.1:{}\n", arguments.port, service.tcp_port())
                 << std::flush;
     require_delivered(console);

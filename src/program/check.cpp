@@ -19,8 +19,8 @@ namespace graze {
 
 namespace {
 
-/// Where the part "TABLE.NAME" of a model file is written, under [TABLE.NAME] or as NAME = ... under [TABLE]; just the
-/// model if that is not found.
+/// The place in a model file where the part "TABLE.NAME" is defined: as [TABLE.NAME], or as NAME = ... under [TABLE].
+/// It has no line if the definition is not found.
 Place place_of(const std::string& model, const std::string& part) {
     Place place{model, 0, 0};
     const std::size_t dot = part.find('.');
@@ -48,10 +48,10 @@ Place place_of(const std::string& model, const std::string& part) {
     return place;
 }
 
-/// Ends a motion after a number of steps: of models of which a step takes long there are fewer.
-class Limit : public Observer {
+/// Ends a motion after a number of steps; models with many operations in a step get fewer steps.
+class StepLimit : public Observer {
 public:
-    explicit Limit(const System& system)
+    explicit StepLimit(const System& system)
         : most_(std::clamp(work / (system.operations() + 1), fewest_steps, most_steps)) {}
     void step(const Step&) override { ++steps_; }
     bool stop() override { return steps_ > most_; }
@@ -61,10 +61,10 @@ private:
     std::size_t most_, steps_ = 0;
 };
 
-/// Whether the motion from the initial state soon leads where the model itself says that it must not.
+/// Warns if the motion from the initial state soon ends irregularly, as beyond a barrier.
 std::vector<ModelWarning> motion_warnings(const Model& model) {
     const Simulation simulation{System(model)};
-    Limit limit(simulation.system());
+    StepLimit limit(simulation.system());
     Trajectory trajectory(simulation, model.parameter_values(), limit);
     trajectory.start(model.initial_state(), model.initial_mode, 0, 1e300);
     JetSet jets(simulation, LaneKind::single);
@@ -72,7 +72,8 @@ std::vector<ModelWarning> motion_warnings(const Model& model) {
     const Outcome& outcome = trajectory.outcome();
     const bool wrong = outcome.ending == Ending::inadmissible || outcome.ending == Ending::no_separation ||
                        outcome.ending == Ending::no_progress || outcome.ending == Ending::no_transition;
-    if (!wrong || (outcome.ending == Ending::inadmissible && outcome.time == 0)) // the start has been looked at
+    // An inadmissible initial state already has a warning of located_warnings.
+    if (!wrong || (outcome.ending == Ending::inadmissible && outcome.time == 0))
         return {};
     ModelWarning warning{
         "", fmt::format("the motion from the initial state ends at time {:.6g}: {}", outcome.time, outcome.detail)};

@@ -28,12 +28,13 @@ int identify_command(const IdentifyArguments& arguments, const Console& console)
 int bench_command(const BenchArguments& arguments, const Console& console);
 int acquire_command(const AcquireArguments& arguments, const Console& console);
 
-/// Hands a table to the user: for people the columns that fit a terminal, unless all are asked for.
-/// @param kept names of columns that are shown in any case
+/// Writes a table to the file or to standard output. In format `table`, columns that do not fit the terminal are left
+/// out with a message, unless all were asked for.
+/// @param kept names of columns that are never left out
 /// @throws InputError when it cannot be written
 void deliver(const Table& table, const OutputArguments& output, const JsonObject& heading, const Console& console,
              const std::vector<std::string>& kept = {});
-/// Throws when standard output has not taken what was written to it.
+/// Flushes standard output. @throws InputError when what was written to it could not be delivered
 void require_delivered(const Console& console);
 
 } // namespace graze

@@ -21,7 +21,8 @@ namespace graze {
 
 namespace {
 
-std::vector<std::string> both(std::vector<std::string> one, const std::vector<std::string>& other) {
+/// The words of both lists, sorted, each once.
+std::vector<std::string> united(std::vector<std::string> one, const std::vector<std::string>& other) {
     one.insert(one.end(), other.begin(), other.end());
     std::sort(one.begin(), one.end());
     one.erase(std::unique(one.begin(), one.end()), one.end());
@@ -32,7 +33,7 @@ std::string joined(const std::vector<std::string>& words) {
     return fmt::format("{}", fmt::join(words, " "));
 }
 
-/// Between single quotes of a shell. @param quote what a single quote becomes
+/// The text in single quotes for a shell. @param quote replacement of a single quote inside the text
 std::string quoted(const std::string& text, const char* quote = "'\\''") {
     std::string result = "'";
     for (const char c : text)
@@ -48,13 +49,13 @@ std::string option_words(const CLI::App& command) {
     return joined(words);
 }
 
-/// What may stand for the arguments of a command, whichever comes next.
+/// Values that any of the arguments of a command may have.
 Choices argument_choices(const CLI::App& app, const CLI::App& command) {
     Choices all;
     for (const DeclaredOption& option : declared_options(command))
         if (option.is_argument) {
             const Choices one = choices_for(app, command, option);
-            all.words = both(all.words, one.words);
+            all.words = united(all.words, one.words);
             all.files = all.files || one.files;
         }
     return all;
@@ -111,7 +112,7 @@ complete -F _graze 'graze'
                        values, options, joined(names), arguments);
 }
 
-/// A text in a specification for zsh, where brackets and colons mean something.
+/// The text with the characters escaped that are special in a completion specification of zsh.
 std::string in_zsh(const std::string& text) {
     std::string result;
     for (const char c : text)
@@ -119,7 +120,7 @@ std::string in_zsh(const std::string& text) {
     return result;
 }
 
-/// What completes a value in zsh.
+/// The action of a completion specification of zsh that offers these choices.
 std::string zsh_action(const Choices& choices) {
     if (choices.words.empty())
         return choices.files ? "_files" : " ";
@@ -220,7 +221,8 @@ Choices choices_for(const CLI::App& app, const CLI::App& command, const Declared
             return {kinds_of_estimates(), false};
         if (name == "SHELL")
             return {completion_shells(), false};
-        return {of == "info" ? both(shipped_models(), shipped_studies()) : std::vector<std::string>(), name == "FILE"};
+        return {of == "info" ? united(shipped_models(), shipped_studies()) : std::vector<std::string>(),
+                name == "FILE"};
     }
     if (starts("FILE") || starts("FOLDER"))
         return {{}, true};
@@ -229,7 +231,7 @@ Choices choices_for(const CLI::App& app, const CLI::App& command, const Declared
                                : std::vector<std::string>{"table", "csv", "json"},
                 false};
     if (starts("KIND_OF_RUN"))
-        return {both(kinds_of_runs(), {"all"}), false};
+        return {united(kinds_of_runs(), {"all"}), false};
     if (starts("KIND"))
         return {{"bifurcation", "branch", "basin", "map", "spectrum", "history", "portrait", "poincare", "regression",
                  "scatter", "residuals"},

@@ -7,18 +7,19 @@
 
 namespace graze {
 
-/// What may stand behind an option, or for an argument, of a command.
+/// Values that completion offers for an option or an argument.
 struct Choices {
     std::vector<std::string> words;
-    bool files = false; ///< also, or only, files and folders
+    bool files = false; ///< paths of files and folders too
 };
 
+/// The values that completion offers for an option or argument of a command.
 Choices choices_for(const CLI::App& app, const CLI::App& command, const DeclaredOption& option);
 
-/// Shells that can complete commands.
+/// Shells for which completion scripts can be made.
 std::vector<std::string> completion_shells();
-/// A script by which a shell completes the commands, options and values that are declared.
-/// @throws InputError for a shell that it is not known of
+/// A script with which a shell completes all declared commands, options and values.
+/// @throws InputError for an unknown shell
 std::string completion_script(const CLI::App& app, const std::string& shell);
 
 } // namespace graze

@@ -14,8 +14,8 @@ namespace graze {
 template <class Target, class... Types>
 constexpr bool is_one_of = (std::is_same_v<Target, Types> || ...);
 
-/// An option with the word for its type, in a group of the help. Numbers that are not finite are refused. FILE is what
-/// an option writes (KeptInputs compares it with what is read), PATH and `FILE:...` what it reads.
+/// Declares an option with the word for its type, in a group of the help. Numbers that are not finite are refused. The
+/// type FILE means a file that the option writes (KeptInputs compares it with inputs); PATH and `FILE:...` are read.
 template <class Target>
 CLI::Option* declare_option(CLI::App& command, const char* group, const char* name, Target& target, const char* type,
                             const char* text) {
@@ -26,19 +26,19 @@ CLI::Option* declare_option(CLI::App& command, const char* group, const char* na
         return option;
 }
 
-/// `--format`.
+/// Declares `--format`.
 CLI::Option* declare_format(CLI::App& command, OutputArguments& output);
 
-/// `--format` and `--digits`.
+/// Declares `--format` and `--digits`.
 void declare_digits(CLI::App& command, OutputArguments& output);
 
-/// `--format`, `--digits` and `--output`.
+/// Declares `--format`, `--digits` and `--output`.
 void declare_output(CLI::App& command, OutputArguments& output);
 
-/// The same and `--all`, for tables that may be too wide for a terminal.
+/// Declares the same and `--all`, for tables that may be wider than a terminal.
 void declare_table(CLI::App& command, OutputArguments& output);
 
-/// Adds `--data`, for what a picture is made of.
+/// Declares `--data`, the file that keeps the data and commands of a picture.
 void declare_data(CLI::App& command, std::string& data);
 
 } // namespace graze

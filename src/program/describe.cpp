@@ -19,7 +19,7 @@ std::string kind_of(const State& state) {
     return state.drifting ? " (drifting)" : "";
 }
 
-/// A heading, and below it rows of which only what is there takes room.
+/// A text of headings with aligned rows below them; columns that are empty in all rows are left out.
 class Listing {
 public:
     void heading(std::size_t count, const std::string& one, const std::string& many) {

@@ -7,7 +7,8 @@
 
 namespace graze {
 
-/// Everything in a model that has a name, for people. @param width letters in a line of its text
+/// A readable listing of all states, parameters, modes and other parts of a model.
+/// @param width characters in a line of its text
 std::string describe(const Model& model, std::size_t width = common_line_width);
 
 } // namespace graze

@@ -29,7 +29,7 @@ namespace graze {
 
 namespace {
 
-/// Everything but the long tables, which have files of their own.
+/// The report as JSON: all tables but the long ones, which have files of their own.
 std::string json_of(const Design& design, const std::vector<NamedTable>& tables) {
     JsonObject report;
     report.add("graze", GRAZE_VERSION);
@@ -55,26 +55,26 @@ int list_designs(const DesignArguments& arguments, const Console& console) {
 }
 
 constexpr const char* circuit_module = "device.va";
-constexpr const char* designed_results = "designed.sqlite"; ///< of the way of the finished device
+constexpr const char* designed_results = "designed.sqlite"; ///< branch of the finished device up to its trip point
 
-/// Removes the way that a finished device of an earlier run has gone, if that is what it is and nobody writes to it.
-void remove_designed(const std::string& path) {
+/// Removes the result file of the finished device of an earlier run, if it is a result file that nobody writes to.
+void remove_designed_results(const std::string& path) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error))
         return;
     try {
-        const ResultFile recognised(path, ResultFile::Access::read); // before anything is made beside it
+        const ResultFile recognised(path, ResultFile::Access::read); // throws before the lock file is made beside it
         const ResultFile locked(path, ResultFile::Access::write);
         std::filesystem::remove(path, error);
-    } catch (const InputError&) { // another's
+    } catch (const InputError&) { // not a file of graze, or in use: keep it
     }
 }
 
 constexpr const char* report_name = "report.json";
-constexpr const char* way_name = "results.sqlite"; ///< to the trip point of the first device
+constexpr const char* results_name = "results.sqlite"; ///< branch of the first device up to its trip point
 
-/// Whether a file has the name and the first line of a table of which a run writes one or not, as dimensions, planes
-/// and wants are.
+/// True for a file with the name and the first line of a table that some runs write and others do not: it depends on
+/// the dimensions, planes and wishes of the design.
 bool is_table_of_a_run(const std::filesystem::path& path) {
     const std::string name = path.filename().string();
     const auto table_of = [&](const char* stem) { return name.starts_with(stem) && name.ends_with(".csv"); };
@@ -88,9 +88,10 @@ bool is_table_of_a_run(const std::filesystem::path& path) {
            (name == circuit_module && first.find("Written by graze") != std::string::npos);
 }
 
-class Workplace {
+/// The output folder of a design, with the list of files that this run has written.
+class OutputFolder {
 public:
-    explicit Workplace(std::string folder) : folder_(std::move(folder)) {
+    explicit OutputFolder(std::string folder) : folder_(std::move(folder)) {
         std::ifstream stream(std::filesystem::path(folder_) / report_name);
         std::string first(longest_start, ' ');
         stream.read(first.data(), static_cast<std::streamsize>(first.size()));
@@ -110,21 +111,21 @@ public:
         draw_figure(figure, path(name), "");
         written_.push_back(path(name));
     }
-    /// From here on what an earlier run has left there says nothing of this design, until it is done.
+    /// Marks the folder as unfinished until finish(): files of an earlier run do not belong to this design.
     /// @throws InputError while another run works there
     void begin(const Design& design) const {
-        const ResultFile locked(path(way_name), ResultFile::Access::write);
+        const ResultFile locked(path(results_name), ResultFile::Access::write);
         write_file(path(unfinished_name), unfinished_text(design));
     }
     void finish() const {
         std::error_code error;
         std::filesystem::remove(path(unfinished_name), error);
     }
-    /// What an earlier run has left there and this one has not written says nothing of this design.
+    /// Removes files of an earlier run that this run has not written: they do not belong to this design.
     void remove_others() const {
         std::error_code error;
         if (!designed_)
-            remove_designed(path(designed_results));
+            remove_designed_results(path(designed_results));
         for (const auto& entry : std::filesystem::directory_iterator(folder_, error)) {
             if (entry.is_regular_file(error) && is_of_a_run(entry.path()) &&
                 std::none_of(written_.begin(), written_.end(), [&](const std::string& one) {
@@ -133,7 +134,7 @@ public:
                 std::filesystem::remove(entry.path(), error);
         }
     }
-    /// Where the finished device's way is kept.
+    /// Path of the result file of the finished device.
     std::string designed() {
         designed_ = true;
         return path(designed_results);
@@ -141,7 +142,7 @@ public:
     const std::vector<std::string>& written() const { return written_; }
 
 private:
-    /// Pages have nothing in them that tells whose they are: they are those of an earlier run if there was one.
+    /// A page does not tell who wrote it: it counts as that of an earlier run if the folder has a report.
     bool is_of_a_run(const std::filesystem::path& path) const {
         const std::string name = path.filename().string();
         return (used_ && (name == "page.svg" || name == "page.pdf")) || is_table_of_a_run(path);
@@ -151,10 +152,10 @@ private:
     std::vector<std::string> written_;
     static constexpr std::size_t longest_start = 100;
     bool designed_ = false;
-    bool used_ = false; ///< whether an earlier run has left its report
+    bool used_ = false; ///< the folder has the report of an earlier run
 };
 
-/// What has gone wrong with some devices.
+/// Prints the most frequent problems of devices of the yield.
 void tell(const Yield& yield, const Console& console) {
     constexpr std::size_t most = 5;
     for (std::size_t i = 0; i < std::min(most, yield.problems.size()); ++i)
@@ -162,7 +163,7 @@ void tell(const Yield& yield, const Console& console) {
                                    yield.problems[i].first);
 }
 
-void write_all(Workplace& place, const Design& first, const Design& design, const TripPoint& trip,
+void write_all(OutputFolder& place, const Design& first, const Design& design, const TripPoint& trip,
                const DesignReport& report, const DesignArguments& arguments, const Console& console) {
     const std::vector<NamedTable> tables = tables_of(design, trip, report);
     for (const NamedTable& table : tables)
@@ -185,7 +186,7 @@ void write_all(Workplace& place, const Design& first, const Design& design, cons
     place.finish();
 }
 
-MetWishes wished(const Design& design, const TripPoint& trip, const DesignReportOptions& options) {
+MetWishes find_device(const Design& design, const TripPoint& trip, const DesignReportOptions& options) {
     WishesOptions wishes;
     wishes.jobs = options.jobs;
     wishes.interrupted = options.interrupted;
@@ -195,14 +196,14 @@ MetWishes wished(const Design& design, const TripPoint& trip, const DesignReport
     return meet_wishes(design, trip, wishes);
 }
 
-/// Whether the finished device, which goes all the way to its trip point, comes to another one than it was made for.
+/// True when the finished device, followed from the start, trips at another point than the one it was designed for.
 bool trips_elsewhere(const TripPoint& trip, const DesignReport& report) {
-    constexpr double alike = 1e-6; // far more than two solutions of one problem differ by
+    constexpr double alike = 1e-6; // far above the difference between two solutions of the same problem
     return report.wishes && report.wishes->trip_value &&
            !(std::abs(*report.wishes->trip_value - trip.value()) <= alike * std::abs(trip.value()));
 }
 
-/// What calls for a look at the numbers.
+/// True when the user should look at the numbers: the exit code says so.
 bool is_irregular(const Design& design, const DesignReport& report) {
     const bool other_class = design.wanted.outcome && report.found.outcome != *design.wanted.outcome;
     return other_class || report.trial.outcome == TrialOutcome::contradicted ||
@@ -231,25 +232,25 @@ int design_command(const DesignArguments& arguments, const Console& console) {
     const Design first = load_design(arguments.design);
     const std::string folder = arguments.folder.empty() ? first.name : arguments.folder;
     make_folder(folder, "--output");
-    Workplace place(folder);
+    OutputFolder place(folder);
     keep_inputs_of(first);
     for (const char* name : {report_name, device_model_name, circuit_module, unfinished_name, "page.svg", "page.pdf"})
-        KeptInputs::require_none_at(place.path(name)); // before the work
+        KeptInputs::require_none_at(place.path(name)); // before the computation
     place.begin(first);
     const InterruptGuard guard;
     StatusLine line(console, console.terminal);
     const DesignReportOptions options = interactive_options(arguments.jobs, line);
-    std::optional<TripPoint> trip = locate_trip(first, place.path(way_name), options);
+    std::optional<TripPoint> trip = locate_trip(first, place.path(results_name), options);
     if (!trip)
         return interrupted(console);
     std::optional<MetWishes> wishes;
     Design design = first;
     if (!first.wanted.is_empty()) {
-        wishes = with_place(first.approach.place, [&] { return wished(first, *trip, options); });
+        wishes = with_place(first.approach.place, [&] { return find_device(first, *trip, options); });
         if (wishes->found.outcome == WishOutcome::interrupted)
             return interrupted(console);
         if (wishes->found.outcome != WishOutcome::nowhere) {
-            // The way there is gone by the finished device too: what comes before its trip point is known then.
+            // Follow the finished device from the start too: it may trip earlier, at another point.
             design = with_values(first, wishes->values());
             trip = locate_trip(design, place.designed(), options);
             if (!trip)

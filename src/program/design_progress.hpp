@@ -5,7 +5,7 @@
 
 namespace graze {
 
-/// Ends when the program is told to, and shows what is done on a line, which must outlive it.
+/// Options of a design's computations that stop on an interrupt and show progress on `line`, which must outlive them.
 DesignReportOptions interactive_options(int jobs, StatusLine& line);
 
 } // namespace graze

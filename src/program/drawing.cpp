@@ -32,8 +32,9 @@ std::string without_ending(const std::string& path) {
     return path.substr(0, path.rfind('.'));
 }
 
-/// LaTeX's text names the file with the lines, which is to stand beside it under the picture's name.
-void take_latex(const FileReplacement& file, const std::string& path, double font) {
+/// Completes a picture for LaTeX: gnuplot has written a text and a PDF of the lines. The PDF gets the picture's name,
+/// beside the text, and the text refers to it by that name.
+void finish_latex(const FileReplacement& file, const std::string& path, double font) {
     const std::string drawn = without_ending(file.temporary_path());
     const std::string lines = contents_of(drawn + ".pdf");
     std::error_code error;
@@ -70,7 +71,7 @@ std::string require_drawing_program(const std::string& name, const std::string& 
 }
 
 void require_whole_picture(const std::string& file, const std::string& ending, const std::string& path) {
-    constexpr std::streamoff most = 64; // bytes in which the end is looked for
+    constexpr std::streamoff most = 64; // the last bytes, in which the end mark is searched
     std::ifstream stream(file, std::ios::binary | std::ios::ate);
     const std::streamoff size = stream.tellg();
     std::string tail(static_cast<std::size_t>(std::clamp<std::streamoff>(size, 0, most)), ' ');
@@ -90,7 +91,7 @@ void require_well_formed_picture(const FileReplacement& file, const std::string&
         return;
     std::ifstream stream(file.temporary_path(), std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
-    if (const std::string mended = well_formed(text); mended != text) // programs leave all of it alone
+    if (const std::string mended = well_formed(text); mended != text) // already well formed in most cases
         file.write(mended);
 }
 
@@ -98,7 +99,7 @@ void draw_by_gnuplot(const std::string& script, const FileReplacement& file, con
                      const std::string& path, const std::string& remedy) {
     const std::string gnuplot =
         require_drawing_program("gnuplot", "install gnuplot (Debian: apt-get install gnuplot-nox)");
-    // From a file: gnuplot reads standard input letter by letter, which takes it long for many points.
+    // The commands go through a file: gnuplot reads standard input one character at a time, slow for many points.
     const FileReplacement commands(path + ".gp");
     commands.write(script);
     const ProcessResult result = run_process({gnuplot, "-d", commands.temporary_path()}, "");
@@ -130,14 +131,14 @@ void draw_figure(const Figure& figure, const std::string& path, const std::strin
     draw_by_gnuplot(figure_script(figure, ending, file.temporary_path()), file, ending, path,
                     "keep its commands by --data FILE and run gnuplot FILE");
     if (ending == "tex")
-        take_latex(file, path, layout_of(figure).font);
+        finish_latex(file, path, layout_of(figure).font);
     file.commit();
 }
 
 namespace {
 
-/// Draws what has no commands to be kept.
-/// @param option that asks for it; @param script gives the commands for an ending and the file that they write
+/// Draws a picture whose gnuplot commands are not kept.
+/// @param option for messages; @param script returns the commands for an ending and an output file
 template <class Script>
 void draw_script(const std::string& path, const std::string& option, const Script& script) {
     const std::string ending = picture_ending(path, option, {"svg", "png", "pdf"});

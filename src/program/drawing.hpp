@@ -12,34 +12,35 @@
 
 namespace graze {
 
-/// What the name of a picture ends in, in lower case. @throws InputError unless it is one of `known`
+/// The ending of a picture's file name, in lower case. @param option for messages
+/// @throws InputError unless it is one of `known`
 std::string picture_ending(const std::string& path, const std::string& option, const std::vector<std::string>& known);
 
-/// Path of a program that draws. @throws InputError with the remedy when it is missing
+/// Path of an external drawing program. @throws InputError with the remedy when it is missing
 std::string require_drawing_program(const std::string& name, const std::string& remedy);
 
-/// A program that draws may run out of room and say nothing.
-/// @param file what it has drawn; @param ending as picture_ending gives it; @param path for the message
-/// @throws InputError unless the picture has its beginning and its end
+/// Checks that a picture is complete: a drawing program may run out of disk space without reporting it.
+/// @param file the picture; @param ending as picture_ending returns it; @param path for the message
+/// @throws InputError unless the picture has its end
 void require_whole_picture(const std::string& file, const std::string& ending, const std::string& path);
-/// The same; in SVG it replaces what XML does not allow and programs write all the same.
+/// Does the same and, in SVG, replaces characters that XML does not allow but drawing programs write.
 void require_well_formed_picture(const FileReplacement& file, const std::string& ending, const std::string& path);
 
-/// Draws into a file that is still to get its name. @param script commands for gnuplot that draw there
-/// @param ending as picture_ending gives it; @param path for messages, @param remedy too
+/// Draws into the temporary file of `file`. @param script commands for gnuplot that write that file
+/// @param ending as picture_ending returns it; @param path and @param remedy for messages
 /// @throws InputError when gnuplot is missing or fails
 void draw_by_gnuplot(const std::string& script, const FileReplacement& file, const std::string& ending,
                      const std::string& path, const std::string& remedy);
 
-/// What a program has said, on one line.
+/// The text on one line: each run of blanks and line feeds becomes one blank.
 std::string one_line(const std::string& text);
 
-/// Draws with gnuplot. What ends in .tex is text for LaTeX, with the lines in a file beside it that ends in .pdf.
-/// @param data_path where to keep the commands as well; may be empty
+/// Draws with gnuplot. A path that ends in .tex gives a text for LaTeX, and a PDF of the lines beside it.
+/// @param data_path file that keeps the commands; may be empty
 /// @throws InputError when gnuplot is missing or fails, or a file cannot be written
 void draw_figure(const Figure& figure, const std::string& path, const std::string& data_path);
-/// The same of other pictures, as svg, png or pdf. @throws InputError likewise
-/// @param mask 1 or 2: this one alone; none: the device or wafer, and both masks
+/// Draw pictures of other kinds, as svg, png or pdf. @throws InputError as draw_figure
+/// @param mask 1 or 2: this mask alone; none: the device or wafer, and both masks
 void draw_layout(const Layout& layout, const std::string& path, std::optional<int> mask = std::nullopt);
 void draw_wafer_map(const WaferYield& yield, const WaferPlan& plan, const WaferMapLabels& labels,
                     const std::string& path);

@@ -10,20 +10,20 @@ namespace graze {
 
 namespace {
 
-constexpr const char* bench_text = R"(Be an experiment without hardware: a generator that drives a model.
-Gives a serial line (a pseudo-terminal under the name of --port) that answers SCPI as an HP 33120A function generator
-does, and a TCP port on this machine with samples of the model's motion, as sensors and converters show it. The motion
-goes on until Ctrl-C. `graze acquire` runs against it as it does against hardware.)";
+constexpr const char* bench_text = R"(Simulate an experiment: a function generator that drives a model.
+Opens a serial line (a pseudo-terminal with the name of --port) that answers SCPI commands like an HP 33120A function
+generator, and a TCP port on this machine that sends samples of the model's motion, as sensors and converters would show
+it. The motion continues until Ctrl-C. `graze acquire` works with it as with hardware.)";
 
 constexpr const char* bench_examples = R"(Examples:
   graze bench electromagnetic-testbed --port /tmp/generator --tcp 4711 --noise v=0.002 --range v=1
   graze bench electromagnetic-testbed --port /tmp/generator --on-demand --clip 6 --drop 0.001
   graze bench impact-oscillator --port /tmp/generator --amplitude amplitude --frequency omega=2*pi)";
 
-constexpr const char* acquire_text = R"(Carry out an experiment: step a generator, wait, record, again and again.
-EXPERIMENT is a TOML file with the lines to the instruments, the limits, the levels, and what to record. Each record
-counts as soon as it is there, and what is there already is not recorded again: call it again to go on. Whatever
-happens, the generator is brought to its safe amplitude.)";
+constexpr const char* acquire_text = R"(Carry out an experiment: step a generator through levels, and record.
+EXPERIMENT is a TOML file with the connections to the instruments, the limits, the levels, and what to record. Levels that
+are recorded already are not recorded again: call the command again to continue. Whatever happens, the generator is brought
+to its safe amplitude at the end.)";
 
 constexpr const char* acquire_examples = R"(Examples:
   graze acquire sweep.toml --dry-run
@@ -32,17 +32,16 @@ constexpr const char* acquire_examples = R"(Examples:
 
 void declare_drive(CLI::App& command, BenchArguments& arguments) {
     const char* group = "Model and drive";
-    declare_option(command, group, "--set", arguments.set, "NAME=VALUE", "Values of parameters");
-    declare_option(command, group, "--from", arguments.from, "NAME=VALUE", "Initial values of states");
+    declare_option(command, group, "--set", arguments.set, "NAME=VALUE", "Values of parameters (the model's)");
+    declare_option(command, group, "--from", arguments.from, "NAME=VALUE", "Initial values of states (the model's)");
     declare_option(
         command, group, "--amplitude", arguments.amplitude, "NAME[=FACTOR]",
-        "Parameter that is FACTOR (1), an amplifier's, times half of the amplitude from peak to peak in V (V0)");
+        "Parameter set to FACTOR (1), as of an amplifier, times half the generator's peak-to-peak voltage in V (V0)");
     declare_option(command, group, "--frequency", arguments.frequency, "NAME[=FACTOR]",
-                   "Parameter that is FACTOR (1) times the frequency in Hz (f)");
+                   "Parameter set to FACTOR (1) times the generator's frequency in Hz (f)");
     declare_option(command, group, "--offset", arguments.offset, "NAME[=FACTOR]",
-                   "Parameter that is FACTOR (1) times the offset in V (none: the generator gives no offset)");
-    declare_option(command, group, "--time-unit", arguments.time_unit, "S",
-                   "Seconds that a unit of the model's time lasts (1)")
+                   "Parameter set to FACTOR (1) times the generator's offset in V (none: it refuses offsets)");
+    declare_option(command, group, "--time-unit", arguments.time_unit, "S", "The model's unit of time in seconds (1)")
         ->check(positive_number());
 }
 
@@ -50,48 +49,56 @@ void declare_sensors(CLI::App& command, BenchArguments& arguments) {
     const char* group = "Sensors";
     declare_option(
         command, group, "--channel", arguments.channels, "NAME[=EXPR][:UNIT]",
-        "What is measured, such as x=q/beta2 or I:A (quantity `voltage` as V, and all states that are not cyclic)");
-    declare_option(command, group, "--noise", arguments.noise, "NAME=VALUE", "Standard deviation of its noise (0)");
-    declare_option(command, group, "--bias", arguments.bias, "NAME=VALUE", "What is added to it (0)");
-    declare_option(command, group, "--drift", arguments.drift, "NAME=VALUE", "What that gains in a second (0)");
+        "Measured channels, such as x=q/beta2 or I:A (quantity `voltage` as V, and all states that are not cyclic)");
+    declare_option(command, group, "--noise", arguments.noise, "NAME=VALUE",
+                   "Standard deviation of a channel's noise, in its unit (0)");
+    declare_option(command, group, "--bias", arguments.bias, "NAME=VALUE",
+                   "Constant error of a channel, in its unit (0)");
+    declare_option(command, group, "--drift", arguments.drift, "NAME=VALUE",
+                   "Growth of a channel's error per second, in its unit (0)");
     declare_option(command, group, "--range", arguments.range, "NAME=VALUE",
-                   "Its converter goes from -VALUE to VALUE (without a converter)");
-    declare_option(command, group, "--bits", arguments.bits, "N", "Of converters (16)")->check(whole_number(1, 32));
+                   "Range -VALUE to VALUE of a channel's converter, which clips and rounds (no converter)");
+    declare_option(command, group, "--bits", arguments.bits, "N", "Resolution of the converters in bits (16)")
+        ->check(whole_number(1, 32));
     declare_option(command, group, "--anti-alias", arguments.anti_alias, "HZ",
-                   "Corner of a low-pass filter of fourth order in each channel (none)")
+                   "Corner frequency of a fourth-order low-pass filter in each channel (no filter)")
         ->check(positive_number());
-    declare_option(command, group, "--seed", arguments.seed, "N", "Of noise and of what gets lost (1)")
+    declare_option(command, group, "--seed", arguments.seed, "N", "Seed of the noise and of lost characters (1)")
         ->check(whole_number(0, 1'000'000'000));
 }
 
 void declare_service(CLI::App& command, BenchArguments& arguments) {
     const char* group = "Connections and time";
-    declare_option(command, group, "--port", arguments.port, "PATH", "Name of the serial line");
-    declare_option(command, group, "--tcp", arguments.tcp, "PORT", "For samples, on 127.0.0.1 (one that is free)")
+    declare_option(command, group, "--port", arguments.port, "PATH", "Path of the serial line, which is created");
+    declare_option(command, group, "--tcp", arguments.tcp, "PORT", "TCP port for samples, on 127.0.0.1 (a free one)")
         ->check(whole_number(0, 65535));
-    declare_option(command, group, "--speed", arguments.speed, "FACTOR", "Seconds of the bench in a second (1)")
+    declare_option(command, group, "--speed", arguments.speed, "FACTOR", "Simulated seconds per second (1)")
         ->check(positive_number());
     command
         .add_flag("--on-demand", arguments.on_demand,
-                  "Time passes only as samples are read, as fast as can be: the same commands give the same samples")
+                  "Advance time only as samples are read, as fast as possible: the same commands give the same samples")
         ->group(group);
-    group = "What goes wrong";
+    group = "Simulated faults";
     declare_option(command, group, "--clip", arguments.clip, "V",
-                   "The generator gives no larger amplitude, and has no error")
+                   "Limit the generator's amplitude to V without reporting an error (no limit)")
         ->check(positive_number());
-    declare_option(command, group, "--left-as", arguments.left_as, "TEXT",
-                   "The generator stands as these commands have left it, such as \"VOLT:UNIT VRMS;:FUNC:SHAP SQU\"");
+    declare_option(
+        command, group, "--left-as", arguments.left_as, "TEXT",
+        "Commands of an earlier user that the generator has obeyed, such as \"VOLT:UNIT VRMS;:FUNC:SHAP SQU\"");
     declare_option(command, group, "--drop", arguments.drop, "P",
-                   "Probability of a letter on the serial line to get lost (0)")
+                   "Probability that a character on the serial line is lost (0)")
         ->check(number_between(0, 1));
-    declare_option(command, group, "--delay", arguments.delay, "S", "Before each answer of the generator (0)")
+    declare_option(command, group, "--delay", arguments.delay, "S",
+                   "Delay of each answer of the generator in seconds (0)")
         ->check(non_negative_number());
-    declare_option(command, group, "--break-after", arguments.break_after, "N", "The serial line breaks after N lines")
+    declare_option(command, group, "--break-after", arguments.break_after, "N",
+                   "Interrupt the serial line after N lines (never)")
         ->check(whole_number(1, 1'000'000'000));
-    declare_option(command, group, "--break-for", arguments.break_for, "S", "For so long (1)")
+    declare_option(command, group, "--break-for", arguments.break_for, "S",
+                   "Duration of that interruption in seconds (1)")
         ->check(non_negative_number());
     declare_option(command, group, "--break-samples", arguments.break_samples, "N",
-                   "The connection for samples breaks after N rows, each time")
+                   "Close the connection for samples after every N rows (never)")
         ->check(whole_number(1, 1'000'000'000));
 }
 
@@ -107,26 +114,27 @@ void declare_bench(CLI::App& app, BenchArguments& arguments) {
 void declare_acquire(CLI::App& app, AcquireArguments& arguments) {
     CLI::App& command = *app.add_subcommand("acquire", acquire_text);
     command.footer(acquire_examples);
-    command.add_option("EXPERIMENT", arguments.experiment, "File of the experiment")->type_name("")->required();
+    command.add_option("EXPERIMENT", arguments.experiment, "Experiment file")->type_name("")->required();
     const char* group = "Instruments";
-    declare_option(command, group, "--port", arguments.port, "PATH",
-                   "Serial line of the generator, in the place of the file's");
+    declare_option(command, group, "--port", arguments.port, "PATH", "Serial line of the generator (that of the file)");
     declare_option(command, group, "--device", arguments.device, "ADDRESS",
-                   "Where samples come from, in the place of the file's: tcp:HOST:PORT or serial:PATH");
+                   "Source of the samples, tcp:HOST:PORT or serial:PATH (that of the file)");
     group = "Output";
     declare_option(command, group, "--output", arguments.folder, "FOLDER",
-                   "For the records (the name of the experiment)");
-    command.add_flag("--dry-run", arguments.dry_run, "Check all, print the levels, and send nothing")->group(group);
+                   "Folder of the records (the name of the experiment)");
+    command.add_flag("--dry-run", arguments.dry_run, "Check the experiment and print its levels; send nothing")
+        ->group(group);
     command.add_flag("--progress", arguments.progress, "Show progress even if standard error is no terminal")
         ->group(group);
-    group = "Picture while it goes on";
+    group = "Picture during the experiment";
     declare_option(command, group, "--live", arguments.live, "FILE",
-                   "Sections of the records over the amplitude: svg, png or pdf");
+                   "Draw stroboscopic sections of the records over the amplitude: svg, png or pdf");
     declare_option(command, group, "--reference", arguments.reference, "NAME",
-                   "Channel whose periods count (the first)");
-    declare_option(command, group, "--phase", arguments.phase, "PART", "Part of the period at which the section is (0)")
+                   "Channel that defines the periods (the first)");
+    declare_option(command, group, "--phase", arguments.phase, "PART",
+                   "Phase of the section, as a fraction of the period (0)")
         ->check(number_between(0, 1));
-    declare_option(command, group, "--channel", arguments.channel, "NAME", "What is drawn (the last)");
+    declare_option(command, group, "--channel", arguments.channel, "NAME", "Channel that is drawn (the last)");
 }
 
 } // namespace

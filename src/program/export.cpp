@@ -18,7 +18,8 @@ namespace graze {
 
 namespace {
 
-/// What stands in some columns of the points of a file, once each.
+/// The distinct words in some columns of the points of a file.
+/// @param of_points columns of points of sweeps; @param of_branches columns of points of branches
 std::vector<std::string> words_in(const ResultFile& file, const std::vector<std::string>& of_points,
                                   const std::vector<std::string>& of_branches) {
     std::vector<std::string> words;
@@ -38,7 +39,8 @@ std::vector<std::string> words_in(const ResultFile& file, const std::vector<std:
     return words;
 }
 
-/// Words that no point has, but might have, choose no rows; others are mistakes.
+/// Checks --label and --direction. A known word that no point of this file has selects no rows; an unknown word is an
+/// error.
 void require_selection(const ResultTableRequest& request, const ResultFile& file) {
     const auto require = [](const char* option, const std::string& word, const std::vector<std::string>& there,
                             const char* what) {
@@ -77,7 +79,7 @@ ResultTable table_asked_for(const ExportArguments& arguments, const ResultFile& 
     return table;
 }
 
-/// With quotes where it needs them.
+/// A cell of a CSV file, quoted if necessary.
 std::string quoted_cell(const std::string& text) {
     if (text.find_first_of(",\"\r\n") == std::string::npos)
         return text;
@@ -87,7 +89,7 @@ std::string quoted_cell(const std::string& text) {
     return result + '"';
 }
 
-/// Row by row, for results larger than memory.
+/// Writes rows as they are read, since results may be larger than memory.
 void write_csv(std::ostream& out, ResultFile::Rows& rows, int digits) {
     for (std::size_t c = 0; c < rows.columns(); ++c)
         out << (c > 0 ? "," : "") << quoted_cell(rows.column_name(c));
@@ -122,13 +124,13 @@ Table table_of(ResultTable& given) {
     return table;
 }
 
-/// Whether an output is a folder, into which each run is written by itself.
+/// True when an output is a folder, which gets one file for each run.
 bool is_folder(const std::string& path) {
     std::error_code error;
     return path.ends_with('/') || std::filesystem::is_directory(path, error);
 }
 
-/// A file for each run, since runs may have different columns.
+/// Writes one file for each run, since runs may have different columns.
 void export_each(const ExportArguments& arguments, const ResultFile& file, const Console& console) {
     if (!arguments.sql.empty())
         throw InputError({"--output", 0, 0}, "a query has one table, and a folder is given", "name a file");
@@ -136,7 +138,7 @@ void export_each(const ExportArguments& arguments, const ResultFile& file, const
     make_folder(folder, "--output");
     const std::string ending = arguments.hdf5.empty() || arguments.hdf5 == "table" ? "txt" : arguments.hdf5;
     for (const std::string& run : chosen_runs(file, split_list(arguments.runs), {"--run", 0, 0})) {
-        const bool branch = file.find_run(run)->is_branch(); // which has segments and no samples
+        const bool branch = file.find_run(run)->is_branch(); // branches have segments, sweeps have samples
         if (arguments.runs.empty() && arguments.what == (branch ? "samples" : "segments"))
             continue;
         ExportArguments one = arguments;
@@ -183,7 +185,7 @@ int export_command(const ExportArguments& arguments, const Console& console) {
         target.commit();
         return exit_success;
     }
-    output.all = output.all || !arguments.sql.empty(); // which names its columns
+    output.all = output.all || !arguments.sql.empty(); // a query chooses its columns itself
     JsonObject heading;
     heading.add("file", file.path());
     deliver(table_of(table), output, heading, console,

@@ -60,9 +60,10 @@ IdentifyRequest::Unknown unknown_of(const Model& model, const std::string& item)
     return {named.name, named.rest.value_or(""), parts[1], parts[2], place};
 }
 
-class Requester {
+/// Makes a FitRequest from the command line, option by option.
+class FitRequestReader {
 public:
-    Requester(const IdentifyArguments& arguments, const Console& console)
+    FitRequestReader(const IdentifyArguments& arguments, const Console& console)
         : arguments_(&arguments), console_(&console) {}
 
     FitRequest make() {
@@ -108,7 +109,7 @@ private:
     const Model& model() const { return request_.run.model; }
     IdentifyRequest& asked() { return request_.run.identify(); }
 
-    /// Refuses the name of no state, with those that exist.
+    /// @throws InputError, with the nearest name of a state, unless it is a state
     void require_state(const std::string& name, const char* option) const {
         if (!model().find_state(name))
             throw InputError({option, 0, 0}, fmt::format("'{}' is not a state", name),
@@ -142,7 +143,7 @@ private:
         }
     }
 
-    /// True when a channel measures a value of the model; it is then added to the readings.
+    /// True when a channel is used: it has a --reading, or the name of a state or quantity. It becomes a reading then.
     bool is_read(const std::string& channel) {
         std::vector<Reading>& readings = asked().readings;
         if (std::any_of(readings.begin(), readings.end(), [&](const Reading& one) { return one.channel == channel; }))
@@ -195,7 +196,7 @@ private:
             if (record == request_.records.end())
                 throw InputError(place, fmt::format("'{}' is none of the records", item.substr(0, colon)),
                                  "name a record as it is named before the options");
-            model().independent_parameter(named.name); // says which there are
+            model().independent_parameter(named.name); // throws, with the names of parameters, for others
             record->known.emplace_back(named.name, number_in(model(), *named.rest, "--with", item));
         }
     }
@@ -227,7 +228,7 @@ private:
 } // namespace
 
 FitRequest fit_request(const IdentifyArguments& arguments, const Console& console) {
-    return Requester(arguments, console).make();
+    return FitRequestReader(arguments, console).make();
 }
 
 } // namespace graze

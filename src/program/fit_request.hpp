@@ -8,13 +8,13 @@
 
 namespace graze {
 
-/// A fit as the command line asks for it.
+/// The fit that a command line describes.
 struct FitRequest {
-    StudyRun run; ///< of kind identify, whose model has the values that are set
+    StudyRun run; ///< of kind identify; its model has the values of --set and --start
     std::vector<KeptRecord> records;
 };
 
-/// Reads the model and the records. @throws InputError
+/// Makes the request from the options and reads the records. @throws InputError
 FitRequest fit_request(const IdentifyArguments& arguments, const Console& console);
 
 } // namespace graze

@@ -6,16 +6,16 @@ namespace graze {
 
 namespace {
 
-constexpr const char* help_text = R"(Tell how to use graze, or one of its commands.
-The same as graze COMMAND --help. Installed with graze are pages for man too: man graze-run, say.)";
+constexpr const char* help_text = R"(Explain how to use graze, or one of its commands.
+The same as graze COMMAND --help. An installation also has manual pages, such as man graze-run.)";
 
 constexpr const char* help_examples = R"(Examples:
   graze help
   graze help run
-  graze help run --man > graze-run.1     the page for man
-  graze help --write man1                pages of all commands)";
+  graze help run --man > graze-run.1     a manual page
+  graze help --write man1                manual pages of all commands)";
 
-constexpr const char* completion_text = R"(Print a script by which a shell completes commands, options and names.
+constexpr const char* completion_text = R"(Print a script with which a shell completes commands, options and names.
 SHELL is bash, zsh or fish. An installation has these scripts already.)";
 
 constexpr const char* completion_examples = R"(Examples:
@@ -29,9 +29,9 @@ void declare_help_commands(CLI::App& app, Arguments& arguments) {
     CLI::App& help = *app.add_subcommand("help", help_text);
     help.footer(help_examples);
     arguments.commands["help"] = [&](const Console& console) { return help_command(app, arguments.help, console); };
-    help.add_option("COMMAND", arguments.help.command, "The command to tell about (all)")->type_name("");
-    help.add_flag("--man", arguments.help.man, "As a page for man");
-    help.add_option("--write", arguments.help.folder, "Write the pages of all commands into this folder")
+    help.add_option("COMMAND", arguments.help.command, "The command to explain (the program)")->type_name("");
+    help.add_flag("--man", arguments.help.man, "Print a manual page for man");
+    help.add_option("--write", arguments.help.folder, "Write the manual pages of all commands into this folder")
         ->type_name("FOLDER");
     CLI::App& completion = *app.add_subcommand("completion", completion_text);
     completion.footer(completion_examples);
@@ -39,7 +39,8 @@ void declare_help_commands(CLI::App& app, Arguments& arguments) {
         return completion_command(app, arguments.completion, console);
     };
     completion.add_option("SHELL", arguments.completion.shell, "bash, zsh or fish")->type_name("")->required();
-    completion.add_option("--output", arguments.completion.file, "Write it there instead of to standard output")
+    completion
+        .add_option("--output", arguments.completion.file, "Write the script to FILE instead of to standard output")
         ->type_name("FILE");
 }
 

@@ -4,7 +4,7 @@
 
 namespace graze {
 
-/// Declares `help` and `completion`.
+/// Declares `graze help` and `graze completion`.
 void declare_help_commands(CLI::App& app, Arguments& arguments);
 
 } // namespace graze

@@ -14,14 +14,14 @@ namespace {
 
 constexpr const char* identify_text = R"(Find parameters from measured records, with their errors.
 WHAT is one of
-  decrement    natural frequency and damping ratio from free oscillations that die out, a record each
-  restitution  coefficient of restitution from impacts in a velocity, a record for each set of conditions
-  coupling     constants of an electromagnet from equilibria: each row of the records is one
-  impedance    resistance and inductance of a coil whose mass is clamped, under a sinusoidal voltage
-  fit          any parameters and initial states of a model, named before the records: least squares through impacts
-or the name or file of a study: what its runs of kind `identify` find is computed where that is not done, and shown.
-Each value comes with its standard error and the interval that covers the truth with a probability of 95 %. The picture
-shows what was measured, what was fitted, and what is left.)";
+  decrement    natural frequency and damping ratio from free decaying oscillations, one in each record
+  restitution  coefficient of restitution from impacts in a velocity, one record for each set of conditions
+  coupling     constants of an electromagnet from equilibria, one in each row of the records
+  impedance    resistance and inductance of a coil with its mass clamped, under a sinusoidal voltage
+  fit          parameters and initial states of a model, named before the records, by least squares through impacts
+or the name or file of a study: its runs of kind `identify` are computed if necessary, and their results shown.
+Each value has its standard error and its 95 % confidence interval. The picture shows the measured and fitted values and
+the residuals.)";
 
 constexpr const char* identify_examples = R"(Examples:
   graze identify decrement release*.csv --channel v --plot decay.svg
@@ -35,78 +35,83 @@ constexpr const char* identify_examples = R"(Examples:
 void declare_channels(CLI::App& command, IdentifyArguments& arguments) {
     const char* group = "Channels";
     declare_option(command, group, "--channel", arguments.channel, "NAME", "Decrement, restitution: the velocity (v)");
-    declare_option(command, group, "--displacement", arguments.displacement, "NAME",
-                   "Coupling: the displacement (q). Restitution: a channel whose corners tell the times of impacts");
+    declare_option(
+        command, group, "--displacement", arguments.displacement, "NAME",
+        "Coupling: the displacement (q). Restitution: the displacement, whose kinks give the times of impacts");
     declare_option(command, group, "--voltage", arguments.voltage, "NAME", "Impedance: the voltage (V)");
     declare_option(command, group, "--current", arguments.current, "NAME", "Coupling, impedance: the current (I)");
     declare_reading(command, arguments.reading);
 }
 
 void declare_known(CLI::App& command, IdentifyArguments& arguments) {
-    const char* group = "Of each kind";
-    declare_option(command, group, "--peaks", arguments.peaks, "N", "Decrement: the first peaks of each release (10)")
+    const char* group = "Each kind of estimate";
+    declare_option(command, group, "--peaks", arguments.peaks, "N",
+                   "Decrement: number of peaks that are used, the first of each record (10)")
         ->check(whole_number(2, 100'000));
     declare_option(command, group, "--window", arguments.impacts.window, "N",
-                   "Restitution: samples on each side of an impact that tell velocities (12)")
+                   "Restitution: samples on each side of an impact to which velocities are fitted (12)")
         ->check(whole_number(ImpactWindow::least_window, ImpactWindow::most_window));
     declare_option(command, group, "--transition", arguments.impacts.transition, "N",
-                   "Restitution: samples on each side that the impact itself disturbs (0)")
+                   "Restitution: samples on each side left out since the impact itself disturbs them (0)")
         ->check(whole_number(0, ImpactWindow::most_window));
     declare_option(command, group, "--least-jump", arguments.impacts.least_jump, "VALUE",
-                   "Restitution: smaller jumps are no impacts (0)")
+                   "Restitution: smallest jump of the velocity that is an impact, in its unit (0)")
         ->check(non_negative_number());
-    declare_option(command, group, "--gap", arguments.gap, "D", "Coupling, impedance: gap at rest")
+    declare_option(command, group, "--gap", arguments.gap, "D",
+                   "Coupling, impedance: gap at rest, in the unit of the displacement")
         ->check(positive_number());
     declare_option(command, group, "--stiffness", arguments.stiffness, "K",
-                   "Coupling: mass times square of natural frequency")
+                   "Coupling: stiffness, the mass times the square of the natural frequency")
         ->check(positive_number());
-    declare_option(command, group, "--gap-error", arguments.gap_error, "D", "Coupling: its standard error (0)")
+    declare_option(command, group, "--gap-error", arguments.gap_error, "D", "Coupling: standard error of the gap (0)")
         ->check(non_negative_number());
     declare_option(command, group, "--stiffness-error", arguments.stiffness_error, "K",
-                   "Coupling: its standard error (0)")
+                   "Coupling: standard error of the stiffness (0)")
         ->check(non_negative_number());
     declare_option(command, group, "--noise", arguments.noise, "Q,I",
-                   "Coupling: noise of displacement and current, or their ratio (that of the largest ones)")
+                   "Coupling: noise of displacement and current; only its ratio matters (that of their largest values)")
         ->delimiter(',')
         ->expected(2);
     declare_option(command, group, "--frequency", arguments.frequency, "F",
-                   "Impedance: about the frequency of the voltage (that of its largest wave)")
+                   "Impedance: approximate frequency of the voltage (that of its largest spectral line)")
         ->check(positive_number());
     declare_option(command, group, "--beta1", arguments.beta1, "VALUE[+-ERROR]",
-                   "Impedance: with these the leakage inductance too, L - beta1/(beta2 + gap - q)");
-    declare_option(command, group, "--beta2", arguments.beta2, "VALUE[+-ERROR]", "Impedance: likewise");
+                   "Impedance: with --beta2 and --gap gives the leakage inductance too, L - beta1/(beta2 + gap - q)");
+    declare_option(command, group, "--beta2", arguments.beta2, "VALUE[+-ERROR]", "Impedance: see --beta1");
     declare_option(command, group, "--clamped", arguments.clamped, "Q",
-                   "Impedance: displacement at which the mass is held (0)");
+                   "Impedance: displacement q at which the mass is clamped (0)");
 }
 
 void declare_fit(CLI::App& command, IdentifyArguments& arguments) {
     const char* group = "Fit";
     declare_option(command, group, "--free", arguments.free, "NAME[=GUESS][:LEAST:GREATEST]",
-                   "Parameters to be found, from these guesses (the model's values), within these bounds");
+                   "Parameters to be found, with guesses (the model's values) and bounds (none)");
     declare_option(command, group, "--set", arguments.set, "NAME=VALUE", "Values of other parameters");
     declare_option(command, group, "--with", arguments.own, "FILE:NAME=VALUE",
-                   "Parameters that one record has of its own");
+                   "Values of parameters in one record only, if records were taken under different conditions");
     declare_option(command, group, "--start", arguments.start, "STATE=VALUE",
-                   "Guesses of states at the first time (from readings, or the model)");
-    declare_option(command, group, "--known", arguments.known, "STATE,...",
-                   "States that begin as --start or the model says, and are not to be found; `all`: none are");
+                   "Guesses of the states at the first time (from the readings, or the model)");
+    declare_option(
+        command, group, "--known", arguments.known, "STATE,...",
+        "States whose initial values are known, by --start or the model, and not fitted; `all`: every state");
     declare_option(command, group, "--mode", arguments.mode, "MODE",
-                   "Mode at the first time (the model's initial one)");
+                   "Mode at the first time (the model's initial mode)");
     declare_option(command, group, "--reading", arguments.meanings, "CHANNEL=EXPRESSION",
-                   "What a channel measures (the state or quantity of its name; other channels are not used)");
+                   "Quantity that a channel measures (the state or quantity of its name; other channels are not used)");
     declare_option(command, group, "--gain", arguments.gains, "CHANNEL[=GUESS]",
-                   "Channels whose gain is to be found, too (1)");
+                   "Channels whose gain is fitted too, with a guess (1)");
     declare_option(command, group, "--offset", arguments.offsets, "CHANNEL[=GUESS]",
-                   "Channels whose offset is to be found, too (0)");
+                   "Channels whose offset is fitted too, with a guess (0)");
     declare_option(command, group, "--deviation", arguments.noises, "CHANNEL=VALUE",
-                   "Standard deviation of a channel's noise (found from what is left)");
+                   "Standard deviation of a channel's noise (estimated from the residuals)");
     declare_option(command, group, "--loss", arguments.loss, "LOSS",
-                   "How far readings count: squares (default), huber, cauchy")
+                   "Loss function: squares (default); huber or cauchy if there are outliers")
         ->check(one_of(names_of_losses()));
     declare_option(command, group, "--piece", arguments.piece, "T",
-                   "Length of the pieces into which records are cut (some thirty readings)");
+                   "Length in time of the pieces into which records are cut (about thirty readings); shorter ones help "
+                   "a fit with poor guesses");
     declare_option(command, group, "--time-limit", arguments.time_limit, "S",
-                   "End after so many seconds, and tell what does not match (none)")
+                   "End after S seconds and report what does not match (no limit)")
         ->check(positive_number());
     command.add_flag("--progress", arguments.progress, "Show progress even if standard error is no terminal")
         ->group(group);
@@ -114,7 +119,7 @@ void declare_fit(CLI::App& command, IdentifyArguments& arguments) {
                    "numbers (default), outputs, correlations or readings")
         ->check(one_of(fit_table_names()));
     declare_option(command, group, "--save", arguments.save, "FILE",
-                   "Keep what was found, for --set @FILE and --from @FILE");
+                   "Write the fitted values to FILE, for --set @FILE and --from @FILE");
 }
 
 } // namespace
@@ -128,16 +133,18 @@ void declare_identify_command(CLI::App& app, Arguments& all) {
     CLI::App& command = *app.add_subcommand("identify", identify_text);
     command.footer(identify_examples);
     all.add_command("identify", identify_command, all.identify);
-    command.add_option("WHAT", arguments.what, "decrement, restitution, coupling, impedance, fit; or a study, alone")
+    command
+        .add_option("WHAT", arguments.what,
+                    "decrement, restitution, coupling, impedance or fit; or a study, without FILE")
         ->type_name("")
         ->required();
-    command.add_option("FILE", arguments.reading.files, "Records; of a fit, the model before them")->type_name("");
+    command.add_option("FILE", arguments.reading.files, "Records; for a fit the model comes first")->type_name("");
     declare_channels(command, arguments);
     declare_known(command, arguments);
     declare_fit(command, arguments);
     declare_table(command, arguments.reading.output);
     declare_option(command, "Picture", "--plot", arguments.reading.plot, "FILE",
-                   "Draw what was fitted, too, as svg, png or pdf");
+                   "Draw the fit and its residuals too, as svg, png or pdf");
     declare_data(command, arguments.reading.data);
 }
 

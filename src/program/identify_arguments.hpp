@@ -4,10 +4,10 @@
 
 namespace graze {
 
-/// What `graze identify fit --table` shows.
+/// Values of `graze identify fit --table`.
 std::vector<std::string> fit_table_names();
 
-/// The command that finds parameters from measured records: `identify`.
+/// Declares `graze identify`.
 void declare_identify_command(CLI::App& app, Arguments& arguments);
 
 } // namespace graze

@@ -105,20 +105,20 @@ Table readings_table(const FitOfRecords& found, const Channel& time) {
     return table;
 }
 
-/// What was read and what was fitted, over time, and below what is left: two panels for each output.
+/// Two panels for each output: measured and fitted values over time, and below them the residuals.
 Figure fit_figure(const FitOfRecords& found, const Channel& time) {
     using Style = FigureSeries::Style;
     Figure figure;
     for (std::size_t o = 0; o < found.channels.size(); ++o) {
-        FigurePanel panel, rest;
-        for (FigurePanel* one : {&panel, &rest}) {
+        FigurePanel panel, residuals;
+        for (FigurePanel* one : {&panel, &residuals}) {
             one->x_label = time.name;
             one->x_unit = time.unit;
             one->y_unit = found.channels[o].unit;
             one->roomy_x = one->roomy_y = true;
         }
         panel.y_label = found.channels[o].name;
-        rest.y_label = found.channels[o].name + ": fitted less measured";
+        residuals.y_label = found.channels[o].name + ": fitted less measured";
         FigureSeries read{"measured", Style::dots, 0, {}}, fitted{"fitted", Style::line, 1, {}},
             left{"", Style::dots, 0, {}};
         for (std::size_t r = 0; r < found.task.records.size(); ++r) {
@@ -137,9 +137,9 @@ Figure fit_figure(const FitOfRecords& found, const Channel& time) {
             }
         }
         panel.series = {std::move(read), std::move(fitted)};
-        rest.series = {std::move(left)};
+        residuals.series = {std::move(left)};
         figure.panels.push_back(std::move(panel));
-        figure.panels.push_back(std::move(rest));
+        figure.panels.push_back(std::move(residuals));
     }
     return figure;
 }
@@ -165,7 +165,7 @@ ParameterFile parameter_file(const Fit& fit, const FitRequest& request) {
     return file;
 }
 
-/// What makes one doubt the errors, or the model.
+/// Prints warnings: reasons to doubt the errors, or the model.
 void warn(const FitOfRecords& found, const Console& console) {
     const Fit& fit = found.fit;
     const auto say = [&](const std::string& text) { console.err << "graze: warning: " << text << '\n'; };
@@ -208,7 +208,7 @@ FitOfRecords run_fit(const FitRequest& request, const IdentifyArguments& argumen
             line.show(done);
         return !is_over();
     };
-    settings.interrupted = [&] { // a single motion may take long
+    settings.interrupted = [&] { // called during a motion, since a single one may take long
         if (line.wanted() && line.is_due())
             line.show(done);
         return is_over();

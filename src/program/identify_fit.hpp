@@ -5,7 +5,8 @@
 
 namespace graze {
 
-/// Fits a model to records. @return exit_success for a fit that has converged and was checked. @throws InputError
+/// Carries out `graze identify fit`. @return exit_success if the fit converged and passed its checks. @throws
+/// InputError
 int identify_fit(const IdentifyArguments& arguments, const Console& console);
 
 } // namespace graze

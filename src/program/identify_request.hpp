@@ -7,11 +7,11 @@
 
 namespace graze {
 
-/// The run of kind identify that the command line asks for. Its numbers are in the units of the records: it has no
-/// model.
+/// The run of kind identify that a command line describes. It has no model; its numbers are in the units of the
+/// records.
 /// @throws InputError
 StudyRun identify_request(const IdentifyArguments& arguments);
-/// The records that are named, processed as the command line asks.
+/// Returns a function that opens each named record in turn, processed as the options say, and hands it on.
 EachRecord identify_files(const IdentifyArguments& arguments, const Console& console);
 
 } // namespace graze

@@ -27,7 +27,7 @@ int identify_study(const IdentifyArguments& arguments, const Console& console) {
     if (!arguments.reading.files.empty())
         throw InputError({"FILE", 0, 0}, "a study says itself which records it reads", "name the study alone");
     const Study study = load_study(arguments.what);
-    keep_inputs_of(study); // before anything is computed that could not be shown
+    keep_inputs_of(study); // before the computation: an output that would replace an input is refused now
     RunArguments run;
     run.study = arguments.what;
     run.quiet = true;

@@ -5,8 +5,8 @@
 
 namespace graze {
 
-/// Does the runs of kind `identify` of a study that are not done yet, with those that they need, beside the study's
-/// other results; then shows what they have found. @throws InputError for what is no study, or has no such runs
+/// Computes the runs of kind `identify` of a study that have no results yet, and the runs they depend on, into the
+/// study's result file; then shows their estimates. @throws InputError if it is not a study or has no such runs
 int identify_study(const IdentifyArguments& arguments, const Console& console);
 
 } // namespace graze

@@ -23,7 +23,8 @@ namespace graze {
 
 namespace {
 
-/// Refuses what would never end, as a pipe, and what says nothing. @param named whether by itself, not by its folder
+/// Refuses pipes and other special files, which may never end, and empty files.
+/// @param named the file itself was named, not its folder
 void require_contents(const std::string& path, bool named) {
     std::error_code error;
     if (!std::filesystem::exists(path, error))
@@ -39,11 +40,11 @@ void add_text_file(Facts& facts, const std::string& path) {
     const std::string text = read_text_file(path, "file", longest_model);
     const bool study = is_study_text(text, path);
     add_file_facts(facts, path, study ? "study" : "model");
-    const std::string file = is_model_path(path) ? path : "./" + path; // not one of those that come with graze
+    const std::string file = is_model_path(path) ? path : "./" + path; // a file, not a shipped model of that name
     study ? add_facts(facts, load_study(file)) : add_facts(facts, load_model(file));
 }
 
-/// A name may be that of a model and of a study.
+/// Adds facts of the shipped model and of the shipped study of a name; both may exist.
 void add_shipped(Facts& facts, const std::string& name) {
     const std::vector<std::string> studies = shipped_studies();
     const bool study = std::find(studies.begin(), studies.end(), name) != studies.end();
@@ -84,7 +85,7 @@ Facts facts_of(const std::string& name) {
     return facts;
 }
 
-/// "1.2 MB"
+/// A size in bytes as "1.2 MB"
 std::string size_text(double bytes) {
     const char* unit = "bytes";
     for (const char* larger : {"kB", "MB", "GB"})
@@ -110,7 +111,7 @@ std::string heading_of(const Facts& facts) {
     return text;
 }
 
-/// Name, words and source of a model or study.
+/// Name, description and source of a model or study.
 std::string words_of(const Facts& facts, const std::string& item, const std::string& name, std::size_t width) {
     std::string text = fmt::format("\n{} {}\n", item, name);
     for (const char* property : {"text", "source"})
@@ -122,7 +123,7 @@ std::string words_of(const Facts& facts, const std::string& item, const std::str
     return text;
 }
 
-/// "3 states, 2 modes"
+/// The contents of a model as "states 3, modes 2"
 std::string counts_of(const Facts& facts, const std::string& model, std::size_t width) {
     std::vector<std::string> counts;
     for (const Fact& fact : facts.all())
@@ -131,7 +132,7 @@ std::string counts_of(const Facts& facts, const std::string& model, std::size_t 
     return wrapped(fmt::format("{}", fmt::join(counts, ", ")), width) + '\n';
 }
 
-/// What all runs have in common is said once. @return "", or a line
+/// @return `words` and the value of a property that is the same in all runs; "" if it differs or is missing
 std::string common_to(const Facts& facts, const std::vector<std::string>& runs, const std::string& property,
                       const std::string& words) {
     std::string common;
@@ -144,14 +145,14 @@ std::string common_to(const Facts& facts, const std::vector<std::string>& runs, 
     return words + common;
 }
 
-/// "from rest: V from 0.1 to 1, followed"
+/// The start and the varied parameters of a run as "from rest: V from 0.1 to 1, followed"
 std::string start_and_axes(const Facts& facts, const std::string& run) {
     const std::string start = facts.text("run", run, "starts_from");
     const std::string axes = fmt::format("{}", fmt::join(facts.texts("run", run, "varies"), "; "));
     return start.empty() ? axes : fmt::format("from {}{}{}", start, axes.empty() ? "" : ": ", axes);
 }
 
-/// Moments are written such that they are in the order of letters.
+/// The earliest time at which a run was begun. Times are written such that alphabetical order is their order.
 std::string first_begun(const Facts& facts, const std::vector<std::string>& runs) {
     std::string first;
     for (const std::string& run : runs)
@@ -197,7 +198,8 @@ std::string list_of_runs(const Facts& facts, std::size_t width) {
                 table.add(run);
             else
                 table.add(nothing);
-    // When each was begun, and how long it took, is told where there is room; otherwise when the first was begun.
+    // The columns `begun` and `seconds` are shown if they fit the width; otherwise the heading tells the first
+    // beginning.
     std::vector<std::string> kept;
     for (const Table::Column& column : columns)
         if (column.name != "begun" && column.name != "seconds")

@@ -10,7 +10,7 @@ namespace graze {
 
 namespace {
 
-// A signal handler can reach nothing but what has static lifetime.
+// Static, since a signal handler can use only objects with static lifetime.
 volatile std::sig_atomic_t interrupted = 0; ///< the signal's number
 volatile std::sig_atomic_t guarded = 0;
 volatile std::sig_atomic_t seen_interrupt = 0, seen_terminate = 0;
@@ -28,7 +28,7 @@ void catch_signal(int signal, struct sigaction& before) {
     action.sa_handler = note_interrupt;
     sigemptyset(&action.sa_mask);
     sigaction(signal, &action, &before);
-    if (before.sa_handler == SIG_IGN) // as shells start what is to go on in the background
+    if (before.sa_handler == SIG_IGN) // as shells start background processes: stays ignored
         sigaction(signal, &before, nullptr);
 }
 

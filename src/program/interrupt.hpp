@@ -5,8 +5,8 @@
 
 namespace graze {
 
-/// While it lives, Ctrl-C (SIGINT) and SIGTERM set a flag instead of ending the process; the second one of a kind does
-/// end it. Those that the process was started to ignore stay ignored. One within another changes nothing.
+/// During its lifetime Ctrl-C (SIGINT) and SIGTERM set a flag instead of ending the process; a second signal of the
+/// same kind ends it. Signals that were ignored when the process started stay ignored. A nested guard changes nothing.
 class InterruptGuard {
 public:
     InterruptGuard();
@@ -15,17 +15,15 @@ public:
     InterruptGuard& operator=(const InterruptGuard&) = delete;
 
     static bool requested();
-    /// As shells tell of a process that a signal has ended: 130 after Ctrl-C, 143 after SIGTERM; 0 when nothing was
-    /// requested.
+    /// The exit code by the convention of shells: 130 after Ctrl-C, 143 after SIGTERM; 0 without a signal.
     static int exit_code();
 
 private:
     struct Handlers;
-    std::unique_ptr<Handlers> before_; ///< none: another guard has them
+    std::unique_ptr<Handlers> before_; ///< null: an outer guard has them
 };
 
-/// Whether a command of the program ends in order when it is interrupted; others are broken off, and leave nothing half
-/// written.
+/// True for commands that finish in order when they are interrupted. Others end at once, without half-written files.
 bool ends_in_order(std::string_view command);
 
 } // namespace graze

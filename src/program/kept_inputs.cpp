@@ -26,7 +26,7 @@ struct KeptFile {
 
 struct KeptFiles {
     std::mutex mutex;
-    std::optional<std::vector<KeptFile>> files; ///< none: there is no list
+    std::optional<std::vector<KeptFile>> files; ///< none: no command is running, nothing is protected
     std::vector<NamedFile> outputs;
 };
 
@@ -35,7 +35,7 @@ KeptFiles& kept_files() {
     return kept;
 }
 
-/// A regular file, through links.
+/// The regular file at a path, links followed; none if there is no such file.
 std::optional<KeptFile> file_at(const std::string& path) {
     struct stat status {};
     if (path.empty() || stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode))
@@ -49,7 +49,7 @@ bool are_same(const KeptFile& one, const KeptFile& other) {
     return (one.device == other.device && one.inode == other.inode) || one.canonical == other.canonical;
 }
 
-/// "the model" for the argument MODEL, "an input" for FILE and the like
+/// An option or argument in messages: "the model" for MODEL, "an input" for FILE, "--plot" for an option
 std::string words_for(const CLI::Option& option) {
     if (!option.get_positional())
         return "--" + option.get_lnames().front();
@@ -74,7 +74,7 @@ void add_inputs_of(const CLI::Option& option) {
     }
 }
 
-/// A picture for LaTeX has its lines in a file of its own.
+/// All files that are written for a path: a picture for LaTeX has a second file with its lines.
 std::vector<std::string> files_written_as(const std::string& path) {
     if (!path.ends_with(".tex"))
         return {path};

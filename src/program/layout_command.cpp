@@ -9,10 +9,10 @@
 #include "graze/picture/layout_picture.hpp"
 #include "program/commands.hpp"
 #include "program/drawing.hpp"
+#include "program/drawn_design_report.hpp"
 #include "program/layout_model.hpp"
 #include "program/layout_yield.hpp"
 #include "program/output_file.hpp"
-#include "program/tell_drawn_design.hpp"
 #include "program/values.hpp"
 
 #include <fmt/format.h>
@@ -69,12 +69,13 @@ Table table_of(const Layout& layout, const DeviceFile& file) {
 
 const std::vector<std::string> picture_kinds{"svg", "png", "pdf"};
 
+/// Paths of the drawings that are asked for; `gds` is empty if none is.
 struct AskedFiles {
     std::string gds;
     std::vector<std::string> pictures;
 };
 
-/// `--output` names either kind.
+/// Sorts the drawings by kind: `--output` may name GDSII or a picture. Checks the endings of all output files.
 AskedFiles asked_for(const LayoutArguments& arguments) {
     AskedFiles files;
     if (!arguments.picture.empty()) {
@@ -102,7 +103,7 @@ bool is_picture(const std::string& path) {
                        [&](const std::string& kind) { return path.ends_with('.' + kind); });
 }
 
-/// Nothing is written unless all can be.
+/// Checks that all output files can be written, before any is.
 void require_places(const LayoutArguments& arguments) {
     if (!arguments.recipe.empty() && !arguments.recipe.ends_with(".md") && !is_picture(arguments.recipe))
         throw InputError({"--recipe", 0, 0}, fmt::format("'{}' is neither text nor a picture", arguments.recipe),
@@ -119,7 +120,7 @@ void require_places(const LayoutArguments& arguments) {
     }
 }
 
-/// What the masks of the same device take.
+/// Options of `graze layout` that draw the masks of the same device; the recipe quotes them.
 std::vector<std::string> options_again(const LayoutArguments& arguments, bool ruled) {
     std::vector<std::string> options;
     if (!arguments.from_design.empty()) {
@@ -135,7 +136,7 @@ std::vector<std::string> options_again(const LayoutArguments& arguments, bool ru
     return options;
 }
 
-/// As text, or as cross-sections where the file is a picture.
+/// Writes the recipe as text, or as cross-sections if the file is a picture.
 void write_recipe(const LayoutArguments& arguments, const DeviceFile& file, bool ruled) {
     if (!is_picture(arguments.recipe))
         return write_file(arguments.recipe, recipe_text(file, options_again(arguments, ruled)));
@@ -166,11 +167,11 @@ int layout_command(const LayoutArguments& arguments, const Console& console) {
                 fmt::format("the wafer has {} devices that differ (wafer.vary), and one file is for one device",
                             layout.devices.size()),
                 "leave --wafer out, and name the device that is meant by --set NAME=VALUE");
-    const bool all_devices = arguments.yield && !arguments.wafer; // of which the wafer may have several
+    const bool all_devices = arguments.yield && !arguments.wafer; // the wafer may have devices that differ
     const bool ruled = check_rules(file, all_devices ? draw_wafer_layout(file) : layout, arguments.despite_rules,
                                    arguments.markers, console);
     const Table table = table_of(layout, file);
-    if (!arguments.verilog.empty()) // first, since the model may lack what it takes
+    if (!arguments.verilog.empty()) // first, since it throws for models that Verilog-A cannot express
         write_verilog_a(file, layout.devices.front(), arguments.verilog);
     if (!arguments.parameters.empty())
         write_device_parameters(file, layout.devices.front(), arguments.parameters);
@@ -188,7 +189,7 @@ int layout_command(const LayoutArguments& arguments, const Console& console) {
         return code == exit_success && !ruled ? exit_irregular : code;
     }
     if (designed) {
-        const int code = tell_drawn_design(*designed, arguments.from_design, arguments, console);
+        const int code = report_drawn_design(*designed, arguments.from_design, arguments, console);
         return code == exit_success && !ruled ? exit_irregular : code;
     }
     JsonObject heading;

@@ -26,7 +26,7 @@ void write_verilog_a(const DeviceFile& file, const DrawnDevice& device, const st
 bool check_rules(const DeviceFile& file, const Layout& layout, bool despite, const std::string& markers,
                  const Console& console) {
     const std::vector<RuleFinding> findings = rule_findings(file, layout);
-    if (!markers.empty()) // before they are refused: markers tell where
+    if (!markers.empty()) // before require_rules throws: the markers show where rules are broken
         write_file(markers, rule_markers(findings, layout.top, "graze " GRAZE_VERSION));
     if (!despite)
         require_rules(file, findings);

@@ -82,7 +82,7 @@ int layout_yield(const LayoutArguments& arguments, const DeviceFile& file, const
     const auto path = [&](const char* name) { return (std::filesystem::path(folder) / name).string(); };
     std::vector<std::string> written{path("wafers.csv"), path("devices.csv"), path("report.json")};
     for (const std::string& one : written)
-        KeptInputs::require_none_at(one); // before the work
+        KeptInputs::require_none_at(one); // before the computation
     const InterruptGuard guard;
     StatusLine line(console, console.terminal);
     const DesignReportOptions options = interactive_options(arguments.jobs, line);

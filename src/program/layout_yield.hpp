@@ -6,7 +6,7 @@
 
 namespace graze {
 
-/// `graze layout DESIGN --yield N`: wafers of the design's devices, in a folder of tables and pictures.
+/// Carries out `graze layout DESIGN --yield N`: simulates wafers of devices and writes a folder of tables and maps.
 /// @param wafer drawn by draw_wafer_layout
 int layout_yield(const LayoutArguments& arguments, const DeviceFile& file, const Layout& wafer, const Console& console);
 

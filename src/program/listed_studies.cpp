@@ -25,7 +25,7 @@ int list_studies(const RunArguments& arguments, const Console& console) {
 
 namespace {
 
-/// "whole number from 1 to 1000", "one of up, down, both"
+/// The allowed values of a key as "whole number from 1 to 1000" or "one of up, down, both"
 std::string type_in_words(const StudyKey& key) {
     if (!key.words.empty())
         return fmt::format("one of {}", fmt::join(key.words, ", "));
@@ -38,7 +38,7 @@ std::string type_in_words(const StudyKey& key) {
            (bounded ? fmt::format(" to {:.12g}", *key.most) : "");
 }
 
-/// For people: what a key may be, then what it means.
+/// A readable list of keys: the allowed values of each, then its meaning.
 std::string keys_in_words(const std::string& kind, const std::vector<StudyKey>& keys) {
     std::string text = fmt::format("Keys of runs of kind \"{}\":\n\n", kind);
     for (const StudyKey& key : keys) {

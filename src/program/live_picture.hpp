@@ -9,14 +9,15 @@
 
 namespace graze {
 
-/// Sections of records over the amplitude that they were taken at, drawn again while more of them come.
+/// A picture of stroboscopic sections of records over the drive amplitude, which is drawn again as records are added.
 class LivePicture {
 public:
-    /// @throws InputError for an ending that cannot be drawn, and without gnuplot
+    /// @throws InputError for an unknown ending of the picture's name, and without gnuplot
     explicit LivePicture(const AcquireArguments& arguments);
-    /// Adds a record. @throws InputError when it cannot be read, or has not these channels
+    /// Adds a record. @throws InputError when it cannot be read or lacks the channels
+    /// @param amplitude peak to peak, in V; @param direction negative: the amplitude falls from record to record
     void add(const std::string& file, double amplitude, int direction);
-    /// Draws it, unless that was done a short time ago. @param now in any case
+    /// Draws the picture, unless it was drawn a few seconds ago. @param now draw in any case
     void draw(bool now);
 
 private:

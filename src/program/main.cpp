@@ -16,7 +16,7 @@
 
 namespace {
 
-/// Of the terminal that results go to. A very narrow one is scrolled rather than filled with single words.
+/// Width of the terminal in characters, at least 60: a very narrow terminal is better scrolled.
 std::size_t width_of_terminal() {
     constexpr std::size_t least = 60;
     winsize size{};
@@ -29,15 +29,14 @@ std::size_t width_of_terminal() {
 
 int main(int count, char** values) {
     graze::open_standard_streams();
-    // Ceres Solver tells the log of steps that fail, which are others' business: the log is the program's, not the
-    // library's.
+    // Ceres Solver logs failed steps, which fits report themselves. The log belongs to the program, not to the library.
     FLAGS_minloglevel = google::GLOG_FATAL;
     graze::TemporaryFiles::watch_signals();
-    std::optional<graze::InterruptGuard> guard; // from the first moment, not only from where computing begins
+    std::optional<graze::InterruptGuard> guard; // from the start of the process, not only of the computation
     if (count > 1 && graze::ends_in_order(values[1]))
         guard.emplace();
     std::ios::sync_with_stdio(false);
-    const std::vector<std::string> arguments(values + std::min(count, 1), values + count); // none, not even a name
+    const std::vector<std::string> arguments(values + std::min(count, 1), values + count); // count may be 0
     return graze::run_program(arguments,
                               {std::cout, std::cerr, isatty(STDERR_FILENO) == 1, nullptr, width_of_terminal()});
 }

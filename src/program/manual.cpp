@@ -14,7 +14,7 @@ namespace graze {
 
 namespace {
 
-/// In the language of man pages: backslashes and hyphens mean something there, and so do dots that begin a line.
+/// The text in roff, the language of manual pages: escapes backslashes, hyphens, and dots and quotes that begin a line.
 std::string in_roff(std::string_view text) {
     std::string result;
     bool line_begins = true;
@@ -130,7 +130,7 @@ std::string manual_page(const CLI::App& app, const CLI::App& command) {
         in_roff(whole ? "hybrid dynamical systems: simulation and bifurcation analysis" : summary_of(command)),
         synopsis_of(app, command));
     const std::string details = whole ? command.get_description() : details_of(command);
-    if (!details.empty()) // with its lines, for lists in it to stay lists
+    if (!details.empty()) // without filling, so that lists in it keep their lines
         text += ".SH DESCRIPTION\n.nf\n" + in_roff(details) + "\n.fi\n";
     if (whole) {
         text += ".SH COMMANDS\n";
@@ -145,8 +145,8 @@ std::string manual_page(const CLI::App& app, const CLI::App& command) {
             ".SH EXAMPLES\n.nf\n" + in_roff(examples.substr(begin == std::string::npos ? 0 : begin + 1)) + "\n.fi\n";
     }
     text +=
-        ".SH EXIT STATUS\n0 on success, 2 when something that was given cannot be used, 3 when a trajectory or a run "
-        "did not end as it should, 130 when it was interrupted (143 by SIGTERM), 1 for a mistake of graze itself.\n.SH "
+        ".SH EXIT STATUS\n0 on success, 2 when an option or an input file cannot be used, 3 when a trajectory or a run "
+        "did not end as it should, 130 when it was interrupted (143 by SIGTERM), 1 for an internal error.\n.SH "
         "SEE ALSO\n";
     std::string others = whole ? "" : "\\fBgraze\\fR(1)";
     for (const CLI::App* one : declared_commands(app))

@@ -35,7 +35,7 @@ Model family_member(const ModelsArguments& arguments) {
     return microbeam(options);
 }
 
-/// The model's file, as it is shipped where that is possible: with its comments.
+/// The text of the model's file. Shipped files keep their comments; others are written from the model.
 std::string file_text(const ModelsArguments& arguments) {
     if (asks_for_family(arguments))
         return write_model(family_member(arguments));

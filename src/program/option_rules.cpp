@@ -17,29 +17,29 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-/// Where an option is given, others say nothing any more.
+/// An option beside which other options have no effect.
 struct Excludes {
     const char* command;
     const char* option;
-    const char* value; ///< only when it has this value; null: with any
+    const char* value; ///< the rule holds only for this value of the option; null: for any
     Names others;
     const char* remedy;
 };
 
-/// An option that only has a meaning together with one of others.
+/// An option that has an effect only together with one of the others.
 struct Needs {
     const char* command;
     const char* option;
     Names others;
 };
 
-/// An option that only has a meaning when another has one of some values, or is left out.
+/// An option that has an effect only when another option has one of these values, or is not given.
 struct NeedsValue {
     const char* command;
     const char* option;
     const char* other;
     Names values;
-    const char* unless = nullptr; ///< with which it has a meaning in any case
+    const char* unless = nullptr; ///< the rule does not apply when this option is given
 };
 
 const std::vector<Excludes>& exclusions() {
@@ -211,7 +211,7 @@ std::string value_of(const CLI::App& command, const std::string& option) {
     throw InputError(Place{}, fmt::format("{} has no effect {} {}", option, why, other), remedy);
 }
 
-/// Other programs take the name - for standard output: a file that is called so would not be looked for.
+/// Refuses the file name `-`, which means standard output to other programs and would give a file of that name.
 void refuse_dashes(const CLI::App& command) {
     for (const CLI::Option* option : command.get_options()) {
         const std::string type = option->get_type_name();

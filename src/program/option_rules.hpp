@@ -4,7 +4,7 @@
 
 namespace graze {
 
-/// @throws InputError when one option of a command line makes another one useless
+/// Checks combinations of options. @throws InputError when a given option has no effect beside the others
 void refuse_useless_options(const CLI::App& app);
 
 } // namespace graze

@@ -37,7 +37,7 @@ Table table_of(const Model& model, const std::vector<SegmentMotion>& motion,
     return table;
 }
 
-/// What has been checked of the orbit: how events are met at the ends of its segments, and how near others come.
+/// Adds the orbit's certificate: how events are met at the ends of its segments, and how close other events come.
 void add_certificate(JsonObject& heading, const OrbitSolution& solution, const Model& model) {
     const Certificate& certificate = solution.certificate;
     std::vector<JsonObject> segments, minima, ends;
@@ -73,7 +73,8 @@ void add_certificate(JsonObject& heading, const OrbitSolution& solution, const M
     heading.add("end_values", ends);
 }
 
-/// Real and imaginary parts; an infinite one as a text. None where an event is met without speed.
+/// Real and imaginary parts of multipliers; infinite ones as a text. Multipliers do not exist after a contact without
+/// speed: the list is empty then.
 std::vector<JsonObject> list_of(const std::vector<std::complex<double>>& multipliers) {
     std::vector<JsonObject> list;
     for (const std::complex<double>& multiplier : multipliers) {

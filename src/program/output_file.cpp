@@ -27,7 +27,7 @@ namespace {
                      "choose another file or change the permissions");
 }
 
-/// Results of days, or what SQLite keeps beside them.
+/// True for a database and for the files that SQLite keeps beside it: results of days may be in them.
 bool belongs_to_database(const std::string& path) {
     for (const std::string_view ending : {"", "-wal", "-shm", "-journal", ".lock"})
         if (path.ends_with(ending) && is_database(path.substr(0, path.size() - ending.size())))
@@ -52,7 +52,7 @@ FileReplacement::FileReplacement(const std::string& path) : path_(path) {
     const std::filesystem::path given(path);
     if (path.empty())
         fail(path, "the name is empty");
-    // Through a link the file that it leads to is replaced, not the link.
+    // The target of a link is replaced, not the link.
     const std::filesystem::path target = std::filesystem::weakly_canonical(given, error);
     if (error)
         fail(path, error.message());
@@ -72,7 +72,7 @@ FileReplacement::FileReplacement(const std::string& path) : path_(path) {
         return;
     }
     make_temporary(target);
-    // Who may read what is there now may read what replaces it, and nobody else.
+    // The new file keeps the permissions of the old one.
     if (std::filesystem::exists(status))
         fchmod(file_, static_cast<mode_t>(status.permissions()) & 0777);
 }
@@ -86,15 +86,15 @@ FileReplacement::~FileReplacement() {
     TemporaryFiles::take_out(temporary_);
 }
 
-/// Beside the target, under a name that nobody else can foresee and put something under.
+/// Makes the temporary file beside the target. Its name is random, so that nobody can put a link there beforehand.
 void FileReplacement::make_temporary(const std::filesystem::path& target) {
-    constexpr std::size_t longest_stem = 100; // names have 255 bytes
+    constexpr std::size_t longest_stem = 100; // file systems allow names of 255 bytes
     const std::string stem = target.stem().string().substr(0, longest_stem), ending = target.extension().string();
     std::random_device random;
     for (int attempt = 0; attempt < 100; ++attempt) {
         const std::string name = fmt::format(".{}.{:08x}{:08x}{}", stem, random(), random(), ending);
         temporary_ = (target.parent_path() / name).string();
-        TemporaryFiles::add(temporary_); // before it is there: it has no name of another's
+        TemporaryFiles::add(temporary_); // before it exists, so that a signal in between removes it too
         file_ = open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
         if (file_ >= 0)
             return;
@@ -127,7 +127,7 @@ void FileReplacement::commit() {
     if (fstat(file_, &made) != 0 || lstat(temporary_.c_str(), &there) != 0 || made.st_dev != there.st_dev ||
         made.st_ino != there.st_ino)
         fail(path_, "another program has moved what was written");
-    // What a disk does not take it may say only now; some file systems do not know the question.
+    // Errors of the disk may appear only now. Some file systems do not support fsync, which is no error.
     if (fsync(file_) != 0 && errno != EINVAL && errno != ENOSYS)
         fail(path_, std::strerror(errno));
     if (std::rename(temporary_.c_str(), target_.c_str()) != 0)
@@ -152,7 +152,7 @@ void make_folder(const std::string& folder, const std::string& option) {
 }
 
 void require_distinct(const std::vector<NamedFile>& files) {
-    const auto is_regular = [](const std::string& path) { // or may become so, unlike /dev/null
+    const auto is_regular = [](const std::string& path) { // or does not exist yet, unlike /dev/null
         std::error_code error;
         return std::filesystem::is_regular_file(path, error) || !std::filesystem::exists(path, error);
     };
@@ -179,7 +179,7 @@ void require_inside(const std::string& path, const std::string& folder) {
     std::error_code error;
     const auto root = std::filesystem::canonical(folder, error);
     const auto target = error ? root : std::filesystem::weakly_canonical(path, error);
-    // A link that leads nowhere yet, too, would be written through.
+    // Links are refused even if their target does not exist: writing would create it.
     std::error_code none;
     if (error || target.parent_path() != root || std::filesystem::is_symlink(path, none))
         throw InputError(fmt::format("'{}' leads out of the folder '{}'", path, folder),

@@ -8,59 +8,59 @@
 
 namespace graze {
 
-/// Whether it is a file of SQLite's, such as result files.
+/// True for SQLite databases, such as result files.
 bool is_database(const std::string& path);
 
-/// Checks that a file can be written there, leaving nothing behind: call it before work that would be lost.
+/// Checks, without leaving a file, that a file can be written at a path. To be called before a long computation.
 /// @throws InputError when it cannot
 void require_writable(const std::string& path);
 
-/// Makes a folder, with those that it is in, unless it is there. @param option that names it
+/// Makes a folder and its parent folders, unless they exist. @param option for the message
 /// @throws InputError when it cannot be made
 void make_folder(const std::string& folder, const std::string& option);
 
 struct NamedFile {
-    std::string name; ///< the option that asks for it, or "the model"
-    std::string path; ///< empty: there is none
+    std::string name; ///< its name in messages: the option that names it, or "the model"
+    std::string path; ///< empty: no file
 };
 
-/// Checks that no two of them are the same file, of which one would be lost; by whatever names and links they go.
+/// Checks that no two paths are the same file, also through links: one output would replace the other.
 /// @throws InputError when two are
 void require_distinct(const std::vector<NamedFile>& files);
 
-/// Checks that a file in a folder lies in it indeed: a link there may lead elsewhere.
+/// Checks that the path of a file in a folder does not lead out of the folder through a link.
 /// @throws InputError when it does
 void require_inside(const std::string& path, const std::string& folder);
 
-/// A file that appears whole under its name, or not at all: it is written under another name beside it, which nobody
-/// can foresee, and which is no link. Everything that the program writes, besides result files and records of
-/// experiments, is written by way of this. It replaces no database, and nothing that the running command reads.
+/// A file that appears completely under its name, or not at all: it is written to a temporary file with a random name
+/// beside it, which commit() renames. All files of the program, except result files and records of experiments, are
+/// written by this class. It replaces no database, and no file that the running command reads (see KeptInputs).
 class FileReplacement {
 public:
-    /// @throws InputError when nothing can be written there
+    /// @throws InputError when no file can be written at the path
     explicit FileReplacement(const std::string& path);
     ~FileReplacement();
     FileReplacement(const FileReplacement&) = delete;
     FileReplacement& operator=(const FileReplacement&) = delete;
 
-    /// Where to write; keeps the ending of the file's name.
+    /// Path of the temporary file; it has the ending of the file's name.
     const std::string& temporary_path() const { return temporary_; }
-    /// Writes all of it. @throws InputError when it cannot be written
+    /// Writes the contents of the file. @throws InputError when they cannot be written
     void write(std::string_view contents) const;
-    /// Does some work that writes to the temporary path: what goes wrong with it names the file as it is to be called.
+    /// Calls a function that writes to the temporary path. Its errors name the final path instead.
     void written_by(const std::function<void(const std::string& path)>& work) const;
-    /// @throws InputError when what was written is not on the disk, or cannot be given its name
+    /// Gives the file its name. @throws InputError when the contents are not on the disk, or renaming fails
     void commit();
 
 private:
     void make_temporary(const std::filesystem::path& target);
 
     std::string path_, target_, temporary_;
-    int file_ = -1;       ///< the file that was made, whatever is under its name later
-    bool direct_ = false; ///< not a regular file, such as /dev/null: there is nothing to replace
+    int file_ = -1;       ///< descriptor of the temporary file; its path may later lead to another file
+    bool direct_ = false; ///< the target is not a regular file, such as /dev/null: it is written directly
 };
 
-/// @throws InputError when it cannot be written
+/// Writes a file by a FileReplacement. @throws InputError when it cannot be written
 void write_file(const std::string& path, std::string_view contents);
 
 } // namespace graze

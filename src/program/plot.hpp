@@ -10,15 +10,17 @@
 
 namespace graze {
 
-/// A picture that has been asked for.
+/// A picture of a trajectory that the command line asks for.
 struct PlotRequest {
     std::string path, data_path;
     MotionPanelChoice contents;
     FigureStyle style;
 };
 
-/// Decides what is drawn and makes sure that it can be. @throws InputError
-/// @param marked events chosen by the user; empty: all that are not mere clocks
+/// Chooses the contents of the picture, and checks that its files can be written and that gnuplot is there.
+/// @param marked for each event, whether its contacts are marked; used only if --event was given, otherwise contacts of
+/// all barriers that depend on the motion are marked
+/// @throws InputError
 PlotRequest plot_request(const Model& model, const SimulateArguments& arguments, const std::vector<bool>& marked);
 
 /// Draws the picture. @throws InputError when gnuplot fails or the file cannot be written

@@ -28,7 +28,7 @@ std::optional<std::pair<double, double>> range_of(const std::string& text, const
     return range;
 }
 
-/// What `--name` says.
+/// Pairs of name and text of `--name`.
 std::vector<std::pair<std::string, std::string>> names_given(const PlotArguments& arguments) {
     std::vector<std::pair<std::string, std::string>> names;
     for (const std::string& item : arguments.names) {
@@ -96,13 +96,13 @@ StudyPicture picture_of(const PlotArguments& arguments, const RunRecord& run) {
     return picture;
 }
 
-/// All runs of a file that have something to show.
+/// The runs of a file that have points.
 struct ShownRuns {
     std::vector<std::string> names;
-    bool complete = true;
+    bool complete = true; ///< false: other runs have none
 };
 
-/// Whoever names a run wants to know why it cannot be drawn; of all runs, those that can be are.
+/// The runs to draw when none is named: those with points; the others get a warning.
 ShownRuns runs_to_show(const ResultFile& file, const Console& console) {
     ShownRuns shown;
     for (const RunRecord& run : file.runs()) {
@@ -121,7 +121,7 @@ ShownRuns runs_to_show(const ResultFile& file, const Console& console) {
     return shown;
 }
 
-/// Names that one of the runs has may be given, though others are drawn too.
+/// Checks the names of --name: each must occur in at least one of the runs.
 void check_names(const PlotArguments& arguments, const ResultFile& file, const std::vector<std::string>& runs) {
     if (arguments.names.empty())
         return;
@@ -136,7 +136,7 @@ void check_names(const PlotArguments& arguments, const ResultFile& file, const s
         showable.require(name, {"--name", 0, 0}, fmt::format("'{}'", name));
 }
 
-/// Branches go into one picture. @return whether these do
+/// Draws branches into one picture. @return false if the runs are not branches, or not to be drawn as such
 bool draw_together(const PlotArguments& arguments, const ResultFile& file, const std::vector<std::string>& names,
                    const Console& console) {
     StudyPicture picture;
@@ -145,7 +145,7 @@ bool draw_together(const PlotArguments& arguments, const ResultFile& file, const
     for (const std::string& name : names) {
         const StoredRun run(file, name, {"--run", 0, 0});
         if (arguments.runs.empty() && followed && run.record.kind == "orbit")
-            continue; // where a branch started: one of its orbits
+            continue; // the starting orbit of a branch is one of the branch's points
         const StudyPicture one = picture_of(arguments, run.record);
         if (!run.record.is_branch() || one.kind != "branch")
             return false;
@@ -159,7 +159,7 @@ bool draw_together(const PlotArguments& arguments, const ResultFile& file, const
     return true;
 }
 
-/// Attractors are called by their period and signature, which are known when they are drawn.
+/// Checks names of attractors in --name. They consist of period and signature, which are known only after drawing.
 void check_names_of_attractors(const StudyPicture& picture, const ResultPicture& made) {
     const auto is_shown = [&](const std::string& text) {
         return std::any_of(made.figure.panels.begin(), made.figure.panels.end(), [&](const FigurePanel& panel) {

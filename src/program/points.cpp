@@ -42,20 +42,20 @@ int points_command(const PointsArguments& arguments, const Console& console) {
     const PointList list = listed_points(file, {.runs = split_list(arguments.runs),
                                                 .types = chosen_types(split_list(arguments.types)),
                                                 .regular = output.all,
-                                                .twins = output.all || !for_people,
+                                                .images = output.all || !for_people,
                                                 .place = {"--run", 0, 0}});
     JsonObject heading;
     heading.add("file", file.path());
-    // Of a curve both parameters tell where it is: where there is no room they stay rather than what is said twice.
+    // If the table is too wide, these columns stay. A curve has two parameters, both of which are needed.
     std::vector<std::string> kept{"label", list.followed, "period", "signature", "stable", "multiplier", "physical"};
-    kept.insert(kept.end(), list.others.begin(),
-                list.others.begin() + std::min<std::ptrdiff_t>(2, std::ssize(list.others)));
+    kept.insert(kept.end(), list.differing.begin(),
+                list.differing.begin() + std::min<std::ptrdiff_t>(2, std::ssize(list.differing)));
     deliver(point_table(list, {for_people, !output.all, output.shown_digits()}), output, heading, console, kept);
-    if (list.twins > 0)
+    if (list.images_left_out > 0)
         console.err << fmt::format(
             "graze: {} points are left out that are images of others under the model's symmetry; "
             "--all lists them\n",
-            list.twins);
+            list.images_left_out);
     for (const StoredRun& run : list.runs)
         if (run.record.status == RunStatus::failed)
             console.err << fmt::format("graze: run '{}' failed: {}\n", run.record.name, run.record.failure);

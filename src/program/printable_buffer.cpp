@@ -8,7 +8,7 @@ namespace graze {
 
 namespace {
 
-/// Most of what is written by far.
+/// True for printable ASCII and line feeds: the fast path, since nearly all output consists of them.
 bool is_harmless(char c) {
     return (c >= ' ' && c <= '~') || c == '\n' || c == '\t';
 }

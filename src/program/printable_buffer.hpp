@@ -7,8 +7,8 @@
 
 namespace graze {
 
-/// Of a stream that passes on to another one what is written to it, with everything shown by its code that would act on
-/// a terminal (graze/base/printable.hpp). Names and texts of files go through here, wherever they are printed.
+/// A stream buffer that passes its text on to another stream and replaces control characters, which would act on a
+/// terminal, by their codes (graze/base/printable.hpp). All output goes through it, since names come from files.
 class PrintableBuffer : public std::streambuf {
 public:
     explicit PrintableBuffer(std::ostream& target) : target_(&target) {}
@@ -23,7 +23,7 @@ private:
     bool pass_on(std::string_view text);
 
     std::ostream* target_;
-    std::string begun_; ///< a character whose last bytes have not come yet
+    std::string begun_; ///< the first bytes of a UTF-8 character that is not complete yet
 };
 
 } // namespace graze

@@ -26,7 +26,7 @@ using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
                      "make room where the system keeps temporary files");
 }
 
-/// Files rather than pipes: neither side can ever wait for the other.
+/// A temporary file for a stream of the child. With pipes parent and child could wait for each other.
 File temporary_file() {
     File file(std::tmpfile(), &std::fclose);
     if (!file)

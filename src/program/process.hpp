@@ -7,17 +7,17 @@
 
 namespace graze {
 
-/// Full path of a program on the PATH.
+/// Path of a program on the PATH; none if it is not there.
 std::optional<std::string> find_program(std::string_view name);
 
 struct ProcessResult {
-    int status = 0;     ///< exit status; 128 and the signal when killed
-    std::string output; ///< of both streams
+    int status = 0;     ///< exit status; 128 plus the signal's number when killed
+    std::string output; ///< standard output and standard error
 };
 
-/// Runs a program, no shell being involved, and waits for it.
+/// Runs a program, without a shell, and waits for it.
 /// @param arguments the first is the program's path
-/// @param input its standard input
+/// @param input text for its standard input
 /// @throws std::system_error when it cannot be started
 ProcessResult run_process(const std::vector<std::string>& arguments, std::string_view input);
 

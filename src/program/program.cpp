@@ -26,7 +26,7 @@ int dispatch(std::span<const std::string> words, const Console& console) {
     app.set_version_flag("--version", "graze " GRAZE_VERSION, "Print the version");
     declare_arguments(app, arguments);
     std::vector<std::string> reversed = with_joined_counts({words.begin(), words.end()});
-    std::reverse(reversed.begin(), reversed.end()); // as CLI11 wants them
+    std::reverse(reversed.begin(), reversed.end()); // CLI11 expects the last argument first
     try {
         app.parse(reversed);
     } catch (const CLI::ParseError& error) {
@@ -43,7 +43,7 @@ int dispatch(std::span<const std::string> words, const Console& console) {
     return arguments.commands.at(app.get_subcommands().front()->get_name())(console);
 }
 
-/// A line each; of very many those that fit a terminal.
+/// Prints one line for each error, at most as many as fit a terminal.
 void tell(const InputErrors& errors, const Console& console) {
     constexpr std::size_t most = 20;
     const std::size_t count = errors.all().size();

@@ -10,7 +10,7 @@ std::string progress_text(const StudyProgress& progress, const std::optional<Tim
         text += fmt::format("; study: {} of {}", progress.study_done, progress.study_points);
     text += fmt::format(", {:.0f} %", 100.0 * static_cast<double>(progress.study_done) /
                                           static_cast<double>(std::max<std::size_t>(progress.study_points, 1)));
-    constexpr double least = 0.5; // less would read as nothing
+    constexpr double least = 0.5; // less would be printed as 0 s
     if (left && left->seconds >= least)
         text += fmt::format(", {}{:.0f} s left", left->at_least || progress.branches_left > 0 ? "more than " : "",
                             left->seconds);

@@ -9,17 +9,17 @@
 
 namespace graze {
 
-/// What the line says: which run is at which of its points, how much of the study is done, and how long the rest takes.
-/// @param left none: too little has been done to tell
+/// The text of the line: the points done of a run and of the study, and the estimated time left.
+/// @param left none: too early for an estimate
 std::string progress_text(const StudyProgress& progress, const std::optional<TimeLeft::Estimate>& left);
 
-/// A line on standard error once a study takes long.
+/// The line of progress of a study on standard error.
 class ProgressLine {
 public:
     ProgressLine(const Console& console, bool wanted) : line_(console, wanted) {}
 
     void update(const StudyProgress& progress);
-    /// Of a branch nobody knows how long it will be.
+    /// Shows the last orbit of a branch, whose length is not known in advance.
     void update(const std::string& run, const OrbitRecord& orbit);
 
 private:

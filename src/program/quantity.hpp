@@ -7,10 +7,10 @@
 
 namespace graze {
 
-/// What a user wants to see of a state.
+/// An expression in states and parameters whose values the user asked for.
 using RequestedQuantity = NamedValue;
 
-/// @param option where it was asked for, for messages
+/// Parses a quantity's name or an expression. @param option for messages
 /// @throws InputError with the place when it is no expression
 RequestedQuantity requested_quantity(const Model& model, const std::string& text, const std::string& option);
 std::vector<RequestedQuantity> requested_quantities(const Model& model, const std::vector<std::string>& texts,

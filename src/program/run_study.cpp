@@ -50,9 +50,9 @@ std::vector<Table::Column> report_columns() {
     return {{"run", ""}, {"kind", ""}, {"points", ""}, {"computed", ""}, {"seconds", "s"}, {"status", ""}};
 }
 
-/// What a run of kind identify has found, as far as its error is known: not of each record by itself, whose names have
-/// blanks.
-std::string found_by(const std::string& run, const ResultFile& file) {
+/// The estimates with known errors of a run of kind identify, as one line. Estimates of single records are left out:
+/// their names contain blanks.
+std::string estimates_text(const std::string& run, const ResultFile& file) {
     std::string text;
     for (const EstimateRecord& number : file.estimates(run).numbers)
         if (number.estimate.freedom > 0 && number.estimate.error > 0 && number.name.find(' ') == std::string::npos)
@@ -62,8 +62,7 @@ std::string found_by(const std::string& run, const ResultFile& file) {
     return text;
 }
 
-/// For people: "periodic 1330, chaotic 270; up: ..." in the last column, which is broken into lines; besides what fits
-/// into a terminal's width beside it.
+/// The readable table of runs: the last column has "periodic 1330, chaotic 270; up: ..." and is broken into lines.
 Table table_of(const std::vector<RunReport>& reports, const ResultFile& file) {
     Table table({{"run", ""}, {"points", ""}, {"seconds", "s"}, {"status", ""}, {"results", ""}});
     for (const RunReport& report : reports) {
@@ -72,7 +71,7 @@ Table table_of(const std::vector<RunReport>& reports, const ResultFile& file) {
         table.add(report.seconds);
         table.add(status_of(report));
         const RunSummary run = summary_of(report, file);
-        std::string results = found_by(report.name, file);
+        std::string results = estimates_text(report.name, file);
         for (const auto& [label, count] : results.empty() ? run.labels : LabelCounts())
             results += fmt::format("{}{} {}", results.empty() ? "" : ", ", label, count);
         const auto add = [&](const std::string& text) { results += (results.empty() ? "" : "; ") + text; };
@@ -87,7 +86,7 @@ Table table_of(const std::vector<RunReport>& reports, const ResultFile& file) {
     return table;
 }
 
-/// For machines: each number and each text in a cell of its own.
+/// The table of runs for csv and json: each number and each text has its own cell.
 Table cells_of(const std::vector<RunReport>& reports, const ResultFile& file) {
     std::vector<RunSummary> runs;
     std::vector<std::string> labels;
@@ -126,7 +125,7 @@ Table cells_of(const std::vector<RunReport>& reports, const ResultFile& file) {
     return table;
 }
 
-/// Runs that failed, with what to do. @return whether there are any
+/// Prints failed runs, with their remedies. @return true if there are any
 bool tell_failures(const std::vector<RunReport>& reports, const Console& console) {
     bool any = false;
     for (const RunReport& report : reports)
@@ -138,8 +137,8 @@ bool tell_failures(const std::vector<RunReport>& reports, const Console& console
     return any;
 }
 
-/// What shows these runs and no others.
-Study of_these_runs(const Study& study, const std::vector<RunReport>& reports) {
+/// The study with only these runs, and only the tables and pictures that need no other run.
+Study with_only_runs(const Study& study, const std::vector<RunReport>& reports) {
     std::vector<std::string> done;
     for (const RunReport& report : reports)
         done.push_back(report.name);
@@ -162,13 +161,13 @@ void check_names(const Study& study, const std::vector<std::string>& only) {
                              name_advice(name, known, "it has none"));
 }
 
-/// A study, and where its results go.
-struct AskedFor {
+/// A study, its folder and its result file.
+struct StudyRequest {
     Study study;
     std::string folder, file;
 };
 
-/// "k=50", or "no other values"
+/// Values as "k=50,m=2"
 std::string text_of(const ParameterValues& set) {
     std::string text;
     for (const auto& [name, value] : set)
@@ -176,7 +175,7 @@ std::string text_of(const ParameterValues& set) {
     return text;
 }
 
-/// Results of differing values are not to replace one another: the file would be of neither.
+/// @throws InputError if the result file was made with other values of --set: one file holds results of one set only
 void require_same_values(const Study& study, const ResultFile& file) {
     auto stored = stored_set(file);
     if (!stored)
@@ -195,15 +194,15 @@ void require_same_values(const Study& study, const ResultFile& file) {
         "choose another folder by --output");
 }
 
-/// A shipped study, one in a file, or the one that a result file has of itself.
-AskedFor asked_for(const RunArguments& arguments) {
+/// Loads the study: a shipped one, one in a file, or the copy in a result file.
+StudyRequest study_request(const RunArguments& arguments) {
     const std::string stored = result_path(arguments.study);
     std::error_code error;
     const bool from_results =
         stored.ends_with(".sqlite") && (stored == arguments.study || std::filesystem::exists(stored, error));
     const std::vector<std::string> shipped = shipped_studies();
     const bool is_shipped = std::find(shipped.begin(), shipped.end(), arguments.study) != shipped.end();
-    AskedFor result;
+    StudyRequest result;
     if (is_shipped || !from_results) {
         with_places_of(arguments.set,
                        [&] { result.study = load_study(arguments.study, parameter_values(arguments.set)); });
@@ -223,7 +222,7 @@ AskedFor asked_for(const RunArguments& arguments) {
         result.file = stored;
     }
     const std::filesystem::path own = std::filesystem::path(result.file).parent_path();
-    if (result.folder.empty()) // it goes on where it is
+    if (result.folder.empty()) // continue in the folder of the result file
         result.folder = own.empty() ? "." : own.string();
     else
         result.file = (std::filesystem::path(result.folder) / "results.sqlite").string();
@@ -247,7 +246,7 @@ int run_command(const RunArguments& arguments, const Console& console) {
         console.out << shipped_study_text(arguments.study);
         return exit_success;
     }
-    const AskedFor request = asked_for(arguments);
+    const StudyRequest request = study_request(arguments);
     const Study& study = request.study;
     keep_inputs_of(study);
     check_names(study, split_list(arguments.only));
@@ -264,7 +263,7 @@ int run_command(const RunArguments& arguments, const Console& console) {
         options.jobs = threads_for(arguments.jobs);
         options.only = split_list(arguments.only);
         options.interrupted = [] { return InterruptGuard::requested(); };
-        options.one_by_one = arguments.steps; // lines about several at a time could not be read
+        options.one_by_one = arguments.steps; // lines of several runs at once could not be told apart
         options.progress = [&](const StudyProgress& made) { progress.update(made); };
         options.orbit = [&](const std::string& run, const OrbitRecord& record) {
             if (arguments.steps)
@@ -290,7 +289,7 @@ int run_command(const RunArguments& arguments, const Console& console) {
         return InterruptGuard::exit_code();
     }
     if (!arguments.no_pictures) {
-        const Study shown = of_these_runs(study, reports);
+        const Study shown = with_only_runs(study, reports);
         const WrittenTables tables = write_study_tables(shown, file, folder, console);
         DrawnPictures drawn;
         if (const bool asks = !study.pictures.empty() || !study.tables.empty(); !asks || !shown.pictures.empty())

@@ -44,7 +44,7 @@ SimulationOptions simulation_options(const Model& model, const SimulateArguments
     return options;
 }
 
-/// The table that the options imply, or that is asked for by its name.
+/// The table that --table names, or that the other options imply.
 TableKind chosen_table(const SimulateArguments& arguments) {
     if (!arguments.table.empty()) {
         if (const auto kind = table_kind(arguments.table))
@@ -68,7 +68,7 @@ TableKind chosen_table(const SimulateArguments& arguments) {
     return implied.empty() ? TableKind::samples : implied.front();
 }
 
-/// A picture alone is what most want who ask for one; a table comes with it when something is said about it.
+/// True when a table is printed: always without --plot; beside a picture only if an option asks for the table.
 bool wants_table(const SimulateArguments& arguments, bool output_options) {
     return arguments.plot.empty() || output_options || !arguments.table.empty() || !arguments.output.file.empty();
 }
@@ -140,8 +140,8 @@ RunLength asked_length(const Model& model, const SimulateArguments& arguments) {
     return run_length(model, request);
 }
 
-/// Sections first, then extrema, then the one that counts periods: it ends the trajectory, and what happens at the same
-/// time is to be seen before.
+/// The probes of the simulation: sections, extrema, then the probe that counts periods. It is the last since it ends
+/// the trajectory: events of the others at the same time are recorded before.
 std::vector<Probe> probes_for(const Model& model, const SimulateArguments& arguments, TableRequest& request,
                               const RunLength& length) {
     std::vector<Probe> probes;
@@ -167,16 +167,16 @@ std::vector<Probe> probes_for(const Model& model, const SimulateArguments& argum
     return probes;
 }
 
-constexpr int calls_between_looks = 64; ///< at the clock
+constexpr int calls_between_clock_reads = 64;
 
-/// A line on standard error about how far a long run has come and how long it will take.
+/// The line of progress of a long simulation on standard error: its time and the time left.
 class Progress {
 public:
     Progress(const Console& console, bool wanted) : line_(console, wanted) {}
 
-    /// @param fraction done so far; empty when the end is not known
+    /// @param fraction of the simulation that is done; none when its length is not known
     void update(std::optional<double> fraction, double time) {
-        if (!line_.wanted() || ++calls_ < calls_between_looks)
+        if (!line_.wanted() || ++calls_ < calls_between_clock_reads)
             return;
         calls_ = 0;
         if (!line_.is_due())
@@ -193,7 +193,7 @@ private:
     int calls_ = 0;
 };
 
-/// Everything that one run needs and leaves behind.
+/// One execution of `graze simulate`: checks the options, computes, and writes table, picture and outcome.
 class SimulateCommand {
 public:
     SimulateCommand(const SimulateArguments& arguments, const Console& console)
@@ -230,7 +230,7 @@ public:
     }
 
 private:
-    /// Before anything is computed that could be lost.
+    /// Checks the outputs before the computation, whose results would otherwise be lost.
     void check_outputs() {
         wants_table_ = wants_table(arguments_, arguments_.output.format != TableFormat::table);
         if (wants_table_ && !arguments_.output.file.empty())
@@ -309,10 +309,10 @@ private:
         return heading;
     }
 
-    /// Whether the table, rather than anything asked for, has ended the run.
+    /// True when the run ended because the table has as many rows as it can hold.
     bool is_full() const { return table_->is_full() && trajectory_->outcome().ending == Ending::stopped; }
 
-    /// Says how the trajectory ended. Returns the exit code.
+    /// Prints how the trajectory ended. @return the exit code
     int report() const {
         const Outcome& outcome = trajectory_->outcome();
         const std::string unit = model_.time_unit.empty() ? "" : ' ' + model_.time_unit;

@@ -2,9 +2,9 @@
 
 namespace graze {
 
-/// Gives input, output and messages a place where a shell has closed them (`>&-`). Otherwise the first file that is
-/// opened would get their number, and what is said would be written into it. Nothing is read, messages go nowhere, and
-/// writing output fails, so that it is told.
+/// Opens /dev/null for standard streams that a shell has closed (`>&-`). Otherwise the first file that is opened would
+/// get their descriptor, and output would be written into it. Reading then finds no input, messages are lost, and
+/// writing output fails, so that an error is reported.
 void open_standard_streams() noexcept;
 
 } // namespace graze

@@ -7,8 +7,8 @@
 
 namespace graze {
 
-/// A line on standard error about how far work has come, rewritten in its place: not before two seconds have passed,
-/// not more often than five times a second, and gone when the work is done.
+/// A line of progress on standard error, which is rewritten in place. It appears after two seconds, changes at most
+/// five times a second, and is erased by the destructor.
 class StatusLine {
 public:
     StatusLine(const Console& console, bool wanted) : console_(&console), wanted_(wanted) {}
@@ -17,9 +17,9 @@ public:
     StatusLine& operator=(const StatusLine&) = delete;
 
     bool wanted() const { return wanted_; }
-    /// Whether it is time to show something.
+    /// True when the line may be written: it is wanted, and the times above have passed.
     bool is_due() const;
-    double elapsed() const; ///< seconds since it was made
+    double elapsed() const; ///< seconds since construction
     void show(const std::string& text);
 
 private:

@@ -11,13 +11,13 @@ namespace {
 
 constexpr int wide = 18, shown_digits = 10;
 
-/// Of a curve the second parameter, which has a column too.
+/// The second parameter of a curve, which has a column of its own; none for branches.
 std::optional<ParameterId> second_parameter(const StudyRun& run) {
     const bool two = run.kind == RunKind::curve && !run.branch().settings.free.empty();
     return two ? std::optional(run.branch().settings.free.front()) : std::nullopt;
 }
 
-/// Which has a column anyway.
+/// True for a monitor of the period, which has a column anyway.
 bool is_period(const Monitor& monitor) {
     return monitor.kind == Monitor::Kind::duration && monitor.segment.empty();
 }
@@ -43,7 +43,7 @@ void StepLines::show(const std::string& name, const OrbitRecord& record) {
     const StudyRun* const run = study_->find_run(name);
     if (!run)
         return;
-    const bool starts = record.point.step == 0; // two parts may have the same name
+    const bool starts = record.point.step == 0; // the names of two consecutive parts may be equal
     if (run_ != name || part_ != record.part || starts)
         begin(*run, record.part);
     run_ = name;
@@ -60,7 +60,7 @@ void StepLines::show(const std::string& name, const OrbitRecord& record) {
         if (!is_period(monitors[m]))
             line += fmt::format(" {:>{}.{}g}", point.monitors[m], wide, shown_digits);
     line.erase(line.find_last_not_of(' ') + 1);
-    *out_ << line << std::endl; // as it comes, also into a file
+    *out_ << line << std::endl; // flushed, so that each line appears at once, also in a file
 }
 
 } // namespace graze

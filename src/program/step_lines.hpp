@@ -8,7 +8,7 @@
 
 namespace graze {
 
-/// Tells about a branch while it is followed: a line for each orbit.
+/// Prints one line for each orbit of a branch while the branch is followed (`graze run --steps`).
 class StepLines {
 public:
     StepLines(const Study& study, std::ostream& out) : study_(&study), out_(&out) {}
@@ -18,7 +18,7 @@ private:
     void begin(const StudyRun& run, const std::string& part);
     const Study* study_;
     std::ostream* out_;
-    std::string run_, part_; ///< of the line before
+    std::string run_, part_; ///< run and part of the last line
 };
 
 } // namespace graze

@@ -10,38 +10,38 @@ namespace graze {
 
 namespace {
 
-constexpr const char* run_text = R"(Do what a study asks for, and keep the results.
-A study is a text file of named runs (simulations, sweeps of parameters, basins of attraction, periodic orbits and
-branches of them) and of the pictures to be made from them. Results go to FOLDER/results.sqlite as they come, pictures
-beside it. Run again, it only does what is not there yet or has changed; so a run that was interrupted, even by a power
-cut, goes on where it stopped. The results are enough for that: instead of the study, name their folder or file.)";
+constexpr const char* run_text = R"(Compute the runs of a study, and keep the results.
+A study is a text file that describes named runs (simulations, sweeps of parameters, basins of attraction, periodic orbits
+and branches of them) and pictures of their results. Results go to FOLDER/results.sqlite as they are computed, pictures
+beside it. The same command again computes only what is missing or has changed: a run that was interrupted, even by a power
+cut, continues where it stopped. The results contain the study: their folder or file may be named instead of it.)";
 
 constexpr const char* run_examples = R"(Examples:
   graze run --list
   graze run electromagnetic-testbed --output testbed
   graze run my-study.toml --output results --jobs 8
   graze run my-study.toml --only chain --steps
-  graze run my-study.toml --set k=50              for another value; into the folder my-study-k=50
-  graze run results                               go on with what is in results/results.sqlite
-  graze run results --output again                do all of it again, elsewhere
+  graze run my-study.toml --set k=50              another value; results go to the folder my-study-k=50
+  graze run results                               continue the study in results/results.sqlite
+  graze run results --output again                compute it again in another folder
   graze run mems-switch --show > my-switch.toml
-  graze run --keys sweep                          what can be said of a sweep
+  graze run --keys sweep                          the keys of a run of kind sweep
   graze run --schema > study.schema.json          for an editor that completes TOML)";
 
-constexpr const char* info_text = R"(Tell what is in a file.
-Of results: the study, its runs with their points, when they were made, how, and by which version of graze; of a model
-or a study what it has. Shipped models and studies go by their names.)";
+constexpr const char* info_text = R"(Describe the contents of a file.
+For results: the study, its runs and their points, when they were computed, and by which version of graze. For a model or
+a study: its parts. Shipped models and studies are given by their names.)";
 
 constexpr const char* info_examples = R"(Examples:
   graze info results                   runs, counts, sizes, times
-  graze info results --all             and all their parameters and settings
+  graze info results --all             parameters and settings of the runs too
   graze info my-model.toml
   graze info mems-switch --format json)";
 
-constexpr const char* export_text = R"(Take results out of the file of a study.
-What is shown: points (one row for each parameter value, with what the motion settles on, or for each orbit of a
-branch), samples, segments of the orbits of branches, multipliers of periodic orbits, the list of runs, or whatever a
-query in SQL asks for (docs/result-file.md).)";
+constexpr const char* export_text = R"(Print tables of a result file, or export it.
+Tables are: points (one row for each parameter value, with the attractor that was found, or for each orbit of a branch),
+samples, segments of the orbits of branches, multipliers of periodic orbits, the list of runs, or the rows of a query in
+SQL (docs/result-file.md).)";
 
 constexpr const char* export_examples = R"(Examples:
   graze export testbed --what runs
@@ -52,7 +52,7 @@ constexpr const char* export_examples = R"(Examples:
   graze export testbed --sql "SELECT * FROM label_changes")";
 
 constexpr const char* plot_text = R"(Draw the results of a study.
-Without options: a picture of every run, by its kind, in the present folder.)";
+Without options: one picture of each run, of the usual kind for it, in the current folder.)";
 
 constexpr const char* plot_examples = R"(Examples:
   graze plot testbed
@@ -69,25 +69,26 @@ CLI::Option* add(CLI::App& command, const char* name, Value& value, const char* 
 void declare_run(CLI::App& app, RunArguments& arguments) {
     CLI::App& command = *app.add_subcommand("run", run_text);
     command.footer(run_examples);
-    add(command, "STUDY", arguments.study, "", "Name of a shipped study, a file, or results to go on with");
-    add(command, "--output", arguments.folder, "FOLDER", "Where results and pictures go (the study's name)");
-    add(command, "--jobs", arguments.jobs, "N", "Threads (as many as there are cores); results do not depend on it")
+    add(command, "STUDY", arguments.study, "", "Name of a shipped study, a study file, or results to continue");
+    add(command, "--output", arguments.folder, "FOLDER", "Folder of results and pictures (the study's name)");
+    add(command, "--jobs", arguments.jobs, "N", "Number of threads (one for each core); results do not depend on it")
         ->check(whole_number(1, 1024));
     add(command, "--set", arguments.set, "NAME=VALUE", "Values of parameters instead of those in the study");
     add(command, "--only", arguments.only, "RUN",
-        "Only these runs, with those that they start from, and pictures of nothing else");
+        "Compute only these runs and those that they start from, with their pictures (all)");
     command.add_flag("--list", arguments.list, "List the shipped studies");
-    command.add_flag("--show", arguments.show, "Print the study instead of running it");
+    command.add_flag("--show", arguments.show, "Print the file of a shipped study instead of running it");
     std::vector<std::string> kinds = kinds_of_runs();
     kinds.emplace_back("all");
     add(command, "--keys", arguments.keys, "KIND_OF_RUN",
-        "List the keys of runs of this kind, such as sweep, or of all")
+        "List the keys of runs of this kind, such as sweep, or of all kinds: their values, defaults and meaning")
         ->check(one_of(kinds));
-    command.add_flag("--schema", arguments.schema, "Print what studies may consist of, for editors: a JSON Schema");
+    command.add_flag("--schema", arguments.schema,
+                     "Print a JSON Schema of study files, with which editors complete and check them");
     command.add_flag("--steps", arguments.steps, "Print a line for each orbit of a branch as it is found");
-    command.add_flag("--no-pictures", arguments.no_pictures, "Compute only");
+    command.add_flag("--no-pictures", arguments.no_pictures, "Compute only; write no pictures and tables");
     command.add_flag("--progress", arguments.progress, "Show progress even if standard error is no terminal");
-    command.add_flag("--quiet", arguments.quiet, "Do not list what was done");
+    command.add_flag("--quiet", arguments.quiet, "Do not list the runs at the end");
     declare_format(command, arguments.output)->group("Options");
 }
 
@@ -95,30 +96,32 @@ void declare_info(CLI::App& app, InfoArguments& arguments) {
     CLI::App& command = *app.add_subcommand("info", info_text);
     command.footer(info_examples);
     add(command, "FILE", arguments.file, "", "Result file, folder of a study, model or study")->required();
-    command.add_flag("--all", arguments.all, "Parameters and settings of runs too, as csv and json have them always");
+    command.add_flag("--all", arguments.all, "Show parameters and settings of runs too; csv and json always have them");
     declare_format(command, arguments.output)->group("Options");
-    add(command, "--output", arguments.output.file, "FILE", "Write there instead of to standard output");
+    add(command, "--output", arguments.output.file, "FILE", "Write to FILE instead of to standard output");
 }
 
 void declare_export(CLI::App& app, ExportArguments& arguments) {
     CLI::App& command = *app.add_subcommand("export", export_text);
     command.footer(export_examples);
     add(command, "FILE", arguments.file, "", "Result file, or the folder of a study")->required();
-    add(command, "--run", arguments.runs, "RUN", "Only these runs (all)");
+    add(command, "--run", arguments.runs, "RUN", "Export only these runs (all)");
     add(command, "--what", arguments.what, "TABLE",
         "points (default), samples, segments, multipliers, half_multipliers, minima, end_values, estimates, "
         "covariances or runs");
     add(command, "--label", arguments.label, "LABEL",
-        "Only points with this label, such as periodic; of branches also a type, such as GR");
-    add(command, "--direction", arguments.direction, "WAY", "Only points of sweeps or branches up or down");
-    add(command, "--sql", arguments.sql, "QUERY", "The rows of a query instead");
+        "Export only points with this label, such as periodic; for branches also a type, such as GR (all)");
+    add(command, "--direction", arguments.direction, "WAY", "Export only sweeps or branches in this direction (both)");
+    add(command, "--sql", arguments.sql, "QUERY", "Export the rows of this query in SQL instead");
     add(command, "--format", arguments.hdf5, "FORMAT", "table (default), csv, json or hdf5")
         ->check(one_of({"table", "csv", "json", "hdf5"}));
-    add(command, "--output", arguments.output.file, "FILE", "Write there instead of to standard output");
+    add(command, "--output", arguments.output.file, "FILE",
+        "Write to FILE instead of to standard output; if it is a folder, each run to a file in it");
     add(command, "--digits", arguments.output.digits, "N",
-        "Significant digits of numbers (8; 17 of csv and json, which lose nothing)")
+        "Significant digits of numbers (8 in tables; 17, which is exact, in csv and json)")
         ->check(whole_number(1, 17));
-    command.add_flag("--all", arguments.output.all, "All columns of a table, also those that do not fit a terminal");
+    command.add_flag("--all", arguments.output.all,
+                     "Show all columns of a table, even if they do not fit the terminal");
 }
 
 void declare_plot_results(CLI::App& app, PlotArguments& arguments) {
@@ -126,34 +129,39 @@ void declare_plot_results(CLI::App& app, PlotArguments& arguments) {
     command.footer(plot_examples);
     add(command, "FILE", arguments.file, "", "Result file, or the folder of a study")->required();
     add(command, "--run", arguments.runs, "RUN",
-        "Runs to be drawn (all; each by itself, but branches with --output together)");
+        "Runs to be drawn (all): one picture for each run, but one for all branches with --output");
     add(command, "--kind", arguments.kind, "KIND",
-        "bifurcation, branch, basin, map, spectrum, history, portrait, regression or scatter")
+        "bifurcation, branch, basin, map, spectrum, history, portrait, poincare, regression, scatter or residuals "
+        "(chosen by the run)")
         ->check(one_of({"bifurcation", "branch", "basin", "map", "spectrum", "history", "portrait", "poincare",
                         "regression", "scatter", "residuals"}));
-    add(command, "--x", arguments.x, "NAME", "Horizontal axis: what varies, or a value");
-    add(command, "--y", arguments.y, "NAME", "Vertical axes, one panel each (all values)");
-    add(command, "--sample", arguments.samples, "NAME", "Only these samplings");
-    add(command, "--direction", arguments.directions, "WAY", "Only sweeps or branches up or down");
-    add(command, "--at", arguments.at, "NAME=VALUE", "Nearest points, of portraits, histories and spectra");
+    add(command, "--x", arguments.x, "NAME", "Horizontal axis: a state or quantity (the parameter that varies)");
+    add(command, "--y", arguments.y, "NAME", "Vertical axes: states or quantities, one panel each (all values)");
+    add(command, "--sample", arguments.samples, "NAME", "Draw only these samplings, such as sections (all)");
+    add(command, "--direction", arguments.directions, "WAY", "Draw only sweeps or branches in this direction (both)");
+    add(command, "--at", arguments.at, "NAME=VALUE",
+        "Portraits, histories, Poincare sections and spectra: draw the point nearest to this value");
     add(command, "--point", arguments.points, "POINT",
-        "Orbits of a branch by label or number, of portraits and histories");
-    add(command, "--x-range", arguments.x_range, "A:B", "Limits of the horizontal axis");
-    add(command, "--y-range", arguments.y_range, "A:B", "Limits of the vertical axes");
-    add(command, "--fit", arguments.fit, "A:B", "Range of x that a regression uses");
-    add(command, "--group", arguments.group, "NAME", "What varies between the lines of a regression");
-    command.add_flag("--successive", arguments.successive, "Regression: each value against the one before it");
+        "Portraits and histories: draw these orbits of a branch, by label or number");
+    add(command, "--x-range", arguments.x_range, "A:B", "Limits of the horizontal axis (the range of the data)");
+    add(command, "--y-range", arguments.y_range, "A:B", "Limits of the vertical axes (the range of the data)");
+    add(command, "--fit", arguments.fit, "A:B", "Regression: range of x that is used (all)");
+    add(command, "--group", arguments.group, "NAME", "Regression: variable with one line for each of its values");
+    command.add_flag("--successive", arguments.successive, "Regression: draw each value over the preceding one");
     add(command, "--log", arguments.logarithmic, "AXIS", "Logarithmic axes: x, y or both")->check(one_of({"x", "y"}));
-    add(command, "--title", arguments.title, "TEXT", "Title");
+    add(command, "--title", arguments.title, "TEXT", "Title of the picture (chosen by its contents)");
     add(command, "--name", arguments.names, "NAME=TEXT",
-        "What legends, titles and axes show in the place of names of runs, values, samplings");
-    add(command, "--x-label", arguments.x_label, "TEXT", "All that stands beside the horizontal axis, unit included");
-    add(command, "--y-label", arguments.y_labels, "TEXT", "The same of the vertical axes");
-    add(command, "--size", arguments.style.size, "W[xH]", "Width in mm, such as 85 or 170 (170), and height");
-    add(command, "--font", arguments.style.font, "FONT", "Size of letters in points, or NAME or NAME,SIZE");
-    command.add_flag("--grey", arguments.style.grey, "Without colours, for printers that have none");
+        "Text shown instead of the name of a run, value or sampling in legends, titles and axes");
+    add(command, "--x-label", arguments.x_label, "TEXT", "Label of the horizontal axis with its unit (made by graze)");
+    add(command, "--y-label", arguments.y_labels, "TEXT",
+        "Labels of the vertical axes with their units (made by graze)");
+    add(command, "--size", arguments.style.size, "W[xH]",
+        "Width in mm, such as 85 or 170 for the columns of a journal (170), and height (chosen by the contents)");
+    add(command, "--font", arguments.style.font, "FONT", "Font size in points, font name, or NAME,SIZE (9)");
+    command.add_flag("--grey", arguments.style.grey, "Draw in grey, for print without colours");
     add(command, "--output", arguments.output, "FILE", "Picture: .png (default), .svg, .pdf, .eps or, for LaTeX, .tex");
-    add(command, "--data", arguments.data, "FILE", "Keep data and commands, to be changed and drawn by `gnuplot FILE`");
+    add(command, "--data", arguments.data, "FILE",
+        "Keep the data and commands of the picture; `gnuplot FILE` draws it again after changes");
 }
 
 } // namespace

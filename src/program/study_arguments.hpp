@@ -4,7 +4,7 @@
 
 namespace graze {
 
-/// Declares the commands run, export and plot.
+/// Declares the commands run, info, export and plot.
 void declare_study_commands(CLI::App& app, Arguments& arguments);
 
 } // namespace graze

@@ -21,15 +21,15 @@ namespace graze {
 
 namespace {
 
-/// Changes when the same results are drawn in another way than by an earlier version.
-constexpr int drawing = 5;
+/// Version of the way in which results are drawn: pictures of other versions are drawn again.
+constexpr int drawing_version = 5;
 
 std::string contents_of(const std::string& path) {
     std::ifstream stream(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// One picture of a study, with the files that it is made of.
+/// The files of one picture of a study, and the note in the result file that tells what they were made from.
 class PictureFiles {
 public:
     PictureFiles(const StudyPicture& picture, ResultFile& file, const std::string& folder)
@@ -37,7 +37,7 @@ public:
 
     std::string table() const { return base_ + ".csv"; }
     std::string drawing_file() const { return base_ + "." + picture_->format; }
-    /// With that of the lines, where LaTeX has its own of the text.
+    /// All files of the drawing: for LaTeX a text, and a PDF of the lines.
     std::vector<std::string> drawing_files() const {
         std::vector<std::string> files{drawing_file()};
         if (picture_->format == "tex")
@@ -45,7 +45,7 @@ public:
         return files;
     }
 
-    /// Files of the same picture, if they are as they were written.
+    /// The existing files, if they show the present results and have not changed since; otherwise none.
     std::vector<std::string> present() const {
         const auto note = file_->note(key());
         if (!note)
@@ -63,9 +63,9 @@ public:
 
 private:
     std::string key() const { return "picture " + picture_->name; }
-    /// Of what a picture was made, and what it has become.
+    /// Fingerprint of everything that the picture depends on, and of the contents of its files.
     std::string made_of(const std::vector<std::string>& files) const {
-        std::string text = fmt::format("{} {} {}", drawing, GRAZE_VERSION, settings_of(*picture_));
+        std::string text = fmt::format("{} {} {}", drawing_version, GRAZE_VERSION, settings_of(*picture_));
         std::vector<std::string> names = picture_->runs;
         names.insert(names.end(), picture_->over.begin(), picture_->over.end());
         for (const std::string& name : names)
@@ -105,7 +105,7 @@ std::vector<std::string> draw(const StudyPicture& picture, const PictureFiles& f
     return written;
 }
 
-/// Of runs that failed. @throws InputError when no run is left
+/// Leaves runs without points, as after a failure, out of a picture. @throws InputError when no run is left
 void leave_out_empty_runs(StudyPicture& picture, const ResultFile& file, const Console& console) {
     const auto is_empty = [&](const std::string& run) { return file.point_count(run) == 0; };
     if (std::all_of(picture.runs.begin(), picture.runs.end(), is_empty))
@@ -149,7 +149,7 @@ DrawnPictures draw_study_pictures(const Study& study, ResultFile& file, const st
                 files.remember(paths = draw(picture, files, file));
             drawn.paths.insert(drawn.paths.end(), paths.begin(), paths.end());
         } catch (const InputError& error) {
-            if ((drawn.interrupted = InterruptGuard::requested())) // as gnuplot was, by the same Ctrl-C
+            if ((drawn.interrupted = InterruptGuard::requested())) // Ctrl-C has also ended gnuplot
                 break;
             console.err << fmt::format("graze: warning: picture '{}' was not drawn: {}\n", picture.name, error.what());
             drawn.complete = false;

@@ -9,16 +9,17 @@
 
 namespace graze {
 
+/// Result of draw_study_pictures.
 struct DrawnPictures {
-    std::vector<std::string> paths; ///< of what there is now
-    std::size_t kept = 0;           ///< pictures that were there already
+    std::vector<std::string> paths; ///< all files of pictures that exist now
+    std::size_t kept = 0;           ///< pictures that existed already and were not drawn again
     bool complete = true;           ///< false: something could not be drawn
     bool interrupted = false;       ///< before all were drawn
 };
 
-/// Draws all pictures of a study into a folder, or one for each run if it asks for nothing; tables beside them.
-/// Pictures that cannot be drawn are warned of: the results are there. Nothing is written outside of the folder. The
-/// result file remembers what was drawn: a picture of the same, whose files are as they were written, is kept.
+/// Draws all pictures of a study into a folder, with their tables; one for each run if the study has no pictures. A
+/// picture that cannot be drawn gives a warning. No file is written outside the folder. The result file remembers what
+/// was drawn: a picture of unchanged results whose files have not changed is kept.
 DrawnPictures draw_study_pictures(const Study& study, ResultFile& file, const std::string& folder,
                                   const Console& console);
 

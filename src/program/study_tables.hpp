@@ -9,13 +9,14 @@
 
 namespace graze {
 
+/// Result of write_study_tables.
 struct WrittenTables {
-    std::vector<std::string> paths; ///< of what there is now
+    std::vector<std::string> paths; ///< all files of tables that exist now
     bool complete = true;           ///< false: something could not be written
 };
 
-/// Writes all tables of a study into a folder, as CSV with all digits. Those that cannot be made are warned of: the
-/// results are there. Nothing is written outside of the folder, and nothing anew that is as it would be.
+/// Writes all tables of a study into a folder, as CSV with all digits. A table that cannot be made gives a warning. No
+/// file is written outside the folder, and files with the same contents are not written again.
 WrittenTables write_study_tables(const Study& study, const ResultFile& file, const std::string& folder,
                                  const Console& console);
 

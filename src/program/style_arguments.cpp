@@ -29,8 +29,7 @@ FigureStyle figure_style(const StyleArguments& arguments) {
         style.width = number_of_option(arguments.size.substr(0, cross), "--size");
         if (cross != std::string::npos)
             style.height = number_of_option(arguments.size.substr(cross + 1), "--size");
-        if (style.width == 0 ||
-            (cross != std::string::npos && style.height == 0)) // which would stand for the usual one
+        if (style.width == 0 || (cross != std::string::npos && style.height == 0)) // 0 would mean the default
             throw InputError({"--size", 0, 0}, fmt::format("'{}' is no size", arguments.size), "give millimetres");
     }
     const std::string& font = arguments.font;

@@ -7,10 +7,10 @@
 
 namespace graze {
 
-/// @throws InputError for what is not a finite number
+/// The number that an option gives. @throws InputError unless it is a finite number
 double number_of_option(const std::string& text, const char* option);
 
-/// What `--size`, `--font` and `--grey` say. @throws InputError for sizes that cannot be drawn
+/// The style that `--size`, `--font` and `--grey` give. @throws InputError for sizes that cannot be drawn
 FigureStyle figure_style(const StyleArguments& arguments);
 
 } // namespace graze

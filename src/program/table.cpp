@@ -20,12 +20,13 @@ std::string padded(const std::string& text, std::size_t width, bool right) {
     return right ? blanks + text : text + blanks;
 }
 
-/// A line feed in a text would begin a row.
+/// The text of a cell on one line: a line feed in it would begin a row.
 std::string shown_cell(const Table& table, std::size_t row, std::size_t column, int digits) {
     return printable_line(cell_text(table, row, column, digits));
 }
 
-/// @param longest line, 0: any. The last column, where it is one of texts, is broken into as many lines as it needs.
+/// Writes a table with aligned columns. If it is wider than `longest` characters (0: no limit), texts in the last
+/// column are broken into lines.
 void write_aligned(std::ostream& out, const Table& table, int digits, std::size_t longest) {
     const std::size_t columns = table.columns().size();
     if (columns == 0)

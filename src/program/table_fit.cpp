@@ -16,8 +16,8 @@ namespace graze {
 
 namespace {
 
-/// Columns of results that people look at last, the least of them first.
-constexpr std::array<std::string_view, 28> last_looked_at{
+/// Columns that are left out first if a table is too wide, the least important one first.
+constexpr std::array<std::string_view, 28> least_important{
     "begun",          "durations",    "low",           "high",       "tangent", "iterations",  "step",
     "chain",          "returns",      "cycles",        "arclength",  "error",   "residual",    "outcome",
     "bracket_low",    "bracket_high", "event_segment", "event_time", "event",   "at_end",      "unstable",
@@ -30,14 +30,14 @@ bool is_empty(const Table& table, std::size_t column) {
     return table.rows() > 0;
 }
 
-/// Which of the columns goes next; none: all stay.
+/// The column that is left out next; the number of columns if all must stay.
 std::size_t next_to_go(const Table& table, const std::vector<std::size_t>& shown, const std::vector<bool>& kept) {
     const auto goes = [&](std::size_t column) { return column > 0 && !kept[column]; };
-    for (const std::string_view name : last_looked_at)
+    for (const std::string_view name : least_important)
         for (const std::size_t column : shown)
             if (goes(column) && table.columns()[column].name == name)
                 return column;
-    for (const std::size_t column : shown) // states at the end, of which there may be many
+    for (const std::size_t column : shown) // final states, of which there may be many
         if (goes(column) && table.columns()[column].name.starts_with("end_"))
             return column;
     for (auto column = shown.rbegin(); column != shown.rend(); ++column)
@@ -48,7 +48,7 @@ std::size_t next_to_go(const Table& table, const std::vector<std::size_t>& shown
 
 constexpr std::size_t longest_signature = 40; ///< letters
 
-/// @return whether any was longer
+/// Shortens long texts in columns `signature`. @return true if there were any
 bool shorten_signatures(Table& table) {
     const std::size_t columns = table.columns().size();
     Table result(table.columns());
@@ -81,15 +81,15 @@ std::string shortened_words(const std::string& text, std::size_t most) {
             runs.emplace_back(word, 1);
     constexpr std::size_t few = 3;
     std::string result;
-    const std::string rest = fmt::format(" ... ({} words)", count);
+    const std::string ending = fmt::format(" ... ({} words)", count);
     for (std::size_t r = 0; r < runs.size(); ++r) {
         std::string part =
             runs[r].second > few ? fmt::format("{} ({} times)", runs[r].first, runs[r].second) : runs[r].first;
         for (std::size_t i = 1; runs[r].second <= few && i < runs[r].second; ++i)
             part += " " + runs[r].first;
-        const std::size_t room = most - (r + 1 < runs.size() ? rest.size() : 0);
-        if (!result.empty() && width_of(result) + 1 + width_of(part) > room)
-            return result + rest;
+        const std::size_t available = most - (r + 1 < runs.size() ? ending.size() : 0);
+        if (!result.empty() && width_of(result) + 1 + width_of(part) > available)
+            return result + ending;
         result += (result.empty() ? "" : " ") + part;
     }
     return width_of(result) <= most ? result : shortened(result, most);
@@ -101,7 +101,8 @@ FittedTable fitted(const Table& given, int digits, std::size_t width, const std:
     result.shortened = shorten_signatures(table);
     std::vector<std::size_t> widths = column_widths(table, digits);
     const std::size_t columns = table.columns().size();
-    if (columns > 0 && table.rows() > 0 && table.is_text(0, columns - 1)) // it can be broken
+    if (columns > 0 && table.rows() > 0 &&
+        table.is_text(0, columns - 1)) // texts in the last column can be broken into lines
         widths.back() = std::min(widths.back(), least_text);
     std::vector<bool> stays(columns);
     std::vector<std::size_t> shown;

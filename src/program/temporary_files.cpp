@@ -18,7 +18,7 @@ struct UnfinishedFile {
     char path[4096];
 };
 
-// A signal handler can reach nothing but what has static lifetime.
+// Static, since a signal handler can use only objects with static lifetime.
 static_assert(std::atomic<int>::is_always_lock_free);
 std::array<UnfinishedFile, 16> places;
 
@@ -59,14 +59,15 @@ void TemporaryFiles::remove_all() noexcept {
 void TemporaryFiles::end_process(int signal) noexcept {
     remove_all();
     std::signal(signal, SIG_DFL);
-    raise(signal); // as soon as the handler returns
+    raise(signal); // takes effect when the handler returns
 }
 
 void TemporaryFiles::watch_signals() noexcept {
     std::signal(SIGXFSZ, SIG_IGN);
     for (const int signal :
          {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGALRM, SIGVTALRM, SIGPROF, SIGXCPU, SIGUSR1, SIGUSR2})
-        if (std::signal(signal, &TemporaryFiles::end_process) == SIG_IGN) // as shells start what is to go on
+        if (std::signal(signal, &TemporaryFiles::end_process) ==
+            SIG_IGN) // as shells start background processes: stays ignored
             std::signal(signal, SIG_IGN);
 }
 

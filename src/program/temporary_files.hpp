@@ -4,20 +4,20 @@
 
 namespace graze {
 
-/// The files that are being written under other names than their own, for a signal that ends the process to remove
-/// them. Whoever makes one adds it, and takes it out when it has its name or is gone. There is one list in a process.
+/// The list of temporary files that are being written, so that they are removed when a signal ends the process. Code
+/// that makes a temporary file adds it, and takes it out when it is renamed or removed. A process has one list.
 class TemporaryFiles {
 public:
-    /// @return whether there was room; of more, and of longer paths, something may be left behind
+    /// @return false if the list is full or the path is too long: the file may then remain after a signal
     static bool add(const std::string& path) noexcept;
     static void take_out(const std::string& path) noexcept;
-    /// Removes them all. To be called by signal handlers, too.
+    /// Removes all files of the list. Safe in signal handlers.
     static void remove_all() noexcept;
-    /// Removes them all, and ends the process by a signal, as if it had no handler. For signal handlers.
+    /// Removes all files of the list and ends the process by the signal, as if it had no handler. For signal handlers.
     static void end_process(int signal) noexcept;
-    /// From now on signals that end a process (all but SIGKILL and those of mistakes of its own) remove them before.
-    /// Those that the process was started to ignore stay ignored. A file that gets longer than the process may write
-    /// (SIGXFSZ) ends nothing: writing fails, as on a full disk.
+    /// Makes signals that end the process remove the files first (all but SIGKILL and those of crashes). Signals that
+    /// were ignored when the process started stay ignored. SIGXFSZ, for a file beyond the size limit, is ignored:
+    /// writing fails instead, as on a full disk.
     static void watch_signals() noexcept;
 };
 

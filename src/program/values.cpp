@@ -22,8 +22,8 @@ constexpr std::string_view blanks = " \t\n";
 
 struct Assignment {
     std::string name, text;
-    Place place;      ///< of the text behind "="
-    Place name_place; ///< the option, or the line of a file
+    Place place;      ///< place of the text after "="
+    Place name_place; ///< the option, or the line of a file of parameters
     bool in_file = false;
 };
 
@@ -49,7 +49,8 @@ void require_model(const ParameterFile& file, const std::vector<std::string>& mo
                          "give those of this model, or leave out the line that names it");
 }
 
-/// What a file of parameters has for an option. @param model the one that is used; null: not known yet
+/// The assignments in a file of parameters for --set or --from.
+/// @param model the model that is used; null: not known yet
 std::vector<Assignment> assignments_in(const std::string& path, const std::string& option, const Model* model) {
     const ParameterFile file = read_parameter_file(path);
     if (model != nullptr)
@@ -66,8 +67,8 @@ std::vector<Assignment> assignments_in(const std::string& path, const std::strin
     return all;
 }
 
-/// What options ask for, with what is in files that they name, `@FILE`: of the same name what comes later counts. Of
-/// two values on the command line one would be ignored.
+/// All assignments of an option, with those of files that it names as `@FILE`. A later value of the same name replaces
+/// one of a file; two values on the command line are an error, since one would be ignored.
 std::vector<Assignment> all_assignments(const std::vector<std::string>& arguments, const std::string& option,
                                         const Model* model) {
     std::vector<Assignment> all;
@@ -87,7 +88,7 @@ std::vector<Assignment> all_assignments(const std::vector<std::string>& argument
     return all;
 }
 
-/// A mistake in a name, where it was made.
+/// Calls a function; its error about a name of a file gets the line of that file as place.
 template <class Work>
 void at_name(const Assignment& assignment, const Work& work) {
     try {
@@ -134,7 +135,7 @@ void set_parameters(Model& model, const std::vector<std::string>& assignments) {
                                                               assignment.text));
         at_name(assignment, [&] {
             if (!model.find_parameter(assignment.name))
-                model.set_parameter(assignment.name, 0); // says which names there are
+                model.set_parameter(assignment.name, 0); // throws, with the names of parameters
             model.set_parameter(assignment.name, value_of_text(model, assignment.text, assignment.place));
         });
     }
@@ -181,7 +182,7 @@ void set_initial_state(Model& model, const std::vector<std::string>& assignments
                                  : fmt::format("choose its value by --set {}={}", assignment.name, assignment.text));
         at_name(assignment, [&] {
             if (!model.find_state(assignment.name))
-                model.set_initial(assignment.name, 0); // says which names there are
+                model.set_initial(assignment.name, 0); // throws, with the names of states
             model.set_initial(assignment.name, value_of_text(model, assignment.text, assignment.place));
         });
     }

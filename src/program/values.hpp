@@ -14,32 +14,32 @@ namespace graze {
 /// Splits lists such as "a, b" "c"; blanks around items are dropped, empty items too.
 std::vector<std::string> split_list(const std::vector<std::string>& arguments);
 
-/// Value of a number or expression in the model's parameters, at their present values.
-/// @param option where it was given, for messages
+/// Value of a number or of an expression in the model's parameters, at their current values.
+/// @param option for messages
 /// @throws InputError when it is no expression or not finite
 double value_of(const Model& model, std::string_view text, const std::string& option);
 /// The same, and positive. @throws InputError
 double positive_value_of(const Model& model, std::string_view text, const std::string& option);
 
-/// Carries out `--set NAME=EXPRESSION ...`, one after the other; `@FILE` stands for all that a file of parameters
-/// sets, of which what comes later takes the place. @throws InputError, also for a file of another model
+/// Sets parameters by `--set NAME=EXPRESSION ...`, one after the other; `@FILE` sets all values in a file of
+/// parameters, which later assignments replace. @throws InputError, also for a file of another model
 void set_parameters(Model& model, const std::vector<std::string>& assignments);
-/// The value of a text that is given for a name. @throws InputError with the place
+/// Evaluates the text that is given for a name. @throws InputError with the place
 using ValueReader = std::function<double(const std::string& name, const std::string& text, const Place& place)>;
-/// Names and values of `--set NAME=NUMBER ...` for models that are not known yet: expressions without names.
-/// @param read none: an expression without units
+/// Names and values of `--set NAME=NUMBER ...` for models that are not known yet: expressions contain no names.
+/// @param read evaluates the texts; none: as expressions without units
 /// @throws InputError
 std::vector<std::pair<std::string, double>> parameter_values(const std::vector<std::string>& assignments,
                                                              const ValueReader& read = {});
-/// Does what may refuse one of these names or values, and tells where: the line of the file that has it, or `--set`.
-/// @throws InputError
+/// Calls a function that may refuse one of these names or values; its error gets a place: the line of the file of
+/// parameters, or `--set`. @throws InputError
 void with_places_of(const std::vector<std::string>& assignments, const std::function<void()>& work);
-/// @param models names of those that are used. @throws InputError if `@FILE` among the assignments was found for
-/// another
+/// @param models names of the models that are used
+/// @throws InputError if a file `@FILE` among the assignments belongs to another model
 void require_models_of_files(const std::vector<std::string>& assignments, const std::vector<std::string>& models);
-/// Carries out `--from STATE=EXPRESSION ...`, with `@FILE` likewise. @throws InputError
+/// Sets initial values by `--from STATE=EXPRESSION ...`; `@FILE` as for set_parameters. @throws InputError
 void set_initial_state(Model& model, const std::vector<std::string>& assignments);
-/// What `--disturbance STATE=EXPRESSION ...` adds to each state of the model; empty without any. @throws InputError
+/// The value that `--disturbance STATE=EXPRESSION ...` adds to each state; empty if none is given. @throws InputError
 std::vector<double> disturbance_of(const Model& model, const std::vector<std::string>& assignments);
 
 } // namespace graze

@@ -20,10 +20,6 @@ namespace {
 constexpr std::size_t most_columns = 10'000;
 constexpr std::size_t longest_channel_name = 100;
 
-bool is_blank(char letter) {
-    return letter == ' ' || letter == '\t';
-}
-
 std::string_view without_quotes(std::string_view text) {
     return text.size() > 1 && text.front() == '"' && text.back() == '"' ? text.substr(1, text.size() - 2) : text;
 }

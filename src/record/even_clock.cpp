@@ -1,5 +1,6 @@
 #include "record/even_clock.hpp"
 
+#include "base/special_numbers.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/record/spectrum.hpp"
 
@@ -22,14 +23,13 @@ double deviation_from_even(std::span<const double> times, double spacing) {
 }
 
 double rounding_of(std::span<const double> times, double spacing) {
-    constexpr double eps = std::numeric_limits<double>::epsilon();
-    const double digits = 8 * eps * std::max(std::abs(times.front()), std::abs(times.back()));
+    const double digits = 8 * epsilon * std::max(std::abs(times.front()), std::abs(times.back()));
     constexpr int places = 8; // decimal places below the spacing
     const int first = static_cast<int>(std::ceil(std::log10(spacing)));
     for (int place = first; place > first - places; --place) {
         const double unit = std::pow(10.0, place);
         const bool fits = std::all_of(times.begin(), times.end(), [&](double t) {
-            return std::abs(t / unit - std::round(t / unit)) <= 1e-4 + 4 * eps * std::abs(t / unit);
+            return std::abs(t / unit - std::round(t / unit)) <= 1e-4 + 4 * epsilon * std::abs(t / unit);
         });
         if (fits)
             return unit + digits;

@@ -22,7 +22,7 @@ namespace graze {
 
 namespace {
 
-constexpr hsize_t rows_of_a_part = 16'384;
+constexpr hsize_t most_rows_of_a_part = 16'384;
 constexpr hsize_t most_datasets = 1000; ///< the library needs some 200 KB for each open one
 constexpr std::size_t longest_channel_name = 100;
 /// Largest chunk that is accepted: chunks are unpacked as a whole, and a small file may claim a huge one.
@@ -58,7 +58,7 @@ public:
 
     bool read(Samples& samples) override {
         const hsize_t part =
-            std::clamp(most_numbers_of_a_part / (columns_.size() + 1), fewest_rows_of_a_part, rows_of_a_part);
+            std::clamp(most_numbers_of_a_part / (columns_.size() + 1), fewest_rows_of_a_part, most_rows_of_a_part);
         const hsize_t count = std::min(part, rows_ - next_);
         samples.clear(columns_.size());
         if (count == 0)

@@ -1,5 +1,6 @@
 #include "record/text_record.hpp"
 
+#include "base/character.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/printable.hpp"
 #include "graze/base/trimmed.hpp"
@@ -17,10 +18,6 @@ namespace graze {
 namespace {
 
 constexpr std::size_t rows_of_a_part = 16'384;
-
-bool is_blank(char letter) {
-    return letter == ' ' || letter == '\t';
-}
 
 const char* past_blanks(const char* at, const char* end) {
     while (at != end && is_blank(*at))

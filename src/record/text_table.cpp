@@ -1,5 +1,6 @@
 #include "record/text_table.hpp"
 
+#include "base/character.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/trimmed.hpp"
 #include "record/column_names.hpp"
@@ -19,10 +20,6 @@ namespace {
 constexpr std::size_t most_heading_lines = 1000;
 constexpr std::size_t longest_heading = std::size_t{4} << 20;
 constexpr char separators[] = {';', '\t', ',', ' '};
-
-bool is_blank(char letter) {
-    return letter == ' ' || letter == '\t';
-}
 
 bool is_comment(std::string_view line) {
     const std::string_view text = trimmed(line);

@@ -12,33 +12,33 @@
 
 namespace graze {
 
-// Tables are lists of columns, and each column says here, in one place, how it is called, what its cells are, in which
-// unit, and how they are written from a record and read into one. Schema, writer, reader, views, exports and pictures
-// follow from these lists.
+// Each table of the result file is described by a list of columns. A column describes in one place its name, the type
+// and unit of its cells, and how they are written from a record and read into one. Schema, writer, reader, views,
+// exports and pictures all use these lists.
 
-/// In which unit a column's numbers are.
+/// Unit of the numbers in a column.
 enum class ColumnUnit {
     none,
     time,
     per_time,
-    followed, ///< of what a run varies first
-    own,      ///< of the parameter, state or value that the column belongs to
+    followed, ///< unit of the first coordinate of the run
+    own,      ///< unit of the parameter, state or value that the column belongs to
 };
 
-/// Of which of a run's own things there is a column each.
+/// Which columns of a run a ColumnKind describes: one that every run has, or one for each coordinate, state or value.
 enum class ColumnGroup {
-    single, ///< of none: every run has this one column
+    single, ///< one column that every run has
     coordinates,
     states,
     values,
 };
 
-/// What is known of a column without a run.
+/// Description of a column, or a group of columns, that is the same for all runs.
 struct ColumnKind {
-    const char* name; ///< of a group what its names begin with
+    const char* name; ///< name of a single column; prefix of the names in a group
     ColumnType type = ColumnType::real;
     ColumnUnit unit = ColumnUnit::none;
-    bool in_views = false; ///< of all runs
+    bool in_views = false; ///< whether the views over all runs have the column
     ColumnGroup group = ColumnGroup::single;
 };
 
@@ -47,13 +47,13 @@ class CellWriter {
 public:
     explicit CellWriter(Statement& row, int first = 1) : row_(&row), at_(first) {}
 
-    void real(double value) { row_->bind(at_++, value); }              ///< nothing unless finite
-    void extended(double value) { row_->bind_extended(at_++, value); } ///< may be infinite
+    void real(double value) { row_->bind(at_++, value); }              ///< missing unless finite
+    void extended(double value) { row_->bind_extended(at_++, value); } ///< infinite numbers are kept
     void whole(std::size_t value) { row_->bind(at_++, value); }
     void truth(bool value) { row_->bind(at_++, std::int64_t{value}); }
     void text(std::string_view value) { row_->bind_copy(at_++, value); }
     void nothing() { row_->bind_null(at_++); }
-    /// Nothing instead of an empty text.
+    /// An empty text becomes a missing cell.
     void word(std::string_view value) { value.empty() ? nothing() : text(value); }
 
 private:
@@ -67,7 +67,7 @@ public:
     explicit CellReader(const Statement& row, int first = 0) : row_(&row), at_(first) {}
 
     bool is_nothing() const { return row_->is_null(at_); }
-    double number() { return row_->number(at_++); } ///< 0 where there is none
+    double number() { return row_->number(at_++); } ///< 0 if the cell is missing
     double real() { return is_nothing() ? skip(), std::numeric_limits<double>::quiet_NaN() : number(); }
     std::size_t whole() { return static_cast<std::size_t>(row_->integer(at_++)); }
     bool truth() { return row_->integer(at_++) != 0; }
@@ -80,19 +80,19 @@ private:
     int at_;
 };
 
-/// A column, or a group of them, of a table whose rows are records.
-/// @tparam Context what is needed besides the record
+/// A column, or a group of columns, of a table whose rows are records.
+/// @tparam Context further data that writing and reading a cell needs
 template <class Context, class Record>
 struct ColumnOf {
     ColumnKind kind;
     void (*write)(const Context&, const Record&, CellWriter&);
-    void (*read)(const Context&, Record&, CellReader&) = nullptr; ///< none: it follows from others
+    void (*read)(const Context&, Record&, CellReader&) = nullptr; ///< null: derived from other cells, not read
 };
 
 template <class Context, class Record>
 using ColumnsOf = std::vector<ColumnOf<Context, Record>>;
 
-/// How many columns a run's table has of a kind.
+/// Number of columns that a table of a run has of this kind.
 inline std::size_t width_of(const ColumnKind& kind, const RunRecord& run) {
     switch (kind.group) {
     case ColumnGroup::coordinates:
@@ -115,7 +115,7 @@ std::vector<ColumnKind> kinds_of(const ColumnsOf<Context, Record>& columns) {
     return kinds;
 }
 
-/// @param first position of the first column's parameter in the statement
+/// Writes a record as one row. @param first position of the parameter of the first column in the statement
 template <class Context, class Record>
 void write_row(Statement& statement, const ColumnsOf<Context, Record>& columns, const Context& context,
                const Record& record, int first = 1) {
@@ -125,7 +125,7 @@ void write_row(Statement& statement, const ColumnsOf<Context, Record>& columns, 
     statement.run();
 }
 
-/// @param first place of the first column in the row
+/// Reads a record from one row. @param first index of the first column in the row
 template <class Context, class Record>
 void read_row(const Statement& row, const ColumnsOf<Context, Record>& columns, const Context& context, Record& record,
               const RunRecord& run, int first = 0) {

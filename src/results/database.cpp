@@ -13,7 +13,7 @@ namespace graze {
 
 namespace {
 
-/// A path as a URI whose characters mean nothing else.
+/// A path as a URI for SQLite, with special characters escaped.
 std::string uri_of(const std::string& path, bool unchanging) {
     std::string uri = "file:";
     for (const char c : path)
@@ -22,7 +22,7 @@ std::string uri_of(const std::string& path, bool unchanging) {
     return uri + (unchanging ? "?immutable=1" : "");
 }
 
-/// Half a minute, and for large files as long as they take to be read slowly.
+/// Time that a query may take: 30 s, plus the time to read the file slowly.
 QueryGuard::Clock::duration patience_with(const std::string& path) {
     constexpr double least = 30, bytes_of_a_second = 1e6;
     std::error_code error;
@@ -31,7 +31,7 @@ QueryGuard::Clock::duration patience_with(const std::string& path) {
     return std::chrono::duration_cast<QueryGuard::Clock::duration>(std::chrono::duration<double>(seconds));
 }
 
-/// SQLite would wait for a pipe to be written to, and through a link write a file elsewhere.
+/// Refuses pipes, for which SQLite would wait, and writing through links, which would change a file elsewhere.
 void require_plain_file(const std::string& path, bool writing) {
     std::error_code error;
     const auto type = std::filesystem::status(path, error).type();
@@ -80,7 +80,7 @@ void throw_database_error(int code, const std::string& message, const std::strin
 
 namespace {
 
-/// Between quotes, with those within doubled.
+/// The text between quotes; quotes within the text are doubled.
 std::string in_quotes(std::string_view text, char quote) {
     std::string result(1, quote);
     for (const char c : text) {
@@ -124,7 +124,7 @@ Database::Database(const std::string& path, bool writing) : path_(path) {
         return sqlite3_exec(database, "SELECT count(*) FROM sqlite_master", nullptr, nullptr, nullptr);
     };
     int code = open(false);
-    // A file in a folder that cannot be written has nobody who changes it.
+    // In a folder that cannot be written, no process changes the file, so that it can be opened without locks.
     if (!writing && ((code & 0xff) == SQLITE_CANTOPEN || (code & 0xff) == SQLITE_READONLY))
         code = open(true);
     if (code != SQLITE_OK)
@@ -179,7 +179,7 @@ Statement::Statement(sqlite3* database, const std::string& path, const std::stri
         throw_database_error(code, sqlite3_errmsg(database), path);
     if (!statement)
         throw InputError(Place{path, 0, 0}, "the query is empty", "give one SELECT");
-    // Blanks and comments may follow, and semicolons.
+    // Only blanks, comments and semicolons may follow.
     while (rest != nullptr && rest < end) {
         sqlite3_stmt* another = nullptr;
         const int wrong = sqlite3_prepare_v2(database, rest, static_cast<int>(end - rest), &another, &rest);

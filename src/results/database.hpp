@@ -13,29 +13,29 @@
 
 namespace graze {
 
-/// A prepared statement, which ends with its scope.
+/// A prepared statement, finalized by its destructor.
 class Statement {
 public:
     Statement() = default;
-    /// @param guard of a statement that has only so much time
+    /// @param guard limits the time that the statement may run; null: no limit
     Statement(sqlite3* database, const std::string& path, const std::string& sql,
               std::shared_ptr<QueryGuard> guard = nullptr);
 
     Statement& bind(int position, double value); ///< NULL unless finite
     Statement& bind(int position, std::int64_t value);
     Statement& bind(int position, std::size_t value) { return bind(position, static_cast<std::int64_t>(value)); }
-    /// The text must live until the statement has run.
+    /// The text is not copied, and must live until the statement has run.
     Statement& bind(int position, std::string_view text);
-    /// The same of a text that need not.
+    /// The text is copied.
     Statement& bind_copy(int position, std::string_view text);
     Statement& bind_null(int position);
     /// @return whether there is a row
     bool step();
-    /// A number that may be infinite, which other numbers are not: they are then missing.
+    /// Binds a number that may be infinite; NULL only if it is NaN.
     Statement& bind_extended(int position, double value);
-    /// Runs a statement without rows, for it to be run again.
+    /// Runs a statement that gives no rows, and resets it.
     void run();
-    /// Lets a statement whose rows have been read be run again.
+    /// Resets a statement whose rows have been read, so that it can be run again.
     void reset();
 
     int columns() const { return sqlite3_column_count(statement_.get()); }
@@ -52,28 +52,28 @@ private:
     };
     std::unique_ptr<sqlite3_stmt, Finish> statement_;
     std::string path_;
-    std::shared_ptr<QueryGuard> guard_; // goes before the statement does, which keeps the connection alive
+    std::shared_ptr<QueryGuard> guard_; // destroyed before the statement, which keeps the connection open
     QueryGuard::Clock::duration left_{};
 };
 
 /// A connection to one file.
 class Database {
 public:
-    /// @throws InputError when it cannot be opened, or is no plain file
+    /// @throws InputError if it cannot be opened, or is no regular file
     Database(const std::string& path, bool writing);
 
-    /// A statement of ours. From a connection that only reads, it has only so much time.
+    /// Prepares a statement of this program. Its time is limited if the connection only reads.
     Statement prepare(const std::string& sql) const;
-    /// A statement of somebody else's: it reads, has only so much time, and nothing follows it.
+    /// Prepares a statement from an untrusted source: a single statement that only reads, in limited time.
     Statement prepare_query(const std::string& sql) const;
-    /// From now on nothing but reading, for good.
+    /// Allows only reading from now on.
     void only_read() { guard_->only_read(); }
     void set_patience(QueryGuard::Clock::duration patience) { guard_->set_patience(patience); }
-    /// @throws InputError when the file that was opened is no longer there under its name
+    /// @throws InputError if the opened file has been removed or replaced
     void require_present() const;
-    /// Several statements without results.
+    /// Executes one or several statements without results.
     void execute(const std::string& sql) const;
-    /// The one whole number that a query gives.
+    /// The whole number that a query gives.
     std::int64_t value(const std::string& sql) const;
     const std::string& path() const { return path_; }
 
@@ -82,19 +82,19 @@ private:
         void operator()(sqlite3* database) const { sqlite3_close_v2(database); }
     };
     std::string path_;
-    std::uint64_t device_ = 0, file_ = 0; ///< which the path led to
+    std::uint64_t device_ = 0, file_ = 0; ///< identify the opened file
     std::unique_ptr<sqlite3, Close> database_;
     std::shared_ptr<QueryGuard> guard_;
 };
 
-/// What SQLite says has gone wrong, as a message with a remedy. @throws InputError
+/// Throws the error that SQLite reports, with a remedy. @throws InputError
 [[noreturn]] void throw_database_error(int code, const std::string& message, const std::string& path);
 
-/// A name as SQL writes it, between double quotes.
+/// A name in SQL, in double quotes.
 std::string quoted_name(std::string_view name);
-/// A text as SQL writes it, between single quotes.
+/// A text in SQL, in single quotes.
 std::string text_literal(std::string_view text);
-/// Texts as SQL lists them.
+/// Texts in SQL, separated by commas.
 std::string text_literals(const std::vector<std::string>& texts);
 
 } // namespace graze

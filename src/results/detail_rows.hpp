@@ -10,7 +10,7 @@
 
 namespace graze {
 
-/// Writes the rows that a point of a run has in a table of details.
+/// Writes the rows of one point in a detail table, for example of its multipliers.
 template <class Context, class Record>
 void write_details(Statement& statement, const ColumnsOf<Context, Record>& columns, const Context& context,
                    const RunRecord& run, std::size_t point, const std::vector<Record>& records) {
@@ -23,7 +23,7 @@ void write_details(Statement& statement, const ColumnsOf<Context, Record>& colum
     }
 }
 
-/// Reads them, for one point after the other.
+/// Reads rows of a detail table, one point after the other.
 template <class Context, class Record>
 class DetailReader {
 public:

@@ -73,7 +73,7 @@ EstimateRecords ResultFile::estimates(const std::string& run) const {
         const auto row = static_cast<std::size_t>(pairs.integer(0)),
                    column = static_cast<std::size_t>(pairs.integer(1));
         if (row >= count || column >= count)
-            throw_contradiction(path(), fmt::format("run '{}' has a covariance of what it has not found", run));
+            throw_contradiction(path(), fmt::format("run '{}' has a covariance of an unknown estimate", run));
         found.covariance[row * count + column] = pairs.number(2);
     }
     return found;

@@ -21,17 +21,17 @@ namespace graze {
 
 namespace {
 
-/// As many as a reader should unpack for one number, and enough to be packed well.
+/// Small enough that reading one number is fast, and large enough to be compressed well.
 constexpr hsize_t bytes_of_a_chunk = 65536;
-/// In bytes. Where texts are longer, none is padded: if one text is huge, the others would be as large.
+/// In bytes. A column with a longer text has texts of variable length, since padding would make all of them as long.
 constexpr std::size_t longest_padded_text = 65536;
-/// In bytes; of such, what chunks need besides would be more than what packing saves.
+/// In bytes. Columns up to this size are not chunked, since chunks would take more space than compression saves.
 constexpr hsize_t largest_plain_column = 512;
-constexpr unsigned deflate_level = 6; ///< zlib's own choice
-/// Half the number of entries in a node of the index of chunks. HDF5's own 32 take 2 KiB of each dataset.
+constexpr unsigned deflate_level = 6; ///< the default of zlib
+/// Half the number of entries in a node of the index of chunks. The default of HDF5, 32, takes 2 KiB in each dataset.
 constexpr unsigned chunks_in_half_a_node = 4;
 
-/// Something of the HDF5 library that has to be closed.
+/// An identifier of the HDF5 library, closed by the destructor.
 class Handle {
 public:
     Handle(hid_t id, herr_t (*close)(hid_t), const std::string& path) : id_(id), close_(close) {
@@ -65,7 +65,7 @@ Handle text_type(std::size_t size, H5T_cset_t letters, const std::string& path) 
     return type;
 }
 
-/// Of variable length, since h5py makes bytes of others, and they may be longer than an object's header.
+/// Writes a text of variable length: h5py reads texts of fixed length as bytes, and object headers limit their length.
 void write_attribute(hid_t object, const char* name, const std::string& text, const std::string& path) {
     const Handle type = text_type(H5T_VARIABLE, H5T_CSET_UTF8, path), space(H5Screate(H5S_SCALAR), H5Sclose, path);
     const Handle attribute(H5Acreate2(object, name, type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, path);
@@ -74,16 +74,16 @@ void write_attribute(hid_t object, const char* name, const std::string& text, co
         throw_full(path);
 }
 
-/// What is known of a column before it is written.
+/// Description of a column that is going to be written.
 struct ColumnPlan {
     std::string name, unit;
     ColumnType kind = ColumnType::real;
     hsize_t rows = 0;
     std::size_t longest = 0; ///< bytes of its longest text
-    bool ascii = true;       ///< all of its texts
+    bool ascii = true;       ///< whether all of its texts are ASCII
 
     bool is_variable() const { return kind == ColumnType::text && longest > longest_padded_text; }
-    /// Bytes of a cell.
+    /// Number of bytes of a cell.
     std::size_t cell() const {
         if (kind != ColumnType::text)
             return sizeof(double);
@@ -91,10 +91,10 @@ struct ColumnPlan {
     }
     hsize_t chunk() const {
         const hsize_t most = std::max<hsize_t>(1, bytes_of_a_chunk / cell()), chunks = (rows + most - 1) / most;
-        return (rows + chunks - 1) / chunks; // all of nearly the same size
+        return (rows + chunks - 1) / chunks; // so that all chunks have nearly the same size
     }
     Handle type(const std::string& path) const {
-        if (kind == ColumnType::text) // of texts in UTF-8 Octave reads none
+        if (kind == ColumnType::text) // ASCII if possible, since Octave does not read UTF-8
             return text_type(is_variable() ? H5T_VARIABLE : cell(), ascii ? H5T_CSET_ASCII : H5T_CSET_UTF8, path);
         return {H5Tcopy(kind == ColumnType::whole ? H5T_NATIVE_INT64 : H5T_NATIVE_DOUBLE), H5Tclose, path};
     }
@@ -103,7 +103,7 @@ struct ColumnPlan {
 Handle make_dataset(hid_t group, const ColumnPlan& plan, hid_t type, const std::string& path) {
     const Handle space(H5Screate_simple(1, &plan.rows, nullptr), H5Sclose, path);
     const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, path);
-    H5Pset_obj_track_times(properties.id(), false); // equal results are equal files, whenever they are written
+    H5Pset_obj_track_times(properties.id(), false); // without times, equal results give equal files
     if (plan.rows * plan.cell() > largest_plain_column) {
         const hsize_t chunk = plan.chunk();
         H5Pset_chunk(properties.id(), 1, &chunk);
@@ -111,7 +111,7 @@ Handle make_dataset(hid_t group, const ColumnPlan& plan, hid_t type, const std::
         H5Pset_deflate(properties.id(), deflate_level);
     }
     std::string name = plan.name;
-    std::replace(name.begin(), name.end(), '/', '|'); // a path in HDF5
+    std::replace(name.begin(), name.end(), '/', '|'); // a slash would separate groups
     Handle set(H5Dcreate2(group, name.c_str(), type, space.id(), H5P_DEFAULT, properties.id(), H5P_DEFAULT), H5Dclose,
                path);
     if (!plan.unit.empty())
@@ -173,11 +173,11 @@ private:
     const std::string* path_;
     Handle type_, set_;
     hsize_t written_ = 0, waiting_ = 0;
-    std::vector<char> cells_; ///< of all but variable texts, as they are in the file
+    std::vector<char> cells_; ///< bytes of the waiting cells, except texts of variable length
     std::vector<std::string> texts_;
 };
 
-/// Finds how many rows a query has, and how long its texts are.
+/// Determines the number of rows of a query and the lengths of its texts.
 void measure(std::vector<ColumnPlan>& plans, const ResultFile& file, const std::string& query) {
     std::string asked = "count(*)";
     for (const ColumnPlan& plan : plans)
@@ -197,8 +197,8 @@ void measure(std::vector<ColumnPlan>& plans, const ResultFile& file, const std::
     }
 }
 
-/// A query's rows as a group with a dataset for each column. @param plans of the columns, in their order, with the
-/// names that they have in the query
+/// Writes the rows of a query as a group with a dataset for each column.
+/// @param plans columns in the order of the query, with the names that they have in it
 void write_table(hid_t parent, const std::string& name, const ResultFile& file, const std::string& query,
                  std::vector<ColumnPlan> plans, const std::string& path) {
     const Handle group(H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, path);
@@ -234,7 +234,7 @@ void write_details(hid_t group, const StoredRun& run, const DetailTable& table, 
                 std::move(plans), path);
 }
 
-/// What a run has found from measurements. Each row has a unit of its own.
+/// Writes the estimates of a run, in which each row has its own unit.
 void write_estimates(hid_t group, const StoredRun& run, const std::string& path) {
     if (run.file->estimates(run.record.name).numbers.empty())
         return;
@@ -289,22 +289,22 @@ Handle make_file(const std::string& path) {
 } // namespace
 
 void export_hdf5(const ResultFile& file, const std::vector<std::string>& runs, const std::string& path) {
-    std::error_code none; // files that are not there are not the same
+    std::error_code none; // an error means that a file does not exist, so that the files are different
     if (std::filesystem::equivalent(path, file.path(), none))
         throw InputError(fmt::format("'{}' is the result file itself", path), "name another file for the export");
     for (const std::string& name : runs)
         if (!file.find_run(name))
             throw InputError(fmt::format("the result file has no run '{}'", name), "see graze points");
-    H5dont_atexit(); // what a full disk has not taken it would try to write once more at exit, and crash
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // failures are told by exceptions
+    H5dont_atexit(); // at exit, the library would write again what a full disk has refused, and crash
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // errors are reported by exceptions
     const Handle output = make_file(path);
-    // What is measured must still be so when it is written, though a study writes meanwhile: the file is seen as it is
-    // now for as long as a query goes on.
+    // A query that has not ended keeps a snapshot of the file, so that the lengths found by `measure` stay valid while
+    // another process writes.
     ResultFile::Rows moment = file.query("SELECT 1 FROM runs");
     moment.next();
     for (const std::string& name : runs)
         write_run(output.id(), StoredRun(file, name, {}), path);
-    if (H5Fflush(output.id(), H5F_SCOPE_GLOBAL) < 0) // while it can still be told
+    if (H5Fflush(output.id(), H5F_SCOPE_GLOBAL) < 0) // before the destructor, which cannot report errors
         throw_full(path);
 }
 

@@ -8,7 +8,7 @@ namespace graze {
 
 namespace {
 
-/// @param value a number or a text
+/// Adds a row. @param value a number or a text
 template <typename Value>
 void add_row(Table& table, std::string_view item, std::string_view name, const Value& value, std::string_view unit,
              std::string_view text) {

@@ -15,7 +15,7 @@ std::string name_advice(std::string_view name, const std::vector<std::string>& k
     const std::string nearest = nearest_name(name, known);
     if (!nearest.empty())
         return fmt::format("did you mean '{}'?", nearest);
-    std::vector<std::string> distinct; // a monitor and a column may have one name
+    std::vector<std::string> distinct; // a monitor and a column may have the same name
     for (const std::string& one : known)
         if (std::find(distinct.begin(), distinct.end(), one) == distinct.end())
             distinct.push_back(one);

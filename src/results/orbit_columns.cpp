@@ -25,7 +25,7 @@ OrbitOutcome outcome_named(const std::string& name) {
     return OrbitOutcome::not_converged;
 }
 
-/// Of each segment what its start and its duration gain, then what the parameters do.
+/// Components of a direction: for each segment those of its start and its duration, then those of the parameters.
 std::vector<double> numbers_of(const OrbitDirection& direction) {
     std::vector<double> numbers;
     for (std::size_t s = 0; s < direction.starts.size(); ++s) {
@@ -36,7 +36,7 @@ std::vector<double> numbers_of(const OrbitDirection& direction) {
     return numbers;
 }
 
-/// The same back. Fewer parameters vary than a segment has numbers.
+/// The direction with these components. There are fewer parameters than numbers of a segment.
 OrbitDirection direction_of(const std::vector<double>& numbers, std::size_t states) {
     OrbitDirection direction;
     auto next = numbers.begin();
@@ -59,13 +59,13 @@ std::vector<double> listed_numbers(const std::string& json) {
     return values;
 }
 
-/// What only points of events have.
+/// Writes a cell that is missing unless the point is of a type that an event limits.
 template <class Write>
 void write_of_event(const OrbitRecord& record, CellWriter& cell, Write write) {
     kind_of(record.point.type).limits ? write() : cell.nothing();
 }
 
-/// What only orbits that touch have, and not all of them.
+/// Writes a number that only touching orbits can have.
 void write_touch(const OrbitRecord& record, CellWriter& cell, std::optional<double> TouchFindings::*number) {
     cell.real(record.touch ? ((*record.touch).*number).value_or(unknown) : unknown);
 }
@@ -74,8 +74,7 @@ void read_touch(OrbitRecord& record, CellReader& cell, std::optional<double> Tou
         (*record.touch).*number = cell.number();
 }
 
-/// The least speed with which an event is met; unknown where none is. It goes to zero where a contact is about to be
-/// lost.
+/// Least speed at which the orbit meets an event; unknown if it meets none. It goes to zero where a contact is lost.
 double slowest_approach(const OrbitSolution& solution) {
     double slowest = unknown;
     const std::vector<double>& speeds = solution.certificate.approach_speeds;
@@ -85,7 +84,7 @@ double slowest_approach(const OrbitSolution& solution) {
     return slowest;
 }
 
-/// A segment's number in the file, where they begin with 1.
+/// Index of a segment, from its number in the file, which begins at 1.
 std::size_t segment_of(CellReader& cell) {
     return static_cast<std::size_t>(std::max<std::int64_t>(static_cast<std::int64_t>(cell.whole()), 1) - 1);
 }
@@ -133,7 +132,7 @@ const ColumnsOf<OrbitContext, OrbitRecord>& orbit_columns() {
                  parameters[one.place()] = cells.number();
              r.point.parameter = context.parameters.empty() ? 0 : parameters[context.parameters.front().place()];
          }},
-        {{"period", Type::real, Unit::time, true}, // it follows from the segments
+        {{"period", Type::real, Unit::time, true}, // derived from the segments
          [](const Context&, const Record& r, CellWriter& cell) { cell.real(r.point.solution.orbit.period()); }},
         {{"", Type::real, Unit::own, false, ColumnGroup::values},
          [](const Context& context, const Record& r, CellWriter& cells) {
@@ -144,7 +143,7 @@ const ColumnsOf<OrbitContext, OrbitRecord>& orbit_columns() {
              for (std::size_t m = 0; m < context.run->values.size(); ++m)
                  r.point.monitors.push_back(cells.real());
          }},
-        {{"signature", Type::text, Unit::none, true}, // so does this,
+        {{"signature", Type::text, Unit::none, true}, // derived from the segments
          [](const Context& context, const Record& r, CellWriter& cell) {
              cell.text(to_string(*context.model, r.point.solution.orbit.signature));
          }},
@@ -162,9 +161,9 @@ const ColumnsOf<OrbitContext, OrbitRecord>& orbit_columns() {
         {{"stable", Type::whole, Unit::none, true},
          [](const Context&, const Record& r, CellWriter& cell) { cell.truth(r.stable); },
          [](const Context&, Record& r, CellReader& cell) { r.stable = cell.truth(); }},
-        {{"unstable", Type::whole, Unit::none, true}, // and this from the multipliers
+        {{"unstable", Type::whole, Unit::none, true}, // derived from the multipliers
          [](const Context&, const Record& r, CellWriter& cell) { cell.whole(unstable_directions(r.point.solution)); }},
-        {{"slowest_approach", Type::real, Unit::none, true}, // this from the segments again
+        {{"slowest_approach", Type::real, Unit::none, true}, // derived from the segments
          [](const Context&, const Record& r, CellWriter& cell) { cell.real(slowest_approach(r.point.solution)); }},
         {{"admissible", Type::whole, Unit::none, true},
          [](const Context&, const Record& r, CellWriter& cell) { cell.truth(r.point.solution.certificate.admissible); },
@@ -309,7 +308,7 @@ const ColumnsOf<OrbitContext, SegmentRow>& segment_columns() {
         {{"departure", Type::real},
          [](const Context&, const Row& s, CellWriter& cell) { cell.real(s.departure); },
          [](const Context&, Row& s, CellReader& cell) { s.departure = cell.real(); }},
-        {{"guard_margin", Type::real}, // nothing where there is no other way, which is infinitely far
+        {{"guard_margin", Type::real}, // missing if infinite: no other transition is possible
          [](const Context&, const Row& s, CellWriter& cell) { cell.real(s.guard_margin); },
          [](const Context&, Row& s, CellReader& cell) {
              s.guard_margin = cell.is_nothing() ? std::numeric_limits<double>::infinity() : cell.number();

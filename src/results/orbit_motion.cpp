@@ -15,11 +15,11 @@ namespace graze {
 
 namespace {
 
-constexpr double tolerance = 1e-13; ///< with which orbits are computed
-/// Of all segments: orbits that have been found take some hundreds. A file can say that one lasts for ever.
+constexpr double tolerance = 1e-13; ///< the tolerance at which orbits are computed
+/// Limit for all segments together. Computed orbits take some hundreds of steps, but a file may have any duration.
 constexpr std::size_t most_steps = 100'000;
 
-/// Takes samples until there have been too many steps.
+/// Takes samples until no steps are left.
 class BoundedSampler : public Sampler {
 public:
     BoundedSampler(std::size_t& left, double spacing, std::size_t count, std::vector<double> periods, Receiver receiver)
@@ -34,7 +34,7 @@ private:
     std::size_t* left_;
 };
 
-/// The smooth motion of the modes alone.
+/// The model without events and transitions, so that motion in a mode is smooth.
 Model without_events(Model model, bool backwards) {
     for (Mode& mode : model.modes) {
         mode.watched.clear();
@@ -45,17 +45,17 @@ Model without_events(Model model, bool backwards) {
     return model;
 }
 
-/// Follows segments in one direction of time.
+/// Computes the motion along segments, forwards or backwards in time.
 class SmoothMotion {
 public:
-    /// @param left steps that may be taken
+    /// @param left number of steps that may still be taken
     SmoothMotion(const Model& model, bool backwards, std::size_t& left)
         : left_(&left), parameters_(model.parameter_values()), periods_(model.periods()),
           simulation_(System(without_events(model, backwards)), {}, {}, options()),
           jets_(simulation_, LaneKind::single) {}
 
-    /// @param duration positive; @param receive given the time since the segment's start, and the state
-    /// @return why it ended before; empty when it did not
+    /// @param duration positive; @param receive called with the time since the start of the segment, and the state
+    /// @return why the motion stopped before this duration; empty if it did not
     template <class Receive>
     std::string follow(const std::vector<double>& start, std::size_t mode, double duration, std::size_t intervals,
                        Receive receive) {

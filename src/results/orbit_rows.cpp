@@ -32,7 +32,7 @@ void write_segments(Statement& statement, const OrbitContext& context, const Orb
     }
 }
 
-/// @throws InputError when the model has no such thing
+/// The segment with this mode and end. @throws InputError if the model has no such mode or end
 Segment segment_named(const Model& model, const std::string& mode, const std::string& end, const std::string& path) {
     Segment segment;
     const auto known = model.find_mode(mode);
@@ -56,14 +56,14 @@ Segment segment_named(const Model& model, const std::string& mode, const std::st
     return segment;
 }
 
-/// Without those of events that the model does not have.
+/// Removes details of events that the model does not have.
 template <class Detail>
 std::vector<Detail> of_known_events(std::vector<Detail> details, const Model& model) {
     std::erase_if(details, [&](const Detail& one) { return one.event >= model.events.size(); });
     return details;
 }
 
-/// Reads orbits with what other tables have of them.
+/// Reads orbits from the tables of orbits, segments and details.
 class OrbitReader {
 public:
     OrbitReader(const Database& database, const RunRecord& run, const Model& model)

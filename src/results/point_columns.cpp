@@ -70,7 +70,7 @@ const ColumnsOf<RunRecord, PointRecord>& point_columns() {
         {{"label", Type::text, Unit::none, true},
          [](const Run&, const Point& p, CellWriter& cell) { cell.text(name_of(p.result.label)); },
          [](const Run&, Point& p, CellReader& cell) { p.result.label = label_named(cell.text()); }},
-        {{"period", Type::whole, Unit::none, true}, // in returns
+        {{"period", Type::whole, Unit::none, true}, // number of returns
          [](const Run&, const Point& p, CellWriter& cell) {
              is_periodic(p) ? cell.whole(p.result.period) : cell.nothing();
          },
@@ -174,7 +174,7 @@ const ColumnsOf<RunRecord, std::complex<double>>& multiplier_columns() {
     static const ColumnsOf<RunRecord, Multiplier> columns{
         {{"real", Type::real},
          [](const Run&, const Multiplier& m, CellWriter& cell) { cell.extended(m.real()); },
-         [](const Run&, Multiplier& m, CellReader& cell) { // an unknown one is the infinite one of a grazing orbit
+         [](const Run&, Multiplier& m, CellReader& cell) { // missing: the infinite multiplier of a grazing orbit
              m.real(cell.is_nothing() ? std::numeric_limits<double>::infinity() : cell.number());
          }},
         {{"imaginary", Type::real},

@@ -10,7 +10,7 @@
 
 namespace graze {
 
-/// Of a table of points.
+/// Columns of a table of points.
 const ColumnsOf<RunRecord, PointRecord>& point_columns();
 
 /// One sample of a point.
@@ -19,18 +19,18 @@ struct SampleRow {
     double time = 0;
     std::vector<double> values;
 };
-/// Of a table of samples.
+/// Columns of a table of samples.
 const ColumnsOf<RunRecord, SampleRow>& sample_columns();
 
-/// Of tables of multipliers, behind run, point and position.
+/// Columns of tables of multipliers, after run, point and position.
 const ColumnsOf<RunRecord, std::complex<double>>& multiplier_columns();
 
-/// Their number if there is none of that name.
+/// Index of a name; the number of names if it is not among them.
 std::size_t index_of(const std::vector<std::string>& names, const std::string& name);
 
-/// A file is not what this program has written. @throws InputError
+/// Reports a file whose contents contradict each other. @throws InputError
 [[noreturn]] void throw_contradiction(const std::string& path, const std::string& what);
-/// @throws InputError unless a statement gives that many
+/// @throws InputError unless a statement gives this number of columns
 void require_columns(const Statement& rows, std::size_t columns, const std::string& path);
 
 } // namespace graze

@@ -16,13 +16,13 @@ namespace graze {
 
 namespace {
 
-/// Columns of the file that machines are shown as they stand there.
+/// Columns of the file that CSV and JSON copy without change.
 const std::vector<std::string>& stored_columns() {
     static const std::vector<std::string> names{"slowest_approach"};
     return names;
 }
 
-/// What a run's orbits have in these columns, by their numbers.
+/// The numbers in these columns, by the number of the orbit.
 std::map<std::size_t, std::vector<double>> stored_values(const StoredRun& run) {
     std::map<std::size_t, std::vector<double>> values;
     auto rows = run.rows({.columns = {"number"}, .quantities = stored_columns()});
@@ -41,7 +41,7 @@ double value_of_parameter(const PointList& list, const ListedPoint& point, const
     return std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Parameters, besides the one that is followed, that are not the same everywhere.
+/// Parameters, except the followed one, that do not have the same value at all points.
 std::vector<std::string> differing_parameters(const PointList& list) {
     std::vector<std::string> names;
     for (const StoredRun& run : list.runs)
@@ -79,8 +79,8 @@ PointList listed_points(const ResultFile& file, const PointListRequest& request)
         for (OrbitRecord& record : file.orbits(run.name, !wants_regular)) {
             if (!types.empty() && std::find(types.begin(), types.end(), record.point.type) == types.end())
                 continue;
-            if (!request.twins && record.point.detail.starts_with("twin of ")) {
-                ++list.twins;
+            if (!request.images && record.point.detail.starts_with("twin of ")) {
+                ++list.images_left_out;
                 continue;
             }
             std::vector<double> parameters = parameters_of(list.runs[r], record), values = stored[record.number];
@@ -89,13 +89,13 @@ PointList listed_points(const ResultFile& file, const PointListRequest& request)
     }
     if (several)
         list.followed.clear();
-    list.others = differing_parameters(list);
+    list.differing = differing_parameters(list);
     return list;
 }
 
 namespace {
 
-/// Fills a table column by column: all that is known for machines, for people what they look at.
+/// Fills the table of points: for people with the main columns, for CSV and JSON with every column.
 class PointTable {
 public:
     PointTable(const PointList& list, const PointTableStyle& style)
@@ -115,7 +115,7 @@ public:
             segments_ = std::max(segments_, p.record.point.solution.orbit.segments());
             multipliers_ = std::max(multipliers_, p.record.point.solution.multipliers.size());
         }
-        note_monitors();
+        collect_monitors();
         with_type_ = !for_people_ || any([](const ListedPoint& p) { return p.record.label.empty(); });
         with_run_ = !brief_ || list.runs.size() != 1;
         with_parameter_ = list.followed.empty() &&
@@ -141,7 +141,7 @@ private:
                 columns_.push_back({name, ""});
         else if (!list_.followed.empty())
             columns_.push_back({list_.followed, unit_of(list_.followed)});
-        for (const std::string& name : list_.others)
+        for (const std::string& name : list_.differing)
             columns_.push_back({name, unit_of(name)});
         const std::string time = list_.runs.empty() ? "" : list_.runs.front().model.time_unit;
         columns_.push_back({"period", time});
@@ -167,8 +167,8 @@ private:
         add_columns({"residual"}, !for_people_);
         add_columns(stored_columns(), !for_people_);
     }
-    /// Of all runs, by their names; people are shown the period already.
-    void note_monitors() {
+    /// Collects the monitors of all runs by name; for people without the period, which has its own column.
+    void collect_monitors() {
         for (const StoredRun& run : list_.runs)
             for (const ResultColumn& value : run.record.values)
                 if (std::none_of(monitors_.begin(), monitors_.end(),
@@ -176,7 +176,7 @@ private:
                     !(for_people_ && value.name == "period"))
                     monitors_.push_back(value);
     }
-    /// A name that another column has gets a number behind it, as in the result file.
+    /// A monitor with the name of another column gets a number appended to its name, as in the result file.
     void add_monitors() {
         for (const ResultColumn& monitor : monitors_) {
             std::string name = monitor.name;
@@ -214,7 +214,7 @@ private:
             table_.add(followed.empty() ? nothing : value_of_parameter(list_, point, followed));
         else if (!list_.followed.empty())
             table_.add(value_of_parameter(list_, point, list_.followed));
-        for (const std::string& name : list_.others)
+        for (const std::string& name : list_.differing)
             table_.add(value_of_parameter(list_, point, name));
         table_.add(solution.orbit.period());
         if (for_people_)
@@ -272,17 +272,17 @@ private:
             return text;
         std::size_t end = longest - 4;
         while (end > 0 && ((static_cast<unsigned char>(text[end]) & 0xc0) == 0x80 || text[end - 1] == ' '))
-            --end; // neither within a character nor behind a blank
+            --end; // do not end within a character or after a blank
         return text.substr(0, end) + " ...";
     }
-    /// To people also why it is unphysical.
+    /// The detail of a point; for people followed by the reason if the orbit is unphysical.
     std::string detail_of(const OrbitRecord& record) const {
         const std::string& detail = record.point.detail;
         if (!for_people_ || !is_unphysical(record))
             return detail;
         return detail + (detail.empty() ? "" : "; ") + record.point.solution.certificate.reason;
     }
-    /// Machines get a number where there is one; that there is none is said by the column of all of them.
+    /// Adds the largest modulus. CSV and JSON have a number or a missing cell, people also read words.
     void add_multiplier(const OrbitSolution& solution) {
         const double largest = solution.multipliers.empty() ? nothing : std::abs(solution.multipliers.front());
         if (std::isinf(largest))
@@ -306,7 +306,7 @@ private:
         else
             table_.add(holds ? 1.0 : 0.0);
     }
-    /// People compare multipliers with 1, for which few digits do.
+    /// For people six digits, enough to compare a multiplier with 1.
     double few_digits(double value) const { return for_people_ ? rounded(value, 6) : value; }
     static std::string numbers_text(const std::vector<double>& values, int digits) {
         std::string text;
@@ -320,7 +320,7 @@ private:
     bool for_people_, brief_, with_run_, with_symmetry_, with_reason_, with_bracket_, with_detail_, with_verdict_,
         with_name_, with_type_, with_parameter_;
     int digits_;
-    std::size_t segments_ = 0, multipliers_ = 0; ///< most of any point
+    std::size_t segments_ = 0, multipliers_ = 0; ///< greatest numbers at any point
     std::vector<ResultColumn> monitors_;
     std::vector<Table::Column> columns_;
     Table table_;

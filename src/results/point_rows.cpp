@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::int64_t samples_of_a_point = RunTables::samples_of_a_point;
 
-/// @throws InputError or std::out_of_range for what a run has no columns or names for
+/// @throws InputError or std::out_of_range if the columns or names of the run do not fit the point
 void require_fitting(const RunRecord& run, const PointRecord& point) {
     const PointResult& result = point.result;
     const SampleSet& samples = result.samples;

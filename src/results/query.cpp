@@ -8,10 +8,10 @@ namespace graze {
 struct ResultFile::Rows::State {
     Statement statement;
     bool on_row = false;
-    /// The number of a column of the present row.
+    /// Checks a column of the current row, and returns its index.
     int at(std::size_t column) const {
         if (!on_row)
-            throw std::logic_error("there is no row to be read: call next until it says that there is none");
+            throw std::logic_error("there is no row to be read: call next, and read only while it returns true");
         require_index(column, static_cast<std::size_t>(statement.columns()), "column");
         return static_cast<int>(column);
     }

@@ -6,10 +6,10 @@ namespace graze {
 
 namespace {
 
-constexpr int between_looks = 20000; ///< steps of SQLite's machine: some 0.1 ms
+constexpr int instructions_between_checks = 20000; ///< of SQLite's virtual machine; they take about 0.1 ms
 constexpr int longest_value = 64 << 20;
 
-/// Reading rows and computing with them. Everything else that a statement can do is on no list.
+/// Permits reading rows and computing with them. Every other action is denied.
 int authorize(void* /*nothing*/, int action, const char* /*first*/, const char* second, const char* /*database*/,
               const char* /*view*/) {
     switch (action) {
@@ -36,14 +36,14 @@ QueryGuard::QueryGuard(sqlite3* database, Clock::duration patience) : database_(
     sqlite3_db_config(database, SQLITE_DBCONFIG_ENABLE_LOAD_EXTENSION, 0, nullptr);
     sqlite3_limit(database, SQLITE_LIMIT_ATTACHED, 0);
     sqlite3_limit(database, SQLITE_LIMIT_LENGTH, longest_value);
-    sqlite3_progress_handler(database, between_looks, look_at_clock, this);
+    sqlite3_progress_handler(database, instructions_between_checks, is_overdue, this);
 }
 
 QueryGuard::~QueryGuard() {
     sqlite3_progress_handler(database_, 0, nullptr, nullptr);
 }
 
-int QueryGuard::look_at_clock(void* guard) {
+int QueryGuard::is_overdue(void* guard) {
     return Clock::now() > static_cast<QueryGuard*>(guard)->deadline_ ? 1 : 0;
 }
 

@@ -8,21 +8,21 @@
 
 namespace graze {
 
-/// Keeps within bounds what queries do, which strangers may have written, and what a stranger's file makes of ours:
-/// a view can run for ever. Belongs to one connection, at an address that stays.
+/// Limits what queries can do, since a query or a file may come from an untrusted source; for example, a view in a file
+/// can run endlessly. Belongs to one connection, and must not be moved.
 class QueryGuard {
 public:
     using Clock = std::chrono::steady_clock;
 
-    /// Takes from the connection what no result file needs: triggers, functions with side effects in views, loading of
+    /// Disables features that result files do not need: triggers, functions with side effects in views, loading of
     /// code, attaching of files, texts longer than 64 MiB.
-    /// @param patience with one query
+    /// @param patience time that one query may take
     QueryGuard(sqlite3* database, Clock::duration patience);
     ~QueryGuard();
     QueryGuard(const QueryGuard&) = delete;
     QueryGuard& operator=(const QueryGuard&) = delete;
 
-    /// While it lives, only statements that read can be prepared.
+    /// During its lifetime, only statements that read can be prepared.
     class ReadingOnly {
     public:
         explicit ReadingOnly(sqlite3* database);
@@ -33,11 +33,11 @@ public:
     private:
         sqlite3* database_;
     };
-    /// From now on, for good.
+    /// Allows only statements that read, from now on.
     void only_read();
     bool only_reads() const { return only_reads_; }
 
-    /// While it lives, a statement runs; it is broken off when nothing is left of its time.
+    /// To exist while a statement runs, which is interrupted when it has no time left.
     class Watch {
     public:
         Watch(QueryGuard& guard, Clock::duration& left);
@@ -55,7 +55,7 @@ public:
     void set_patience(Clock::duration patience) { patience_ = patience; }
 
 private:
-    static int look_at_clock(void* guard);
+    static int is_overdue(void* guard);
 
     sqlite3* database_;
     Clock::duration patience_;

@@ -22,9 +22,9 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t longest_failure = 4000; ///< bytes that are shown
+constexpr std::size_t longest_failure = 4000; ///< bytes; the rest of the text is not shown
 
-/// Names from a file end up in tables, pictures and file names, whoever has written it.
+/// Checks the names in a run of an untrusted file, since they are shown in tables and pictures and used as file names.
 void require_names(const RunRecord& run, const std::string& path) {
     const Place place{path, 0, 0};
     require_file_name(run.name, "name of a run", place);
@@ -67,7 +67,7 @@ std::string result_path(const std::string& file_or_folder) {
 }
 
 ResultFile::ResultFile(const std::string& path, Access access) {
-    if (path.empty() || path == ":memory:") // which would be lost
+    if (path.empty() || path == ":memory:") // SQLite would not keep these databases
         throw InputError(fmt::format("'{}' names no file to keep results in", path), "give the path of a file");
     const bool writing = access == Access::write;
     std::error_code error;
@@ -115,10 +115,11 @@ ResultFile::~ResultFile() {
     try {
         flush();
         state_->writers.clear();
-        // One plain file, which can be read where nothing can be written; not while somebody reads it.
+        // Merges the journal into the file, so that it can be read in a folder without write permission. This has no
+        // effect while another process reads.
         if (state_->lock)
             state_->database.execute("PRAGMA journal_mode = DELETE");
-    } catch (...) { // whoever wants to know has called flush
+    } catch (...) { // a destructor cannot report errors; flush does
         state_->sqlite_rollback();
     }
     state_->writers.clear();
@@ -177,7 +178,7 @@ void ResultFile::remove_run(const std::string& name) {
     state_->at_once([&] {
         const Database& database = state_->database;
         const RunTables tables(*run);
-        // The views name the tables, and are made anew without them.
+        // The views refer to the tables, and are created again without them.
         database.execute(views({}));
         database.execute(fmt::format("DROP TABLE {}; DROP TABLE {}", tables.points, tables.samples));
         std::vector<std::string> shared{"columns", "names", "estimates", "covariances"};
@@ -222,7 +223,7 @@ void ResultFile::order_runs(const std::vector<std::string>& names) {
         return;
     state_->at_once([&] {
         const Database& database = state_->database;
-        // By way of negative numbers, for none to be given twice.
+        // Renumbers through negative numbers, so that no number occurs twice.
         for (std::size_t i = 0; i < ordered.size(); ++i)
             database.prepare("UPDATE runs SET number = ? WHERE name = ?")
                 .bind(1, -static_cast<std::int64_t>(i + 1))

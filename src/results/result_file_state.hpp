@@ -18,23 +18,23 @@
 
 namespace graze {
 
-/// The connection, and the transaction in which points are written.
+/// The connection to the file, and the transaction in which points are written.
 struct ResultFile::State {
     using Clock = std::chrono::steady_clock;
     static constexpr auto between_commits = std::chrono::milliseconds(50);
 
-    std::unique_ptr<WriteLock> lock; ///< outlives the connection
+    std::unique_ptr<WriteLock> lock; ///< declared first, so that it is released after the connection is closed
     Database database;
     bool in_transaction = false;
     Clock::time_point begun{};
     struct Writer {
         RunRecord run;
-        Statement point, sample; ///< sample: of a branch, its orbits' segments
+        Statement point, sample; ///< on a branch, sample writes segments of orbits
         Statement multiplier, half_multiplier, minimum, end_value;
-        std::optional<Model> model; ///< of a branch, once an orbit has been written
+        std::optional<Model> model; ///< set when the first orbit is written
     };
-    std::map<std::string, Writer, std::less<>> writers; ///< of runs that are written to, some at the same time
-    int format = result_format;                         ///< of the file
+    std::map<std::string, Writer, std::less<>> writers; ///< by run; several runs can be written at the same time
+    int format = result_format;                         ///< format of the file
 
     void begin() {
         if (in_transaction)
@@ -43,7 +43,7 @@ struct ResultFile::State {
         in_transaction = true;
         begun = Clock::now();
     }
-    /// The writer of a run. @throws InputError when there is no such run
+    /// The writer of a run. @throws InputError if there is no such run
     Writer& writer_of(const ResultFile& file, const std::string& name) {
         auto found = writers.find(name);
         if (found == writers.end()) {
@@ -74,7 +74,7 @@ struct ResultFile::State {
         database.execute("COMMIT");
         in_transaction = false;
     }
-    /// Runs several statements as one. @param change is given nothing
+    /// Runs statements in one transaction of their own. @param change function that runs the statements
     template <class Change>
     void at_once(Change change) {
         commit();
@@ -107,7 +107,7 @@ struct ResultFile::State {
     void sqlite_rollback() noexcept {
         try {
             database.execute("ROLLBACK");
-        } catch (...) { // the error that led here has ended the transaction already
+        } catch (...) { // SQLite has already ended the transaction after the first error
         }
         in_transaction = false;
     }

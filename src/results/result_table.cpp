@@ -15,16 +15,16 @@ namespace graze {
 
 namespace {
 
-/// Units of columns by their names: several where they are not the same in all of the runs.
+/// Units by the name of the column; several if the runs have different units.
 using Units = std::map<std::string, std::set<std::string>>;
 
-void note(Units& units, const StoredRun& run, const std::vector<RunColumn>& columns) {
+void add_units(Units& units, const StoredRun& run, const std::vector<RunColumn>& columns) {
     for (const RunColumn& column : columns)
         units[column.column].insert(unit_of(column, run));
 }
 
-/// What views over all runs call what is varied first.
-void note_views(Units& units, const StoredRun& run) {
+/// Adds the units of the columns in which views over all runs show the first coordinate.
+void add_units_of_views(Units& units, const StoredRun& run) {
     for (const char* column : {"coordinate", "coordinate_before", "value"})
         units[column].insert(unit_of(ColumnUnit::followed, run));
 }
@@ -38,12 +38,12 @@ ResultTable with_units(ResultFile::Rows rows, const Units& units) {
     return {std::move(rows), std::move(of_columns), {}};
 }
 
-/// A column that is shown, its unit, and what it is called if no other is.
+/// A shown column: its SQL expression, its unit, and its name, to which a number is appended if it is already taken.
 struct ShownColumn {
     std::string sql, unit, name = "";
 };
 
-/// Units of columns of several runs, where all have the same.
+/// Merges the units of the columns of a further run; a unit that differs between runs becomes empty.
 void merge(std::vector<std::string>& units, const std::vector<ShownColumn>& columns, bool first) {
     if (first)
         for (const ShownColumn& column : columns)
@@ -54,7 +54,7 @@ void merge(std::vector<std::string>& units, const std::vector<ShownColumn>& colu
                 units[c].clear();
 }
 
-/// All runs, with how many of their points are there.
+/// The table of all runs, with the numbers of points that they have so far.
 ResultTable table_of_runs(const ResultFile& file) {
     std::string counts;
     for (const RunRecord& run : file.runs())
@@ -68,7 +68,7 @@ ResultTable table_of_runs(const ResultFile& file) {
         {});
 }
 
-/// Which rows are asked for. @param type column of another name that a label may be
+/// SQL condition for the requested rows. @param type column that is also compared with the requested label
 std::string condition_of(const ResultTableRequest& request, const std::string& type, const std::string& direction) {
     std::string where = "1";
     if (!request.label.empty())
@@ -82,7 +82,7 @@ ResultTable table_of_details(const ResultFile& file, const ResultTableRequest& r
     const std::vector<std::string> names = chosen_runs(file, request.runs, request.place_of_runs);
     std::vector<std::string> views;
     for (const RunRecord& run : file.runs())
-        // Of a branch, its parts are directions, and the parameter that is followed the coordinate.
+        // On a branch, the part is the direction, and the followed parameter the coordinate.
         views.emplace_back(
             run.is_branch()
                 ? "SELECT run, number, part AS direction, value AS coordinate, label, type FROM branch_points"
@@ -111,15 +111,15 @@ ResultTable table_of_details(const ResultFile& file, const ResultTableRequest& r
             {}};
 }
 
-/// The name that the study gives to a point, or its label.
+/// Column with the name that the study gives to a point, or else its label.
 ShownColumn name_of_point(const StoredRun& run) {
     return {fmt::format("coalesce((SELECT name FROM names WHERE run = {} AND what = {} || p.label), p.label)",
                         text_literal(run.record.name), text_literal(begin_of_point_name)),
             "", "name"};
 }
 
-/// Columns of one run's rows, with those of their points by which they are told apart.
-/// @param named whether some of the points have names
+/// Columns of the rows of one run, with the columns of points that identify the rows.
+/// @param named whether there is a column with names of points
 std::vector<ShownColumn> columns_of(const StoredRun& run, const std::string& what, bool named) {
     const RunQuery query(run.record);
     const RunTables& tables = query.run_tables();
@@ -141,7 +141,7 @@ std::vector<ShownColumn> columns_of(const StoredRun& run, const std::string& wha
         columns.push_back(name_of_point(run));
     if (what != "segments")
         columns.push_back({"p.direction", "", "direction"});
-    std::size_t shown = what == "samples" ? run.record.coordinates.size() : 1; // of a branch what is followed
+    std::size_t shown = what == "samples" ? run.record.coordinates.size() : 1; // on a branch the followed parameter
     for (const RunColumn& column : tables.point_columns)
         if (column.kind.group == ColumnGroup::coordinates && shown > 0) {
             add("p.", column);
@@ -153,7 +153,7 @@ std::vector<ShownColumn> columns_of(const StoredRun& run, const std::string& wha
     return columns;
 }
 
-/// Columns of two tables may have one name: the second gets a number behind it.
+/// Columns as listed after SELECT. A second column of the same name gets a number appended to its name.
 std::string listed(const std::vector<ShownColumn>& columns) {
     std::vector<std::string> texts;
     std::set<std::string> taken;
@@ -162,8 +162,9 @@ std::string listed(const std::vector<ShownColumn>& columns) {
     return fmt::format("{}", fmt::join(texts, ", "));
 }
 
-/// Which runs have a table: branches have segments and no samples, other runs the reverse; points of both kinds do not
-/// go into one table. @param left_out receives names of those that were not named and have other columns
+/// The runs that have the requested table. Only branches have segments, only other runs have samples, and points of
+/// branches are not mixed with other points. @param left_out receives names of runs that the user did not name and that
+/// are left out because their columns are different
 std::vector<StoredRun> runs_with(const ResultFile& file, const ResultTableRequest& request,
                                  std::vector<std::string>& left_out) {
     const std::string& what = request.what;
@@ -175,36 +176,35 @@ std::vector<StoredRun> runs_with(const ResultFile& file, const ResultTableReques
     const bool named = !request.runs.empty();
     const bool wants_branches = what == "segments" || (what == "points" && others.empty());
     std::vector<StoredRun>& chosen = wants_branches ? branches : others;
-    const std::vector<StoredRun>& rest = wants_branches ? others : branches;
-    if (chosen.empty() && rest.empty())
+    const std::vector<StoredRun>& excluded = wants_branches ? others : branches;
+    if (chosen.empty() && excluded.empty())
         throw InputError("there are no runs in the file", "run the study first");
-    if (chosen.empty() || (named && !rest.empty()))
+    if (chosen.empty() || (named && !excluded.empty()))
         throw InputError(request.place_of_what,
-                         fmt::format("run '{}' is of kind {}, which has no {}{}", rest.front().record.name,
-                                     rest.front().record.kind, what, what == "points" ? " like the others" : ""),
+                         fmt::format("run '{}' is of kind {}, which has no {}{}", excluded.front().record.name,
+                                     excluded.front().record.kind, what, what == "points" ? " like the others" : ""),
                          what == "points" ? "export one of them at a time, by --run NAME, or all into a folder, by "
                                             "--output FOLDER/"
                                           : fmt::format("export its {}", wants_branches ? "samples" : "segments"));
     if (what == "points")
-        for (const StoredRun& run : rest)
+        for (const StoredRun& run : excluded)
             left_out.push_back(run.record.name);
     return std::move(chosen);
 }
 
-/// @throws InputError for runs that do not have the same columns
-void require_same_shape(const std::vector<StoredRun>& runs) {
-    const auto shape_of = [](const StoredRun& run) {
-        std::vector<std::string> shape;
+/// @throws InputError if the runs do not have the same columns
+void require_same_columns(const std::vector<StoredRun>& runs) {
+    const auto names_of_columns = [](const StoredRun& run) {
+        std::vector<std::string> names;
         for (const auto* list : {&run.record.coordinates, &run.record.values, &run.record.states})
             for (const ResultColumn& column : *list)
-                shape.push_back(column.name);
-        return shape;
+                names.push_back(column.name);
+        return names;
     };
-    const std::vector<std::string> first = shape_of(runs.front());
+    const std::vector<std::string> first = names_of_columns(runs.front());
     for (const StoredRun& run : runs) {
-        const std::vector<std::string> here = shape_of(run);
         const bool branch = run.record.is_branch();
-        if (first != here) // under the names of the first, values of others would be told wrongly
+        if (first != names_of_columns(run)) // the table has only one line of names, that of the first run
             throw InputError("the runs do not have the same columns",
                              branch ? "export one of them at a time, by --run NAME, or all into a folder, by --output "
                                       "FOLDER/, or see graze points FILE --all"
@@ -216,7 +216,7 @@ void require_same_shape(const std::vector<StoredRun>& runs) {
 ResultTable table_of_rows(const ResultFile& file, const ResultTableRequest& request) {
     std::vector<std::string> left_out;
     const std::vector<StoredRun> runs = runs_with(file, request, left_out);
-    require_same_shape(runs);
+    require_same_columns(runs);
     const bool of_points = request.what == "points";
     const bool several = runs.size() > 1;
     const bool named =
@@ -239,7 +239,7 @@ ResultTable table_of_rows(const ResultFile& file, const ResultTableRequest& requ
     return {file.query(all), std::move(units), std::move(left_out)};
 }
 
-/// What was found from measurements; of two numbers their covariance, by their names.
+/// The table of estimates, or of the covariances of pairs of estimates, by their names.
 ResultTable table_of_estimates(const ResultFile& file, const ResultTableRequest& request) {
     std::vector<std::string> names;
     for (const RunRecord& run : file.runs())
@@ -311,9 +311,9 @@ ResultTable queried_table(const ResultFile& file, const std::string& sql, const 
     for (const std::string& name : chosen_runs(file, runs, place_of_runs)) {
         const StoredRun run(file, name, place_of_runs);
         const RunTables tables(run.record);
-        note(units, run, tables.point_columns);
-        note(units, run, tables.sample_columns);
-        note_views(units, run);
+        add_units(units, run, tables.point_columns);
+        add_units(units, run, tables.sample_columns);
+        add_units_of_views(units, run);
     }
     return with_units(file.query(sql), units);
 }

@@ -30,7 +30,7 @@ ColumnOf<NoContext, Run> text_column(const char* name) {
             [](const NoContext&, Run& run, CellReader& cell) { run.*text = cell.text(); }};
 }
 
-/// What the columns of a run are called in the file.
+/// A list of columns of a run, and its name in the file.
 struct ColumnList {
     const char* place;
     ColumnGroup group;

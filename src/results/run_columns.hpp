@@ -6,19 +6,19 @@ namespace graze {
 
 struct NoContext {};
 
-/// Of the table of runs, behind their number.
+/// Columns of the table of runs, after the number.
 const ColumnsOf<NoContext, RunRecord>& run_columns();
 
-/// Under which key of the table `meta` it is told why a run failed: this, and its name.
+/// The table `meta` stores why a run failed, under a key with this prefix and the name of the run.
 inline constexpr const char* begin_of_failure = "failure of run ";
 std::string key_of_failure(const std::string& run);
 
-/// A run's lists of names and columns lie in tables of their own.
+/// Write and read the lists of names and columns of a run, which are stored in separate tables.
 void write_lists(const Database& database, const RunRecord& run);
 void read_lists(const Database& database, RunRecord& run);
-/// Names of points, in the place of those that there are.
+/// Writes names of points in place of the earlier ones.
 void write_point_names(const Database& database, const std::string& run, const std::vector<PointName>& names);
-/// What says in the table of names that one is that of the point with a label: this, and the label.
+/// The table of names stores the name of a point under this prefix and the label of the point.
 inline constexpr const char* begin_of_point_name = "point ";
 
 } // namespace graze

@@ -8,7 +8,7 @@ namespace graze {
 
 void require_free_name(const std::string& name, bool branch, const std::vector<std::string>& others,
                        const Place& place) {
-    // The table of its orbits would be the view over those of all runs.
+    // The table of orbits would have the same name as the view over all branches.
     if (branch && in_small_letters(name) == "points")
         throw InputError(place,
                          fmt::format("no branch can be called '{}': result files have a view of that name", name),

@@ -7,10 +7,10 @@
 
 namespace graze {
 
+/// Checks that a result file can store a run of this name.
 /// @param branch whether it is a run of kind orbit or continue
-/// @param others names of the other runs of its file
-/// @throws InputError when a result file cannot keep a run of this name beside them: SQL does not tell upper and lower
-///         case apart, and some names are those of views
+/// @param others names of the other runs of the file
+/// @throws InputError if it differs from another name only in case, which SQL ignores, or is the name of a view
 void require_free_name(const std::string& name, bool branch, const std::vector<std::string>& others,
                        const Place& place);
 

@@ -14,8 +14,8 @@ bool has_column(const std::vector<RunColumn>& columns, const std::string& name) 
     });
 }
 
-bool has(const std::vector<ResultColumn>& things, const std::string& name) {
-    return std::any_of(things.begin(), things.end(), [&](const ResultColumn& thing) { return thing.name == name; });
+bool has(const std::vector<ResultColumn>& columns, const std::string& name) {
+    return std::any_of(columns.begin(), columns.end(), [&](const ResultColumn& column) { return column.name == name; });
 }
 
 } // namespace
@@ -24,12 +24,12 @@ std::string RunQuery::column(const std::string& name, bool with_samples) const {
     return (with_samples && has_column(tables_.sample_columns, name) ? "s." : "p.") + quoted_name(name);
 }
 
-std::string RunQuery::column_of(const std::vector<ResultColumn>& things, ColumnGroup group,
+std::string RunQuery::column_of(const std::vector<ResultColumn>& columns, ColumnGroup group,
                                 const std::string& name) const {
     const auto found =
-        std::find_if(things.begin(), things.end(), [&](const ResultColumn& thing) { return thing.name == name; });
+        std::find_if(columns.begin(), columns.end(), [&](const ResultColumn& column) { return column.name == name; });
     return quoted_name(
-        found == things.end() ? name : tables_.names_of(group)[static_cast<std::size_t>(found - things.begin())]);
+        found == columns.end() ? name : tables_.names_of(group)[static_cast<std::size_t>(found - columns.begin())]);
 }
 
 std::string RunQuery::value(const std::string& name) const {
@@ -63,8 +63,9 @@ std::string RunQuery::condition(const std::vector<std::string>& directions,
     std::string text = "1";
     if (!directions.empty())
         text += fmt::format(" AND {} IN ({})", direction(), text_literals(directions));
-    if (!samplings
-             .empty()) // by its sign SQLite makes no index of samplings, by which each point would meet all samples
+    // The plus sign keeps SQLite from making an index of samplings, with which it would compare each point with all
+    // samples.
+    if (!samplings.empty())
         text += fmt::format(" AND +s.sampling IN ({})", text_literals(samplings));
     return text;
 }

@@ -11,40 +11,40 @@
 
 namespace graze {
 
-/// The pieces of which queries of one run's tables are made: its points (orbits) as p, its samples (segments) as s.
+/// Makes the parts of SQL queries on the tables of one run: points (orbits) as p, samples (segments) as s.
 class RunQuery {
 public:
     explicit RunQuery(const RunRecord& run) : run_(&run), tables_(run) {}
 
-    /// A column that every run has; of samples, where both have it and rows are samples.
+    /// A column that every run has; the one of samples if rows are samples and both tables have it.
     std::string column(const std::string& name, bool with_samples) const;
-    /// What a user names: a coordinate or a value, a column, or an expression, which stays as it is.
+    /// A coordinate, value or column of this name; any other text is kept as an SQL expression.
     std::string quantity(const std::string& name) const;
-    /// A value, even if a coordinate has the same name.
+    /// A value, also if a coordinate has the same name.
     std::string value(const std::string& name) const;
-    /// Points, or points with their samples. @param all also points without samples
+    /// The table of points, or points joined with their samples. @param all whether points without samples are included
     std::string tables(bool with_samples, bool all) const;
-    /// What holds of rows of these directions and samplings; of all if there are none.
+    /// Condition for rows of these directions and samplings; an empty list stands for all.
     std::string condition(const std::vector<std::string>& directions, const std::vector<std::string>& samplings) const;
-    /// The column that says in which direction a point was reached.
+    /// The column with the direction or part of a point.
     std::string direction() const { return run_->is_branch() ? "p.part" : "p.direction"; }
     std::string order(bool with_samples) const;
 
     const RunTables& run_tables() const { return tables_; }
 
 private:
-    std::string column_of(const std::vector<ResultColumn>& things, ColumnGroup group, const std::string& name) const;
+    std::string column_of(const std::vector<ResultColumn>& columns, ColumnGroup group, const std::string& name) const;
 
     const RunRecord* run_;
     RunTables tables_;
 };
 
-/// Number of the point of a run whose coordinates are nearest, as StoredRun::nearest.
+/// Number of the point of a run whose coordinates are nearest, see StoredRun::nearest.
 std::optional<std::size_t> nearest_number(const ResultFile& file, const RunRecord& run,
                                           const std::vector<std::pair<std::string, double>>& at,
                                           const std::vector<std::string>& directions);
 
-/// The unit of a column's numbers.
+/// The unit of the numbers in a column.
 std::string unit_of(const RunColumn& column, const StoredRun& run);
 std::string unit_of(ColumnUnit unit, const StoredRun& run);
 

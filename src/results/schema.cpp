@@ -41,11 +41,11 @@ std::string declared(const std::vector<RunColumn>& columns) {
     return text;
 }
 
-const std::vector<ResultColumn>& things_of(const RunRecord& run, ColumnGroup group) {
+const std::vector<ResultColumn>& columns_in(const RunRecord& run, ColumnGroup group) {
     return group == ColumnGroup::coordinates ? run.coordinates : group == ColumnGroup::states ? run.states : run.values;
 }
 
-/// The columns that a run has of these kinds.
+/// The columns of a run that are of these kinds.
 std::vector<RunColumn> columns_for(const std::vector<ColumnKind>& kinds, const RunRecord& run,
                                    std::set<std::string> taken) {
     for (const ColumnKind& kind : kinds)
@@ -56,12 +56,12 @@ std::vector<RunColumn> columns_for(const std::vector<ColumnKind>& kinds, const R
         if (kind.group == ColumnGroup::single)
             columns.push_back({kind.name, kind, "", ""});
         else
-            for (const ResultColumn& thing : things_of(run, kind.group))
-                columns.push_back({distinct_name(kind.name + thing.name, taken), kind, thing.name, thing.unit});
+            for (const ResultColumn& one : columns_in(run, kind.group))
+                columns.push_back({distinct_name(kind.name + one.name, taken), kind, one.name, one.unit});
     return columns;
 }
 
-/// What a view over all runs of a kind shows of one of them.
+/// Query for the rows of one run in a view over all runs.
 std::string view_of(const RunRecord& run, const std::vector<ColumnKind>& kinds) {
     const RunTables tables(run);
     const std::vector<std::string> coordinates = tables.names_of(ColumnGroup::coordinates);
@@ -79,7 +79,7 @@ std::string view_of(const RunRecord& run, const std::vector<ColumnKind>& kinds) 
     return fmt::format("SELECT {} FROM {}", columns, tables.points);
 }
 
-/// Views of all runs of one kind together.
+/// Query for the rows of all branches, or of all other runs, in a view.
 std::string united(const std::vector<RunRecord>& runs, bool branches, const std::vector<ColumnKind>& kinds) {
     std::vector<std::string> all;
     for (const RunRecord& run : runs)

@@ -10,57 +10,56 @@
 
 namespace graze {
 
-/// Format of result files that this version writes: to be raised with every column that comes, goes or changes.
+/// Format of result files that this version writes. To be increased whenever a column is added, removed or changed.
 constexpr int result_format = 7;
-/// The oldest that it reads, and goes on with. Of format 6 only the name of a column is different
-/// (`touch_first_speed`, now `touch_speed_factor`): columns are read by their places.
+/// Oldest format that this version reads and continues. Format 6 differs only in the name of a column
+/// (`touch_first_speed`, now `touch_speed_factor`), and columns are read by position.
 constexpr int oldest_result_format = 6;
 constexpr int result_application = 0x67727a31; ///< "grz1", for tools that recognise files by it
 
-/// A table of all runs with several rows for each of their points; columns come behind run, point and position.
+/// A table with several rows for each point of all runs. Its first columns are run, point and position.
 struct DetailTable {
     std::string name;
     std::vector<ColumnKind> columns;
-    bool of_branches;      ///< only
-    bool position_matters; ///< to those who read it: it says which one it is
+    bool of_branches;      ///< whether only branches have rows in it
+    bool position_matters; ///< whether the position identifies the row and is shown
 };
 const std::vector<DetailTable>& detail_tables();
 
 /// Tables that every file has.
 std::string common_tables();
-/// Views over all runs, to be made anew whenever runs change.
+/// Statements that create the views over all runs. To be executed whenever the runs change.
 std::string views(const std::vector<RunRecord>& runs);
-/// Writes a row with so many cells.
+/// Statement that inserts a row with this number of cells.
 std::string insert_into(const std::string& table, std::size_t columns);
-/// The name, with a number behind it if another column has it already; SQL does not tell upper and lower case apart.
+/// The name, with a number appended if it is already taken. Upper and lower case count as equal, as in SQL.
 std::string distinct_name(const std::string& name, std::set<std::string>& taken);
-/// "a, b, c"
+/// Names of columns, separated by commas.
 std::string listed(const std::vector<ColumnKind>& columns, std::string_view before_each = "");
 
-/// A column of a run's table.
+/// A column of a table of one run.
 struct RunColumn {
-    std::string column; ///< its name there, unquoted
+    std::string column; ///< name of the column, unquoted
     ColumnKind kind;
-    std::string name, own_unit; ///< of the parameter, state or value that it belongs to, if any
+    std::string name, own_unit; ///< name and unit of the parameter, state or value of the column, if any
 };
 
-/// A run's own tables. Of a branch, `points` are its orbits, `samples` their segments, coordinates the parameters, and
-/// values the monitors.
+/// The tables of points and samples of one run. On a branch, `points` are orbits, `samples` segments, coordinates
+/// parameters, and values monitors.
 struct RunTables {
     explicit RunTables(const RunRecord& run);
 
     std::string points, samples; ///< quoted names of the tables
     bool is_branch = false;
-    std::vector<RunColumn> point_columns, sample_columns; ///< in their order
+    std::vector<RunColumn> point_columns, sample_columns; ///< in the order of the table
 
-    /// Names of the columns of a group, unquoted, in the order of the run's own things.
+    /// Names of the columns of a group, unquoted, in the order of the coordinates, states or values of the run.
     std::vector<std::string> names_of(ColumnGroup group) const;
     std::string create() const;
     std::string insert_point() const;
-    std::string insert_sample() const; ///< of samples, the first cell is their rowid
-    std::string select_point() const;  ///< columns as insert_point has them
-    /// Samples lie in the order of their points' numbers, by which they are found without an index: those of a point
-    /// have rowids from this many times its number on.
+    std::string insert_sample() const; ///< the first cell of a sample is its rowid
+    std::string select_point() const;  ///< gives the columns in the order of insert_point
+    /// The rowids of the samples of a point begin at its number times this, so that they are found without an index.
     static constexpr std::int64_t samples_of_a_point = std::int64_t{1} << 24;
 };
 

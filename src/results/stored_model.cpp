@@ -17,7 +17,7 @@ bool fits(const Model& model, const RunRecord& run) {
     const bool states =
         std::equal(model.states.begin(), model.states.end(), run.states.begin(), run.states.end(),
                    [](const State& state, const ResultColumn& column) { return state.name == column.name; });
-    // The modes of a branch are those of its segments, which are looked for by name.
+    // The modes of a branch are stored with its segments, and checked when these are read.
     const bool modes =
         run.is_branch() || std::equal(model.modes.begin(), model.modes.end(), run.modes.begin(), run.modes.end(),
                                       [](const Mode& mode, const std::string& name) { return mode.name == name; });

@@ -21,7 +21,7 @@ bool is_number(const std::string& text) {
     return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-/// The one with that label, name or number, if there is one.
+/// The orbit with this label, name or number, if there is one.
 std::optional<OrbitRecord> look_up(const ResultFile& file, const RunRecord& run, const std::string& point) {
     if (const std::string named = run.label_named(point); !named.empty())
         return file.orbit(run.name, named);

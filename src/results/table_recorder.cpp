@@ -33,7 +33,7 @@ public:
     }
 
     void begin(const Trajectory& trajectory, std::optional<double> duration) override {
-        // Where the end is not known, the distance of samples starts tiny and doubles whenever there are too many.
+        // If the duration is unknown, the time between samples starts tiny and doubles whenever there are too many.
         const double unknown = std::exp2(-50);
         thins_ = !request_.every && !duration;
         const double spacing = request_.every ? *request_.every
@@ -52,7 +52,7 @@ public:
 
     void step(const Step& step) override { sampler_->step(step); }
 
-    /// The end is a row too, unless the user has chosen the times.
+    /// Adds a row for the end, unless the user has chosen the time between rows and the end is not one of these times.
     void finish(const Trajectory& trajectory) override {
         if (!sampler_)
             return;

@@ -24,7 +24,7 @@ WriteLock::WriteLock(const std::string& path) : path_(path + ".lock") {
 }
 
 WriteLock::~WriteLock() {
-    // The file stays: were it removed, a process that has just opened it would lock what nobody else can see.
+    // The file is not removed: another process may have just opened it, and would then lock a file without a name.
     ::close(file_);
 }
 

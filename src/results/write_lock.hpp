@@ -4,10 +4,10 @@
 
 namespace graze {
 
-/// The right of one process to write a file. It ends with the object or, at the latest, with the process.
+/// Exclusive right of one process to write a file. Released by the destructor, or when the process ends.
 class WriteLock {
 public:
-    /// @throws InputError when another process has it, or the folder cannot be written
+    /// @throws InputError if another process has the right, or the folder cannot be written
     explicit WriteLock(const std::string& path);
     ~WriteLock();
     WriteLock(const WriteLock&) = delete;

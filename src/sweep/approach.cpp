@@ -13,7 +13,7 @@ namespace graze {
 namespace {
 
 constexpr double on_orbit = 1e-9;         ///< distance from an orbit at which a motion counts as on it
-constexpr double linear = 0.1;            ///< relative deviation of the motion from its linear part that is allowed
+constexpr double most_nonlinear = 0.1;    ///< relative deviation of the motion from its linear part that is allowed
 constexpr std::size_t fewest_periods = 4; ///< required for shrinking along a direction
 constexpr std::size_t most_periods = 8;
 constexpr std::size_t fewest_turning = 16; ///< required for shrinking in a plane
@@ -122,7 +122,7 @@ bool shrinks_slowly(const OrbitFinder& orbit, const ReturnWatcher& motion, const
     if (orbit.multipliers().empty() || deviations.count() <= fewest_periods)
         return false;
     const double bent = deviations.difference() / deviations.size(1);
-    if (!(bent <= linear) || !(deviations.size(0) < deviations.size(deviations.count() - 1)))
+    if (!(bent <= most_nonlinear) || !(deviations.size(0) < deviations.size(deviations.count() - 1)))
         return false;
     const bool turning = orbit.multipliers().front().imag() != 0;
     const std::size_t periods = turning ? deviations.count() - 1 : std::min(most_periods, deviations.count() - 1);
@@ -162,7 +162,8 @@ bool approaches(const OrbitFinder& orbit, const ReturnWatcher& motion, std::span
         return false;
     if (deviations.size(0) < on_orbit)
         return true;
-    if (deviations.difference() <= linear * (1 - radius) * deviations.size(1) && same_contacts(orbit, motion, 1))
+    if (deviations.difference() <= most_nonlinear * (1 - radius) * deviations.size(1) &&
+        same_contacts(orbit, motion, 1))
         return true;
     return shrinks_slowly(orbit, motion, deviations, radius);
 }
@@ -172,7 +173,7 @@ bool is_near(const OrbitFinder& orbit, const ReturnWatcher& motion, std::span<co
         motion.remembered() <= orbit.period())
         return false;
     const Deviations deviations(orbit, motion, periods, motion.scale());
-    return deviations.difference() <= linear * deviations.size(1) && same_contacts(orbit, motion, 1);
+    return deviations.difference() <= most_nonlinear * deviations.size(1) && same_contacts(orbit, motion, 1);
 }
 
 Guess middle_of(const ReturnWatcher& motion, const SectionMap& map, std::size_t period,

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t most_disturbances = 3;
 constexpr double share_left = 0.1; ///< a motion within this share of the displacement has not been displaced yet
-constexpr double neutral = 1e-10;  ///< distance of a multiplier from 1 that is significant
-constexpr double at_rest = 1e-8;   ///< distance at which an orbit and an equilibrium count as the same
+constexpr double neutral_multiplier = 1e-10; ///< distance of a multiplier from 1 that is significant
+constexpr double at_rest = 1e-8;             ///< distance at which an orbit and an equilibrium count as the same
 
 } // namespace
 
@@ -225,7 +225,7 @@ void AttractorSearch::keep_signs(std::vector<double>& state) {
 /// A motion on an unstable orbit would stay there until round-off has grown: displaces it.
 std::optional<bool> AttractorSearch::leave_unstable_orbit(const Equilibrium* equilibrium) {
     const double size = setting_->options.disturbance, usual = AttractorOptions{}.disturbance;
-    if (finder_.multipliers().empty() || !(std::abs(finder_.multipliers().front()) > 1 + neutral) ||
+    if (finder_.multipliers().empty() || !(std::abs(finder_.multipliers().front()) > 1 + neutral_multiplier) ||
         disturbances_ >= most_disturbances ||
         watcher_.distance(watcher_.recent(0).state, finder_.point()) > (size > 0 ? size : usual))
         return std::nullopt;

@@ -1,5 +1,6 @@
 #include "sweep/attractor_search.hpp"
 
+#include "base/special_numbers.hpp"
 #include "graze/base/require.hpp"
 #include "sweep/approach.hpp"
 #include "sweep/quasi_periodic.hpp"
@@ -14,7 +15,6 @@ namespace graze {
 
 namespace {
 
-constexpr double forever = std::numeric_limits<double>::infinity();
 constexpr double soonest = 1e-3;      ///< earliest next return, as a share of the time of a return
 constexpr double least_growth = 5;    ///< logarithm of the growth of a small distance that indicates chaos
 constexpr double outward_share = 0.5; ///< share of the growth of a small distance due to growth of the motion
@@ -79,7 +79,7 @@ void AttractorSearch::begin(std::span<const double> parameters, std::span<const 
     growth_seen_ = much_growth;
     result_ = {};
     limit_steps(state, mode);
-    main_->start(state, mode, 0, setting_->options.longest_return > 0 ? setting_->options.longest_return : forever);
+    main_->start(state, mode, 0, setting_->options.longest_return > 0 ? setting_->options.longest_return : infinity);
     const std::size_t before = exponent_cycles();
     watcher_.stop_after(limit_ > before ? limit_ - before : 1);
 }
@@ -166,7 +166,7 @@ bool AttractorSearch::examine_without_return() {
 
 void AttractorSearch::extend() {
     const double longest = setting_->options.longest_return;
-    main_->extend(longest > 0 ? main_->time() + longest : forever);
+    main_->extend(longest > 0 ? main_->time() + longest : infinity);
 }
 
 bool AttractorSearch::examine_return() {
@@ -281,7 +281,7 @@ bool AttractorSearch::consider_orbit() {
 void AttractorSearch::restart(std::span<const double> state, std::size_t mode, double duration) {
     const double time = main_->time(), longest = setting_->options.longest_return;
     watcher_.start_leg(time, soonest * duration);
-    main_->start(state, mode, time, longest > 0 ? time + longest : forever);
+    main_->start(state, mode, time, longest > 0 ? time + longest : infinity);
 }
 
 /// Called after all cycles, and repeatedly in the extension after them.

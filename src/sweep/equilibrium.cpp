@@ -16,15 +16,15 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t most_iterations = 20;
-constexpr double furthest = 3;           ///< largest correction, relative to the extent of the motion
-constexpr double converged = 1e-14;      ///< corrections that are round-off
-constexpr double round_off = 1e-10;      ///< the same where the field is a small difference
-constexpr std::size_t phases = 16;       ///< number of clock phases at which the field must vanish
-constexpr double neutral = 1e-10;        ///< relative real part that is indistinguishable from zero
-constexpr double nearly = 0.1;           ///< allowed nonlinear part relative to the linear part
-constexpr double ill = 1e-7;             ///< reciprocal condition number of nearly parallel eigenvectors
-constexpr double largest_number = 1e150; ///< beyond which squares leave the range of numbers
+constexpr std::size_t most_newton_steps = 20;
+constexpr double furthest = 3;               ///< largest correction, relative to the extent of the motion
+constexpr double converged = 1e-14;          ///< corrections that are round-off
+constexpr double round_off_of_field = 1e-10; ///< the same where the field is a small difference
+constexpr std::size_t phases = 16;           ///< number of clock phases at which the field must vanish
+constexpr double neutral_rate = 1e-10;       ///< relative real part that is indistinguishable from zero
+constexpr double nearly = 0.1;               ///< allowed nonlinear part relative to the linear part
+constexpr double ill = 1e-7;                 ///< reciprocal condition number of nearly parallel eigenvectors
+constexpr double largest_number = 1e150;     ///< beyond which squares leave the range of numbers
 constexpr double unbalanced = 1e3; ///< ratio of row and column sizes of the field above which scales are meaningless
 constexpr double golden = 0.6180339887498949; ///< golden ratio: its multiples fill the unit interval evenly
 
@@ -37,11 +37,11 @@ double spread_number(std::size_t k) {
 } // namespace
 
 bool Equilibrium::is_stable() const {
-    return !driven && (values.size() == 0 || growth() < -neutral * largest_rate());
+    return !driven && (values.size() == 0 || growth() < -neutral_rate * largest_rate());
 }
 
 bool Equilibrium::is_unstable() const {
-    return !driven && values.size() > 0 && growth() > neutral * largest_rate();
+    return !driven && values.size() > 0 && growth() > neutral_rate * largest_rate();
 }
 
 void EquilibriumFinder::begin(std::span<const double> parameters, std::span<const double> periods) {
@@ -122,7 +122,7 @@ bool EquilibriumFinder::solve(Equilibrium& equilibrium, std::span<const double> 
         has_size[static_cast<std::size_t>(i)] = periods_[state] > 0 || largest > 0;
     }
     double before = std::numeric_limits<double>::infinity();
-    for (std::size_t iteration = 0; iteration < most_iterations && size > 0; ++iteration) {
+    for (std::size_t iteration = 0; iteration < most_newton_steps && size > 0; ++iteration) {
         field_->evaluate(workspace_, equilibrium.mode, equilibrium.state);
         Eigen::VectorXd rates(size);
         for (Eigen::Index i = 0; i < size; ++i) {
@@ -156,7 +156,7 @@ bool EquilibriumFinder::solve(Equilibrium& equilibrium, std::span<const double> 
             if (field_->keeps_sign(state) && !(left > converged * std::abs(was)))
                 equilibrium.state[state] = 0;
         }
-        if (length < converged || (length < round_off && length >= 0.5 * before))
+        if (length < converged || (length < round_off_of_field && length >= 0.5 * before))
             return true;
         before = length;
     }
@@ -207,10 +207,10 @@ bool EquilibriumFinder::rests_at_all_phases(Equilibrium& equilibrium) {
                 const double now = workspace_.jacobian[row * count + equilibrium.active[static_cast<std::size_t>(j)]] *
                                    equilibrium.scale[j] / equilibrium.scale[i];
                 equilibrium.driven =
-                    equilibrium.driven || !(std::abs(now - equilibrium.field(i, j)) <= round_off * largest);
+                    equilibrium.driven || !(std::abs(now - equilibrium.field(i, j)) <= round_off_of_field * largest);
             }
         }
-        if (size > 0 && !(factors.solve(rates).cwiseAbs().maxCoeff() <= round_off))
+        if (size > 0 && !(factors.solve(rates).cwiseAbs().maxCoeff() <= round_off_of_field))
             return false;
     }
     return true;

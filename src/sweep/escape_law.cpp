@@ -12,7 +12,8 @@ constexpr std::size_t fewest = 10;   ///< fewest motions that leave
 constexpr double in_19_of_20 = 1.96; ///< 95 % of a normal distribution, in standard errors
 /// 90 % quantile of Kolmogorov's distribution: a constant rate is rejected by mistake in one of ten cases.
 constexpr double contradicts = 1.22;
-constexpr std::size_t parts = 40; ///< possible beginnings of the law, in equal shares of the motions that leave
+constexpr std::size_t possible_starts =
+    40; ///< possible beginnings of the law, in equal shares of the motions that leave
 
 /// The motions that are still there after a number of returns.
 class Remainder {
@@ -80,8 +81,8 @@ std::optional<EscapeLaw> escape_law(std::span<const Stay> stays) {
     if (times.size() < fewest)
         return std::nullopt;
     std::size_t before = 0;
-    for (std::size_t part = 0; part < parts; ++part) {
-        const std::size_t from = part == 0 ? 0 : times[part * times.size() / parts];
+    for (std::size_t part = 0; part < possible_starts; ++part) {
+        const std::size_t from = part == 0 ? 0 : times[part * times.size() / possible_starts];
         if (part > 0 && from == before)
             continue;
         before = from;

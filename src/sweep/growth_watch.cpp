@@ -8,7 +8,7 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t parts = 3; ///< number of parts of the stored returns; the motion must be larger in each
+constexpr std::size_t growing_parts = 3; ///< number of parts of the stored returns; the motion must be larger in each
 constexpr std::size_t fewest_returns = 6;
 
 } // namespace
@@ -52,10 +52,10 @@ bool GrowthWatch::goes_on(const ReturnWatcher& motion) {
     if (motion.remembered() <= fewest_returns)
         return false;
     // If clocks are faster than the growth, single returns show only a part of the motion: several are combined.
-    const std::size_t together = (motion.remembered() - 1) / parts;
+    const std::size_t together = (motion.remembered() - 1) / growing_parts;
     std::vector<double> newer;
     MotionPart newest, oldest;
-    for (std::size_t part = 0; part < parts; ++part) {
+    for (std::size_t part = 0; part < growing_parts; ++part) {
         std::vector<double> largest(periods_.size(), 0.0);
         oldest = motion.part(part * together);
         for (std::size_t k = part * together; k < (part + 1) * together; ++k) {
@@ -75,13 +75,13 @@ bool GrowthWatch::goes_on(const ReturnWatcher& motion) {
 
 bool GrowthWatch::goes_on_slowly(const ReturnWatcher& motion) {
     const MotionParts& all = motion.parts();
-    if (all.count() < parts)
+    if (all.count() < growing_parts)
         return false;
-    for (std::size_t part = 0; part < parts; ++part)
+    for (std::size_t part = 0; part < growing_parts; ++part)
         if (all.recent(part).contacts ||
             (part > 0 && !(ratio(extents(all.recent(part - 1)), extents(all.recent(part))) > 0)))
             return false;
-    return leads_outward(motion, all.recent(0), all.recent(parts - 1));
+    return leads_outward(motion, all.recent(0), all.recent(growing_parts - 1));
 }
 
 bool GrowthWatch::is_linear(const ReturnWatcher& motion, std::size_t returns) const {

@@ -7,7 +7,7 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t most = 6; ///< largest number of parts; they are merged in pairs when there are more
+constexpr std::size_t most_parts = 6; ///< largest number of parts; they are merged in pairs when there are more
 
 } // namespace
 
@@ -40,14 +40,14 @@ void MotionParts::add(const MotionPart& one) {
         return;
     in_current_ = 0;
     parts_.push_back(current_);
-    if (parts_.size() < most)
+    if (parts_.size() < most_parts)
         return;
-    for (std::size_t k = 0; k < most / 2; ++k) {
+    for (std::size_t k = 0; k < most_parts / 2; ++k) {
         parts_[2 * k].include(parts_[2 * k + 1]);
         if (k > 0)
             parts_[k] = std::move(parts_[2 * k]);
     }
-    parts_.resize(most / 2);
+    parts_.resize(most_parts / 2);
     length_ *= 2;
 }
 

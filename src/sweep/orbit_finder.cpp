@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t most_iterations = 10;
 /// Close to a bifurcation corrections shrink only by a third or a half at first.
 constexpr std::size_t most_shrinking = 40;
-constexpr double shrinking = 0.8;
+constexpr double newton_contraction = 0.8;
 /// Relative to the extent of the states. Newton's method doubles the number of correct digits.
 constexpr double small_correction = 1e-9;
 constexpr double large_correction = 0.5;
@@ -29,7 +29,7 @@ constexpr double resolution = 1e-7; ///< resolution of states, relative to their
 /// all of them. Larger than the rounding within a return.
 constexpr double closed_exactly = 1e-10;
 /// Earliest next return, as a share of the time of a return.
-constexpr double soonest = 1e-3;
+constexpr double earliest_return = 1e-3;
 
 } // namespace
 
@@ -94,7 +94,7 @@ void OrbitFinder::start_run(Stage stage) {
     }
     watcher_.begin(parameters_, periods_, recorder);
     watcher_.stop_after(period_);
-    watcher_.start_leg(0, soonest * duration_ / static_cast<double>(period_));
+    watcher_.start_leg(0, earliest_return * duration_ / static_cast<double>(period_));
     trajectory_->start(point_, mode_, 0, guard_);
     if (carries())
         return trajectory_->carry_tangents(seeds_, map_->states());
@@ -168,7 +168,7 @@ bool OrbitFinder::iterate() {
         return fail();
     // Next to a bifurcation an orbit is known no better than this, but its existence is.
     const bool closes = defect.cwiseQuotient(scale_).cwiseAbs().maxCoeff() < map_->simulation().options().tolerance;
-    const bool stalls = iterations_ > most_iterations && size > shrinking * correction_;
+    const bool stalls = iterations_ > most_iterations && size > newton_contraction * correction_;
     if (stalls && !closes)
         return fail();
     correction_ = size;
@@ -276,7 +276,7 @@ void OrbitFinder::start_comparison() {
     stage_ = Stage::comparing;
     watcher_.begin(parameters_, periods_, nullptr);
     watcher_.stop_after(1);
-    watcher_.start_leg(0, soonest * duration_ / static_cast<double>(period_));
+    watcher_.start_leg(0, earliest_return * duration_ / static_cast<double>(period_));
     trajectory_->start(image, (*image_modes_)[mode_], 0, guard_);
 }
 

@@ -156,7 +156,7 @@ private:
     std::string start_note_; ///< note on a point that does not start where it should
 };
 
-void work(Execution& execution, std::size_t slots) {
+void work_through(Execution& execution, std::size_t slots) {
     try {
         Ensemble ensemble(execution.searches.simulation(), execution.options.instruction_set);
         ensemble.stop_when([&] { return execution.must_stop(); });
@@ -200,8 +200,8 @@ bool execute(const Plan& plan, const SearchFactory& searches, std::span<const Ch
     {
         std::vector<std::jthread> threads;
         for (std::size_t i = 1; i < jobs; ++i)
-            threads.emplace_back([&] { work(execution, slots); });
-        work(execution, slots);
+            threads.emplace_back([&] { work_through(execution, slots); });
+        work_through(execution, slots);
     }
     if (execution.error)
         std::rethrow_exception(execution.error);

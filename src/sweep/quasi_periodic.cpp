@@ -1,5 +1,7 @@
 #include "sweep/quasi_periodic.hpp"
 
+#include "base/special_numbers.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -160,9 +162,8 @@ double closest_lag(const VisitedStates& visited, std::span<const double> extents
 } // namespace
 
 double unevenness(const VisitedStates& visited, std::span<const double> extents) {
-    constexpr double unknown = std::numeric_limits<double>::infinity();
     if (visited.returns() < fewest_returns || changes_size(visited))
-        return unknown;
+        return infinity;
     bool moving = false;
     double largest = 0;
     for (const std::vector<double>& values : observables(visited, extents, moving)) {
@@ -171,7 +172,7 @@ double unevenness(const VisitedStates& visited, std::span<const double> extents)
         largest = std::max(largest, std::abs(weighted_average(all.first(half)) - weighted_average(all.last(half))));
     }
     const double closest = closest_lag(visited, extents);
-    return moving && closest > 0 && !comes_back(visited, extents) ? largest / closest : unknown;
+    return moving && closest > 0 && !comes_back(visited, extents) ? largest / closest : infinity;
 }
 
 } // namespace graze

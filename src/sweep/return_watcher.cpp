@@ -1,5 +1,7 @@
 #include "sweep/return_watcher.hpp"
 
+#include "base/special_numbers.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,13 +11,12 @@ namespace graze {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Share of the time since the last return within which two occurrences count as simultaneous.
 constexpr double simultaneous = 1e-10;
 /// Extents below this share of the largest extent of a state are noise.
 constexpr double least_extent = 1e-6;
 /// Extents smaller than this share of a state's size are its round-off.
-constexpr double round_off = 1e-12;
+constexpr double round_off_of_return = 1e-12;
 /// The effect of rounding on a state within a return is at most this share of its scale, less than the tolerance at
 /// which orbits close.
 constexpr double noise_share = 1e-10;
@@ -211,7 +212,7 @@ void ReturnWatcher::update_scale() {
         const double extent = std::max(high - low, least_extent * widest_[i]);
         // A state that does not move at all is measured by its size.
         const double size = std::max(std::abs(high), std::abs(low));
-        scale_[i] = extent > round_off * size ? extent : size > 0 ? size : 1;
+        scale_[i] = extent > round_off_of_return * size ? extent : size > 0 ? size : 1;
         // A state that is moved only by the rounding of its rate has no extent of its own.
         scale_[i] = std::max(scale_[i], noise_[i] / noise_share);
     }

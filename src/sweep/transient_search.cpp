@@ -1,5 +1,6 @@
 #include "sweep/transient_search.hpp"
 
+#include "base/special_numbers.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 
@@ -11,8 +12,6 @@
 namespace graze {
 
 namespace {
-
-constexpr double forever = std::numeric_limits<double>::infinity();
 
 /// Number of steps, passages and contacts without progress after which, without a time limit, no end is expected: a
 /// step covers a part of an oscillation, so these are at least a hundred thousand oscillations of the fastest kind. (A
@@ -75,12 +74,12 @@ void TransientSearch::begin(std::span<const double> parameters, std::span<const 
     waited_ = 0;
     stop_ = escaped_ = reached_ = false;
     shown_ = !(options.skip_time > 0) && options.skip_periods == 0;
-    trajectory_->start(state, mode, 0, shown_ ? end_of(0) : options.skip_time > 0 ? options.skip_time : forever);
+    trajectory_->start(state, mode, 0, shown_ ? end_of(0) : options.skip_time > 0 ? options.skip_time : infinity);
 }
 
 /// Returns the time at which the sampled part ends if it begins at `time`.
 double TransientSearch::end_of(double time) const {
-    return setting_->options.time > 0 ? time + setting_->options.time : forever;
+    return setting_->options.time > 0 ? time + setting_->options.time : infinity;
 }
 
 void TransientSearch::step(const Step& step) {

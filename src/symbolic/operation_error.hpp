@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/special_numbers.hpp"
 #include "symbolic/evaluate.hpp"
 
 #include <algorithm>
@@ -14,7 +15,6 @@ namespace graze {
 /// @param value the computed value
 inline double operation_error(Operation operation, double value, double left, double left_error, double right,
                               double right_error) {
-    constexpr double epsilon = std::numeric_limits<double>::epsilon();
     const double rounding = epsilon * std::abs(value);
     const auto steep = [&](double slope) {
         return left_error > 0 ? std::min(std::abs(slope) * left_error, 2 * std::sqrt(left_error)) : 0;

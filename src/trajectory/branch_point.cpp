@@ -2,6 +2,7 @@
 
 #include "graze/trajectory/trajectory.hpp"
 
+#include "base/special_numbers.hpp"
 #include "trajectory/series.hpp"
 
 #include <fmt/format.h>
@@ -106,7 +107,6 @@ std::size_t Trajectory::limit_to_branch(double& step) {
     // way.
     if (jumping == states_ && !root_vanishes(whole) && !root_vanishes(0.5 * whole))
         return states_;
-    constexpr double epsilon = std::numeric_limits<double>::epsilon();
     double low = 0, high = whole;
     for (double middle = 0.5 * high; high - low > 1e-3 * high && middle > low && middle < high;
          middle = 0.5 * (low + high))

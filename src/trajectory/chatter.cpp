@@ -2,6 +2,7 @@
 
 #include "graze/trajectory/trajectory.hpp"
 
+#include "base/special_numbers.hpp"
 #include "trajectory/series.hpp"
 #include "trajectory/tangents.hpp"
 
@@ -55,7 +56,6 @@ bool Trajectory::complete_chatter(std::size_t w, double step) {
     // takes 2u/a (1 + 2q/3), returns with the speed u (1 - 2q/3) and leaves the deceleration a (1 - 2q).
     const double lengthening = -c[3] / c[2] * steady;
     const double remaining = history.interrupted ? steady : steady * (1 + lengthening);
-    constexpr double epsilon = std::numeric_limits<double>::epsilon();
     const double allowed = std::max(4 * epsilon, 0.01 * simulation_.options().tolerance);
     const double height = deceleration * remaining * remaining;
     const double change = std::abs(lengthening);

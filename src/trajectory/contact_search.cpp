@@ -2,6 +2,7 @@
 
 #include "graze/trajectory/trajectory.hpp"
 
+#include "base/special_numbers.hpp"
 #include "trajectory/series.hpp"
 
 #include <algorithm>
@@ -24,7 +25,6 @@ constexpr double most_of_flight = 1e-6;
 /// accumulation this is far less than the resolution of time.
 /// @param left_behind value of the function at the start of an arc that began on its surface
 double root_uncertainty(std::span<const double> c, double s, double step, double left_behind) {
-    constexpr double epsilon = std::numeric_limits<double>::epsilon();
     const double uncertain_value = 4 * epsilon * series_size(c, s), rate = std::abs(evaluate_derivative(c, s));
     const double most = 8 * epsilon * step;
     const double by_start = left_behind > 0 ? std::min(left_behind / rate, most_of_flight * s) : 0;

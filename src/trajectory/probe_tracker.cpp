@@ -1,5 +1,6 @@
 #include "trajectory/probe_tracker.hpp"
 
+#include "base/special_numbers.hpp"
 #include "flow/kept_sign.hpp"
 #include "flow/single_crossing.hpp"
 #include "tape/smallest_size.hpp"
@@ -146,7 +147,6 @@ void ProbeTracker::sort_found() {
 /// Finds an interval of the phase in which no probe's value is near, with a margin larger than round-off and slack.
 /// Outside it, each probe is tested.
 void ProbeTracker::find_bounds() {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     for (Phase& phase : phases_) {
         phase.low = -infinity;
         phase.high = infinity;

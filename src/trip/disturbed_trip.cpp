@@ -15,8 +15,8 @@ namespace graze {
 
 namespace {
 
-/// A motion in a model whose parameter changes, from the origin.
-TripTime follow(const TripOrigin& origin, const DrivenParameter& driven, const std::vector<double>& further,
+/// Simulates a motion from the origin in a model whose parameter varies in time.
+TripTime follow_disturbed(const TripOrigin& origin, const DrivenParameter& driven, const std::vector<double>& further,
                 double longest, const TripEnd& end, const TripOptions& options) {
     TripEnd here = end;
     if (end.quantity)
@@ -32,37 +32,37 @@ TripTime follow(const TripOrigin& origin, const DrivenParameter& driven, const s
     return trip;
 }
 
-const std::string name_of(const System& system, const TripOrigin& origin) {
+const std::string name_of_origin(const System& system, const TripOrigin& origin) {
     return system.model().independent_parameters().at(origin.parameter.place());
 }
 
 } // namespace
 
 double beginning_of_ramp(const LossPoint& point, double rate) {
-    constexpr double cycles = 100, delays = 5, tellable = 10;
-    double way = cycles * std::abs(rate) * point.cycle;
+    constexpr double cycles = 100, delays = 5, resolvable = 10;
+    double distance = cycles * std::abs(rate) * point.cycle;
     if (point.fold)
-        way = std::max(way, delays * std::abs(delay_of_ramp(*point.fold, rate)));
+        distance = std::max(distance, delays * std::abs(delay_of_ramp(*point.fold, rate)));
     const double least = point.fold ? least_overshoot(*point.fold) : least_overshoot(point.map, point.parameter);
-    return point.value - point.side * std::max(way, tellable * least);
+    return point.value - point.side * std::max(distance, resolvable * least);
 }
 
 RampedTrip ramped_trip(const System& system, const TripOrigin& origin, double rate, const TripEnd& end,
                        const TripOptions& options) {
     options.validate();
-    const double way = origin.point - origin.value;
-    if (!(rate * way > 0 && std::isfinite(rate)))
+    const double distance = origin.point - origin.value;
+    if (!(rate * distance > 0 && std::isfinite(rate)))
         throw InputError(fmt::format("with the rate {} the parameter does not come to the point", rate),
-                         way > 0 ? "give a positive rate" : "give a negative rate");
-    const DrivenParameter driven = drive_parameter(system.model(), name_of(system, origin), DriveKind::shift);
+                         distance > 0 ? "give a positive rate" : "give a negative rate");
+    const DrivenParameter driven = drive_parameter(system.model(), name_of_origin(system, origin), DriveKind::shift);
     RampedTrip result;
-    result.trip = follow(origin, driven, {rate}, way / rate + options.cycles * origin.cycle, end, options);
+    result.trip = follow_disturbed(origin, driven, {rate}, distance / rate + options.cycles * origin.cycle, end, options);
     result.value = origin.value + rate * result.trip.time;
     return result;
 }
 
 double delay_of_ramp(const FoldPassage& fold, double rate) {
-    constexpr double first_zero = 2.338107410459767; // of the Airy function, without its sign
+    constexpr double first_zero = 2.338107410459767; // magnitude of the first zero of the Airy function
     const double of_cycle = std::abs(rate) * fold.cycle;
     return std::copysign(first_zero, rate) * std::pow(of_cycle, 2.0 / 3) /
            std::cbrt(fold.coefficient * std::abs(fold.rate));
@@ -72,10 +72,11 @@ TripTime swung_trip(const System& system, const TripOrigin& origin, double ampli
                     const TripOptions& options) {
     options.validate();
     if (!(period > 0 && std::isfinite(period)) || !std::isfinite(amplitude))
-        throw InputError(fmt::format("nothing swings by {} with the period {}", amplitude, period),
-                         "give finite numbers, and a positive period");
-    const DrivenParameter driven = drive_parameter(system.model(), name_of(system, origin), DriveKind::wave);
-    return follow(origin, driven, {2 * std::numbers::pi / period, amplitude}, options.cycles * origin.cycle, end,
+        throw InputError(
+            fmt::format("a wave with the amplitude {} and the period {} is not possible", amplitude, period),
+            "give finite numbers, and a positive period");
+    const DrivenParameter driven = drive_parameter(system.model(), name_of_origin(system, origin), DriveKind::wave);
+    return follow_disturbed(origin, driven, {2 * std::numbers::pi / period, amplitude}, options.cycles * origin.cycle, end,
                   options);
 }
 

@@ -15,15 +15,15 @@
 
 namespace graze {
 
-/// Waits for what ends a trip: a contact of some approach speed, the level of a quantity.
+/// Detects the end of a trip: a contact of a given approach speed, or the level of a quantity.
 class EndWatch : public Observer {
 public:
     using Counts = std::function<bool(const Contact&)>;
-    /// @param counts which contacts have the speed that counts; none: no contact does
+    /// @param counts tells which contacts count; empty: none
     EndWatch(const TripEnd& end, Counts counts, const std::function<bool()>& interrupted)
         : counts_(std::move(counts)), speed_limit_(end.speed), interrupted_(interrupted), level_(end) {}
 
-    /// Before the trajectory starts. @param system of its model; @param parameters its own
+    /// Must be called before the trajectory starts. @param system of its model; @param parameters of the trajectory
     void begin(const System& system, std::span<const double> parameters) {
         level_.system.emplace(system);
         level_.parameters.assign(parameters.begin(), parameters.end());
@@ -45,7 +45,7 @@ public:
     }
     bool stop() override { return !ending_.empty() || (interrupted_ && interrupted_()); }
 
-    /// What is to be said of a trajectory that has been run with this observer.
+    /// Returns the result for a trajectory that was run with this observer.
     TripTime trip(const Outcome& outcome) const {
         TripTime trip;
         trip.ended = !ending_.empty() || outcome.ending == Ending::singular || outcome.ending == Ending::terminal;
@@ -58,7 +58,7 @@ public:
         return trip;
     }
 
-    /// As if nothing had happened.
+    /// Resets the observer for a new motion.
     void forget() {
         ending_.clear();
         time_ = speed_ = 0;
@@ -66,7 +66,8 @@ public:
     }
 
 private:
-    /// A level at which the motion turns round, as that of a stop: whether its passage is seen is up to round-off.
+    /// A level that the motion may only reach at a contact, as that of a stop: round-off decides whether its crossing
+    /// is detected, so it is tested at contacts too.
     struct Level {
         explicit Level(const TripEnd& end) {
             if (end.quantity)
@@ -89,7 +90,7 @@ private:
         }
         std::optional<Expression> expression{}; ///< zero at the level
         std::optional<System> system{};
-        std::optional<Function> function{}; ///< the same, once there is a contact
+        std::optional<Function> function{}; ///< compiled expression, made at the first contact
         std::vector<double> parameters{};
     };
     bool is_over(double time) const { return !ending_.empty() && time >= time_; }
@@ -107,8 +108,8 @@ private:
     std::size_t contacts_ = 0;
 };
 
-/// The simulation that such a watch observes: probe 0 is the level of the quantity, if one ends the trip; of another
-/// probe that never happens otherwise.
+/// Returns the simulation for an EndWatch: probe 0 is the level of the quantity, if given. With another probe, probe 0
+/// exists always and never happens without a quantity.
 inline Simulation simulation_until(const System& system, const TripEnd& end, const TripOptions& options,
                                    const std::optional<Probe>& further = std::nullopt) {
     SimulationOptions numbers = integration(options.tolerance);
@@ -124,7 +125,7 @@ inline Simulation simulation_until(const System& system, const TripEnd& end, con
     return Simulation(system, std::move(probes), {}, numbers);
 }
 
-/// The motion from a state at time 0 until the watch stops it.
+/// Simulates the motion from a state at time 0 until the watch stops it.
 inline TripTime run_until(const Simulation& simulation, std::span<const double> parameters,
                           std::span<const double> state, std::size_t mode, double longest, EndWatch& watch) {
     watch.begin(simulation.system(), parameters);

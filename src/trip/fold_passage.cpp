@@ -19,8 +19,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// The gate is where the multiplier of an orbit would be 1 - 2 share: near enough for the normal form, and beyond where
-/// what passes lingers.
+/// The gate is the w at which an orbit would have the multiplier 1 - 2 share: near enough for the normal form, and
+/// outside the region of slow passage.
 constexpr double gate_share = 0.05;
 
 SpecialPoint as_fold(const SpecialPoint& point) {
@@ -33,7 +33,7 @@ SpecialPoint as_fold(const SpecialPoint& point) {
     return as_type(point, PointType::fold);
 }
 
-/// Notes where the motion is when it comes back to the section on which the orbit's first segment starts.
+/// Records w at each return to the section on which the first segment of the orbit starts.
 class ReturnWatch : public EndWatch {
 public:
     ReturnWatch(const System& system, const FoldPassage& fold, const TripEnd& end, bool until_passed,
@@ -48,12 +48,12 @@ public:
         EndWatch::contact(contact);
         if (closing_.end == SegmentEnd::event && contact.transition == closing_.index &&
             contact.kind == ContactKind::crossing)
-            come_back(contact.time, contact.after);
+            record_return(contact.time, contact.after);
     }
     void passage(const Passage& passage) override {
         EndWatch::passage(passage);
         if (passage.probe == 1 && passage.mode == closing_.mode)
-            come_back(passage.time, passage.state);
+            record_return(passage.time, passage.state);
     }
     bool stop() override { return EndWatch::stop() || (until_passed_ && passed_); }
 
@@ -62,7 +62,7 @@ public:
     double time() const { return time_; }
 
 private:
-    void come_back(double time, std::span<const double> state) {
+    void record_return(double time, std::span<const double> state) {
         if (passed_ || ++passages_ % each_ != 0)
             return;
         ++returns_;
@@ -89,22 +89,22 @@ private:
     std::vector<double> periods_;
 };
 
-/// Whether there is no multiplier outside the unit circle, and one on it.
+/// True when no multiplier lies outside the unit circle.
 bool is_attracting(const OrbitSolution& solution) {
-    constexpr double beside = 1e-4; // the critical one is known to the root of what the orbit is
+    constexpr double beside = 1e-4; // the critical multiplier is known to the square root of the orbit's accuracy
     return std::none_of(solution.multipliers.begin(), solution.multipliers.end(),
                         [](std::complex<double> one) { return std::abs(one) > 1 + beside; });
 }
 
-/// Of a fold that is nearly a cusp the cubic term c w^3 comes before.
+/// Returns the gate; near a cusp it is limited by the cubic term c w^3.
 double gate_of(const OrbitEquations& equations, const OrbitEvaluation& at, const FoldForm& form) {
     constexpr double cubic_share = 0.3, no_size = 1e-6;
     const double gate = gate_share / form.coefficient;
-    double size = 0; // of the states that move, by which the third derivatives are taken
+    double size = 0; // scaled size of the critical vector, the step of third derivatives
     for (std::size_t i = 0; i < form.critical.size(); ++i)
         size = std::max(size, std::abs(form.critical[i]) * at.scales[static_cast<Eigen::Index>(i)]);
     if (size < no_size * gate)
-        return gate; // an orbit at zero has none
+        return gate; // an orbit at zero has no extent
     const auto cubic = cusp_coefficient(equations, at);
     return cubic && *cubic != 0 ? std::min(gate, cubic_share * form.coefficient / std::abs(*cubic)) : gate;
 }
@@ -138,7 +138,7 @@ FoldPassage fold_passage(const System& system, const SpecialPoint& point, Parame
     result.coefficient = form->coefficient;
     result.rate = form->rate;
     result.side = form->rate > 0 ? 1 : -1;
-    result.cycle = result.orbit.round();
+    result.cycle = result.orbit.return_time();
     result.attracting = is_attracting(fold.solution);
     result.critical = form->critical;
     result.adjoint = form->adjoint;
@@ -159,14 +159,14 @@ double cycles_of_passage(const FoldPassage& fold, double overshoot) {
 
 double cycles_of_passage(const FoldPassage& fold, double overshoot, double from, double to) {
     const double root = fold.root(overshoot);
-    cycles_of_passage(fold, overshoot); // refuses what is no overshoot
+    cycles_of_passage(fold, overshoot); // refuses an invalid overshoot
     return (std::atan(fold.coefficient * to / root) - std::atan(fold.coefficient * from / root)) / root;
 }
 
 double least_overshoot(const FoldPassage& fold) {
-    // The state of a fold is known to the root of round-off, which moves the parameter by round-off only.
-    constexpr double digits = 1e-15, enough = 1e3, of_states = 1e-11;
-    const double by_states = of_states * fold.gate / std::abs(fold.rate);
+    // The state of a fold is known to the square root of round-off, which changes the parameter by round-off only.
+    constexpr double digits = 1e-15, enough = 1e3, state_resolution = 1e-11;
+    const double by_states = state_resolution * fold.gate / std::abs(fold.rate);
     return std::max(by_states, enough * digits * std::abs(fold.value));
 }
 

@@ -12,7 +12,7 @@ namespace graze {
 
 namespace {
 
-/// A point of another kind may be on a curve of folds. Touches come first.
+/// True for folds and for points on curves of folds that are not touches.
 bool is_fold(const SpecialPoint& point) {
     if (point.type == PointType::fold)
         return true;
@@ -23,7 +23,8 @@ bool is_fold(const SpecialPoint& point) {
 
 LossPoint of_fold(const System& system, const SpecialPoint& special, const std::vector<ParameterId>& candidates) {
     if (candidates.empty())
-        throw InputError("nothing is said to move the orbit from its fold", "name a parameter by --parameter NAME");
+        throw InputError("no parameter is given that moves the orbit from its fold",
+                         "name a parameter by --parameter NAME");
     std::optional<FoldPassage> fold;
     for (const ParameterId one : candidates)
         try {
@@ -51,7 +52,8 @@ LossPoint of_touch(const System& system, const SpecialPoint& special, const std:
     Verdict verdict = verdict_of(found.map);
     const double level = level_of_map(found.map, verdict);
     if (!found.parameter || !found.map.clearance_rate || *found.map.clearance_rate == 0)
-        throw InputError("nothing is said to move the orbit from its touch", "name a parameter by --parameter NAME");
+        throw InputError("no parameter is given that moves the orbit from its touch",
+                         "name a parameter by --parameter NAME");
     LossPoint point{
         .system = system, .orbit = special.solution.orbit, .parameter = *found.parameter, .name = {}, .unit = {}};
     point.value = found.map.contact.touch.parameters[found.parameter->place()];

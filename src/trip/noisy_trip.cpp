@@ -22,40 +22,40 @@ namespace graze {
 
 namespace {
 
-/// Noise of unit size, value after value.
+/// The Ornstein-Uhlenbeck noise of unit variance, one value per cycle.
 class Noise {
 public:
     Noise(const NoiseSettings& settings, std::size_t motion)
-        : seed_(settings.seed), motion_(motion), keeps_(settings.memory > 0 ? std::exp(-1 / settings.memory) : 0),
-          gains_(std::sqrt(1 - keeps_ * keeps_)), value_(drawn_normal(seed_, motion, 0)) {}
+        : seed_(settings.seed), motion_(motion), correlation_(settings.memory > 0 ? std::exp(-1 / settings.memory) : 0),
+          innovation_(std::sqrt(1 - correlation_ * correlation_)), value_(drawn_normal(seed_, motion, 0)) {}
     double value() const { return value_; }
-    void step() { value_ = keeps_ * value_ + gains_ * drawn_normal(seed_, motion_, ++count_); }
+    void step() { value_ = correlation_ * value_ + innovation_ * drawn_normal(seed_, motion_, ++count_); }
 
 private:
     std::uint64_t seed_;
     std::size_t motion_, count_ = 0;
-    double keeps_, gains_, value_;
+    double correlation_, innovation_, value_;
 };
 
 enum class Fate { not_made, rests, trips, fails };
 struct Motion {
     Fate fate = Fate::not_made;
-    double cycles = 0;                ///< until it has tripped
-    Ending ending = Ending::end_time; ///< of its simulation
+    double cycles = 0;                ///< cycles until the trip
+    Ending ending = Ending::end_time; ///< how the simulation ended
 };
 
-/// All motions at one level of the noise.
+/// Simulates all motions at one level of the noise.
 class NoisyMotions {
 public:
     NoisyMotions(const TripOrigin& origin, const Simulation& simulation, double level, const TripEnd& end,
                  const NoiseSettings& settings)
         : origin_(origin), simulation_(simulation), level_(level), end_(end), settings_(settings),
           parameters_(origin.parameters), motions_(settings.motions) {
-        parameters_.push_back(0); // the rate of what is shifted in steps
+        parameters_.push_back(0); // rate of the parameter, which changes only from cycle to cycle
     }
 
     std::vector<Motion> make() {
-        constexpr std::size_t enough = 16; // motions, for which a thread is worth its start
+        constexpr std::size_t enough = 16; // number of motions that justifies a thread
         const std::size_t jobs =
             std::clamp<std::size_t>(settings_.motions / enough, 1, static_cast<std::size_t>(settings_.jobs));
         {
@@ -71,7 +71,7 @@ public:
     bool stopped() const { return stopped_; }
 
 private:
-    /// One place in which a motion after another is followed, cycle by cycle.
+    /// A lane of the ensemble, in which motions are simulated one after another, cycle by cycle.
     struct Slot {
         Slot(const NoisyMotions& all)
             : watch(all.end_, [&all](const Contact& contact) { return all.origin_.counts(contact); }, {}),
@@ -83,7 +83,7 @@ private:
         bool used = false;
     };
 
-    void work(bool tells) {
+    void work(bool reports_progress) {
         try {
             Ensemble ensemble(simulation_);
             std::vector<std::unique_ptr<Slot>> slots;
@@ -95,9 +95,9 @@ private:
             }
             ensemble.run(places, [&](std::size_t i) -> Trajectory* {
                 Slot& slot = *slots[i];
-                if (goes_on(slot))
+                if (continues(slot))
                     return &slot.trajectory;
-                if (tells && settings_.progress)
+                if (reports_progress && settings_.progress)
                     settings_.progress(done_);
                 return begin(slot) ? &slot.trajectory : nullptr;
             });
@@ -109,7 +109,7 @@ private:
         }
     }
 
-    /// The next motion that nobody has begun, if there is one.
+    /// Starts the next motion in a slot. @return false if none is left
     bool begin(Slot& slot) {
         if (settings_.interrupted && settings_.interrupted())
             stopped_ = true;
@@ -128,8 +128,8 @@ private:
         state.back() = level_ * slot.noise.value();
         slot.trajectory.start(state, mode, cycle * origin_.cycle, (cycle + 1) * origin_.cycle);
     }
-    /// @return false when the motion is over, after it has been noted
-    bool goes_on(Slot& slot) {
+    /// Starts the next cycle of a motion. @return false when the motion has ended, after recording its outcome
+    bool continues(Slot& slot) {
         const Outcome& outcome = slot.trajectory.outcome();
         Motion& motion = motions_[slot.motion];
         const TripTime trip = slot.watch.trip(outcome);
@@ -158,11 +158,11 @@ private:
     std::vector<Motion> motions_;
     std::atomic<std::size_t> next_{0}, done_{0};
     std::atomic<bool> stopped_{false};
-    std::mutex mutex_; ///< of the error
+    std::mutex mutex_; ///< guards error_
     std::exception_ptr error_;
 };
 
-/// How many motions have the parameter beyond the point at any time, whether they trip or not.
+/// Counts the motions whose parameter is beyond the loss point at any time, whether they trip or not.
 std::size_t count_beyond(const TripOrigin& origin, double level, const NoiseSettings& settings) {
     std::size_t count = 0;
     const double margin = origin.point - origin.value;
@@ -181,7 +181,7 @@ std::size_t count_beyond(const TripOrigin& origin, double level, const NoiseSett
 void NoiseSettings::validate() const {
     constexpr std::size_t most = 100'000'000;
     if (!(memory >= 0 && memory <= 1e9))
-        throw InputError(fmt::format("noise cannot remember {} cycles", memory), "give 0 to 1e9");
+        throw InputError(fmt::format("the memory of {} cycles is out of range", memory), "give 0 to 1e9");
     if (motions == 0 || motions > most)
         throw InputError(fmt::format("{} motions are out of range", motions), fmt::format("choose from 1 to {}", most));
     if (cycles == 0 || cycles > most)
@@ -190,7 +190,7 @@ void NoiseSettings::validate() const {
         throw InputError(fmt::format("{} jobs cannot do anything", jobs), "give at least one");
     if (!(tolerance >= 1e-16 && tolerance <= 1e-2))
         throw InputError(fmt::format("the tolerance {} is out of range", tolerance), "give 1e-16 to 1e-2");
-    wilson_interval(0, 1, confidence); // refuses what is no share
+    wilson_interval(0, 1, confidence); // refuses an invalid confidence
 }
 
 NoisyTrips noisy_trips(const System& system, const TripOrigin& origin, double level, const TripEnd& end,

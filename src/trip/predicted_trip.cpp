@@ -48,8 +48,8 @@ double explicit_rate(const CycleMap& map) {
 
 namespace {
 
-/// Iterates the map from pass to pass. The state is measured in a unit, which before the first contact is the
-/// overshoot: all is in proportion to it then, and nothing becomes too small for a number.
+/// Iterates the map from pass to pass. Before the first contact the state is in units of the overshoot, to which it is
+/// proportional, so that nothing underflows.
 class Passes {
 public:
     Passes(const CycleMap& map, double overshoot, std::span<const double> disturbance)
@@ -70,17 +70,17 @@ public:
         begin(map, disturbance);
     }
 
-    double speed() const { return speed_; } ///< of the contact at this pass; 0 without
+    double speed() const { return speed_; } ///< approach speed of the contact at this pass; 0 without one
     double cycle() const { return cycle_; }
     std::vector<double> state() const { return list_of(state_ * unit_); }
-    std::vector<double> state_before() const { return list_of(before_); } ///< at the pass before
+    std::vector<double> state_before() const { return list_of(before_); } ///< state at the previous pass
     double speed_before() const { return speed_before_; }
-    /// On to the next pass.
+    /// Advances to the next pass.
     void step() {
         before_ = state_ * unit_;
         speed_before_ = speed_;
         if (speed_ > 0) {
-            // What slides gains by the depth.
+            // A sliding motion is shifted in proportion to the depth.
             const double gained = slides_ ? speed_ * speed_ / (2 * acceleration_) : speed_;
             state_ = (state_ * unit_ + impact_ * gained).eval();
             unit_ = 1;
@@ -89,35 +89,35 @@ public:
         state_ = (matrix_ * state_).eval();
         ++cycle_;
         ++steps_;
-        judge(clearance_ + gradient_.dot(state_));
+        set_speed(clearance_ + gradient_.dot(state_));
     }
-    /// On to the next contact. @return false if there is none
+    /// Advances to the next contact. @return false if there is none
     bool find_contact() {
         constexpr int one_by_one = 100'000;
         step();
         for (int k = 1; k < one_by_one && speed_ == 0; ++k)
             step();
-        return speed_ > 0 || jump();
+        return speed_ > 0 || skip_free_passes();
     }
     std::size_t steps() const { return steps_; }
 
 private:
     static std::vector<double> list_of(const Eigen::VectorXd& vector) { return {vector.begin(), vector.end()}; }
-    void judge(double gap) { speed_ = gap < 0 ? std::sqrt(-2 * acceleration_ * gap) * std::sqrt(unit_) : 0; }
+    void set_speed(double gap) { speed_ = gap < 0 ? std::sqrt(-2 * acceleration_ * gap) * std::sqrt(unit_) : 0; }
 
-    /// The beginning is at the touch itself: only what moves the surface, or a disturbance, makes a contact there. A
-    /// disturbance may begin with a speed towards the surface.
+    /// Sets the contact at the start, which is at the touch itself: only an explicit shift of the surface, or a
+    /// disturbance towards it, makes a contact there.
     void begin(const CycleMap& map, std::span<const double> disturbance) {
         if (disturbance.empty()) {
-            judge(explicit_rate(map) * (overshoot_ / unit_));
+            set_speed(explicit_rate(map) * (overshoot_ / unit_));
             return;
         }
         const TouchMeeting meeting = meeting_of(map, overshoot_, disturbance);
         speed_ = meeting.speed;
     }
 
-    /// Over as many passes without contact as there are, by squares of the map.
-    bool jump() {
+    /// Skips all passes without contact by repeated squaring of the map.
+    bool skip_free_passes() {
         constexpr int most = 60;
         std::vector<Eigen::MatrixXd> powers{matrix_};
         const auto gap_after = [&](const Eigen::MatrixXd& power) { return clearance_ + gradient_.dot(power * state_); };
@@ -145,8 +145,8 @@ private:
     std::size_t steps_ = 0;
 };
 
-/// Notes from where a simulation may go on. The half of an orbit ends in its image: only whole ones bring back the
-/// model's own states, at the pass before if there is no contact. @return whether it may
+/// Stores the state from which a simulation may continue. For half orbits only every second pass has the model's own
+/// states; otherwise the previous pass is used, if it has no contact. @return false where that is impossible
 bool hand_over(PredictedTrip& trip, const Passes& passes, bool half) {
     const bool image = half && std::fmod(passes.cycle(), 2) != 0;
     if (image && (passes.speed_before() > 0 || passes.cycle() < 1))
@@ -164,7 +164,8 @@ std::vector<double> usual_overshoots(double value, int side) {
     constexpr int least = 20;
     std::vector<double> result;
     for (int digits = 2; digits <= least; digits += 2)
-        if (const double overshoot = rounded(std::pow(10.0, size - digits), 1); overshoot > 0) // not beyond all numbers
+        if (const double overshoot = rounded(std::pow(10.0, size - digits), 1);
+            overshoot > 0) // skip values that underflow
             result.push_back(side < 0 ? -overshoot : overshoot);
     return result;
 }
@@ -182,7 +183,7 @@ TouchMeeting meeting_of(const CycleMap& map, double overshoot, std::span<const d
     return meeting;
 }
 
-/// Of the speeds up to which contacts grow at all, as the map has them.
+/// Share of the reach of the growth up to which the map is trusted.
 constexpr double trusted_share = 0.1;
 
 double level_of_map(const CycleMap& map, const Verdict& verdict) {
@@ -220,8 +221,8 @@ PredictedTrip predicted_trip(const CycleMap& map, const Verdict& verdict, double
             trip.first_cycles = trip.cycles;
         }
         const bool last = trip.ended || trip.contacts + 1 >= options.contacts || passes.steps() > most_steps;
-        // A simulation needs contacts that it can tell from none, and the map's next order is smaller than it by about
-        // speed over reach.
+        // Hand over at a contact that a simulation resolves but that is soft enough for the map, whose relative error
+        // is about speed over reach.
         constexpr double soft = 1e-4;
         if (!handed && (last || trip.speed > soft * trusted))
             handed = (trip.contacts == 0 && trip.speed > soft * trusted) || hand_over(trip, passes, map.half);
@@ -230,11 +231,11 @@ PredictedTrip predicted_trip(const CycleMap& map, const Verdict& verdict, double
             break;
         found = passes.find_contact();
     }
-    // So far beyond the touch nothing goes by its map.
+    // So far beyond the touch the map is not valid.
     const bool too_far = trip.first_speed > trusted / trusted_share;
     trip.ended = trip.ended && !too_far;
     trip.ending = trip.ended ? "speed" : (too_far ? "too-far" : "none");
-    // A contact is before the pass by its speed over the acceleration.
+    // A contact precedes the pass by its speed over the acceleration.
     trip.time = trip.cycles * map.time - trip.speed / map.contact.acceleration;
     return trip;
 }

@@ -15,17 +15,17 @@ namespace graze {
 
 namespace {
 
-/// A motion that begins beside a touch, at the time of the touch.
-struct Beginning {
+/// The start of a motion near a touch, at the time of the touch.
+struct TouchStart {
     std::vector<double> state, parameters;
     TouchMeeting meeting;
 };
 
-TripTime follow(const System& system, const CycleMap& map, Beginning begin, const TripEnd& end,
+TripTime follow(const System& system, const CycleMap& map, TouchStart begin, const TripEnd& end,
                 const TripOptions& options) {
     const TouchState& touch = map.contact.touch;
     const Simulation simulation = simulation_until(system, end, options);
-    // What would begin beyond the surface begins before its contact, which is before the touch by speed over
+    // A start beyond the surface is moved back to before its contact, which precedes the touch by speed over
     // acceleration.
     double early = 0;
     if (begin.meeting.gap < 0) {
@@ -39,11 +39,11 @@ TripTime follow(const System& system, const CycleMap& map, Beginning begin, cons
             return trip;
         }
     }
-    // The image of a touch, at the end of half of an orbit, may be one of another event. Contacts that the orbit has
-    // anyway do not count.
+    // For half orbits the image of the touch may belong to another event. The orbit's other contacts do not count.
     const double period = map.half ? map.time : map.period;
     const auto counts = [&](const Contact& contact) {
-        return (contact.event == map.touch.event || (map.half && !is_harmless(system, contact.transition))) &&
+        return (contact.event == map.touch.event ||
+                (map.half && !is_identity_transition(system, contact.transition))) &&
                is_at_touch(map, contact.time - early, period);
     };
     EndWatch watch(end, counts, options.interrupted);
@@ -54,11 +54,11 @@ TripTime follow(const System& system, const CycleMap& map, Beginning begin, cons
     return trip;
 }
 
-Beginning beginning_of(const System& system, const CycleMap& map, ParameterId parameter, double overshoot) {
+TouchStart touch_start_of(const System& system, const CycleMap& map, ParameterId parameter, double overshoot) {
     const TouchState& touch = map.contact.touch;
     if (touch.state.size() != system.states() || touch.parameters.size() != system.parameters())
         throw InputError("the map belongs to another model", "give the system that it was made from");
-    Beginning begin{touch.state, touch.parameters, {}};
+    TouchStart begin{touch.state, touch.parameters, {}};
     begin.parameters[parameter.place()] += overshoot;
     return begin;
 }
@@ -88,9 +88,9 @@ double least_overshoot(const CycleMap& map, ParameterId parameter) {
     const TouchState& touch = map.contact.touch;
     for (std::size_t i = 0; i < touch.state.size(); ++i)
         size += std::abs(map.contact.gradient[i]) * touch.scales[i];
-    // The touch itself is known to some digits less than numbers have.
-    constexpr double digits = 1e-15, enough = 1e3, of_states = 1e-11;
-    return std::max(of_states * size / std::abs(*map.clearance_rate),
+    // The touch itself is known to fewer digits than double precision has.
+    constexpr double digits = 1e-15, enough = 1e3, state_resolution = 1e-11;
+    return std::max(state_resolution * size / std::abs(*map.clearance_rate),
                     enough * digits * std::abs(touch.parameters[parameter.place()]));
 }
 
@@ -99,7 +99,7 @@ TripTime simulated_trip(const System& system, const CycleMap& map, ParameterId p
     options.validate();
     require_end(end);
     require_trip(map, overshoot, options.disturbance);
-    Beginning begin = beginning_of(system, map, parameter, overshoot);
+    TouchStart begin = touch_start_of(system, map, parameter, overshoot);
     for (std::size_t i = 0; i < options.disturbance.size(); ++i)
         begin.state[i] += options.disturbance[i];
     begin.meeting = meeting_of(map, overshoot, options.disturbance);
@@ -115,7 +115,7 @@ TripTime continued_trip(const System& system, const CycleMap& map, ParameterId p
     require_trip(map, overshoot, options.disturbance);
     if (predicted.handed.size() != map.active.size())
         throw InputError("the prediction belongs to another map", "give the map that it was made from");
-    Beginning begin = beginning_of(system, map, parameter, overshoot);
+    TouchStart begin = touch_start_of(system, map, parameter, overshoot);
     begin.meeting.gap = *map.clearance_rate * overshoot;
     for (std::size_t i = 0; i < map.active.size(); ++i) {
         begin.state[map.active[i]] += map.steady[i] * overshoot + predicted.handed[i];
@@ -133,7 +133,7 @@ TripTime simulate_until(const System& system, std::span<const double> parameters
                         std::size_t mode, double cycle, const TripEnd& end, const TripOptions& options) {
     options.validate();
     const Simulation simulation = simulation_until(system, end, options);
-    // It is no matter of one touched surface: any hard contact will do.
+    // Contacts at all surfaces count.
     const auto counts = [&](const Contact& contact) {
         return system.model().events[contact.event].kind == EventKind::barrier;
     };

@@ -8,7 +8,7 @@ namespace graze {
 
 namespace {
 
-/// A grazing is kept with its place; others are looked through for one.
+/// Returns the touch of a grazing, or the touch of the orbit of another point.
 OrbitTouch touch_of(const System& system, const SpecialPoint& point, std::string_view orbit) {
     if (point.type == PointType::grazing)
         return {point.segment, point.event, point.time, point.at_end};

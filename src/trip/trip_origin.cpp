@@ -13,7 +13,7 @@ namespace graze {
 
 namespace {
 
-constexpr double tolerance = 1e-14;
+constexpr double closing_tolerance = 1e-14;
 
 void require_before(const System& system, ParameterId parameter, double value, double point, int side) {
     if (!std::isfinite(value))
@@ -24,7 +24,7 @@ void require_before(const System& system, ParameterId parameter, double value, d
                          side > 0 ? "give a smaller value" : "give a greater value");
 }
 
-/// From one orbit on to that at another value, in as many steps as it takes.
+/// Follows an orbit to another value of the parameter, in as many steps as needed.
 OrbitSolution followed_to(const System& system, Orbit orbit, ParameterId parameter, double value) {
     constexpr int most_parts = 64;
     OrbitSolution solution;
@@ -50,23 +50,23 @@ OrbitSolution followed_to(const System& system, Orbit orbit, ParameterId paramet
                      "give a value nearer to the point");
 }
 
-/// The state amid the longest arc.
-TripOrigin beginning_on(const System& system, const Orbit& orbit, ParameterId parameter, double point) {
+/// Returns the origin in the middle of the longest arc.
+TripOrigin origin_on(const System& system, const Orbit& orbit, ParameterId parameter, double point) {
     TripOrigin origin;
     origin.parameter = parameter;
     origin.point = point;
     origin.value = orbit.parameters[parameter.place()];
-    origin.cycle = orbit.round();
+    origin.cycle = orbit.return_time();
     origin.parameters = orbit.parameters;
-    // Of arcs as long as each other but for round-off, the first.
-    constexpr double alike = 1 - 1e-9;
-    const double most = alike * *std::max_element(orbit.durations.begin(), orbit.durations.end());
+    // The first of several arcs of equal length, up to round-off.
+    constexpr double equal_length = 1 - 1e-9;
+    const double most = equal_length * *std::max_element(orbit.durations.begin(), orbit.durations.end());
     std::size_t longest = 0;
     while (longest + 1 < orbit.durations.size() && orbit.durations[longest] < most)
         ++longest;
     origin.mode = orbit.signature[longest].mode;
     origin.state = orbit.starts[longest];
-    ModeFlow flow(system, tolerance);
+    ModeFlow flow(system, closing_tolerance);
     flow.set_parameters(orbit.parameters);
     if (flow.run(origin.mode, origin.state, orbit.durations[longest] / 2) != ModeFlow::Ending::done)
         throw InputError("the orbit cannot be followed", "give a value nearer to the point");
@@ -76,7 +76,8 @@ TripOrigin beginning_on(const System& system, const Orbit& orbit, ParameterId pa
 } // namespace
 
 bool TripOrigin::counts(const Contact& contact) const {
-    return contact.event == event || (half && contact.rate_after >= 0); // of the image, what throws back
+    return contact.event == event ||
+           (half && contact.rate_after >= 0); // for the image, contacts that reverse the motion
 }
 
 TripOrigin trip_origin(const System& system, const Orbit& orbit, const CycleMap& map, ParameterId parameter,
@@ -86,17 +87,17 @@ TripOrigin trip_origin(const System& system, const Orbit& orbit, const CycleMap&
     const double point = map.contact.touch.parameters.at(parameter.place());
     require_before(system, parameter, value, point, *map.clearance_rate < 0 ? 1 : -1);
     const Orbit whole = whole_orbit(system, orbit);
-    TripOrigin origin = beginning_on(system, followed_to(system, whole, parameter, value).orbit, parameter, point);
+    TripOrigin origin = origin_on(system, followed_to(system, whole, parameter, value).orbit, parameter, point);
     origin.cycle = map.half ? origin.cycle / 2 : origin.cycle;
     origin.event = map.contact.touch.event;
     origin.half = map.half;
     return origin;
 }
 
-/// Near the fold by its normal form, and along the branch from there.
+/// Computes the origin near the fold by its normal form, then follows the branch from there.
 TripOrigin trip_origin(const System& system, const FoldPassage& fold, double value) {
     require_before(system, fold.parameter, value, fold.value, fold.side);
-    // As far as half of the gate.
+    // Half of the gate.
     constexpr double share = 0.5;
     const double w = share * fold.gate;
     double near = fold.value - fold.side * fold.coefficient * w * w / std::abs(fold.rate);
@@ -110,10 +111,10 @@ TripOrigin trip_origin(const System& system, const FoldPassage& fold, double val
     std::vector<double> state = fold.orbit.starts.front();
     for (std::size_t i = 0; i < state.size(); ++i)
         state[i] -= along * fold.critical[i];
-    constexpr double more = 1.5; // than one cycle
-    const Simulation simulation(system, {}, {}, integration(tolerance));
+    constexpr double longer = 1.5; // slightly more than one cycle
+    const Simulation simulation(system, {}, {}, integration(closing_tolerance));
     const FollowedMotion motion =
-        follow_motion(simulation, guess.parameters, state, guess.signature.front().mode, more * fold.cycle);
+        follow_motion(simulation, guess.parameters, state, guess.signature.front().mode, longer * fold.cycle);
     const auto sections = std::any_of(guess.signature.begin(), guess.signature.end(),
                                       [](const Segment& one) { return one.end != SegmentEnd::event; });
     if (!sections && motion.segments.size() >= guess.signature.size() &&
@@ -128,7 +129,7 @@ TripOrigin trip_origin(const System& system, const FoldPassage& fold, double val
     const OrbitSolution first = solve_orbit(system, guess);
     if (first.outcome == OrbitOutcome::converged)
         guess = first.orbit;
-    return beginning_on(system, followed_to(system, guess, fold.parameter, value).orbit, fold.parameter, fold.value);
+    return origin_on(system, followed_to(system, guess, fold.parameter, value).orbit, fold.parameter, fold.value);
 }
 
 TripOrigin trip_origin(const LossPoint& point, double value) {

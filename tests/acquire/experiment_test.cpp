@@ -87,7 +87,8 @@ TEST(Experiment, ErrorsHavePlaceAndRemedy) {
     EXPECT_THAT(message("timeout = 0.2", "attempts = 1.5"),
                 HasSubstr("generator.attempts is 1.5; give a whole number from 1 to 100"));
     EXPECT_THAT(message("timeout = 0.2", "attempts = \"a\""), HasSubstr("must be a whole number, not a string"));
-    EXPECT_THAT(message("rate = 500", "rate = 500\nchannels = [\"V,I\"]"), HasSubstr("'V,I' is not a name of a channel"));
+    EXPECT_THAT(message("rate = 500", "rate = 500\nchannels = [\"V,I\"]"),
+                HasSubstr("'V,I' is not a name of a channel"));
     EXPECT_THAT(message("rate = 500", "rate = 500\npatience = 0.5"), HasSubstr("samples.patience is 0.5"));
     const std::string falling = message("frequency = [1, 20]", "frequency = [20, 1]");
     EXPECT_THAT(falling, HasSubstr("limits.frequency goes from 20 to 1; give the smaller one first"));

@@ -95,7 +95,8 @@ TEST(SampleDevice, RefusesSamplesThatTakeTooLongInAll) {
         device.read(part);
         FAIL() << "it was waited for";
     } catch (const InstrumentError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("has sent only 1 of 3 samples, which last 0.3 s, in 1e-12 times that time"));
+        EXPECT_THAT(error.what(),
+                    HasSubstr("has sent only 1 of 3 samples, which last 0.3 s, in 1e-12 times that time"));
     }
 }
 

@@ -4,8 +4,8 @@
 
 namespace graze::testing {
 
-/// x'' + x = friction(1 - x') + amplitude cos(nu t), with a cubic law of friction (M. di Bernardo, P. Kowalczyk and A.
-/// B. Nordmark, Int. J. Bifurcation Chaos 13, 2003).
+/// x'' + x = friction(1 - x') + amplitude cos(nu t), with cubic friction (M. di Bernardo, P. Kowalczyk and A. B.
+/// Nordmark, Int. J. Bifurcation Chaos 13, 2003).
 inline Model belt() {
     return model_from(R"toml(
 name = "belt"

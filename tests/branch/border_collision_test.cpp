@@ -1,5 +1,5 @@
 // Border collisions of maps (H. E. Nusse and J. A. Yorke, 1992) as orbits whose guard changes: the fixed points on both
-// sides of the border, and what becomes of them, are known in closed form.
+// sides of the border and their bifurcations have closed forms.
 
 #include "follow.hpp"
 
@@ -20,7 +20,7 @@ struct Border {
     bool is_nonsmooth_fold() const {
         return (1 - left_trace + left_determinant) * (1 - right_trace + right_determinant) < 0;
     }
-    /// Modulus of the larger multiplier of the fixed point on the left.
+    /// Returns the modulus of the larger multiplier of the fixed point on the left.
     double left_multiplier() const {
         const double discriminant = left_trace * left_trace / 4 - left_determinant;
         return discriminant < 0 ? std::sqrt(left_determinant) : std::abs(left_trace / 2) + std::sqrt(discriminant);
@@ -86,7 +86,7 @@ Branch branch_to_the_left(const Border& border) {
     return follow_branch(model, orbit, settings);
 }
 
-TEST(BorderCollision, leads_to_the_fixed_point_beyond_or_back_on_the_other_one) {
+TEST(BorderCollision, BranchLeadsToTheFixedPointBeyondOrBackOnTheOtherOne) {
     std::mt19937 random(29);
     std::uniform_real_distribution<double> trace(-2.5, 2.5), determinant(-0.9, 0.9);
     int folds = 0;

@@ -1,4 +1,4 @@
-// Bounds hold whatever else lies in the step that comes to them: branch points, folds, and both at once.
+// Bounds hold also if the last step contains branch points, folds, or both.
 
 #include "driven_oscillator.hpp"
 #include "follow.hpp"
@@ -63,7 +63,7 @@ void expect_within(const Branch& branch, double least, double greatest) {
     EXPECT_TRUE(end == least || end == greatest) << end;
 }
 
-TEST(Bounds, hold_beside_and_on_a_branch_point) {
+TEST(Bounds, HoldNearAndAtABranchPoint) {
     // Two straight branches cross at mu = 0: u = mu and u = 0.
     const Model model = about_a_clock("mu*u - u^2");
     for (const double bound : {0.0, 1e-3, 1e-7, 1e-10, -1e-10, -1e-7, -1e-4, -0.01, -0.3})
@@ -72,7 +72,7 @@ TEST(Bounds, hold_beside_and_on_a_branch_point) {
                 follow_branch(model, orbit_at(model, 1, straight ? 0 : 1), between(model, bound, 2, -1));
             expect_within(branch, bound, 2);
             EXPECT_EQ(branch.points.back().parameter, bound) << bound;
-            if (bound <= 0 || bound > 1e-9) { // nearer before the crossing, round-off decides on which side that is
+            if (bound <= 0 || bound > 1e-9) { // just before the crossing, round-off decides on which side the bound is
                 EXPECT_EQ(names(branch), bound <= 0 ? "BP BD" : "BD") << bound;
             }
             for (const SpecialPoint& point : of_type(branch, PointType::branch_point))
@@ -86,8 +86,8 @@ TEST(Bounds, hold_beside_and_on_a_branch_point) {
     }
 }
 
-TEST(Bounds, hold_beside_a_pitchfork_and_a_fold) {
-    // On the parabola mu = u^2 the parameter turns where the other branch crosses.
+TEST(Bounds, HoldNearAPitchforkAndAFold) {
+    // On the parabola mu = u^2 the fold is at the crossing with the other branch.
     const Model pitchfork = about_a_clock("mu*u - u^3");
     for (const double bound : {1e-2, 1e-4, 1e-7})
         expect_within(follow_branch(pitchfork, orbit_at(pitchfork, 1, 1), between(pitchfork, bound, 2, -1)), bound, 2);
@@ -100,7 +100,7 @@ TEST(Bounds, hold_beside_a_pitchfork_and_a_fold) {
     EXPECT_EQ(beyond.points.back().parameter, 2);
 }
 
-TEST(Bounds, hold_on_branches_that_leave_a_point) {
+TEST(Bounds, HoldOnBranchesThatLeaveAPoint) {
     const Model model = about_a_clock("mu*u - u^2");
     for (const double bound : {-1e-3, -1e-5, -0.5}) {
         const BranchSettings settings = between(model, bound, 2, -1);
@@ -121,7 +121,7 @@ TEST(Bounds, hold_on_branches_that_leave_a_point) {
     }
 }
 
-TEST(Bounds, of_monitors_hold_from_the_first_orbit_on) {
+TEST(Bounds, BoundsOfMonitorsHoldFromTheFirstOrbitOn) {
     const Model model = about_a_clock("mu - u");
     BranchSettings settings = between(model, -2, 2, 1);
     settings.monitors = {{"start", "", Monitor::Kind::start, model.symbol("x"), "", false, {}, {}, 1.2, 1.5}};
@@ -134,7 +134,7 @@ TEST(Bounds, of_monitors_hold_from_the_first_orbit_on) {
     EXPECT_NEAR(branch.points.back().parameter, 0.5, 1e-9);
 }
 
-TEST(Bounds, orbits_that_leave_a_touch_beside_a_bound_begin_within_it) {
+TEST(Bounds, OrbitsThatLeaveATouchNearABoundBeginWithinIt) {
     const DrivenOscillator known;
     const Model model = known.model();
     const SpecialPoint touch = known.grazing(model);

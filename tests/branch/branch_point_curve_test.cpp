@@ -1,4 +1,4 @@
-// Curves of branch points where no symmetry is declared, against closed forms.
+// Curves of branch points of models without declared symmetry, against closed forms.
 
 #include "follow.hpp"
 
@@ -16,7 +16,8 @@ namespace {
 
 using namespace graze::testing;
 
-/// u' = f(u) in units of length and time, where x = u + cos(theta) and nothing shows that u = 0 always solves it.
+/// u' = f(u) in units of length and time, with x = u + cos(theta), so that the solution u = 0 is not apparent from the
+/// equations.
 Model hidden(const std::string& rate, double length = 1, double time = 1) {
     return model_from(fmt::format(R"toml(
 [parameters]
@@ -40,7 +41,7 @@ struct Followed {
     Branch branch, curve;
 };
 
-/// The branch u = 0 in a, and the curve of its first branch point in a and b.
+/// Follows the branch u = 0 in a, and the curve of its first branch point in a and b.
 Followed followed(const Model& model) {
     BranchSettings settings;
     settings.parameter = model.independent_parameter("a");
@@ -65,13 +66,13 @@ void expect_on(const Branch& curve, double (*first)(double)) {
     EXPECT_EQ(curve.outcome, BranchOutcome::bound);
     for (const BranchPoint& point : curve.points) {
         const auto& parameters = point.solution.orbit.parameters;
-        // By the accuracy of the integration, over a period in which nothing grows.
+        // The accuracy of the integration over a period without growth.
         EXPECT_NEAR(parameters[0], first(parameters[1]), 1e-11);
         EXPECT_LT(nearest_multiplier(point.solution, 1), 1e-10);
     }
 }
 
-TEST(BranchPointCurve, of_a_pitchfork_is_that_of_its_closed_form) {
+TEST(BranchPointCurve, PitchforkHasItsClosedForm) {
     using Units = std::pair<double, double>;
     for (const auto& [length, time] : {Units(1, 1), Units(1e-9, 1e-6), Units(1e6, 1e3)}) {
         const Followed found = followed(hidden("(a - b^2)*u - u^3", length, time));
@@ -82,25 +83,24 @@ TEST(BranchPointCurve, of_a_pitchfork_is_that_of_its_closed_form) {
     }
 }
 
-TEST(BranchPointCurve, of_a_transcritical_point_is_that_of_its_closed_form) {
+TEST(BranchPointCurve, TranscriticalPointHasItsClosedForm) {
     const Followed found = followed(hidden("(a - b^3)*u - u^2"));
     ASSERT_FALSE(of_type(found.branch, PointType::branch_point).empty()) << names(found.branch);
     expect_on(found.curve, [](double b) { return b * b * b; });
 }
 
-TEST(BranchPointCurve, does_not_begin_where_branches_part) {
-    // At b = 0.8 only the two branches cross.
+TEST(BranchPointCurve, DoesNotBeginWhereThePerturbationSeparatesTheBranches) {
+    // The two branches cross at b = 0.8 only.
     const Followed found = followed(hidden("(a - b^2)*u - u^3 + (b - 0.8)*(1 + sin(theta))/10"));
     ASSERT_FALSE(of_type(found.branch, PointType::branch_point).empty()) << names(found.branch);
     EXPECT_NE(found.curve.outcome, BranchOutcome::bound);
-    for (const BranchPoint& point : found.curve.points) // the first one, and what cannot be told from it
+    for (const BranchPoint& point : found.curve.points) // the first point, and points that differ by round-off
         EXPECT_NEAR(point.solution.orbit.parameters[1], 0.8, 1e-5);
     EXPECT_NE(found.curve.detail.find("part there"), std::string::npos) << found.curve.detail;
 }
 
-/// Orbits with impacts that lose their symmetry, with and without its being declared: by other equations, of half or of
-/// whole orbits.
-TEST(BranchPointCurve, of_symmetric_orbits_is_the_loss_of_the_symmetry_that_is_not_declared) {
+/// Symmetry breaking of orbits with impacts, with the symmetry declared (half orbits) and undeclared (whole orbits).
+TEST(BranchPointCurve, EqualsTheSymmetryBreakingOfAnUndeclaredSymmetry) {
     Model model = load_model("electromagnetic-testbed");
     model.set_initial("I", 0.1);
     std::vector<double> ends;

@@ -1,5 +1,5 @@
-// A DC/DC buck converter (J. H. B. Deane and D. C. Hamill, IEEE Trans. Power Electron. 5, 1990): a switch whose surface
-// is left and entered again, where it is zero at the start of each arc by construction.
+// A DC/DC buck converter (J. H. B. Deane and D. C. Hamill, IEEE Trans. Power Electron. 5, 1990): the switching function
+// is zero at the start of each arc by construction.
 
 #include "follow.hpp"
 
@@ -68,7 +68,7 @@ direction = "falling"
 mode = "on"
 )toml";
 
-TEST(BuckConverter, grazes_nothing_where_its_switch_is_made) {
+TEST(BuckConverter, StartOnTheSwitchingSurfaceIsNotAGrazing) {
     const Model model = model_from(converter);
     BranchSettings settings;
     settings.parameter = model.independent_parameter("E");

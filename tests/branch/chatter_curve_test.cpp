@@ -13,7 +13,7 @@ namespace {
 
 using namespace graze::testing;
 
-/// The oscillator's onset, and settings of its curve in the force, with the stop free.
+/// The oscillator's onset of chatter, and settings of its curve in the force with the stop free.
 struct Onset {
     Onset() : model(chattering_oscillator(0.5, 1, 1)) {
         const BranchSettings along = of_oscillator(model, 1);
@@ -32,10 +32,10 @@ struct Onset {
     Model model;
     SpecialPoint first;
     BranchSettings settings;
-    double share = 0; ///< stop over force, by the linearity of all but contacts
+    double share = 0; ///< ratio of stop to force, constant because all but the contacts is linear
 };
 
-TEST(ChatterCurve, OfAnOscillatorIsALineInForceAndStop) {
+TEST(ChatterCurve, OscillatorHasAStraightLineInForceAndStop) {
     const Onset onset;
     ChatterCurve curve(onset.model, onset.first, onset.settings);
     for (const int direction : {1, -1}) {
@@ -69,7 +69,7 @@ TEST(ChatterCurve, EndsAfterItsStepsOrWhenInterrupted) {
     EXPECT_EQ(curve.ending(), name_of(BranchOutcome::steps));
 }
 
-TEST(ChatterCurve, RefusesWhatHasNoMeaning) {
+TEST(ChatterCurve, SettingsThatDoNotApplyAreRefused) {
     const Onset onset;
     const auto refused = [&](const auto& change) {
         BranchSettings settings = onset.settings;

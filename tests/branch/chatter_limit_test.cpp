@@ -27,17 +27,18 @@ ChatterLimit limit_of_oscillator(const Model& model, double length, std::size_t 
     return chatter_limit(model, climbed(model, settings, rungs), settings.parameter);
 }
 
-/// The same by the closed form of the flights, in extended precision: from rest at the stop, where the force is about
-/// to fall below what holds the mass there, over some contacts.
+/// The same by the closed form of the flights in extended precision, over some contacts from rest at the stop, where
+/// the force is about to stop holding the mass.
 class Flights {
 public:
     Flights(long double stop, long double restitution) : stop_(stop), e_(restitution) {}
 
-    /// By how much the speed after a number of contacts is above the self-similar one. NaN where there are fewer.
+    /// Returns the excess of the speed after a number of contacts over the self-similar one; NaN where there are fewer
+    /// contacts.
     long double excess(int contacts, long double factor) {
         phase_ = std::acos(stop_);
         set(stop_, 0);
-        long double time = 0.5L; // from rest it leaves by the third power of the time
+        long double time = 0.5L; // the height from rest grows with the third power of the time
         for (int k = 0; k < contacts; ++k) {
             const long double arrival = next(time);
             if (!(arrival > 0))
@@ -47,7 +48,7 @@ public:
             set(stop_, -e_ * speed);
             time = 0;
         }
-        // The height s - x: its rates after the contact.
+        // Derivatives of the height s - x after the contact.
         const long double v = -rate_, a = -(std::cos(phase_) - stop_ - 2 * damping_ * rate_),
                           j = -(-force_ * std::sin(phase_) - rate_ + 2 * damping_ * a);
         return v * j / (a * a) / factor - 1;
@@ -75,7 +76,7 @@ private:
                                           (frequency_ * own_cosine_ + damping_ * own_sine_) * s) +
                force_ * (-cosine_ * std::sin(phase_ + force_ * t) + sine_ * std::cos(phase_ + force_ * t));
     }
-    /// The first time after a given one at which the stop is reached. Flights are looked through in steps that grow.
+    /// Returns the first time after `from` at which the stop is reached, searched in growing steps.
     long double next(long double from) const {
         long double left = from > 0 ? from : 1e-7L, step = left / 4;
         while (left < 40) {
@@ -100,7 +101,7 @@ private:
     long double phase_ = 0, cosine_ = 0, sine_ = 0, own_cosine_ = 0, own_sine_ = 0, rate_ = 0;
 };
 
-/// The stop at which a number of contacts lead to the self-similar rest, by the secant method.
+/// Returns the stop at which a number of contacts lead to the self-similar remainder, by the secant method.
 long double stop_with(int contacts, long double guess, long double restitution) {
     const long double factor = self_similar_contacts(static_cast<double>(restitution)).speed;
     long double one = guess, other = guess * (1 + 1e-9L);
@@ -115,12 +116,12 @@ long double stop_with(int contacts, long double guess, long double restitution) 
     return other;
 }
 
-TEST(ChatterLimit, self_similar_contacts_solve_their_equations) {
+TEST(ChatterLimit, SelfSimilarContactsSolveTheirEquations) {
     for (const double e : {1e-6, 0.01, 0.3, 0.5, 0.9, 0.999}) {
         const SelfSimilarContacts known = self_similar_contacts(e);
         const double rho = known.times;
         EXPECT_NEAR(e * (1 + 2 * rho), rho * rho * (2 + rho), 8e-16);
-        // One flight, by its polynomial: it comes down at -rho, and leaves again as fast as rho^2 of before.
+        // One flight by its polynomial: it lands at -rho and leaves with rho^2 times the previous speed.
         const double before = known.speed, flight = 1 - rho;
         EXPECT_NEAR(before * flight - flight * flight / 2 + flight * flight * flight / 6, 0, 4e-16);
         EXPECT_NEAR(-e * (before - flight + flight * flight / 2), rho * rho * before, 4e-16);
@@ -129,26 +130,26 @@ TEST(ChatterLimit, self_similar_contacts_solve_their_equations) {
     EXPECT_THROW(self_similar_contacts(1), InputError);
 }
 
-TEST(ChatterLimit, of_an_oscillator_is_that_of_its_closed_form) {
+TEST(ChatterLimit, OscillatorHasItsClosedForm) {
     const ChatterLimit limit = limit_of_oscillator(chattering_oscillator(0.5, 1, 1), 1, 9);
     ASSERT_TRUE(limit.direct) << limit.problem;
     ASSERT_TRUE(limit.extrapolated);
     EXPECT_NEAR(limit.contacts.restitution, 0.5, 1e-6);
-    // With n contacts it is off by (rho^6 / e^2)^n = 0.33^n, and round-off grows by (rho / e)^2 = 1.7: a few 1e-13
-    // here.
+    // With n contacts the error is (rho^6 / e^2)^n = 0.33^n, and round-off grows by (rho / e)^2 = 1.7 per contact: a
+    // few 1e-13 here.
     const auto known = static_cast<double>(stop_with(26, limit.direct->first, 0.5L));
     EXPECT_LT(limit.direct->second, 1e-10);
     EXPECT_NEAR(limit.direct->first, known, 1e-11);
     EXPECT_NEAR(limit.direct->first, known, limit.direct->second + 1e-12);
     EXPECT_LT(limit.extrapolated->second, 1e-4);
     EXPECT_NEAR(limit.extrapolated->first, known, limit.extrapolated->second);
-    // The last segment stands for all contacts to come: the orbit takes the whole period.
+    // The last segment represents all remaining contacts: the orbit has the full period.
     EXPECT_LT(limit.gap, 1e-8);
-    EXPECT_NEAR(limit.orbit.round(), 2 * std::numbers::pi / omega, 1e-10);
+    EXPECT_NEAR(limit.orbit.return_time(), 2 * std::numbers::pi / omega, 1e-10);
 }
 
-/// Near a restitution of 1 it takes hundreds of contacts until little is left.
-TEST(ChatterLimit, of_contacts_that_hardly_lose_speed) {
+/// Near a restitution of 1 hundreds of contacts are needed.
+TEST(ChatterLimit, ContactsWithHighRestitutionHaveTheirClosedForm) {
     constexpr double restitution = 0.95, guessed = 0.3104;
     const Model model = chattering_oscillator(restitution, 1, 1);
     // The state in which the force stops holding the mass: x = s, v = 0, cos(theta) = s.
@@ -159,8 +160,8 @@ TEST(ChatterLimit, of_contacts_that_hardly_lose_speed) {
     ASSERT_TRUE(limit.direct) << limit.problem;
     EXPECT_GT(limit.orbit.segments(), 200U);
     EXPECT_LT(limit.direct->second, 1e-8);
-    // By the closed form, halving an interval, as the secant method would need a better guess. (rho^6 / e^2)^n is 1e-10
-    // with n = 290, and more contacts are lost in round-off of extended precision.
+    // Closed form with bisection, since the secant method would need a better guess. (rho^6 / e^2)^n is 1e-10 with n =
+    // 290; more contacts are below round-off in extended precision.
     const long double factor = self_similar_contacts(restitution).speed;
     long double low = 0.310726L, high = 0.310728L;
     constexpr int halvings = 60;
@@ -171,7 +172,7 @@ TEST(ChatterLimit, of_contacts_that_hardly_lose_speed) {
     EXPECT_NEAR(limit.direct->first, static_cast<double>(low), limit.direct->second + 1e-10);
 }
 
-/// A slow force on the first of two equal masses, which has a stop and a spring to the other one.
+/// Two equal masses with a spring between them; the first has a stop and a slow force.
 Model two_masses() {
     return model_from(R"toml(
 [parameters]
@@ -202,7 +203,7 @@ value = 0
 )toml");
 }
 
-TEST(ChatterLimit, of_two_masses_is_what_simulation_shows_from_however_long_a_ladder) {
+TEST(ChatterLimit, TwoMassesAgreeWithSimulationFromLaddersOfAnyLength) {
     const Model model = two_masses();
     const BranchSettings settings = of_oscillator(model, 1);
     const std::vector<SpecialPoint> grazings = climbed(model, settings, 30);
@@ -218,7 +219,7 @@ TEST(ChatterLimit, of_two_masses_is_what_simulation_shows_from_however_long_a_la
     for (const double value : values)
         EXPECT_NEAR(value, values.back(), 1e-9);
     const ChatterLimit limit = chatter_limit(model, grazings, settings.parameter);
-    // With the stop nearer contacts accumulate in each period, with it farther off there are some.
+    // With a nearer stop contacts accumulate in each period, with a farther one they are finitely many.
     for (const double side : {-1e-4, 1e-4}) {
         Orbit orbit = limit.orbit;
         orbit.parameters[settings.parameter.place()] *= 1 + side;
@@ -227,15 +228,15 @@ TEST(ChatterLimit, of_two_masses_is_what_simulation_shows_from_however_long_a_la
         Trajectory trajectory(simulation, orbit.parameters, nobody);
         constexpr double periods = 10;
         std::vector<double> state = orbit.starts.at(1);
-        state[0] = orbit.parameters[settings.parameter.place()]; // on the stop that has moved
-        trajectory.start(state, 0, 0, periods * orbit.round());
+        state[0] = orbit.parameters[settings.parameter.place()]; // on the moved stop
+        trajectory.start(state, 0, 0, periods * orbit.return_time());
         JetSet jets(simulation, LaneKind::single);
         run(trajectory, jets);
         EXPECT_EQ(name_of(trajectory.outcome().ending), name_of(side < 0 ? Ending::chatter : Ending::end_time)) << side;
     }
 }
 
-TEST(ChatterLimit, does_not_depend_on_units) {
+TEST(ChatterLimit, DoesNotDependOnUnits) {
     const ChatterLimit known = limit_of_oscillator(chattering_oscillator(0.5, 1, 1), 1, 6);
     ASSERT_TRUE(known.direct) << known.problem;
     using Units = std::pair<double, double>;
@@ -243,11 +244,11 @@ TEST(ChatterLimit, does_not_depend_on_units) {
         const ChatterLimit limit = limit_of_oscillator(chattering_oscillator(0.5, length, time), length, 6);
         ASSERT_TRUE(limit.direct) << limit.problem;
         EXPECT_NEAR(limit.direct->first / length, known.direct->first, known.direct->second);
-        EXPECT_LT(limit.direct->second / length, 1e-9); // round-off of the lowest flights that are used
+        EXPECT_LT(limit.direct->second / length, 1e-9); // round-off of the lowest flights
     }
 }
 
-TEST(ChatterLimit, of_the_microactuator) {
+TEST(ChatterLimit, MicroactuatorConvergesToItsLimit) {
     Model model = load_model("impact-microactuator");
     model.set_parameter("omega", 2.0056);
     model.set_parameter("V", 0.1);
@@ -263,15 +264,14 @@ TEST(ChatterLimit, of_the_microactuator) {
         EXPECT_NEAR(rungs[i].parameter, known[i], 2e-12);
     const ChatterLimit limit = chatter_limit(model, rungs, settings.parameter);
     ASSERT_TRUE(limit.direct) << limit.problem;
-    // After each contact a frame slips for a time that falls with the speed: in the end nothing is left of that but
-    // 0.5.
+    // After each contact the frame slips for a time that decreases with the speed: the restitution tends to 0.5.
     EXPECT_NEAR(limit.contacts.restitution, 0.5, 1e-3);
-    // Round-off ends the approach: estimates are from 8e-11 to 2.4e-10, whatever the tolerance.
+    // Round-off limits the accuracy: the estimates are 8e-11 to 2.4e-10 at any tolerance.
     EXPECT_LT(limit.direct->second, 5e-10);
     EXPECT_NEAR(limit.extrapolated.value().first, limit.direct->first, limit.extrapolated->second);
 }
 
-TEST(ChatterLimit, says_what_is_no_ladder) {
+TEST(ChatterLimit, PointsThatAreNotALadderAreRefused) {
     const Model model = chattering_oscillator(0.5, 1, 1);
     const std::vector<SpecialPoint> none(1);
     EXPECT_THROW(chatter_limit(model, none, model.independent_parameter("s")), InputError);

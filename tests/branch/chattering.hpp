@@ -12,7 +12,7 @@ namespace graze::testing {
 
 inline constexpr double zeta = 0.5, omega = 0.3;
 
-/// An oscillator at a stop s, in units of length and time.
+/// An oscillator with a stop at s, in units of length and time.
 inline Model chattering_oscillator(double restitution, double length, double time) {
     return model_from(fmt::format(R"toml(
 [parameters]
@@ -41,7 +41,7 @@ value = 0
                                   1.5 * length, length, time * time, zeta / time, omega / time, restitution));
 }
 
-/// The first grazing of what the motion settles on.
+/// Returns the first grazing of the attractor.
 inline SpecialPoint first_grazing(const Model& model, BranchSettings settings) {
     settings.stop_at = {PointType::grazing};
     const Branch branch = follow_branch(model, settled(model, model.sections.front().name).orbit, settings);

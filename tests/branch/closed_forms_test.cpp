@@ -1,4 +1,4 @@
-// Branches of impacting orbits that are known in closed form: the bouncing ball and the linear impact oscillator.
+// Branches of impacting orbits with closed forms: the bouncing ball and the linear impact oscillator.
 
 #include "follow.hpp"
 #include "impact_oscillator.hpp"
@@ -38,7 +38,7 @@ struct Ball {
     double flip() const {
         return std::hypot(table_velocity(), 2 * g * (1 + e * e) / ((1 + e) * (1 + e) * omega())) / omega();
     }
-    /// @param stable the branch on which the table moves up ever more slowly at the impact
+    /// @param stable true: the branch on which the table's upward velocity decreases at the impact
     double phase(double a, bool stable) const {
         return (stable ? 1 : -1) * std::acos(table_velocity() / (a * omega()));
     }
@@ -46,7 +46,7 @@ struct Ball {
         const double acceleration = -a * omega() * omega() * std::sin(phase(a, stable));
         return 1 + e * e + (1 + e) * (1 + e) * acceleration / g;
     }
-    /// Least value of the gap between two impacts on the other branch.
+    /// Returns the minimum of the gap between two impacts on the other branch.
     double least_gap(double a) const {
         const double start = phase(a, false), speed = g / (2 * f);
         const auto rate = [&](double t) { return speed - g * t - a * omega() * std::cos(start + omega() * t); };
@@ -75,7 +75,7 @@ struct Ball {
     }
 };
 
-TEST(ClosedForms, bouncing_ball_folds_flips_and_grazes) {
+TEST(ClosedForms, BouncingBallHasItsFoldFlipAndGrazing) {
     const Ball ball;
     const Model model = ball.model(0.002);
     BranchSettings settings;
@@ -106,7 +106,7 @@ TEST(ClosedForms, bouncing_ball_folds_flips_and_grazes) {
             ASSERT_EQ(point.solution.multipliers.size(), 2U);
             const auto sum = point.solution.multipliers[0] + point.solution.multipliers[1];
             const auto product = point.solution.multipliers[0] * point.solution.multipliers[1];
-            // The phase, and with it the trace, follows from the parameter with an infinite rate at the fold.
+            // The derivative of phase and trace with respect to the parameter is infinite at the fold.
             const double near_fold = std::sqrt(std::abs(point.parameter / ball.fold() - 1)) + 1e-7;
             EXPECT_NEAR(sum.real(), ball.trace(std::max(point.parameter, ball.fold()), stable),
                         1e-11 * std::abs(sum) + 1e-13 / near_fold);
@@ -114,7 +114,7 @@ TEST(ClosedForms, bouncing_ball_folds_flips_and_grazes) {
         }
 }
 
-TEST(ClosedForms, bouncing_ball_doubles_its_period) {
+TEST(ClosedForms, BouncingBallDoublesItsPeriodAtTheFlip) {
     const Ball ball;
     Model model = ball.model(0.002);
     BranchSettings settings;
@@ -131,14 +131,15 @@ TEST(ClosedForms, bouncing_ball_doubles_its_period) {
     EXPECT_GT(second, ball.flip());
     for (const BranchPoint& point : branch.points) {
         EXPECT_NEAR(point.solution.orbit.period(), 2 / ball.f, 1e-12);
-        // The difference between both flights grows with the root of the distance: it never comes back to zero.
+        // The difference between the two flights grows with the square root of the distance and does not return to
+        // zero.
         const auto& durations = point.solution.orbit.durations;
         EXPECT_GT(std::abs(durations[0] - durations[1]), 0.02 * std::sqrt(point.parameter / ball.flip() - 1) / ball.f);
         EXPECT_GE(point.parameter, ball.flip());
         EXPECT_EQ(point.stable, point.parameter < second);
         EXPECT_TRUE(point.solution.certificate.admissible) << point.solution.certificate.reason;
     }
-    // Simulation from nearby settles on the stable part.
+    // Simulation from nearby settles on the stable orbits.
     std::size_t compared = 0;
     for (const BranchPoint& point : branch.points)
         if (point.parameter > 1.02 * ball.flip() && point.parameter < 0.98 * second) {
@@ -157,15 +158,15 @@ TEST(ClosedForms, bouncing_ball_doubles_its_period) {
             ++compared;
         }
     EXPECT_GE(compared, 2U);
-    // The other way it ends where it comes back to the branch that it left.
+    // In the other direction the branch ends where it returns to the original branch.
     settings.direction = -1;
     const Branch back = follow_branch(model, branch.points[5].solution.orbit, settings);
     EXPECT_EQ(back.outcome, BranchOutcome::returned) << names(back);
-    // Where branches cross the equations are singular; the parameter is quadratic in what is left uncertain.
+    // At the crossing the equations are singular; the parameter is quadratic in the remaining error.
     EXPECT_NEAR(back.points.back().parameter, ball.flip(), 1e-8 * ball.flip());
 }
 
-TEST(ClosedForms, impact_oscillator_folds_flips_and_grazes) {
+TEST(ClosedForms, ImpactOscillatorHasItsFoldFlipAndGrazing) {
     const Oscillator known;
     const Model model = oscillator_model(known, 0.02);
     const OrbitSolution start = settled(model, "phase0", 400);
@@ -178,7 +179,7 @@ TEST(ClosedForms, impact_oscillator_folds_flips_and_grazes) {
         for (const BranchPoint& point : branch.points) {
             const double after = point.solution.orbit.starts[0][1], phase = point.solution.orbit.starts[0][2];
             if (std::abs(after) < 1e-6)
-                continue; // the end, where multipliers are infinite
+                continue; // the end, where multipliers diverge
             ASSERT_EQ(point.solution.multipliers.size(), 2U);
             const auto sum = point.solution.multipliers[0] + point.solution.multipliers[1];
             const auto product = point.solution.multipliers[0] * point.solution.multipliers[1];
@@ -200,7 +201,7 @@ TEST(ClosedForms, impact_oscillator_folds_flips_and_grazes) {
         },
         1.1 * flipping, 0.9 * flipping);
     EXPECT_NEAR(up.special[0].parameter, known.sigma(velocity, true), 1e-12);
-    // The impact loses its speed where the motion without impact has just the amplitude of the gap.
+    // The impact speed vanishes where the amplitude of the motion without impact equals the gap.
     EXPECT_TRUE(up.special[1].at_end);
     EXPECT_NEAR(up.special[1].parameter, known.radius, 1e-12);
     EXPECT_EQ(up.outcome, BranchOutcome::unphysical);
@@ -214,7 +215,7 @@ TEST(ClosedForms, impact_oscillator_folds_flips_and_grazes) {
     expect_touch(model, down.special[1], 0.3);
 }
 
-TEST(ClosedForms, impact_oscillator_gains_and_loses_its_impact_at_the_same_gap) {
+TEST(ClosedForms, ImpactOscillatorGainsAndLosesItsImpactAtTheSameGap) {
     const Oscillator known;
     const double sigma = 0.1;
     Model model = oscillator_model(known, sigma);
@@ -242,7 +243,7 @@ TEST(ClosedForms, impact_oscillator_gains_and_loses_its_impact_at_the_same_gap) 
         EXPECT_LT(std::min(std::abs(known.sigma(after, true) - stop), std::abs(known.sigma(after, false) - stop)),
                   1e-11);
     }
-    // From the last point that has an impact back to where the impact vanishes, and on without it to no force at all.
+    // From the last point with an impact back to where the impact vanishes, and on without it to zero force.
     settings.direction = impacting.points.back().parameter > impacting.points.front().parameter ? -1 : 1;
     const Branch back = follow_branch(model, impacting.points[5].solution.orbit, settings);
     const auto lost = of_type(back, PointType::grazing);

@@ -1,5 +1,5 @@
-// Branches by collocation are those by shooting: continuation, test functions and conditions do not know which of them
-// they follow.
+// Branches by collocation agree with those by shooting: continuation, test functions and conditions do not depend on
+// the discretisation.
 
 #include "branch/orbit_problem.hpp"
 #include "orbit/collocation.hpp"
@@ -20,8 +20,8 @@ namespace {
 using namespace graze::testing;
 
 struct Found {
-    double fold = 0;        ///< parameter at which the branch turns
-    std::size_t points = 0; ///< of the branch up to there
+    double fold = 0;        ///< parameter at the fold
+    std::size_t points = 0; ///< number of points up to the fold
     double flip_determinant = 0;
 };
 
@@ -62,11 +62,11 @@ void expect_the_same_fold(const Model& model, const char* parameter, int directi
     EXPECT_NEAR(one.fold, published, 1e-12 * published);
     EXPECT_NEAR(other.fold, published, accuracy * published);
     EXPECT_GT(one.flip_determinant * other.flip_determinant, 0);
-    // Steps are measured by the orbit, not by how many unknowns stand for it.
+    // Step lengths do not depend on the number of unknowns.
     EXPECT_LT(other.points, 1.5 * static_cast<double>(one.points) + 3);
 }
 
-TEST(CollocationBranch, orbits_with_an_impact_fold_where_shooting_says) {
+TEST(CollocationBranch, OrbitsWithAnImpactHaveTheFoldOfShooting) {
     Model model = load_model("impact-oscillator");
     model.set_parameter("sigma", 0.5);
     model.set_parameter("zeta", 0.1);
@@ -75,7 +75,7 @@ TEST(CollocationBranch, orbits_with_an_impact_fold_where_shooting_says) {
     expect_the_same_fold(model, "amplitude", -1, 0.570091381891438, 1e-12);
 }
 
-TEST(CollocationBranch, the_microbeam_without_stop_folds_where_is_published) {
+TEST(CollocationBranch, MicrobeamWithoutStopHasThePublishedFold) {
     MicrobeamOptions free;
     free.stop_stiffness = 0;
     free.stop_distance = -0.02;

@@ -1,4 +1,4 @@
-// Conditions on orbits: what their gradients are held against.
+// Helpers for tests of orbit conditions: their gradients are compared with differences.
 
 #pragma once
 
@@ -19,7 +19,7 @@
 
 namespace graze::testing {
 
-/// The motion from the model's initial state for a time, as a candidate: conditions do not ask whether it closes.
+/// Returns the motion from the model's initial state for a time as a candidate; it need not close.
 inline Orbit candidate(const Model& model, double time) {
     const Simulation simulation{System(model)};
     const std::vector<double> parameters = model.parameter_values(), start = model.initial_state();
@@ -35,7 +35,7 @@ inline Orbit candidate(const Model& model, double time) {
         orbit.durations = {time};
         orbit.starts = {start};
     }
-    // Its last segment must be one that the first may follow.
+    // The first segment must be able to follow the last.
     for (;; orbit.signature.pop_back(), orbit.durations.pop_back(), orbit.starts.pop_back())
         try {
             validate_orbit(model, orbit);
@@ -48,7 +48,7 @@ inline Orbit candidate(const Model& model, double time) {
 
 using Factory = std::function<std::unique_ptr<OrbitCondition>(const OrbitEquations&, const OrbitEvaluation&)>;
 
-/// The gradient's product with directions, against differences of the values with errors of fourth order.
+/// Compares the product of the gradient with directions to fourth-order differences of the values.
 inline void expect_gradient(OrbitEquations& equations, const Eigen::VectorXd& unknowns, const Factory& make,
                             const std::string& what, std::mt19937& random, double step = 3e-5) {
     OrbitEvaluation at = equations.evaluation();
@@ -75,10 +75,10 @@ inline void expect_gradient(OrbitEquations& equations, const Eigen::VectorXd& un
     }
 }
 
-/// Where a condition holds on a branch of orbits with one free parameter, by Newton's method from an orbit near it.
+/// The orbit of a branch in one free parameter at which a condition holds, by Newton's method from a nearby orbit.
 struct Meeting {
     Orbit orbit;
-    std::size_t iterations = 0; ///< until corrections are round-off; 0: never
+    std::size_t iterations = 0; ///< iterations until corrections are round-off; 0: no convergence
 };
 
 inline Meeting meet(OrbitEquations& equations, const Orbit& orbit, const Factory& make) {
@@ -102,14 +102,14 @@ struct Motion {
     double time;
 };
 
-/// Long enough for some segments of each.
+/// Motions of the shipped models, long enough for several segments.
 inline constexpr Motion motions[] = {{"ball-and-shaker", 1.5},       {"bouncing-ball", 1.2},
                                      {"dry-friction-oscillator", 9}, {"electromagnetic-testbed", 0.2},
                                      {"impact-microactuator", 8},    {"impact-oscillator-two-stops", 9},
                                      {"impact-oscillator", 9},       {"mems-switch", 9},
                                      {"mems-switch-device", 1.4},    {"microbeam", 9}};
 
-/// The equations of such a motion, with its model's first two parameters free.
+/// The equations of such a motion, with the first two parameters free.
 struct FollowedEquations {
     explicit FollowedEquations(const Motion& motion)
         : model(load_model(motion.model)), orbit(candidate(model, motion.time)),

@@ -1,5 +1,5 @@
-// Families of orbits of conservative models, which are branches once a damping is free that then stays zero; and
-// parameters that pass through zero.
+// Families of orbits of conservative models, followed as branches with a free damping that stays zero; and parameters
+// that pass through zero.
 
 #include "maps.hpp"
 
@@ -15,7 +15,7 @@ namespace {
 using namespace graze::testing;
 using std::numbers::pi;
 
-/// Period of a pendulum of length 1 under gravity 1 with an amplitude: the arithmetic-geometric mean of 1 and
+/// Returns the period of a pendulum (length 1, gravity 1) with an amplitude, by the arithmetic-geometric mean of 1 and
 /// cos(amplitude / 2) (C. F. Gauss).
 double pendulum_period(double amplitude) {
     double a = 1, b = std::cos(amplitude / 2);
@@ -46,7 +46,7 @@ direction = "falling"
                                   time, angle));
 }
 
-TEST(Conservative, pendulum_swings_up_to_the_top_in_any_units) {
+TEST(Conservative, PendulumFamilyReachesTheTopInAnyUnits) {
     for (const auto& [time, angle] : {std::pair{1.0, 1.0}, {1e-9, 1e-6}, {1e6, 1e9}, {1e-3, 1e9}}) {
         const Model model = pendulum(time, angle);
         const Orbit start{parse_signature(model, "turn"),
@@ -80,7 +80,7 @@ TEST(Conservative, pendulum_swings_up_to_the_top_in_any_units) {
             }
         }
         EXPECT_EQ(reached, 1U);
-        EXPECT_EQ(at_rest, 1U); // where the other side would begin
+        EXPECT_EQ(at_rest, 1U); // where the branch would continue on the other side
     }
 }
 
@@ -105,9 +105,8 @@ direction = "falling"
                                   time, length, more));
 }
 
-/// Period of x'' + x + x^3 = push for an oscillation whose greatest x is 1, in units of time and length of its own:
-/// with x = c + r cos(angle) between the turning points the integrand is smooth and periodic, and sums converge like
-/// powers.
+/// Returns the period of x'' + x + x^3 = push for an oscillation with maximum x = 1. With x = c + r cos(angle) between
+/// the turning points the integrand is smooth and periodic, so the trapezoidal sum converges exponentially.
 double duffing_period(double push) {
     // Half of the squared speed is (1 - x) q(x), and m the zero of q.
     const auto q = [&](double x) { return 0.5 * (1 + x) + 0.25 * (1 + x) * (1 + x * x) - push; };
@@ -124,7 +123,7 @@ double duffing_period(double push) {
     return 2 * pi * sum / parts;
 }
 
-TEST(Conservative, damping_stays_zero_while_amplitude_is_held_and_the_push_passes_zero) {
+TEST(Conservative, DampingStaysZeroWithFixedAmplitudeWhileThePushPassesZero) {
     for (const auto& [time, length] : {std::pair{1.0, 1.0}, {1e-9, 1e-9}, {1e6, 1e3}}) {
         const Model model = duffing(time, length);
         // Energy h = x^2/2 + x^4/4 at x = 1 gives the period; Newton's method finds it from near.
@@ -143,7 +142,7 @@ TEST(Conservative, damping_stays_zero_while_amplitude_is_held_and_the_push_passe
             EXPECT_EQ(names(branch), direction > 0 ? "EX BD" : "BD");
             for (const SpecialPoint& special : of_type(branch, PointType::extremum)) {
                 EXPECT_NEAR(special.solution.orbit.period() / time, duffing_period(special.parameter), 1e-10);
-                constexpr double step = 1e-3; // of differences, which are wrong by its fourth power
+                constexpr double step = 1e-3; // step of fourth-order differences
                 const auto rise = [&](double by) {
                     return duffing_period(special.parameter + by) - duffing_period(special.parameter - by);
                 };
@@ -167,7 +166,8 @@ TEST(Conservative, damping_stays_zero_while_amplitude_is_held_and_the_push_passe
     }
 }
 
-/// Period of x'' + x - 0.2 x^3 + 0.02 x^5 = 0 with an amplitude, by the substitution x = amplitude sin(angle).
+/// Returns the period of x'' + x - 0.2 x^3 + 0.02 x^5 = 0 with an amplitude, by the substitution x = amplitude
+/// sin(angle).
 double quintic_period(double amplitude) {
     double sum = 0;
     constexpr int parts = 400;
@@ -178,7 +178,7 @@ double quintic_period(double amplitude) {
     return 2 * pi * sum / parts;
 }
 
-TEST(Conservative, longest_period_of_a_family_is_found_though_no_parameter_moves) {
+TEST(Conservative, LongestPeriodOfAFamilyIsFoundAtConstantParameters) {
     const Model model = model_from(R"toml(
 [parameters]
 damping = 0
@@ -201,7 +201,7 @@ direction = "falling"
         settings.direction = direction;
         for (const SpecialPoint& special : of_type(follow_branch(model, start, settings), PointType::extremum)) {
             const double amplitude = std::abs(special.solution.orbit.starts[0][0]);
-            if (amplitude < 1e-6) { // at rest, where the one side becomes the other: the shortest one
+            if (amplitude < 1e-6) { // at rest, where one side becomes the other: the shortest period
                 EXPECT_NEAR(special.solution.orbit.period(), 2 * pi, 1e-12);
                 continue;
             }
@@ -211,10 +211,10 @@ direction = "falling"
             ++found;
         }
     }
-    EXPECT_GE(found, 1U); // the other way leads through the state of rest to the same orbit
+    EXPECT_GE(found, 1U); // the other direction leads through the state of rest to the same orbit
 }
 
-TEST(Conservative, forced_oscillator_without_damping_has_no_torus_points) {
+TEST(Conservative, ForcedOscillatorWithoutDampingHasNoTorusPoints) {
     const Model model = model_from(R"toml(
 [parameters]
 damping = 0
@@ -240,13 +240,13 @@ value = 0
     EXPECT_EQ(names(branch), "BD") << branch.detail;
     ASSERT_FALSE(branch.points.empty());
     EXPECT_EQ(branch.points.back().parameter, -0.5);
-    // What can be seen from either end is the same.
+    // Both ends give the same points.
     EXPECT_NEAR(branch.points.front().solution.orbit.starts[0][0], 0.3 / (1 - 9), 1e-3);
 }
 
-TEST(Conservative, folds_and_flips_of_maps_that_preserve_areas_have_no_resonances_along_their_curves) {
-    // x -> p - y - q x^2, y -> x, whose multipliers have the product 1: at the fixed point with q x^2 + 2 x = p two are
-    // 1 where p q = -1, and two are -1 where p q = 3.
+TEST(Conservative, CurvesOfAreaPreservingMapsHaveNoResonances) {
+    // x -> p - y - q x^2, y -> x, with multipliers of product 1: at the fixed point q x^2 + 2 x = p both are 1 where p
+    // q = -1 and -1 where p q = 3.
     const Model model = map_model("p = 1.3\nq = 1", {"p - y - q*x^2", "x"});
     const double x = std::sqrt(2.3) - 1;
     const Orbit orbit{parse_signature(model, "map"), model.parameter_values(), {{x, x, 0}}, {1}, {}};
@@ -270,8 +270,8 @@ TEST(Conservative, folds_and_flips_of_maps_that_preserve_areas_have_no_resonance
         }
 }
 
-TEST(Conservative, a_free_body_in_a_symmetric_box_does_not_lose_its_symmetry_at_points_of_its_own) {
-    // Its place is nowhere preferred: the half map has the multiplier -1 for every box.
+TEST(Conservative, FreeBodyInASymmetricBoxHasNoSymmetryBreaking) {
+    // Its position is neutral: the half map has the multiplier -1 for every box.
     const Model model = model_from(R"toml(
 [parameters]
 b = 1

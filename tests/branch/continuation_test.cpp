@@ -22,7 +22,7 @@ DenseProblem circle(bool exact) {
     return exact ? DenseProblem(2, residual, jacobian) : DenseProblem(2, residual);
 }
 
-TEST(Continuation, goes_round_a_circle_and_notices) {
+TEST(Continuation, ClosesOnACircle) {
     for (const bool exact : {true, false})
         for (const int direction : {1, -1}) {
             DenseProblem problem = circle(exact);
@@ -40,19 +40,19 @@ TEST(Continuation, goes_round_a_circle_and_notices) {
             }
             EXPECT_EQ(branch.outcome(), ContinuationOutcome::closed);
             EXPECT_EQ(folds, 2u);
-            // Chords of at most 0.1 are a little shorter than the arc.
+            // Chords of at most 0.1 are slightly shorter than the arc.
             EXPECT_NEAR(branch.point().arclength, 2 * std::numbers::pi, 0.12);
         }
 }
 
-TEST(Continuation, finds_points_between) {
+TEST(Continuation, BetweenGivesPointsOfTheLastStep) {
     DenseProblem problem = circle(true);
     Continuation branch(problem);
     const std::vector<double> start{0.9, std::sqrt(1 - 0.81)};
     ASSERT_TRUE(branch.start(start, 0, 1));
     while (branch.step() && branch.point().tangent[0] > 0) {
     }
-    // The fold of the first unknown, by halving.
+    // The fold in the first unknown, by bisection.
     double low = 0, high = 1;
     ContinuationPoint point;
     for (int i = 0; i < 60; ++i) {
@@ -72,7 +72,7 @@ DenseProblem pitchfork() {
     });
 }
 
-TEST(Continuation, determinant_changes_sign_at_a_branch_point) {
+TEST(Continuation, DeterminantChangesItsSignAtABranchPoint) {
     DenseProblem problem = pitchfork();
     Continuation branch(problem);
     const std::vector<double> start{0, -0.303};
@@ -96,7 +96,7 @@ TEST(Continuation, determinant_changes_sign_at_a_branch_point) {
     EXPECT_LT(other.point().u[0], 0);
 }
 
-TEST(Continuation, scales_do_not_matter) {
+TEST(Continuation, ResultsDoNotDependOnScales) {
     // The same curve in units that differ by twelve powers of ten.
     DenseProblem problem(2,
                          [](std::span<const double> u, std::span<double> f) {
@@ -113,8 +113,8 @@ TEST(Continuation, scales_do_not_matter) {
     EXPECT_EQ(branch.outcome(), ContinuationOutcome::closed);
 }
 
-TEST(Continuation, says_how_it_ends) {
-    // A branch that ends where the square root does.
+TEST(Continuation, OutcomeTellsHowItEnded) {
+    // A branch that ends where a square root becomes undefined.
     DenseProblem problem(2, [](std::span<const double> u, std::span<double> f) {
         f[0] = u[0] - std::sqrt(u[1]) * u[1];
         return u[1] >= 0;
@@ -126,7 +126,7 @@ TEST(Continuation, says_how_it_ends) {
         ASSERT_LT(branch.steps(), 10000u);
     EXPECT_EQ(branch.outcome(), ContinuationOutcome::undefined);
     EXPECT_LT(branch.point().u[1], 1e-4);
-    // No solution anywhere near.
+    // No solution nearby.
     DenseProblem none(2, [](std::span<const double> u, std::span<double> f) {
         f[0] = u[0] * u[0] + 1;
         return true;
@@ -139,7 +139,7 @@ TEST(Continuation, says_how_it_ends) {
     EXPECT_THROW(Continuation(none, options), InputError);
 }
 
-TEST(Continuation, can_be_stopped_and_resumed_anywhere) {
+TEST(Continuation, CanBeStoppedAndResumedAfterAnyStep) {
     DenseProblem problem = circle(true);
     const std::vector<double> start{0, 1};
     Continuation whole(problem);

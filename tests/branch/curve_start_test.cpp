@@ -1,4 +1,4 @@
-// Which curves of special points begin at a point, and what is said where none does.
+// Which curves of special points begin at a point, and the messages where none does.
 
 #include "graze/branch/curve_start.hpp"
 
@@ -20,7 +20,7 @@ SpecialPoint with_multipliers(PointType type, std::vector<std::complex<double>> 
     return point;
 }
 
-TEST(CurveStart, says_which_curves_begin_at_a_point) {
+TEST(CurveStart, CurvesAtAPointFollowFromItsMultipliersAndTouches) {
     using enum PointType;
     const auto curves = [](const SpecialPoint& point) { return curves_at(point); };
     const std::complex<double> turn = std::polar(1.0, 0.9);
@@ -37,7 +37,7 @@ TEST(CurveStart, says_which_curves_begin_at_a_point) {
     half.solution.half_multipliers = {-1, 0.2};
     half.solution.orbit.symmetry = 0;
     EXPECT_EQ(curves(half), std::vector{asymmetry});
-    // Touches by what the certificate says.
+    // Touches are read from the certificate.
     SpecialPoint touch = with_multipliers(fold, {1, 0.2});
     touch.solution.certificate.minima = {{0, 3, 0.5, 0.1, 1}, {2, 1, 0.25, 1e-13, 1}};
     EXPECT_EQ(curves(touch), (std::vector{fold, grazing}));
@@ -48,7 +48,7 @@ TEST(CurveStart, says_which_curves_begin_at_a_point) {
     EXPECT_EQ(as_touch.time, 0.25);
 }
 
-TEST(CurveStart, refuses_what_a_point_is_not_and_says_what_it_is) {
+TEST(CurveStart, WrongTypesAreRefusedWithTheMultipliers) {
     try {
         as_type(with_multipliers(PointType::resonance_1, {1, 1}), PointType::flip);
         FAIL();

@@ -1,4 +1,5 @@
-// Curves of special points in two parameters, against closed forms and published values; every point by a second route.
+// Curves of special points in two parameters, against closed forms and published values; every point is verified
+// independently.
 
 #include "follow.hpp"
 #include "impact_oscillator.hpp"
@@ -17,7 +18,7 @@ namespace {
 using namespace graze::testing;
 using std::numbers::pi;
 
-/// The curve of points like this one, in the parameter and a further one.
+/// Returns the curve of a special point in the parameter of the settings and a second one.
 Branch curve_of(const Model& model, const SpecialPoint& point, BranchSettings settings, const std::string& further,
                 int direction) {
     settings.kept = point;
@@ -30,7 +31,7 @@ double parameter_of(const Model& model, const OrbitSolution& solution, const std
     return solution.orbit.parameters[model.independent_parameter(parameter).place()];
 }
 
-/// The point by its multipliers, or by the least value on the arc: not by the condition that has been held.
+/// Verifies a point by its multipliers, or by the event minimum on the arc, not by the held condition.
 void expect_kept(const BranchPoint& point, const SpecialPoint& kept, double tolerance) {
     if (kept.type == PointType::fold) {
         EXPECT_LT(nearest_multiplier(point.solution, 1), tolerance);
@@ -48,7 +49,7 @@ void expect_kept(const BranchPoint& point, const SpecialPoint& kept, double tole
     EXPECT_TRUE(point.solution.certificate.admissible) << point.solution.certificate.reason;
 }
 
-/// The special point of a type that is nearest to a value of the parameter.
+/// Returns the special point of a type nearest to a value of the parameter.
 SpecialPoint nearest(const Branch& branch, PointType type, double parameter) {
     const auto all = of_type(branch, type);
     EXPECT_FALSE(all.empty()) << short_name(type);
@@ -58,8 +59,8 @@ SpecialPoint nearest(const Branch& branch, PointType type, double parameter) {
                          });
 }
 
-TEST(Curves, of_the_bouncing_ball_have_their_closed_forms) {
-    // One bounce a period: see closed_forms_test.
+TEST(Curves, BouncingBallHasItsClosedForms) {
+    // One bounce per period: see closed_forms_test.
     Model model = load_model("bouncing-ball");
     const double g = 9.81, w = 20 * pi, e = 0.8;
     const auto fold = [&](double at) { return g / (w * w) * pi * (1 - at) / (1 + at); };
@@ -94,23 +95,24 @@ TEST(Curves, of_the_bouncing_ball_have_their_closed_forms) {
                 const double at = parameter_of(model, one.solution, "e");
                 const bool folds = point.type == PointType::fold;
                 EXPECT_NEAR(one.parameter, folds ? fold(at) : flip(at), 1e-12 * flip(at)) << at;
-                // Near a fold a multiplier changes with the root of what is left uncertain.
+                // Near a fold a multiplier is known only to the square root of the error.
                 expect_kept(one, point, folds ? 1e-6 : 1e-9);
             }
         }
     }
 }
 
-/// Of the orbits with one impact a period at a frequency: how far a gap is from that of their flip, whose orbit has
-/// this velocity after the impact.
+/// Returns the distance of a gap from that of the flip of orbits with one impact per period. @param after velocity
+/// after the impact
 double off_flip(const Oscillator& known, double sigma, double after) {
     return known.trace(after, known.phase(after, sigma), sigma) + 1 + known.product();
 }
 
-TEST(Curves, of_the_impact_oscillator_have_their_closed_forms) {
+TEST(Curves, ImpactOscillatorHasItsClosedForms) {
     const Model model = oscillator_model(Oscillator(), 0.02);
     const OrbitSolution start = settled(model, "phase0", 400);
-    // Where half an oscillation takes a period of the force an impact does not act on the next one: curves end there.
+    // Where half an oscillation takes one period of the force, an impact has no effect on the next one: curves end
+    // there.
     const double half = 2 * std::sqrt(1 - 0.05 * 0.05);
     SpecialPoint end_of_folds;
     for (const int direction : {1, -1}) {
@@ -141,7 +143,7 @@ TEST(Curves, of_the_impact_oscillator_have_their_closed_forms) {
                         EXPECT_NEAR(off_flip(known, one.parameter, after) * speed, 0, 1e-10);
                         EXPECT_NEAR(known.sigma(after, true), one.parameter, 1e-10);
                     }
-                    if (speed > 1e-3) // towards none multipliers grow without limit
+                    if (speed > 1e-3) // towards zero speed multipliers diverge
                         expect_kept(one, point, point.type == PointType::fold ? 1e-6 : 1e-9);
                 }
                 if (curve.outcome == BranchOutcome::bound)
@@ -161,7 +163,7 @@ TEST(Curves, of_the_impact_oscillator_have_their_closed_forms) {
             }
         if (direction > 0)
             continue;
-        // The curve of folds ends on that of touches, which has a multiplier 1 there.
+        // The curve of folds ends on the curve of touches, which has a multiplier 1 there.
         ASSERT_EQ(end_of_folds.type, PointType::grazing);
         const Branch touches = curve_of(model, branch.special.back(), settings, "omega", 1);
         const SpecialPoint meeting = nearest(touches, PointType::fold, end_of_folds.parameter);
@@ -172,8 +174,8 @@ TEST(Curves, of_the_impact_oscillator_have_their_closed_forms) {
     }
 }
 
-TEST(Curves, of_folds_that_end_in_a_touch_have_no_resonance_there_in_any_units) {
-    // Two multipliers have the product of the impact's and the damper's losses: both can never be 1.
+TEST(Curves, FoldsThatEndInATouchHaveNoResonanceInAnyUnits) {
+    // The product of the two multipliers is below 1 due to the losses, so both cannot be 1.
     const Oscillator known;
     for (const double length : {1.0, 1e-9, 1e6}) {
         Model model = oscillator_model(known, 0.02 * length);
@@ -201,7 +203,7 @@ TEST(Curves, of_folds_that_end_in_a_touch_have_no_resonance_there_in_any_units) 
     }
 }
 
-TEST(Curves, of_touches_of_a_linear_oscillator_follow_its_response) {
+TEST(Curves, TouchesOfALinearOscillatorFollowItsResponse) {
     Model model = oscillator_model(Oscillator(), 0.1);
     model.set_parameter("amplitude", 0.1);
     model.set_initial("x", 0);
@@ -220,7 +222,7 @@ TEST(Curves, of_touches_of_a_linear_oscillator_follow_its_response) {
             EXPECT_NEAR(one.parameter * Oscillator(parameter_of(model, one.solution, "omega")).radius, 0.1, 1e-11);
             expect_kept(one, free.special[0], 1e-12);
         }
-        // The least force is that at resonance.
+        // The force is least at resonance.
         for (const SpecialPoint& turn : of_type(curve, PointType::extremum)) {
             ++turns;
             EXPECT_NEAR(parameter_of(model, turn.solution, "omega"), std::sqrt(1 - 2 * 0.05 * 0.05), 1e-9);
@@ -261,7 +263,7 @@ Branch over_frequency(double force) {
     return follow_branch(model, settled(model, "phase").orbit, settings);
 }
 
-TEST(Curves, of_folds_pass_the_cusp_of_duffings_oscillator) {
+TEST(Curves, FoldsOfDuffingsOscillatorPassTheCusp) {
     const Model model = duffing(0.9, 0.4);
     const Branch branch = over_frequency(0.4), stronger = over_frequency(0.6);
     ASSERT_EQ(names(branch), "SN SN BD");
@@ -273,7 +275,7 @@ TEST(Curves, of_folds_pass_the_cusp_of_duffings_oscillator) {
     settings.free_bounds = {{model.independent_parameter("F"), 0.01, 0.6}};
     std::vector<SpecialPoint> cusps;
     for (const std::size_t which : {0, 1}) {
-        // Away from the cusp the curve comes to the same fold of the other branch, through it to the other fold.
+        // In one direction the curve leads away from the cusp, in the other through it to the other fold.
         const Branch away = curve_of(model, branch.special[which], settings, "F", 1);
         ASSERT_EQ(names(away), "BD") << away.detail;
         EXPECT_NEAR(away.points.back().parameter, stronger.special[which].parameter, 1e-10);
@@ -283,7 +285,7 @@ TEST(Curves, of_folds_pass_the_cusp_of_duffings_oscillator) {
         cusps.push_back(curve.special[0]);
         for (const BranchPoint& one : curve.points)
             expect_kept(one, branch.special[which], 1e-5);
-        // It turns in both parameters.
+        // Both parameters have an extremum there.
         EXPECT_TRUE(cusps.back().located);
         const double force = parameter_of(model, cusps.back().solution, "F");
         for (const BranchPoint& one : curve.points) {
@@ -296,13 +298,13 @@ TEST(Curves, of_folds_pass_the_cusp_of_duffings_oscillator) {
     EXPECT_NEAR(cusps[0].parameter, cusps[1].parameter, 1e-10);
     const double force = parameter_of(model, cusps[0].solution, "F");
     EXPECT_NEAR(parameter_of(model, cusps[1].solution, "F"), force, 1e-10);
-    // Two folds above it, and none below.
+    // There are two folds above it, and none below.
     EXPECT_EQ(of_type(over_frequency(force * 1.001), PointType::fold).size(), 2U);
     EXPECT_EQ(of_type(over_frequency(force * 0.999), PointType::fold).size(), 0U);
 }
 
-TEST(Curves, of_touches_find_where_an_impact_does_not_act_on_the_next_one) {
-    // The free oscillator takes what an impact changes back to zero each half oscillation: at omega = 2 omega_d / k.
+TEST(Curves, TouchesHaveVanishingSensitivityAtTheKnownFrequencies) {
+    // The effect of an impact on the position vanishes after each half oscillation: at omega = 2 omega_d / k.
     Oscillator known;
     const Model model = oscillator_model(known, 1);
     BranchSettings settings;
@@ -326,8 +328,8 @@ TEST(Curves, of_touches_find_where_an_impact_does_not_act_on_the_next_one) {
         EXPECT_NEAR(found[3 - k], 2 * own / static_cast<double>(k), 1e-9) << k;
 }
 
-TEST(Curves, of_the_boundary_between_classes_of_touches_have_their_closed_form) {
-    // The same points at any damping: omega = 2 sqrt(1 - zeta^2) / k, and sigma is the amplitude there.
+TEST(Curves, BoundaryBetweenClassesOfTouchesHasItsClosedForm) {
+    // For any damping omega = 2 sqrt(1 - zeta^2) / k, and sigma is the amplitude there.
     Oscillator known;
     const Model model = oscillator_model(known, 1);
     BranchSettings settings;
@@ -365,14 +367,14 @@ TEST(Curves, of_the_boundary_between_classes_of_touches_have_their_closed_form) 
                 expect_kept(point, *boundary.kept, 1e-11 * amplitude);
             }
         }
-        boundary.free.pop_back(); // a point of codimension two needs three parameters
+        boundary.free.pop_back(); // a curve of codimension two needs three parameters
         EXPECT_THROW(follow_branch(model, one.solution.orbit, boundary), InputError);
         boundary.kept_too = PointType::fold;
         EXPECT_THROW(follow_branch(model, one.solution.orbit, boundary), InputError);
     }
 }
 
-TEST(Curves, of_the_microactuator_have_their_published_values) {
+TEST(Curves, MicroactuatorHasItsPublishedValues) {
     Model model = load_model("impact-microactuator");
     model.set_parameter("V", 0.1);
     model.set_parameter("omega", 0.9189);
@@ -392,7 +394,7 @@ TEST(Curves, of_the_microactuator_have_their_published_values) {
     const SpecialPoint least = nearest(first, PointType::extremum, 0.17);
     EXPECT_NEAR(parameter_of(model, least.solution, "omega"), 0.48719539788245, 1e-12);
     EXPECT_NEAR(least.parameter, 0.17099889286674, 1e-13);
-    // Curves of folds and flips with one impact end where an impact does not act on the next one.
+    // Curves of folds and flips with one impact end at the touch of vanishing sensitivity.
     const Branch slower = curve_of(model, grazing, wide, "omega", -1);
     const auto less = of_type(first, PointType::sensitivity), more = of_type(slower, PointType::sensitivity);
     std::vector<SpecialPoint> joints(less);
@@ -404,7 +406,7 @@ TEST(Curves, of_the_microactuator_have_their_published_values) {
             return std::abs(one.parameter - at.second) < 1e-9 &&
                    std::abs(parameter_of(model, one.solution, "omega") - at.first) < 1e-9;
         })) << at.first;
-    // Curves of flips and folds end on it, where it has a multiplier -1 or 1.
+    // Curves of flips and folds end on the curve of touches, where it has a multiplier -1 or 1.
     for (std::size_t i = 0; i < 3; ++i) {
         const SpecialPoint& point = branch.special[i];
         const Branch curve = curve_of(model, point, wide, "omega", 1);
@@ -417,7 +419,7 @@ TEST(Curves, of_the_microactuator_have_their_published_values) {
         EXPECT_NEAR(meeting.parameter, last.parameter, 1e-11);
         EXPECT_NEAR(parameter_of(model, meeting.solution, "omega"), parameter_of(model, last.solution, "omega"), 1e-11);
     }
-    // That of orbits with an impact ends in the point which is published.
+    // The curve of orbits with an impact ends in the published point.
     const Branch impacting = follow(model, branches_at(model, grazing, settings).at(0), settings);
     const Branch flips = curve_of(model, nearest(impacting, PointType::flip, 0.85), wide, "omega", -1);
     ASSERT_EQ(flips.outcome, BranchOutcome::unphysical);
@@ -427,7 +429,7 @@ TEST(Curves, of_the_microactuator_have_their_published_values) {
     EXPECT_NEAR(last.parameter, 0.58163432990654, 1e-11);
 }
 
-TEST(Curves, of_torus_points_have_their_closed_form) {
+TEST(Curves, TorusPointsHaveTheirClosedForm) {
     Model model = torus_model();
     BranchSettings settings;
     settings.parameter = model.independent_parameter("p");
@@ -452,8 +454,9 @@ TEST(Curves, of_torus_points_have_their_closed_form) {
     }
 }
 
-TEST(Curves, of_torus_points_of_the_testbed_go_from_one_resonance_to_the_other) {
-    // Close to where folds end in a touch, where the pair turns by half a circle within a thousandth of the frequency.
+TEST(Curves, TorusPointsOfTheTestbedConnectTwoResonances) {
+    // Near the end of the folds in a touch, where the argument of the pair changes by pi within a thousandth of the
+    // frequency.
     Model model = load_model("electromagnetic-testbed");
     model.set_parameter("f", 8);
     model.set_parameter("V0", 1);
@@ -492,7 +495,7 @@ TEST(Curves, of_torus_points_of_the_testbed_go_from_one_resonance_to_the_other) 
     EXPECT_EQ(followed, 1U);
 }
 
-TEST(Curves, of_lost_symmetries_have_the_multiplier_of_the_half) {
+TEST(Curves, SymmetryBreakingHasTheMultiplierOfTheHalfMap) {
     Model model = load_model("electromagnetic-testbed");
     model.set_initial("I", 0.1);
     BranchSettings settings;
@@ -513,7 +516,7 @@ TEST(Curves, of_lost_symmetries_have_the_multiplier_of_the_half) {
                 ASSERT_GT(curve.points.size(), 5U) << curve.detail;
                 ++followed;
                 for (const BranchPoint& one : curve.points) {
-                    if (one.solution.half_multipliers.empty()) { // where a contact has lost its speed
+                    if (one.solution.half_multipliers.empty()) { // at a contact of zero speed
                         EXPECT_EQ(&one, &curve.points.back());
                         const auto& speeds = one.solution.certificate.approach_speeds;
                         EXPECT_NEAR(*std::min_element(speeds.begin(), speeds.end()), 0, 1e-12);
@@ -530,7 +533,7 @@ TEST(Curves, of_lost_symmetries_have_the_multiplier_of_the_half) {
     EXPECT_GE(followed, 2U);
 }
 
-TEST(Curves, need_a_point_that_can_be_kept_and_one_parameter_more) {
+TEST(Curves, PointsThatCannotBeKeptAndMissingParametersAreRefused) {
     const Model model = oscillator_model(Oscillator(), 0.02);
     BranchSettings settings;
     settings.parameter = model.independent_parameter("sigma");

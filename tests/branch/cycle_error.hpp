@@ -1,4 +1,4 @@
-// How far the map of a whole cycle is from exact simulation.
+// Errors of the map of a whole cycle against simulation.
 
 #pragma once
 
@@ -20,7 +20,7 @@
 
 namespace graze::testing {
 
-/// Simulates one cycle of a map from neighbours of the touch.
+/// Simulates one cycle from states near the touch.
 class Cycle {
 public:
     Cycle(const Model& model, const CycleMap& map)
@@ -29,14 +29,14 @@ public:
         flow_.set_parameters(touch_.parameters);
     }
 
-    /// Greatest difference of simulation and map, in the states' sizes, after one cycle from a neighbour that would go
-    /// to a depth.
+    /// Returns the largest scaled difference between simulation and map after one cycle, from a state near the touch
+    /// whose motion would penetrate to `depth`.
     double error_at(double depth, const CycleMap& map) {
         std::vector<double> state = at_depth(depth), from;
         for (const std::size_t i : map.active)
             from.push_back(state[i] - touch_.state[i]);
         const double time = 1 / map.contact.acceleration, speed = std::sqrt(2 * map.contact.acceleration * depth);
-        // Before the contact, and before the next pass, which may be another one.
+        // Start before the contact, and stop before the next pass, which may be a contact.
         const double early = 3 * speed * time,
                      late = std::max(20 * speed * time, 3 * std::sqrt(2 * std::abs(map.projections(1)[0]) *
                                                                       map.contact.by_depth(depth) * time));
@@ -80,13 +80,13 @@ private:
             rate += value[1 + i] * field[i];
         return rate;
     }
-    /// On to where the touched function has no rate.
+    /// Integrates a state to where the touched function has zero rate.
     void onto_surface(std::vector<double>& state) {
         for (int iteration = 0; iteration < 40; ++iteration)
             EXPECT_EQ(flow_.run(touch_.mode, state, -rate_at(state) / map_.contact.acceleration),
                       ModeFlow::Ending::done);
     }
-    /// The nearest state, in sizes, that has no rate and the depth: by the gradients, as both are nearly linear.
+    /// Returns the nearest scaled state with zero rate at this depth, by Newton's method.
     std::vector<double> at_depth(double depth) {
         const DiscontinuityMap& contact = map_.contact;
         std::vector<double> state = touch_.state;
@@ -115,7 +115,7 @@ private:
     ModeFlow flow_;
 };
 
-/// Without the next order, and with it where it is known, over a factor of 30 in the depth.
+/// Checks the order of the error without the next order, and with it where known, over a factor of 30 in the depth.
 inline void expect_rates(const Model& model, const CycleMap& map, double share) {
     ASSERT_TRUE(map.exists()) << map.reason << map.contact.reason;
     Cycle cycle(model, map);

@@ -1,5 +1,5 @@
-// Where curves of folds and flips of impacting orbits end on curves of touches: found on the touches, against closed
-// forms, by coming along the other curves, and gone on from.
+// Ends of the curves of folds and flips of impacting orbits on curves of touches: detected along the touches, compared
+// with closed forms, approached along the other curves, and used as their start.
 
 #include "impact_oscillator.hpp"
 #include "maps.hpp"
@@ -21,8 +21,8 @@ namespace {
 using namespace graze::testing;
 using std::numbers::pi;
 
-/// Two equal masses, springs to the walls and of stiffness k between them, damping in proportion to stiffness; the
-/// first is forced by cos(omega t) and has a stop. Coordinates (x + y)/2 and (x - y)/2 are two single oscillators.
+/// Two equal masses with springs to the walls and a spring k between them, damping proportional to stiffness; the first
+/// mass is forced by cos(omega t) and has a stop. The modes (x + y)/2 and (x - y)/2 are single oscillators.
 struct TwoMasses {
     double c = 0.2, k = 0.6, e = 0.8;
 
@@ -61,7 +61,7 @@ mode = "free"
                                       omega, sigma, k, c * k, c, c, e));
     }
     double square_of(std::size_t mode) const { return mode == 0 ? 1 : 1 + 2 * k; }
-    /// The reach of the first mass without impacts.
+    /// Returns the amplitude of the first mass without impacts.
     double reach(double omega) const {
         std::complex<double> sum = 0;
         for (const std::size_t mode : {0U, 1U})
@@ -69,8 +69,8 @@ mode = "free"
         return std::abs(sum);
     }
     enum class Sum { first, all, alternating };
-    /// Of what an impact of unit change of speed does to x one period later, or impacts of all periods before do, each
-    /// as the last, or of the other sign in turn: a geometric series for each mode.
+    /// Returns the effect on x of an impact of unit change of speed one period earlier, or the sum of the effects of
+    /// impacts in all earlier periods with equal or alternating signs: a geometric series for each mode.
     double effect(Sum which, double omega, double* size = nullptr) const {
         double sum = 0, sizes = 0;
         for (const std::size_t mode : {0U, 1U}) {
@@ -96,7 +96,7 @@ mode = "free"
     }
 };
 
-/// The touches of the motion without impacts between two frequencies.
+/// Follows the touches of the motion without impacts between two frequencies.
 struct Touches {
     Model model;
     SpecialPoint first;
@@ -126,7 +126,7 @@ Touches touches(const Model& model, double from, double to) {
     return result;
 }
 
-/// The curve from where its contact has no speed: of both ways the one that exists.
+/// Returns the curve of impacting orbits from its contact of zero speed, in the direction that exists.
 Branch onward(const Touches& from, const SpecialPoint& point, PointType type, double least, double greatest) {
     const SpecialPoint start = on_impacting_curve(System(from.model), point, type, from.settings);
     Branch result;
@@ -134,7 +134,7 @@ Branch onward(const Touches& from, const SpecialPoint& point, PointType type, do
         Branch curve = curve_of(from.model, start, from.settings, "omega", least, greatest, way);
         if (curve.points.size() < 2) {
             EXPECT_EQ(curve.outcome, BranchOutcome::stopped) << curve.detail;
-            EXPECT_EQ(curve.detail, "this way the contact that begins there has a negative speed");
+            EXPECT_EQ(curve.detail, "in this direction the new contact has a negative speed");
             continue;
         }
         EXPECT_TRUE(result.points.empty());
@@ -144,7 +144,7 @@ Branch onward(const Touches& from, const SpecialPoint& point, PointType type, do
     return result;
 }
 
-TEST(DegenerateGrazing, of_one_mass_is_where_curves_of_folds_and_of_flips_end) {
+TEST(DegenerateGrazing, CurvesOfFoldsAndFlipsOfOneMassEndThere) {
     const Oscillator known(1.7);
     const Touches all = touches(oscillator_model(known, 3), 0.6, 3);
     const auto found = all.of(PointType::sensitivity);
@@ -157,7 +157,7 @@ TEST(DegenerateGrazing, of_one_mass_is_where_curves_of_folds_and_of_flips_end) {
         for (const PointType type : {PointType::fold, PointType::flip}) {
             const Branch curve = onward(all, point, type, 0.6, 3);
             ASSERT_FALSE(curve.points.empty());
-            // It begins at the point itself.
+            // The curve begins at the point itself.
             EXPECT_NEAR(curve.points[0].parameter, point.parameter, 1e-10 * point.parameter);
             EXPECT_NEAR(value_of(all.model, curve.points[0].solution, "omega"),
                         value_of(all.model, point.solution, "omega"), 1e-10);
@@ -181,7 +181,7 @@ TEST(DegenerateGrazing, of_one_mass_is_where_curves_of_folds_and_of_flips_end) {
     }
 }
 
-TEST(DegenerateGrazing, of_two_masses_has_its_closed_form) {
+TEST(DegenerateGrazing, TwoMassesHaveTheirClosedForm) {
     const TwoMasses known;
     constexpr double from = 0.35, to = 3.2;
     const Touches all = touches(known.model(1.2, 5), from, to);
@@ -196,14 +196,14 @@ TEST(DegenerateGrazing, of_two_masses_has_its_closed_form) {
             const double omega = value_of(all.model, one.solution, "omega");
             double size = 0;
             const double effect = known.effect(sum, omega, &size);
-            // Located to 1e-13 of a step; terms are followed to 1e-13 of their size.
+            // Points are located to 1e-13 of a step, and terms computed to 1e-13.
             EXPECT_NEAR(effect, 0, 1e-12 * size) << short_name(type) << ' ' << omega;
             EXPECT_NEAR(one.parameter, known.reach(omega), 1e-11 * one.parameter);
         }
     }
 }
 
-/// The touch at another frequency.
+/// Returns the touch at another frequency.
 SpecialPoint touch_at(const Touches& all, double omega) {
     BranchSettings along = in_parameter(all.model, "omega", std::min(omega, 1.2), std::max(omega, 1.2));
     const Branch curve = curve_of(all.model, all.first, along, "sigma", 1e-3, 1e3, omega < 1.2 ? -1 : 1);
@@ -217,7 +217,7 @@ SpecialPoint touch_at(const Touches& all, double omega) {
     return touch;
 }
 
-TEST(DegenerateGrazing, of_two_masses_is_come_to_along_curves_of_folds_and_of_flips) {
+TEST(DegenerateGrazing, CurvesOfFoldsAndFlipsOfTwoMassesLeadToIt) {
     const TwoMasses known;
     const Touches all = touches(known.model(1.2, 5), 0.9, 3.2);
     const System system(all.model);
@@ -230,7 +230,7 @@ TEST(DegenerateGrazing, of_two_masses_is_come_to_along_curves_of_folds_and_of_fl
             ASSERT_FALSE(away.points.empty());
             for (std::size_t i = 1; i < away.points.size(); ++i)
                 EXPECT_LT(nearest_multiplier(away.points[i].solution, type == PointType::fold ? 1 : -1), 1e-5);
-            // Branches of orbits with an impact, from the touch at the frequency to which the curve has led.
+            // Branches of orbits with an impact, from the touch at the frequency of the last point of the curve.
             const double there = value_of(all.model, away.points.back().solution, "omega");
             const SpecialPoint touch = touch_at(all, there);
             const Branch impacting = follow(all.model, branches_at(system, touch, all.settings).at(0), all.settings);
@@ -251,8 +251,8 @@ TEST(DegenerateGrazing, of_two_masses_is_come_to_along_curves_of_folds_and_of_fl
     }
 }
 
-TEST(DegenerateGrazing, of_two_masses_is_where_impacting_orbits_change_their_side) {
-    // Beside it, where the clearance without impacts is -(sum of projections) s, to first order in the speed s.
+TEST(DegenerateGrazing, ImpactingOrbitsOfTwoMassesChangeSidesThere) {
+    // Near it the clearance without impacts is -(sum of projections) s, to first order in the speed s.
     const TwoMasses known;
     const Touches all = touches(known.model(1.2, 5), 0.9, 3.2);
     const System system(all.model);
@@ -267,7 +267,7 @@ TEST(DegenerateGrazing, of_two_masses_is_where_impacting_orbits_change_their_sid
     }
 }
 
-TEST(DegenerateGrazing, parts_touches_that_trip_from_others_as_simulation_says) {
+TEST(DegenerateGrazing, SeparatesTouchesThatTripAsSimulationConfirms) {
     const TwoMasses known;
     const Touches all = touches(known.model(1.2, 5), 0.9, 3.2);
     const System system(all.model);
@@ -283,11 +283,11 @@ TEST(DegenerateGrazing, parts_touches_that_trip_from_others_as_simulation_says) 
             const Verdict verdict = verdict_of(map);
             if (verdict.outcome == GrazingOutcome::undecided)
                 continue;
-            // The next pass is hit where an impact brings it nearer.
+            // The next pass is a contact where an impact brings it nearer.
             EXPECT_EQ(verdict.outcome == GrazingOutcome::lost && verdict.next_contact == 1,
                       known.effect(TwoMasses::Sum::first, omega + side) < 0);
             const Trial trial = try_verdict(system, map, verdict, *options.parameter);
-            // Contacts of a reach that is too small for numbers to tell show nothing.
+            // Trials are undecided where the reach is too small for double precision.
             EXPECT_NE(trial.outcome, TrialOutcome::contradicted) << omega + side << ": " << trial.reason;
             decided += trial.outcome == TrialOutcome::agreed ? 1 : 0;
         }
@@ -295,7 +295,7 @@ TEST(DegenerateGrazing, parts_touches_that_trip_from_others_as_simulation_says) 
     EXPECT_GE(decided, 2U);
 }
 
-TEST(DegenerateGrazing, of_the_testbed_is_where_its_folds_end) {
+TEST(DegenerateGrazing, FoldsOfTheTestbedEndThere) {
     Model model = load_model("electromagnetic-testbed");
     model.set_parameter("f", 8);
     model.set_parameter("V0", 1);
@@ -343,7 +343,7 @@ TEST(DegenerateGrazing, of_the_testbed_is_where_its_folds_end) {
     EXPECT_EQ(followed, 1U);
 }
 
-TEST(DegenerateGrazing, says_where_no_impacting_curve_ends) {
+TEST(DegenerateGrazing, OtherPointsAreRefusedWithTheReason) {
     const Oscillator known(1.7);
     const Touches all = touches(oscillator_model(known, 3), 1.6, 1.8);
     const System system(all.model);

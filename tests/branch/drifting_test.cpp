@@ -1,4 +1,4 @@
-// Models in which a state drifts: where it is does not matter, so that nothing that does may change.
+// Models with a drifting state: its position must not affect any result.
 
 #include "follow.hpp"
 
@@ -12,7 +12,7 @@ namespace {
 
 using namespace graze::testing;
 
-/// An impact oscillator that a frame carries along: how far and how fast does not act back on it.
+/// An impact oscillator carried by a frame whose position and velocity do not act on it.
 Model carried_oscillator(double zeta, double e, double drift, double by_place, double by_speed, double by_impact) {
     return model_from(fmt::format(R"toml(
 [parameters]
@@ -46,7 +46,7 @@ value = 0
                                   zeta, e, drift, by_place, by_speed, by_impact));
 }
 
-/// The branch of doubled orbits from the first flip as the stop is moved away.
+/// Returns the branch of doubled orbits from the first flip as the stop is moved away.
 Branch doubled(const Model& model, SpecialPoint& flip) {
     BranchSettings settings;
     settings.parameter = model.independent_parameter("sigma");
@@ -62,7 +62,7 @@ Branch doubled(const Model& model, SpecialPoint& flip) {
     return follow(model, branches_at(model, flip, settings).at(0), settings);
 }
 
-TEST(Drifting, orbits_of_twice_the_period_are_those_without_the_drift) {
+TEST(Drifting, DoubledOrbitsEqualThoseWithoutDrift) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> coefficient(-1, 1), damping(0.04, 0.06), restitution(0.68, 0.72),
         decades(-3, 3);
@@ -81,8 +81,8 @@ TEST(Drifting, orbits_of_twice_the_period_are_those_without_the_drift) {
         ASSERT_EQ(names(branch), names(plain));
         for (std::size_t i = 0; i < branch.special.size(); ++i)
             EXPECT_NEAR(branch.special[i].parameter, plain.special[i].parameter, 1e-10);
-        // It leaves the flip, and impacts are alternately hard and soft. How far the first point lies from the flip is
-        // the continuation's choice, about 1e-3; orbits that are not doubled would differ by round-off.
+        // Impacts are alternately hard and soft. The first point lies about 1e-3 from the flip; orbits that are not
+        // doubled would differ by round-off only.
         for (std::size_t k = 1; k < branch.points.size(); ++k) {
             const Orbit& orbit = branch.points[k].solution.orbit;
             ASSERT_EQ(orbit.segments(), 2U);
@@ -92,7 +92,7 @@ TEST(Drifting, orbits_of_twice_the_period_are_those_without_the_drift) {
     }
 }
 
-TEST(Drifting, the_microactuator_goes_on_from_the_flip_with_one_impact) {
+TEST(Drifting, MicroactuatorContinuesFromTheFlipWithOneImpact) {
     Model model = load_model("impact-microactuator");
     model.set_parameter("V", 0.2);
     BranchSettings settings;

@@ -1,4 +1,4 @@
-// A driven oscillator with a stop, in any units: the force at which its steady motion touches, in closed form.
+// A driven oscillator with a stop, in any units, with a closed form of the force at which its steady motion touches.
 
 #pragma once
 
@@ -20,7 +20,7 @@ struct DrivenOscillator {
     /// F for the unit of the amplitude.
     std::complex<double> stiffness() const { return {k - m * omega * omega, c * omega}; }
     double force() const { return sigma * std::abs(stiffness()); }
-    /// Derivatives of the force by m, c, k, omega, sigma, e.
+    /// Returns the derivatives of the force with respect to m, c, k, omega, sigma, e.
     std::array<double, 6> derivatives() const {
         const double size = std::abs(stiffness()), real = stiffness().real(), imaginary = stiffness().imag();
         return {-sigma * real * omega * omega / size,
@@ -63,7 +63,7 @@ value = 0
 )toml",
                                       force(), m, c, k, omega, sigma));
     }
-    /// The motion that touches.
+    /// Returns the touching motion.
     SpecialPoint grazing(const Model& made) const {
         const std::complex<double> amplitude = force() / stiffness(), i(0, 1);
         const double turn = 2 * std::numbers::pi, phase = std::fmod(turn - std::arg(amplitude), turn);

@@ -1,5 +1,5 @@
-// Curves along which a contact has no speed, and what it would set going takes no time: orbits that are those of one
-// contact fewer, whose touches have equations of another kind.
+// Curves of contacts of zero speed, followed by segments of zero duration. The same orbits, with one contact fewer, are
+// followed as touches by different equations.
 
 #include "follow.hpp"
 
@@ -25,7 +25,7 @@ struct Microactuator {
         settings.greatest = 3;
     }
 
-    /// Orbits with one contact more than those that touch, both ways from the next grazing that they come to.
+    /// Follows the orbits with one more contact, from the touch or back from their next grazing.
     Branch beyond(const SpecialPoint& touch, bool back) const {
         const Branch branch = follow(model, branches_at(model, touch, settings).at(0), settings);
         if (!back || branch.special.empty())
@@ -33,7 +33,7 @@ struct Microactuator {
         return follow_branch(model, branch.special.back().solution.orbit, settings);
     }
 
-    /// The curve through a grazing over the frequency.
+    /// Returns the curve of a grazing over the frequency.
     Branch curve(const SpecialPoint& grazing) const {
         BranchSettings along = settings;
         along.parameter = model.independent_parameter("omega");
@@ -44,19 +44,19 @@ struct Microactuator {
     }
 };
 
-/// Two curves that end at the same value of the first parameter have the same second one there.
+/// Checks that two curves which end at the same value of the first parameter have the same second one there.
 void expect_same_end(const Microactuator& one, const Branch& stops, const Branch& touches) {
     ASSERT_EQ(names(stops), "BD");
     ASSERT_EQ(names(touches), "BD");
     const auto end = [&](const Branch& branch) {
         return branch.points.back().solution.orbit.parameters[one.settings.parameter.place()];
     };
-    // By other equations, with errors of the integration of 1e-13 each.
+    // The equations differ; each has integration errors of 1e-13.
     EXPECT_NEAR(end(stops), end(touches), 1e-12);
     EXPECT_GT(stops.points.size(), 10U);
 }
 
-TEST(EndGrazing, of_a_contact_whose_slip_takes_no_time_is_the_touch_of_the_orbit_without_it) {
+TEST(EndGrazing, ContactOfZeroSpeedEqualsTheTouchOfTheOrbitWithoutIt) {
     const Microactuator one;
     const Branch without = follow_branch(one.model, settled(one.model, "longest", 4000).orbit, one.settings);
     const SpecialPoint first = without.special.back();
@@ -68,7 +68,7 @@ TEST(EndGrazing, of_a_contact_whose_slip_takes_no_time_is_the_touch_of_the_orbit
     EXPECT_NEAR(stop.solution.orbit.durations[0], 0, 1e-12);
     expect_same_end(one, one.curve(stop), one.curve(first));
 
-    // The same beside a contact that remains.
+    // The same for orbits with another contact.
     const SpecialPoint second = one.beyond(first, false).special.back();
     const Branch back_again = one.beyond(second, true);
     const SpecialPoint second_stop = back_again.special.back();
@@ -78,7 +78,7 @@ TEST(EndGrazing, of_a_contact_whose_slip_takes_no_time_is_the_touch_of_the_orbit
     expect_same_end(one, one.curve(second_stop), one.curve(second));
 }
 
-TEST(EndGrazing, of_an_orbit_on_the_other_side_is_no_limit_of_motions) {
+TEST(EndGrazing, OrbitsOnTheOtherSideAreInadmissible) {
     Microactuator one;
     const Branch without = follow_branch(one.model, settled(one.model, "longest", 4000).orbit, one.settings);
     one.settings.stop_when_unphysical = false;

@@ -1,5 +1,5 @@
-// Folds of equilibria, given as orbits of a clock that turns beside them. Their velocities are nought, and at the fold
-// displacements do not act on them: nothing but what they do to displacements says how large a velocity is.
+// Folds of equilibria, represented as orbits with an added clock. Velocities are zero, and at the fold displacements do
+// not act on them, so the scale of a velocity follows only from its effect on displacements.
 
 #include "maps.hpp"
 
@@ -17,7 +17,7 @@ namespace {
 
 using namespace graze::testing;
 
-/// A plate on a spring that is attracted through a gap: it is pulled in at V^2 = 4 k d^3/27.
+/// A plate on a spring attracted across a gap: pull-in at V^2 = 4 k d^3/27.
 Model plate(double gap, double stiffness, double time) {
     return parse_model(fmt::format(R"(
 [parameters]
@@ -70,7 +70,7 @@ TEST(EquilibriumFolds, AreFollowedInTwoParametersInAnyUnits) {
             EXPECT_EQ(curve.outcome, BranchOutcome::bound) << gap << ", " << time << ": " << curve.detail;
             for (const BranchPoint& point : curve.points)
                 EXPECT_NEAR(value_of(model, point.solution, "V") / pulled_in(point.parameter), 1, 1e-9);
-            // The exact derivatives, too: V goes with the root of k and the power 3/2 of d, and does not depend on c.
+            // The derivatives are exact: V scales with k^(1/2) and d^(3/2), and does not depend on c.
             const LocatedValue located(
                 model, folds[0], settings.parameter,
                 {model.independent_parameter("k"), model.independent_parameter("d"), model.independent_parameter("c")});

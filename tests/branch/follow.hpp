@@ -21,8 +21,8 @@ inline Model model_from(const std::string& text) {
     return parse_model(text, "test.toml");
 }
 
-/// (u, v) turn with the frequency w and grow with p: multipliers exp(2 pi (p +- i w)) on u = v = 0, which is
-/// x = cos(theta), y = sin(2 theta) / 3.
+/// (u, v) rotate with the frequency w and grow at the rate p: the orbit u = v = 0, x = cos(theta), y = sin(2 theta) /
+/// 3, has multipliers exp(2 pi (p +- i w)).
 inline Model torus_model() {
     return model_from(R"toml(
 [parameters]
@@ -71,7 +71,7 @@ inline std::vector<SpecialPoint> of_type(const Branch& branch, PointType type) {
     return result;
 }
 
-/// Short names of all special points in their order, such as "PD PD SN GR".
+/// Returns the short names of all special points in order, such as "PD PD SN GR".
 inline std::string names(const Branch& branch) {
     std::string result;
     for (const SpecialPoint& point : branch.special)
@@ -79,7 +79,7 @@ inline std::string names(const Branch& branch) {
     return result;
 }
 
-/// The distance of the multiplier that is nearest from a number.
+/// Returns the distance of the nearest multiplier from a number.
 inline double nearest_multiplier(const OrbitSolution& solution, double number) {
     double nearest = 1e300;
     for (const auto one : solution.multipliers)
@@ -87,14 +87,14 @@ inline double nearest_multiplier(const OrbitSolution& solution, double number) {
     return nearest;
 }
 
-/// A fold by its multiplier and by its neighbours: the parameter has a greatest or least value there.
+/// Verifies a fold by its multiplier and by its neighbours: the parameter has an extremum there.
 inline void expect_fold(const Branch& branch, const SpecialPoint& fold, double tolerance = 1e-6) {
     EXPECT_EQ(fold.type, PointType::fold);
     EXPECT_TRUE(fold.located);
     EXPECT_LT(nearest_multiplier(fold.solution, 1), tolerance);
     ASSERT_GE(fold.step, 1U);
     ASSERT_LT(fold.step, branch.points.size());
-    // Points may end in a special one beyond the fold, so that both neighbours lie on its own step.
+    // The last point may be a special point; both neighbours must lie on the fold's step.
     const double before = branch.points[fold.step - 1].parameter - fold.parameter,
                  after = branch.points[fold.step].parameter - fold.parameter;
     EXPECT_GE(before * after, 0) << before << ' ' << after;
@@ -106,7 +106,7 @@ inline void expect_flip(const SpecialPoint& flip, double tolerance = 1e-8) {
     EXPECT_LT(nearest_multiplier(flip.solution, -1), tolerance);
 }
 
-/// The value of an event's function where the simulator arrives after a time.
+/// Returns the value of an event function after simulating for a time.
 inline double simulated(const Model& model, const SpecialPoint& point, double time) {
     const Orbit& orbit = point.solution.orbit;
     const Simulation simulation(model);
@@ -120,7 +120,7 @@ inline double simulated(const Model& model, const SpecialPoint& point, double ti
     return simulation.system().event(point.event)(values)[0];
 }
 
-/// A touch inside an arc: the least value on the orbit is zero, and the simulator sees the same.
+/// Verifies a touch inside an arc: the minimum on the orbit is zero, and simulation gives the same value.
 inline void expect_touch(const Model& model, const SpecialPoint& grazing, double size) {
     EXPECT_EQ(grazing.type, PointType::grazing);
     EXPECT_TRUE(grazing.located);

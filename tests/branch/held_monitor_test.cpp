@@ -1,4 +1,4 @@
-// Branches along which an extremum or a mean is held, wherever on the orbit it is: curves with closed forms.
+// Branches with a fixed extremum or mean, which have closed forms.
 
 #include "graze/model/named_value.hpp"
 
@@ -24,7 +24,7 @@ Monitor held(const Model& model, Monitor::Kind kind, const std::string& expressi
     return result;
 }
 
-/// x'' + 2 zeta x' + x = F cos(theta), with orbits that begin at a phase.
+/// x'' + 2 zeta x' + x = F cos(theta), with orbits that start at a given phase.
 Model linear(double phase) {
     return model_from(fmt::format(R"toml(
 [parameters]
@@ -48,9 +48,9 @@ double response(double zeta, double omega) {
     return 1 / std::hypot(1 - omega * omega, 2 * zeta * omega);
 }
 
-TEST(HeldMonitors, an_extremum_passes_the_end_of_the_orbit) {
-    // The phase of the response goes from 0 to pi: near resonance the maximum passes the section, at other frequencies
-    // the minimum does.
+TEST(HeldMonitors, FixedExtremumPassesTheEndOfTheOrbit) {
+    // The phase of the response goes from 0 to pi: near resonance the maximum passes through the section, at other
+    // frequencies the minimum.
     for (const double phase : {0.5, 0.5 * std::numbers::pi, 2.5, 4.0}) {
         const Model model = linear(phase);
         const Orbit orbit = settled(model, "phase").orbit;
@@ -75,8 +75,8 @@ TEST(HeldMonitors, an_extremum_passes_the_end_of_the_orbit) {
     }
 }
 
-TEST(HeldMonitors, a_touch_can_be_held) {
-    // The force that just makes an oscillator touch its stop, at all frequencies.
+TEST(HeldMonitors, TouchCanBeFixed) {
+    // The force at which an oscillator just touches its stop, at all frequencies.
     Model model = load_model("impact-oscillator");
     model.set_parameter("sigma", 0.5);
     model.set_parameter("zeta", 0.1);
@@ -108,7 +108,7 @@ TEST(HeldMonitors, a_touch_can_be_held) {
     }
 }
 
-/// Of Newton's method, for each point of a branch.
+/// Returns the mean number of Newton iterations per point of a branch.
 double mean_iterations(const Branch& branch) {
     double sum = 0;
     for (const BranchPoint& point : branch.points)
@@ -116,7 +116,7 @@ double mean_iterations(const Branch& branch) {
     return sum / static_cast<double>(branch.points.size());
 }
 
-TEST(HeldMonitors, whatever_is_held_a_branch_goes_as_fast_as_a_free_one) {
+TEST(HeldMonitors, FixedMonitorsDoNotSlowABranchDown) {
     Model model = load_model("impact-oscillator");
     model.set_parameter("sigma", 0.5);
     model.set_parameter("zeta", 0.1);
@@ -143,7 +143,7 @@ TEST(HeldMonitors, whatever_is_held_a_branch_goes_as_fast_as_a_free_one) {
         BranchSettings holding = settings;
         holding.free = {model.independent_parameter("amplitude")};
         Monitor monitor = held(model, kind, expression, 0);
-        monitor.held.reset(); // what it is
+        monitor.held.reset(); // held at its current value
         holding.monitors = {monitor};
         const Branch branch = follow_down(holding);
         ASSERT_EQ(branch.outcome, BranchOutcome::bound) << expression << ' ' << branch.detail << names(branch);

@@ -1,5 +1,5 @@
-// Hopf points do not depend on the section at which orbits are looked at: those of textbook oscillators, in closed
-// form, by sections that miss the equilibrium.
+// Hopf points do not depend on the section of orbits: textbook oscillators with closed forms, with sections that miss
+// the equilibrium.
 
 #include "follow.hpp"
 #include "maps.hpp"
@@ -15,7 +15,7 @@ namespace {
 using namespace graze::testing;
 using std::numbers::pi;
 
-/// Parameters of a branch rise or fall up to its end, where round-off decides: nothing is gone over twice.
+/// Checks that the parameter is monotone up to the end of the branch, so that no part is followed twice.
 void expect_no_return(const Branch& branch) {
     for (std::size_t k = 2; k < branch.points.size(); ++k)
         EXPECT_GT((branch.points[k].parameter - branch.points[k - 1].parameter) *
@@ -24,7 +24,7 @@ void expect_no_return(const Branch& branch) {
             << k;
 }
 
-TEST(HopfPoint, of_a_mass_on_a_belt_is_found_by_any_section) {
+TEST(HopfPoint, MassOnABeltHasItsHopfPointForAnySection) {
     // The trace of the Jacobian at the equilibrium is 1 - a^2.
     for (const char* section : {"x", "x + 0.5", "x - 0.2", "x + 0.2", "v - 0.1", "x + 0.8", "v + 0.2", "x + v", "v"}) {
         const Model model = model_from(fmt::format(R"toml(
@@ -50,7 +50,7 @@ direction = "rising"
     }
 }
 
-TEST(HopfPoint, of_the_brusselator_is_found_by_any_section) {
+TEST(HopfPoint, BrusselatorHasItsHopfPointForAnySection) {
     for (const char* section : {"x - 0.99", "x - 0.8", "x - 0.6", "x - 1.2", "x - 1.5", "x - 1"}) {
         const Model model = model_from(fmt::format(R"toml(
 [parameters]

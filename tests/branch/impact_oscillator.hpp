@@ -9,7 +9,7 @@
 
 namespace graze::testing {
 
-/// One impact per period of the force, or in each few of them, of x'' + 2 zeta x' + x = cos(omega t) at a stop sigma,
+/// One impact per period of the force, or per several periods, of x'' + 2 zeta x' + x = cos(omega t) at a stop sigma,
 /// in closed form (Shaw and Holmes 1983): see the test of `solve_orbit`. Here sigma follows from the velocity before
 /// the impact.
 struct Oscillator {
@@ -32,12 +32,12 @@ struct Oscillator {
         b = (1 - m22 - m21 * a) * e / (1 + e);
         k = (b - 1) / omega;
     }
-    /// The stop's positions at which an orbit with this velocity after the impact exists.
+    /// Returns the stop at which an orbit with this velocity after the impact exists.
     double sigma(double after, bool upper) const {
         const double z = after / b;
         return a * z + (upper ? 1 : -1) * std::sqrt(radius * radius - k * k * z * z);
     }
-    /// Where sigma turns: its derivative by the velocity is zero.
+    /// Returns sigma at the fold, where its derivative with respect to the velocity is zero.
     double fold(bool upper) const { return (upper ? 1 : -1) * radius * std::hypot(a, k) / std::abs(k); }
     double product() const { return e * e * decay * decay; }
     double trace(double after, double phase, double stop) const {

@@ -1,4 +1,4 @@
-// Points at which curves of special points meet: maps and touches whose curves have closed forms.
+// Points at which curves of special points meet, for maps and touches with closed forms.
 
 #include "maps.hpp"
 
@@ -15,26 +15,26 @@ namespace {
 
 using namespace graze::testing;
 
-/// The only point of a type, of which there must be one.
+/// Returns the only point of a type; there must be exactly one.
 SpecialPoint only(const Branch& branch, PointType type) {
     const auto all = of_type(branch, type);
     EXPECT_EQ(all.size(), 1U) << short_name(type) << " in " << names(branch) << branch.detail;
     return all.empty() ? SpecialPoint{} : all.front();
 }
 
-/// The point, to be gone on from along another curve.
+/// Returns the point as one of another type, for another curve.
 SpecialPoint as(SpecialPoint point, PointType type) {
     point.type = type;
     return point;
 }
 
-/// Fixed points (x - 1)^2 = -p of x -> x + p + (x - 1)^2, which fold at p = 0.
+/// Fixed points (x - 1)^2 = -p of x -> x + p + (x - 1)^2, with a fold at p = 0.
 Orbit stable_point(const Model& model, double p, std::vector<double> rest) {
     rest.insert(rest.begin(), 1 - std::sqrt(-p));
     return fixed_point(model, rest);
 }
 
-TEST(Joints, fold_and_flip_curves_meet_in_a_fold_flip) {
+TEST(Joints, FoldAndFlipCurvesMeetInAFoldFlip) {
     // Multipliers 1 + 2 u and -(1 + q + u/2), with u = x - 1: folds at p = 0, flips at q = -u/2 with p = -u^2.
     const Model model =
         map_model("p = -0.04\nq = -0.3", {"x + p + (x - 1)^2", "2 - (1 + q + (x - 1)/2)*(y - 2) + (y - 2)^3"});
@@ -47,7 +47,7 @@ TEST(Joints, fold_and_flip_curves_meet_in_a_fold_flip) {
     const SpecialPoint on_folds = only(folds, PointType::fold_flip);
     EXPECT_NEAR(on_folds.parameter, 0, 1e-11);
     EXPECT_NEAR(value_of(model, on_folds.solution, "p"), 0, 1e-11);
-    // The curve of flips touches that of folds, and comes back on the other side of it.
+    // The curve of flips is tangent to that of folds and continues on its other side.
     const Branch flips = curve_of(model, flip, in_q, "p", -0.09, 1, -1);
     const SpecialPoint on_flips = only(flips, PointType::fold_flip);
     EXPECT_NEAR(on_flips.parameter, 0, 1e-11);
@@ -70,7 +70,7 @@ TEST(Joints, fold_and_flip_curves_meet_in_a_fold_flip) {
     }
 }
 
-TEST(Joints, torus_curves_meet_those_of_folds_and_flips) {
+TEST(Joints, TorusCurvesMeetThoseOfFoldsAndFlips) {
     // A pair (1 + q + r) exp(+-0.9 i), where r is (x - 1)/2 beside a fold in x, and p/2 beside a flip.
     const auto turning = [](const std::string& growth) {
         const std::string g = fmt::format("(1 + q + {} - 0.3*((y - 2)^2 + (z - 3)^2))", growth);
@@ -116,7 +116,7 @@ TEST(Joints, torus_curves_meet_those_of_folds_and_flips) {
     }
 }
 
-/// A phase whose event's function has its least values b - 1 - c at 3 pi/2 and b - 1 + c at pi/2.
+/// A phase with an event function that has the minima b - 1 - c at 3 pi/2 and b - 1 + c at pi/2.
 Model two_dips() {
     return model_from(R"toml(
 [parameters]
@@ -145,7 +145,7 @@ mode = "all"
 )toml");
 }
 
-TEST(Joints, of_one_event_touched_at_two_places) {
+TEST(Joints, OneEventTouchedTwiceIsADoubleGrazing) {
     const Model model = two_dips();
     BranchSettings settings = in_parameter(model, "b", -3, 3);
     settings.direction = -1;
@@ -162,7 +162,7 @@ TEST(Joints, of_one_event_touched_at_two_places) {
     EXPECT_NEAR(value_of(model, both.solution, "c"), 0, 1e-12);
     for (const BranchPoint& one : curve.points)
         EXPECT_NEAR(one.parameter, 1 + value_of(model, one.solution, "c"), 1e-12);
-    // Onto the other touch, which is the one that orbits with a negative c have.
+    // Continue with the other touch, which is the relevant one for negative c.
     const Branch other = curve_of(model, as(both, PointType::grazing), settings, "c", -0.5, 0.5, 1);
     ASSERT_GT(other.points.size(), 3U);
     for (const BranchPoint& one : other.points)
@@ -170,7 +170,7 @@ TEST(Joints, of_one_event_touched_at_two_places) {
     EXPECT_EQ(names(other), "BD");
 }
 
-TEST(Joints, of_two_stops_touched_at_once) {
+TEST(Joints, TwoTouchedStopsAreADoubleGrazing) {
     // x'' + 2 zeta x' + x = F cos(omega t) between stops at -a and b, where the response has this radius for F = 1.
     const double zeta = 0.1, omega = 1.3, radius = 1 / std::hypot(1 - omega * omega, 2 * zeta * omega);
     const Model model = model_from(R"toml(
@@ -226,7 +226,7 @@ mode = "free"
         EXPECT_NEAR(one.parameter, 1.5 / radius, 1e-11);
 }
 
-TEST(Joints, of_two_touches_lead_on_to_orbits_with_a_contact_more_at_one) {
+TEST(Joints, DoubleGrazingLeadsToOrbitsWithOneMoreContact) {
     Model model = load_model("mems-switch");
     model.set_parameter("V", 0.05);
     model.set_initial("q", 0);
@@ -245,7 +245,7 @@ TEST(Joints, of_two_touches_lead_on_to_orbits_with_a_contact_more_at_one) {
     EXPECT_TRUE(branch.points[1].solution.certificate.admissible);
 }
 
-TEST(Joints, have_labels_that_can_be_told_from_their_types) {
+TEST(Joints, LabelsDetermineTheirTypes) {
     EXPECT_EQ(point_label(PointType::fold, 12), "SN12");
     EXPECT_EQ(point_label(PointType::resonance_1, 1), "R1-1");
     EXPECT_EQ(point_label(PointType::resonance_4, 10), "R4-10");

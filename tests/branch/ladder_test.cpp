@@ -14,7 +14,7 @@ namespace {
 
 using namespace graze::testing;
 
-TEST(Ladder, ends_where_it_cannot_go_on_and_says_why) {
+TEST(Ladder, EndsWithTheReason) {
     const Model model = chattering_oscillator(0.5, 1, 1);
     BranchSettings settings = of_oscillator(model, 1);
     const SpecialPoint first = first_grazing(model, settings);
@@ -30,7 +30,7 @@ TEST(Ladder, ends_where_it_cannot_go_on_and_says_why) {
     EXPECT_EQ(seen[0].substr(0, 1), "2");
     EXPECT_EQ(ladder.why(), "bound: s = 0.93");
     EXPECT_EQ(climb(model, first, settings, 2).grazings().size(), 2U);
-    // The visitor may end it.
+    // The visitor may stop it.
     EXPECT_EQ(climb(model, first, settings, 6, [](std::size_t, const Branch&) { return false; }).grazings().size(), 2U);
 
     settings.greatest = 1;
@@ -41,7 +41,7 @@ TEST(Ladder, ends_where_it_cannot_go_on_and_says_why) {
     EXPECT_THROW(Ladder(model, nothing, of_oscillator(model, 1)), InputError);
 }
 
-TEST(Ladder, begins_at_any_point_of_a_curve_of_touches) {
+TEST(Ladder, MayBeginAtAnyPointOfACurveOfTouches) {
     const Model model = chattering_oscillator(0.5, 1, 1);
     const BranchSettings settings = of_oscillator(model, 1);
     SpecialPoint point = first_grazing(model, settings);

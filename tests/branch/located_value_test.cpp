@@ -25,7 +25,7 @@ SpecialPoint mems_grazing(Model& model) {
     return {};
 }
 
-TEST(LocatedValue, of_a_touch_and_its_derivatives_are_those_of_the_closed_form_in_any_units) {
+TEST(LocatedValue, TouchAndItsDerivativesHaveTheirClosedFormInAnyUnits) {
     for (const auto& [length, time, mass] :
          {std::array{1.0, 1.0, 1.0}, {1e-9, 1e-9, 1e-12}, {1e6, 1e6, 1e9}, {1e-6, 1e-3, 1e6}, {1e6, 1e-6, 1e-9}}) {
         const DrivenOscillator known{length, time, mass};
@@ -39,7 +39,7 @@ TEST(LocatedValue, of_a_touch_and_its_derivatives_are_those_of_the_closed_form_i
             EXPECT_NEAR(touch.derivatives()[i] * touch.values()[i] / known.force(),
                         derivatives[i] * touch.values()[i] / known.force(), 1e-11)
                 << i << ' ' << length;
-        // Far from there, exactly too.
+        // Far from there it is exact too.
         DrivenOscillator other = known;
         other.m *= 1.07;
         other.c *= 0.8;
@@ -54,7 +54,7 @@ TEST(LocatedValue, of_a_touch_and_its_derivatives_are_those_of_the_closed_form_i
     }
 }
 
-TEST(LocatedValue, is_reached_in_parts_where_one_step_is_too_far) {
+TEST(LocatedValue, PathIsDividedWhereOneStepIsTooLong) {
     const DrivenOscillator known;
     const Model model = known.model();
     const ParameterId force = model.independent_parameter("F");
@@ -65,7 +65,7 @@ TEST(LocatedValue, is_reached_in_parts_where_one_step_is_too_far) {
     ASSERT_TRUE(found.found) << found.problem;
     EXPECT_GT(found.parts, 1U);
     EXPECT_NEAR(found.value / other.force(), 1, 1e-11);
-    // What it was asked before does not matter.
+    // Earlier calls do not matter.
     const LocatedSolution near = touch(std::vector{1.71});
     LocatedValue fresh(model, known.grazing(model), force, {model.independent_parameter("omega")});
     EXPECT_EQ(near.value, fresh(std::vector{1.71}).value);
@@ -81,7 +81,7 @@ TEST(LocatedValue, is_reached_in_parts_where_one_step_is_too_far) {
     EXPECT_EQ(none.parts, 0U);
 }
 
-TEST(LocatedValue, of_the_mems_switch_is_the_published_one_and_its_derivatives_are_those_of_differences) {
+TEST(LocatedValue, MemsSwitchHasThePublishedValueAndDerivativesOfDifferences) {
     Model model;
     const SpecialPoint point = mems_grazing(model);
     const ParameterId voltage = model.independent_parameter("V");
@@ -89,9 +89,9 @@ TEST(LocatedValue, of_the_mems_switch_is_the_published_one_and_its_derivatives_a
     EXPECT_NEAR(touch.value(), 0.2013662121541341, 1e-12);
     const std::vector<std::string> names = model.independent_parameters();
     for (std::size_t i = 0; i < touch.others().size(); ++i) {
-        // Central differences with Richardson's extrapolation: h is small against the width of the resonance, zeta.
-        // What is left is round-off of V, 4.4e-16 of standard deviation from one zeta to the next: by h / 4 = 2.5e-6
-        // and magnified 1.4 times it is 1.8e-10, of which there may be four.
+        // Central differences with Richardson's extrapolation: h is small against the width of the resonance, zeta. The
+        // remaining error is round-off of V with standard deviation 4.4e-16; divided by h / 4 = 2.5e-6 and amplified
+        // 1.4 times it is 1.8e-10, of which four standard deviations are allowed.
         const double step = 5e-4 * touch.values()[i];
         const auto difference = [&](double h) {
             double sides[2] = {0, 0};
@@ -110,9 +110,9 @@ TEST(LocatedValue, of_the_mems_switch_is_the_published_one_and_its_derivatives_a
     }
 }
 
-TEST(LocatedValue, of_the_microactuator_has_the_derivatives_that_its_dimensions_demand) {
-    // alpha V^2 / d^2 is a force: V goes with d^(3/2) when all lengths do, with the root of all forces, and with
-    // alpha^(-1/2).
+TEST(LocatedValue, MicroactuatorHasTheDerivativesThatDimensionsDemand) {
+    // alpha V^2 / d^2 is a force: V scales with d^(3/2) when all lengths do, with the square root of all forces, and
+    // with alpha^(-1/2).
     Model model = load_model("impact-microactuator");
     model.set_parameter("V", 0.1);
     BranchSettings settings;
@@ -139,7 +139,7 @@ TEST(LocatedValue, of_the_microactuator_has_the_derivatives_that_its_dimensions_
     EXPECT_NEAR(relative({"alpha"}), -0.5, 1e-11);
 }
 
-TEST(LocatedValue, follows_a_touch_into_another_segment) {
+TEST(LocatedValue, TouchIsFollowedIntoAnotherSegment) {
     Model model;
     const SpecialPoint point = mems_grazing(model);
     const ParameterId voltage = model.independent_parameter("V"), frequency = model.independent_parameter("omega");
@@ -148,7 +148,7 @@ TEST(LocatedValue, follows_a_touch_into_another_segment) {
     const LocatedSolution found = touch(std::vector{0.96});
     ASSERT_TRUE(found.found) << found.problem;
     EXPECT_TRUE(found.admissible) << found.problem;
-    // The same by the branch of that frequency.
+    // The same from the branch at that frequency.
     model.set_parameter("omega", 0.96);
     BranchSettings settings;
     settings.parameter = voltage;
@@ -161,12 +161,12 @@ TEST(LocatedValue, follows_a_touch_into_another_segment) {
     const auto mode_of = [](const SpecialPoint& one) { return one.solution.orbit.signature[one.segment].mode; };
     EXPECT_NE(mode_of(branch.special.back()), mode_of(point));
     EXPECT_NEAR(found.value, branch.special.back().parameter, 1e-12);
-    // And it is where it was.
+    // The object is unchanged.
     EXPECT_EQ(touch(std::vector{1.01}).value,
               LocatedValue(load_model("mems-switch"), point, voltage, {frequency})(std::vector{1.01}).value);
 }
 
-TEST(LocatedValue, follows_folds_and_flips_too) {
+TEST(LocatedValue, FoldsAndFlipsAreFollowedToo) {
     // x' = p - x^2 + a y, y' = -y: a fold at p = b (of a shift); as an orbit of a phase.
     const Model model = model_from(R"toml(
 [parameters]
@@ -200,7 +200,7 @@ value = 0
     EXPECT_NEAR(found.value, 0.25, 1e-12);
 }
 
-TEST(LocatedValue, says_what_it_cannot_do) {
+TEST(LocatedValue, ImpossibleArgumentsAreRefused) {
     const DrivenOscillator known;
     const Model model = known.model();
     const ParameterId force = model.independent_parameter("F"), restitution = model.independent_parameter("e");
@@ -220,7 +220,7 @@ TEST(LocatedValue, says_what_it_cannot_do) {
     EXPECT_THROW(touch(std::vector{1.0}), InputError);
     LocatedValue of_mass(model, point, force, {model.independent_parameter("m")});
     EXPECT_THROW(of_mass(std::vector{std::nan("")}), InputError);
-    // Without stiffness and mass nothing follows: a number of failures has its reason.
+    // Without mass there is no solution, and the failure has a reason.
     EXPECT_FALSE(of_mass(std::vector{0.0}).found);
     EXPECT_FALSE(of_mass(std::vector{0.0}).problem.empty());
 }

@@ -1,4 +1,4 @@
-// How long steps are where a mean grows with a small oscillation about it, and that nothing is passed by them.
+// Step lengths where a growing mean has a small oscillation, and that such long steps pass over no special point.
 
 #include "follow.hpp"
 
@@ -44,7 +44,7 @@ value = 0
                                   p, ripple, unit, unit * p * p * (1 + ripple), 0.5 * unit));
 }
 
-TEST(LongestStep, grows_with_a_mean_that_outgrows_its_oscillation) {
+TEST(LongestStep, GrowsWithAMeanThatExceedsItsOscillation) {
     for (const double unit : {1e-9, 1.0, 1e6})
         for (const double ripple : {1.0, 0.1, 0.03}) {
             constexpr double first = 0.01;
@@ -78,9 +78,9 @@ value = 0
                                   function, unit, p, unit * (u + 1)));
 }
 
-TEST(LongestStep, passes_no_fold) {
-    // A mean that grows to a hundred times the oscillation and has two folds on the way, within half the oscillation
-    // or within more; or many, of which two and two are as near as 6e-7.
+TEST(LongestStep, DoesNotPassOverFolds) {
+    // A mean that grows to a hundred times the oscillation, with two folds on the way at various distances, or with
+    // many folds in pairs as near as 6e-7.
     for (const double unit : {1e-9, 1.0, 1e6}) {
         for (const double place : {3.0, 30.0, 80.0})
             for (const double width : {0.5, 1.0, 3.0}) {

@@ -1,4 +1,4 @@
-// Orbits that are fixed points of a map, and curves in two parameters from points of their branches.
+// Maps as models, orbits that are their fixed points, and curves in two parameters.
 
 #pragma once
 
@@ -12,8 +12,8 @@
 
 namespace graze::testing {
 
-/// States x, y, z that rest but for what a map makes of them once in each unit of time.
-/// @param parameters lines of the model file; @param images one for each state
+/// A model with states x, y, z that are constant except for a map applied once per unit of time.
+/// @param parameters lines of the model file; @param images expressions of the map, one for each state
 inline Model map_model(const std::string& parameters, const std::vector<std::string>& images) {
     const std::vector<std::string> names{"x", "y", "z"};
     std::string states, rates, map;
@@ -63,7 +63,7 @@ inline BranchSettings in_parameter(const Model& model, const std::string& name, 
     return settings;
 }
 
-/// The curve of points like this one, in the parameter of the settings and a further one.
+/// Returns the curve of a special point in the parameter of the settings and a second one.
 inline Branch curve_of(const Model& model, const SpecialPoint& point, BranchSettings settings,
                        const std::string& further, double least, double greatest, int direction) {
     settings.kept = point;

@@ -1,4 +1,4 @@
-// Multipliers that cross within one step of a branch, or at one place: of maps whose multipliers are closed forms.
+// Several multipliers that cross within one step or at one point, for maps with closed forms.
 
 #include "follow.hpp"
 #include "maps.hpp"
@@ -20,7 +20,7 @@ Branch of_map(const std::string& parameters, const std::vector<std::string>& ima
                          in_parameter(model, "p", least, greatest));
 }
 
-TEST(MissedPoints, two_flips_within_one_step_are_both_found) {
+TEST(MissedPoints, TwoFlipsWithinOneStepAreBothFound) {
     for (const double apart : {1e-3, 1e-5}) {
         const Branch branch =
             of_map("p = 0.5", {"-p*x - 0.5*x^3", fmt::format("-p*y/{:.17g} - 0.5*y^3", 1 + apart)}, 0.1, 1.9);
@@ -30,14 +30,14 @@ TEST(MissedPoints, two_flips_within_one_step_are_both_found) {
     }
 }
 
-TEST(MissedPoints, two_branch_points_within_one_step_are_both_found) {
+TEST(MissedPoints, TwoBranchPointsWithinOneStepAreBothFound) {
     const Branch branch = of_map("p = 0.5", {"p*x - x^3", "p*y/1.001 - y^3"}, 0.2, 1.9);
     ASSERT_EQ(names(branch), "BP BP BD");
     EXPECT_NEAR(branch.special[0].parameter, 1, 1e-7);
     EXPECT_NEAR(branch.special[1].parameter, 1.001, 1e-7);
 }
 
-TEST(MissedPoints, multipliers_that_cross_together_are_counted) {
+TEST(MissedPoints, MultipliersThatCrossTogetherAreCounted) {
     const Branch flips = of_map("p = 0.5", {"-p*x - 0.5*x^3", "-p*y - 0.5*y^3"}, 0.1, 1.9);
     ASSERT_EQ(names(flips), "PD BD");
     EXPECT_NEAR(flips.special[0].parameter, 1, 1e-8);
@@ -48,7 +48,7 @@ TEST(MissedPoints, multipliers_that_cross_together_are_counted) {
     EXPECT_NE(crossings.special[0].detail.find("2 multipliers cross 1 at once"), std::string::npos);
 }
 
-TEST(MissedPoints, a_pitchfork_from_the_branch_that_turns_is_one_point) {
+TEST(MissedPoints, PitchforkFromTheBifurcatingBranchIsOnePoint) {
     const Model model = map_model("p = 1.3", {"p*x - x^3"});
     BranchSettings settings = in_parameter(model, "p", 0.5, 3);
     settings.direction = -1;
@@ -58,7 +58,7 @@ TEST(MissedPoints, a_pitchfork_from_the_branch_that_turns_is_one_point) {
     EXPECT_NEAR(of_type(branch, PointType::branch_point)[0].parameter, 1, 1e-9);
 }
 
-TEST(MissedPoints, coefficients_that_are_round_off_decide_nothing) {
+TEST(MissedPoints, CoefficientsBelowRoundOffAreUndecided) {
     const Branch flip = of_map("p = 0.5", {"-p*x + 0.3"}, 0.1, 1.9);
     ASSERT_EQ(of_type(flip, PointType::flip).size(), 1U) << names(flip);
     EXPECT_TRUE(of_type(flip, PointType::flip)[0].detail.starts_with("criticality not decided"))
@@ -69,7 +69,7 @@ TEST(MissedPoints, coefficients_that_are_round_off_decide_nothing) {
         << of_type(torus, PointType::torus)[0].detail;
 }
 
-TEST(MissedPoints, a_multiplier_that_leaves_and_comes_back_within_one_step_is_seen) {
+TEST(MissedPoints, MultiplierThatCrossesTwiceWithinOneStepIsFound) {
     for (const double apart : {1e-3, 3e-4}) {
         SCOPED_TRACE(apart);
         const std::string depth = fmt::format("(p - 0.3)*(p - {:.17g})", 0.3 + apart);
@@ -93,7 +93,7 @@ TEST(MissedPoints, a_multiplier_that_leaves_and_comes_back_within_one_step_is_se
     }
 }
 
-/// Orbits of a clock that pass a wall at a distance which is negative between two values of p.
+/// Orbits of a clock that pass a wall at a distance that is negative between two values of p.
 Branch beside_wall(bool stop) {
     const Model model = model_from(R"toml(
 [parameters]
@@ -131,7 +131,7 @@ next = "rest"
     return follow_branch(model, fixed_point(model, {1}), settings);
 }
 
-TEST(MissedPoints, two_touches_within_one_step_are_seen_and_the_first_ends_the_branch) {
+TEST(MissedPoints, FirstOfTwoTouchesWithinOneStepEndsTheBranch) {
     const Branch all = beside_wall(false);
     ASSERT_EQ(names(all), "GR GR BD");
     EXPECT_NEAR(all.special[0].parameter, 0.3, 1e-9);
@@ -142,7 +142,7 @@ TEST(MissedPoints, two_touches_within_one_step_are_seen_and_the_first_ends_the_b
     EXPECT_NEAR(followed.points.back().parameter, 0.3, 1e-9);
 }
 
-/// The branch of a map towards smaller p.
+/// Returns the branch of a map towards smaller p.
 Branch of_map_from(const std::string& image, double p, double x, double least) {
     const Model model = map_model(fmt::format("p = {}", p), {image});
     BranchSettings settings = in_parameter(model, "p", least, p + 0.1);
@@ -150,7 +150,7 @@ Branch of_map_from(const std::string& image, double p, double x, double least) {
     return follow_branch(model, fixed_point(model, {x}), settings);
 }
 
-TEST(MissedPoints, a_branch_that_comes_near_is_not_gone_over_to) {
+TEST(MissedPoints, ContinuationDoesNotJumpToANearbyBranch) {
     for (const double broken : {1e-6, 1e-7, 1e-8}) {
         SCOPED_TRACE(broken);
         const Branch pitchfork =

@@ -47,7 +47,7 @@ Monitor monitor(const std::string& name, Monitor::Kind kind, const Model& model,
     return result;
 }
 
-TEST(OrbitMonitors, of_a_cosine_are_known) {
+TEST(OrbitMonitors, ValuesForACosineAreExact) {
     const Model model = model_from(linear);
     const OrbitSolution solution = settled(model, "phase0");
     OrbitMonitors monitors(
@@ -68,7 +68,7 @@ TEST(OrbitMonitors, of_a_cosine_are_known) {
     EXPECT_NEAR(values[7], 0.8 * a, tolerance);
 }
 
-TEST(OrbitMonitors, see_both_halves_of_a_symmetric_orbit) {
+TEST(OrbitMonitors, BothHalvesOfASymmetricOrbitCount) {
     const Model model = load_model("dry-friction-oscillator");
     const OrbitSolution half = settled(model, "phase0");
     ASSERT_TRUE(half.orbit.symmetry);
@@ -85,7 +85,7 @@ TEST(OrbitMonitors, see_both_halves_of_a_symmetric_orbit) {
         EXPECT_NEAR(values[i], again[i], 1e-12);
 }
 
-TEST(OrbitMonitors, say_which_segments_there_are) {
+TEST(OrbitMonitors, UnknownSegmentsAreRefusedWithTheSignature) {
     const Model model = model_from(linear);
     const OrbitSolution solution = settled(model, "phase0");
     for (const char* const wrong : {"2", "0", "impact", "phase0#2", "phase0#"})
@@ -95,7 +95,7 @@ TEST(OrbitMonitors, say_which_segments_there_are) {
             << wrong;
 }
 
-TEST(MonitorsOfBranches, are_reported_and_bound_them) {
+TEST(MonitorsOfBranches, AreReportedAndBoundTheBranch) {
     const Model model = model_from(linear);
     const OrbitSolution solution = settled(model, "phase0");
     BranchSettings settings;
@@ -114,7 +114,7 @@ TEST(MonitorsOfBranches, are_reported_and_bound_them) {
     EXPECT_EQ(branch.special.size(), 3u);
 }
 
-/// With the amplitude held, force and frequency go along the resonance curve F = a |H(omega)|.
+/// Checks that with a fixed amplitude force and frequency follow the resonance curve F = a |H(omega)|.
 void expect_resonance_curve(const Model& model, const Monitor& held, double value) {
     const OrbitSolution solution = settled(model, "phase0");
     BranchSettings settings;
@@ -135,16 +135,17 @@ void expect_resonance_curve(const Model& model, const Monitor& held, double valu
         EXPECT_NEAR(amplitude(0.1, omega, force), size, 1e-9 * size);
         EXPECT_TRUE(point.stable);
     }
-    EXPECT_EQ(branch.special.size(), 1u); // the bound: a turn of the force is no fold
+    EXPECT_EQ(branch.special.size(), 1u); // the bound only: an extremum of the force is not a fold
 }
 
-TEST(MonitorsOfBranches, that_are_held_free_a_parameter) {
+TEST(MonitorsOfBranches, FixedMonitorsFreeAParameter) {
     const Model model = model_from(linear);
     expect_resonance_curve(model, monitor("amplitude", Monitor::Kind::maximum, model, "x"), 0.3);
     expect_resonance_curve(model, monitor("norm", Monitor::Kind::norm, model, "x"), 0.2);
 }
 
-/// With the amplitude held at 0.3, along the frequency from 1.7 down: the force is 0.3 / |H|, least near resonance.
+/// Settings with the amplitude fixed at 0.3, along the frequency from 1.7 down: the force is 0.3 / |H|, least near
+/// resonance.
 BranchSettings along_resonance(const Model& model) {
     BranchSettings settings;
     settings.parameter = model.independent_parameter("omega");
@@ -157,7 +158,7 @@ BranchSettings along_resonance(const Model& model) {
     return settings;
 }
 
-TEST(MonitorsOfBranches, free_a_parameter_that_may_have_bounds) {
+TEST(MonitorsOfBranches, FreeParametersMayHaveBounds) {
     const Model model = model_from(linear);
     const Orbit start = settled(model, "phase0").orbit;
     BranchSettings settings = along_resonance(model);
@@ -171,7 +172,7 @@ TEST(MonitorsOfBranches, free_a_parameter_that_may_have_bounds) {
     const SpecialPoint& end = branch.special.back();
     EXPECT_EQ(end.solution.orbit.parameters[force.place()], bound);
     EXPECT_EQ(end.detail.rfind("F = ", 0), 0u) << end.detail;
-    // The other way the force rises; beyond its bound no branch begins.
+    // In the other direction the force rises beyond its bound, and no branch begins.
     settings.direction = 1;
     settings.greatest = 1.5;
     const Branch back = follow_branch(model, end.solution.orbit, settings);
@@ -184,7 +185,7 @@ TEST(MonitorsOfBranches, free_a_parameter_that_may_have_bounds) {
     EXPECT_NE(outside.detail.find("lies beyond its bound"), std::string::npos) << outside.detail;
 }
 
-TEST(MonitorsOfBranches, refuse_bounds_of_what_is_not_free) {
+TEST(MonitorsOfBranches, BoundsOfParametersThatAreNotFreeAreRefused) {
     const Model model = model_from(linear);
     const Orbit start = settled(model, "phase0").orbit;
     const std::vector<FreeBounds> wrong{{model.independent_parameter("omega"), 0.1, 1.0},
@@ -198,7 +199,7 @@ TEST(MonitorsOfBranches, refuse_bounds_of_what_is_not_free) {
     }
 }
 
-TEST(MonitorsOfBranchesSlow, that_slow_a_branch_down_for_ever_do_not_hang_it) {
+TEST(MonitorsOfBranchesSlow, BranchEndsWherePeriodsDiverge) {
     Model model = model_from(linear);
     model.set_parameter("omega", 0.7);
     // Along the force with the frequency free: towards force = amplitude, where the frequency is zero.
@@ -213,7 +214,7 @@ TEST(MonitorsOfBranchesSlow, that_slow_a_branch_down_for_ever_do_not_hang_it) {
     EXPECT_NEAR(branch.points.back().parameter, *settings.monitors[0].held, 1e-3);
 }
 
-TEST(MonitorsOfBranches, must_match_what_is_free) {
+TEST(MonitorsOfBranches, FixedMonitorsMustMatchTheFreeParameters) {
     const Model model = model_from(linear);
     const OrbitSolution solution = settled(model, "phase0");
     BranchSettings settings;

@@ -1,4 +1,4 @@
-// What is found next to a grazing, and what is not: against closed forms, as near to it as numbers allow.
+// Special points very near a grazing, and the absence of spurious ones, against closed forms.
 
 #include "follow.hpp"
 #include "maps.hpp"
@@ -14,16 +14,17 @@ namespace {
 using namespace graze::testing;
 using std::numbers::pi;
 
-/// Orbits with one impact in each period of x'' + 2 zeta x' + x = A cos(omega t + phi) at the stop sigma, with the
+/// Orbits with one impact per period of x'' + 2 zeta x' + x = A cos(omega t + phi) at the stop sigma, with the
 /// restitution e. Motion and A exp(i phi) are linear in sigma and the speed v of the impact (Shaw and Holmes 1983), in
 /// long double: A^2 = p + q v + r v^2.
 struct Impacts {
     using Number = long double;
     Number zeta, omega, e, sigma;
-    Number p = 0, q = 0, r = 0;                       ///< of the amplitude's square
-    Number still = 0, by_speed = 0;                   ///< A cos(phi)
-    Number out_still = 0, out_by_speed = 0;           ///< A sin(phi)
-    Number after_an_impulse = 0, trace = 0, loss = 0; ///< of one period without impact; determinant of the map
+    Number p = 0, q = 0, r = 0;             ///< coefficients of the squared amplitude
+    Number still = 0, by_speed = 0;         ///< A cos(phi)
+    Number out_still = 0, out_by_speed = 0; ///< A sin(phi)
+    Number after_an_impulse = 0, trace = 0,
+           loss = 0; ///< response to an impulse and trace over one period without impact; determinant of the map
 
     Impacts(Number damping, Number frequency, Number restitution, Number stop)
         : zeta(damping), omega(frequency), e(restitution), sigma(stop) {
@@ -53,7 +54,8 @@ struct Impacts {
     }
     Number amplitude(Number speed) const { return std::sqrt(p + q * speed + r * speed * speed); }
     Number fold() const { return -q / (2 * r); }
-    /// Where 1 + trace + determinant of the map from impact to impact is zero: linear in the speed.
+    /// Returns the speed at the flip, where 1 + trace + determinant of the impact map is zero; the condition is linear
+    /// in the speed.
     Number flip() const {
         const Number k = after_an_impulse * (1 + e);
         return -k * (still - sigma) / (1 + loss - e * trace + k * by_speed);
@@ -69,13 +71,13 @@ struct Impacts {
     }
 };
 
-/// The frequency near 2 at which the fold or the flip has a speed.
+/// Returns the frequency near 2 at which the fold or flip has a given speed.
 double tuned(bool fold, double speed) {
     const auto lack = [&](double omega) {
         const Impacts here(0.1L, omega, 0.7L, 0.5L);
         return (fold ? here.fold() : here.flip()) - speed;
     };
-    // Near omega = 2 sqrt(1 - zeta^2), where both have none.
+    // At omega = 2 sqrt(1 - zeta^2) both have zero speed.
     double low = 1.95, high = 2.03;
     const bool falls = lack(low) > 0;
     for (int i = 0; i < 200; ++i) {
@@ -85,7 +87,7 @@ double tuned(bool fold, double speed) {
     return 0.5 * (low + high);
 }
 
-TEST(NearGrazing, folds_and_flips_of_slow_impacts_are_found_from_the_touch) {
+TEST(NearGrazing, FoldsAndFlipsOfSlowImpactsAreFoundFromTheTouch) {
     for (const bool fold : {true, false})
         for (const double speed : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
             const Impacts known(0.1L, tuned(fold, speed), 0.7L, 0.5L);
@@ -103,7 +105,7 @@ TEST(NearGrazing, folds_and_flips_of_slow_impacts_are_found_from_the_touch) {
         }
 }
 
-TEST(NearGrazing, folds_and_flips_of_slow_impacts_are_found_on_the_way_to_the_touch) {
+TEST(NearGrazing, FoldsAndFlipsOfSlowImpactsAreFoundTowardsTheTouch) {
     for (const bool fold : {true, false})
         for (const double speed : {1e-3, 1e-5, 1e-7, 1e-8}) {
             const Impacts known(0.1L, tuned(fold, speed), 0.7L, 0.5L);
@@ -133,7 +135,7 @@ TEST(NearGrazing, folds_and_flips_of_slow_impacts_are_found_on_the_way_to_the_to
         }
 }
 
-/// A pulse of force while cos(theta) > c on a linear oscillator.
+/// A linear oscillator with a pulse of force while cos(theta) > c.
 Model pulsed(double c, const std::string& rest) {
     return model_from(fmt::format(R"toml(
 [parameters]
@@ -167,9 +169,9 @@ mode = "on"
                                   c, rest));
 }
 
-TEST(NearGrazing, no_branch_point_is_where_a_pulse_vanishes) {
-    // At c = 1 the pulse has no length, and the event that begins it no speed. The multipliers, e^(-0.15 T) in size all
-    // along, are far from 1.
+TEST(NearGrazing, VanishingPulseIsNotABranchPoint) {
+    // At c = 1 the pulse has zero length and the event that begins it zero speed. The multipliers, of modulus e^(-0.15
+    // T), are far from 1.
     const Model model = pulsed(0.2, R"toml(
 [events.off]
 function = "cos(theta) - c"
@@ -182,7 +184,7 @@ function = "c - cos(theta)"
         const Branch branch = follow_branch(model, settled(model, "s").orbit, settings);
         EXPECT_EQ(names(branch).find("BP"), std::string::npos) << names(branch);
         EXPECT_EQ(branch.outcome, BranchOutcome::unphysical);
-        EXPECT_NEAR(branch.points.back().parameter, direction, 1e-8); // the branch turns there
+        EXPECT_NEAR(branch.points.back().parameter, direction, 1e-8); // the branch has a fold there
         if (direction > 0) {
             ASSERT_EQ(names(branch), "GR");
             EXPECT_NEAR(branch.special[0].parameter, 1, 1e-12);
@@ -190,9 +192,9 @@ function = "c - cos(theta)"
     }
 }
 
-TEST(NearGrazing, no_touch_is_where_a_function_of_the_clock_begins_to_rise_from_its_surface) {
-    // From c = 0 on the event `on` is beyond its surface where the segment begins at which it is watched, and rises: it
-    // happens at theta = 2 pi as before. At c = 1 the event `off` is touched.
+TEST(NearGrazing, FunctionThatStartsToRiseFromItsSurfaceIsNotATouch) {
+    // From c = 0 on the function of event `on` is negative at the start of the segment and rises; the event happens at
+    // theta = 2 pi as before. At c = 1 the event `off` is touched.
     const Model model = pulsed(-0.3, R"toml(
 [events.off]
 function = "sin(theta) - c"

@@ -1,5 +1,5 @@
-// Normal forms and points of codimension two: of maps, against what their derivatives by hand say, and of an impacting
-// motion, against how far the new branch has opened.
+// Normal forms and points of codimension two: for maps against derivatives by hand, for an impacting motion against the
+// opening of the bifurcating branch.
 
 #include "follow.hpp"
 #include "impact_oscillator.hpp"
@@ -18,12 +18,12 @@ using namespace graze::testing;
 using Complex = std::complex<double>;
 using std::numbers::pi;
 
-/// The number behind the last `=` of a detail.
+/// Returns the number after the last `=` of a detail.
 double coefficient_of(const SpecialPoint& point) {
     return std::stod(point.detail.substr(point.detail.rfind('=') + 1));
 }
 
-TEST(NormalForm, flip_of_the_logistic_map_is_supercritical) {
+TEST(NormalForm, FlipOfTheLogisticMapIsSupercritical) {
     const Model model = map_model("r = 2.5", {"r*x*(1 - x)", "0.1*y"});
     const Branch branch = follow_branch(model, fixed_point(model, {0.6, 0}), in_parameter(model, "r", 1.5, 3.4));
     ASSERT_EQ(names(branch), "PD BD") << name_of(branch.outcome) << branch.detail << branch.points.size();
@@ -33,7 +33,7 @@ TEST(NormalForm, flip_of_the_logistic_map_is_supercritical) {
     EXPECT_NEAR(coefficient_of(branch.special[0]), 9, 1e-4);
 }
 
-TEST(NormalForm, cubic_terms_make_flips_subcritical) {
+TEST(NormalForm, CubicTermsMayMakeFlipsSubcritical) {
     // x -> -(1 + p) x + q x^2 + s x^3: c = q^2 + s.
     for (const double s : {-2.0, -0.5, 1.0}) {
         const Model model =
@@ -45,8 +45,8 @@ TEST(NormalForm, cubic_terms_make_flips_subcritical) {
     }
 }
 
-TEST(NormalForm, coefficients_follow_the_units) {
-    // In units of length L: x -> L f(x / L), whose coefficient is divided by L^2.
+TEST(NormalForm, CoefficientsScaleWithTheUnits) {
+    // In units of length L: x -> L f(x / L), which divides the coefficient by L^2.
     for (const double length : {1e-9, 1e-3, 1e4, 1e9}) {
         const Model model = map_model(fmt::format("r = 2.5\nL = {:.17g}", length), {"r*x*(1 - x/L)", "0.1*y"});
         const Branch branch =
@@ -56,9 +56,9 @@ TEST(NormalForm, coefficients_follow_the_units) {
     }
 }
 
-TEST(NormalForm, folds_say_on_which_side_two_orbits_are) {
-    // u -> u + b p + a u^2 with u = x - 1, which drives y: (1, r) with r = 0.3/0.9 is the critical vector, and w has
-    // its length.
+TEST(NormalForm, FoldsTellOnWhichSideTwoOrbitsExist) {
+    // u -> u + b p + a u^2 with u = x - 1, which drives y: the critical vector is (1, r) with r = 0.3/0.9, and w is
+    // measured by its length.
     const double length = std::hypot(1, 0.3 / 0.9);
     for (const double a : {1.0, -0.7})
         for (const double b : {1.0, -2.0}) {
@@ -77,7 +77,7 @@ TEST(NormalForm, folds_say_on_which_side_two_orbits_are) {
         }
 }
 
-TEST(NormalForm, cusps_have_the_coefficient_of_their_map) {
+TEST(NormalForm, CuspsHaveTheCoefficientOfTheirMap) {
     // u -> u + p + q u + s u^3 + 2 u v, v -> 0.1 v + 0.9 k u^2 with u = x - 1 and v = y - 2: on the centre manifold
     // v = k u^2 to that order, so that c = s + 2 k.
     for (const double s : {-1.0, 0.5}) {
@@ -111,7 +111,7 @@ TEST(NormalForm, cusps_have_the_coefficient_of_their_map) {
     }
 }
 
-TEST(NormalForm, generalised_flip_is_found_where_the_coefficient_vanishes) {
+TEST(NormalForm, GeneralisedFlipIsFoundWhereTheCoefficientVanishes) {
     const Model model = map_model("p = -0.2\nq = 1.0\ns = -2", {"-(1 + p)*x + q*x^2 + s*x^3", "0.1*y"});
     BranchSettings settings = in_parameter(model, "p", -0.5, 0.5);
     const Branch branch = follow_branch(model, fixed_point(model, {0, 0}), settings);
@@ -122,7 +122,7 @@ TEST(NormalForm, generalised_flip_is_found_where_the_coefficient_vanishes) {
     EXPECT_NEAR(value_of(model, of_type(curve, PointType::generalised)[0].solution, "s"), -1, 1e-9);
 }
 
-TEST(NormalForm, generalised_flip_is_where_folds_of_doubled_orbits_end) {
+TEST(NormalForm, FoldsOfDoubledOrbitsEndInTheGeneralisedFlip) {
     // x -> -(1 + p) x - s x^3 - x^5: orbits x, -x with p + s x^2 + x^4 = 0, which fold at p = s^2/4, x^2 = -s/2, for s
     // < 0; flips at p = 0, with the coefficient s.
     const Model model = map_model("p = -0.2\ns = -0.4", {"-(1 + p)*x - s*x^3 - x^5", "0.1*y + 0.2*x^2"});
@@ -141,16 +141,16 @@ TEST(NormalForm, generalised_flip_is_where_folds_of_doubled_orbits_end) {
     const Branch curve = curve_of(model, folds[0], in_s, "p", -0.3, 0.3, 1);
     for (const BranchPoint& one : curve.points)
         EXPECT_NEAR(value_of(model, one.solution, "p"), one.parameter * one.parameter / 4, 1e-11);
-    // It ends where doubled orbits are single ones twice over, as near as these can be told from them: s = -2 x^2.
+    // It ends where doubled orbits can no longer be told from repeated single ones: s = -2 x^2.
     EXPECT_NEAR(curve.points.back().parameter, found[0].parameter, 1e-5);
 }
 
-/// Of Henon's map x -> y, y -> a - b x - y^2: fixed points y with trace -2 y and determinant b.
+/// Henon's map x -> y, y -> a - b x - y^2, with fixed points y of trace -2 y and determinant b.
 Model henon(double a, double b) {
     return map_model(fmt::format("a = {:.17g}\nb = {:.17g}", a, b), {"y", "a - b*x - y^2"});
 }
 
-TEST(NormalForm, henons_map_has_its_resonances) {
+TEST(NormalForm, HenonsMapHasItsResonances) {
     const double b = 0.3, y = 0.2, a = y * y + (1 + b) * y;
     const Model model = henon(a, b);
     BranchSettings settings = in_parameter(model, "a", -2, 5);
@@ -177,7 +177,7 @@ TEST(NormalForm, henons_map_has_its_resonances) {
     ASSERT_EQ(first.size(), 1U) << names(of_folds);
     EXPECT_NEAR(value_of(model, first[0].solution, "b"), 1, 1e-10);
     EXPECT_NEAR(first[0].parameter, -1, 1e-10);
-    // From the resonance on along the folds and flips.
+    // From the resonance along the folds and flips.
     SpecialPoint along = first[0];
     along.type = PointType::fold;
     const Branch folds_again = curve_of(model, along, settings, "b", -0.5, 1.5, 1);
@@ -192,14 +192,15 @@ TEST(NormalForm, henons_map_has_its_resonances) {
         EXPECT_NEAR(on.parameter, 0.75 * std::pow(1 + value_of(model, on.solution, "b"), 2), 1e-11);
 }
 
-/// A map near z -> (1 + p) e^(i w) z + c_1 z |z|^2, seen askew: z is u + 0.3 u^2, and v.
+/// A map near z -> (1 + p) e^(i w) z + c_1 z |z|^2 in nonlinearly transformed coordinates.
 Model spiral(double p, double w) {
     return map_model(fmt::format("p = {:.17g}\nw = {:.17g}\nk = -0.4", p, w),
                      {"(1 + p)*(cos(w)*x - sin(w)*y) + k*x*(x^2 + y^2) + 0.5*x^2 - 0.2*x*y",
                       "(1 + p)*(sin(w)*x + cos(w)*y) + k*y*(x^2 + y^2) + 0.3*x^2 + 0.1*y^2"});
 }
 
-/// Its coefficient by the second and third derivatives (Kuznetsov 2004, section 4.7), with q = (1, -i) / sqrt(2).
+/// Returns its coefficient from the second and third derivatives (Kuznetsov 2004, section 4.7), with q = (1, -i) /
+/// sqrt(2).
 double coefficient_of_spiral(double w, double k) {
     const Complex i(0, 1), mu = std::exp(i * w);
     using Pair = std::array<Complex, 2>;
@@ -224,14 +225,14 @@ double coefficient_of_spiral(double w, double k) {
     };
     const Pair cubic = third(q, q, r), mean = second(q, solve(1, second(q, r))),
                double_angle = second(r, solve(mu * mu, second(q, q)));
-    // p = q for a rotation: its product is with the conjugate.
+    // For a rotation the adjoint vector is q; the product is with the conjugate.
     Complex sum = 0;
     for (std::size_t m : {0, 1})
         sum += std::conj(q[m]) * (cubic[m] + 2.0 * mean[m] + double_angle[m]);
     return (std::conj(mu) * sum).real() / 2;
 }
 
-TEST(NormalForm, torus_has_the_coefficient_of_its_map) {
+TEST(NormalForm, TorusHasTheCoefficientOfItsMap) {
     for (const double w : {0.7, 1.1, 2.4}) {
         const Model model = spiral(-0.1, w);
         const Branch branch = follow_branch(model, fixed_point(model, {0, 0}), in_parameter(model, "p", -0.3, 0.3));
@@ -243,8 +244,8 @@ TEST(NormalForm, torus_has_the_coefficient_of_its_map) {
     }
 }
 
-TEST(NormalForm, generalised_torus_is_found_where_the_coefficient_vanishes) {
-    // Radii r -> (1 + p) r + s r^3 - r^5 that turn by 0.9: a torus leaves at p = 0, stable for s < 0.
+TEST(NormalForm, GeneralisedTorusIsFoundWhereTheCoefficientVanishes) {
+    // Radii r -> (1 + p) r + s r^3 - r^5 with rotation by 0.9: torus bifurcation at p = 0, stable torus for s < 0.
     const std::string g = "(1 + p + s*(x^2 + y^2) - (x^2 + y^2)^2)";
     const Model model =
         map_model("p = -0.1\ns = -0.5", {g + "*(cos(0.9)*x - sin(0.9)*y)", g + "*(sin(0.9)*x + cos(0.9)*y)"});
@@ -260,7 +261,7 @@ TEST(NormalForm, generalised_torus_is_found_where_the_coefficient_vanishes) {
         EXPECT_NEAR(value_of(model, one.solution, "p"), 0, 1e-12);
 }
 
-TEST(NormalForm, curve_of_torus_points_has_all_resonances_of_a_generalised_henon_map) {
+TEST(NormalForm, TorusCurveHasAllResonancesOfAGeneralisedHenonMap) {
     // x -> y, y -> a - b x - y^2 + r x y: at fixed points y the trace is (r - 2) y and the determinant b - r y.
     const double r = -0.1, y = 0.2, b = 0.5, a = y * (1 + b) + (1 - r) * y * y;
     const Model model = map_model(fmt::format("a = {:.17g}\nb = 0.5\nr = -0.1", a), {"y", "a - b*x - y^2 + r*x*y"});
@@ -291,7 +292,7 @@ TEST(NormalForm, curve_of_torus_points_has_all_resonances_of_a_generalised_henon
     EXPECT_EQ(both.size(), 12U) << both;
 }
 
-TEST(NormalForm, curves_of_torus_points_begin_at_resonances_on_the_side_of_the_complex_pair) {
+TEST(NormalForm, TorusCurvesBeginAtResonancesOnTheSideOfTheComplexPair) {
     // Henon's map above: the determinant b is 1 all along, and a = y^2 + 2 y with the trace -2 y between -2 and 2.
     const double b = 0.3, y = 0.2, a = y * y + (1 + b) * y;
     const Model model = henon(a, b);
@@ -312,11 +313,11 @@ TEST(NormalForm, curves_of_torus_points_begin_at_resonances_on_the_side_of_the_c
             const Branch torus = curve_of(model, start, settings, "b", -0.5, 1.5, way);
             EXPECT_EQ(torus.outcome, BranchOutcome::stopped) << torus.detail;
             if (torus.points.size() == 1) {
-                EXPECT_EQ(torus.detail, "this way the two multipliers are real");
+                EXPECT_EQ(torus.detail, "in this direction the two multipliers are real");
                 continue;
             }
             ++followed;
-            // From the one resonance over 1:3 and 1:4 to the other.
+            // From one resonance over 1:3 and 1:4 to the other.
             EXPECT_EQ(names(torus), at_one ? "R4 R3 R2" : "R3 R4 R1");
             for (const BranchPoint& one : torus.points) {
                 const double at = one.solution.orbit.starts[0][0];
@@ -329,7 +330,7 @@ TEST(NormalForm, curves_of_torus_points_begin_at_resonances_on_the_side_of_the_c
     }
 }
 
-TEST(NormalForm, coefficient_is_how_the_doubled_orbits_of_an_impact_oscillator_open) {
+TEST(NormalForm, CoefficientPredictsTheOpeningOfDoubledOrbits) {
     const Model model = oscillator_model(Oscillator(), 0.02);
     BranchSettings settings = in_parameter(model, "sigma", -1, 1);
     const Branch branch = follow_branch(model, settled(model, "phase0", 400).orbit, settings);
@@ -343,7 +344,7 @@ TEST(NormalForm, coefficient_is_how_the_doubled_orbits_of_an_impact_oscillator_o
     ASSERT_GE(doubled.points.size(), 4U);
     double nearest = 1, farthest = 0;
     for (const BranchPoint& one : doubled.points) {
-        // w^2 = (|mu| - 1) / c, where mu is the multiplier of the orbit that is left.
+        // w^2 = (|mu| - 1) / c, where mu is the multiplier of the original orbit.
         const Orbit& orbit = one.solution.orbit;
         double square = 0;
         for (std::size_t i = 0; i < model.states.size(); ++i) {

@@ -1,5 +1,5 @@
-// Branches of smooth systems whose periodic orbits are known in closed form: normal forms about x = cos(theta), the
-// motion of a clock. What they add to it decides what happens along the branch.
+// Branches of smooth systems whose periodic orbits are known in closed form: normal forms for the deviation u from the
+// motion x = cos(theta) of a clock.
 
 #include "follow.hpp"
 
@@ -38,7 +38,7 @@ Orbit orbit_from(const Model& model, std::vector<double> state, double period) {
     return {parse_signature(model, "start"), model.parameter_values(), {std::move(state)}, {period}, {}};
 }
 
-TEST(NormalForms, closed_branch_is_followed_once_round) {
+TEST(NormalForms, ClosedBranchIsFollowedOnce) {
     // Orbits u^2 + p^2 = 1: folds at p = +-1, and the parameter passes zero twice.
     const Model model = about_clock("p^2 + u^2 - 1", 0.6, 1.8);
     for (const int direction : {1, -1})
@@ -65,8 +65,8 @@ TEST(NormalForms, closed_branch_is_followed_once_round) {
         }
 }
 
-TEST(NormalForms, branch_that_ends_in_nothing_goes_through) {
-    // A force p cos(theta) on a linear oscillator: at p = 0 the orbit is a point, beyond it the orbit's mirror image.
+TEST(NormalForms, BranchContinuesThroughTheOrbitAtRest) {
+    // A force p cos(theta) on a linear oscillator: at p = 0 the orbit is a point, beyond it the symmetric image.
     const Model model = model_from(R"toml(
 [parameters]
 p = 0.5
@@ -90,7 +90,7 @@ value = 0
                 1e-12);
 }
 
-TEST(NormalForms, transcritical_branches_cross) {
+TEST(NormalForms, TranscriticalBranchesCross) {
     // u = 0 and u = p.
     const Model model = about_clock("u*(p - u)", -0.5, 1);
     BranchSettings settings;
@@ -110,7 +110,7 @@ TEST(NormalForms, transcritical_branches_cross) {
     }
 }
 
-TEST(NormalForms, pitchfork_with_and_without_declared_symmetry) {
+TEST(NormalForms, PitchforkIsFoundWithAndWithoutDeclaredSymmetry) {
     // u = 0 and u^2 = p, which are images of each other under x -> -x, theta -> theta + pi.
     const std::string symmetry = "[symmetries.mirror]\nmap = { x = \"-x\", theta = \"theta + pi\" }\n";
     for (const bool declared : {false, true}) {
@@ -146,7 +146,7 @@ TEST(NormalForms, pitchfork_with_and_without_declared_symmetry) {
     }
 }
 
-TEST(NormalForms, torus_where_a_focus_loses_its_stability) {
+TEST(NormalForms, TorusPointIsFoundWhereAFocusLosesStability) {
     const Model model = torus_model();
     BranchSettings settings;
     settings.greatest = 0.1;
@@ -164,8 +164,8 @@ TEST(NormalForms, torus_where_a_focus_loses_its_stability) {
     }
 }
 
-/// In a frame that turns by half the clock's angle u' = u (growth - u^2), v' = -v; so that u changes its sign with each
-/// period: u = v = 0 flips where the growth is zero, and beyond u^2 = growth with twice the period.
+/// In a frame that rotates by half the clock's angle u' = u (growth - u^2), v' = -v, so that u changes its sign each
+/// period: u = v = 0 has a flip where the growth is zero, and the doubled orbit is u^2 = growth.
 Model flipping(const std::string& growth, double p) {
     return model_from(fmt::format(R"toml(
 [parameters]
@@ -190,7 +190,7 @@ value = 0
                                   p, growth));
 }
 
-TEST(NormalForms, doubled_orbit_has_its_closed_form) {
+TEST(NormalForms, DoubledOrbitHasItsClosedForm) {
     const Model model = flipping("p", -0.2);
     BranchSettings settings;
     settings.greatest = 0.3;
@@ -216,7 +216,7 @@ TEST(NormalForms, doubled_orbit_has_its_closed_form) {
     }
 }
 
-TEST(NormalForms, pairs_within_one_step_are_found) {
+TEST(NormalForms, PairsOfPointsWithinOneStepAreFound) {
     // u = 0 is unstable only while |p| < 0.01: steps are ten times as long.
     const std::string growth = "(0.0001 - p^2)";
     for (const bool flips : {false, true}) {
@@ -252,9 +252,8 @@ direction = "falling"
     return model;
 }
 
-/// A motion that explicit steps must follow in half a million of them, since what it slides along attracts it with 3000
-/// per unit of time.
-TEST(NormalFormsSlow, relaxation_oscillation_is_followed_for_as_long_as_it_is_told) {
+/// A stiff motion that needs half a million explicit steps, since its slow manifold attracts at a rate of 3000.
+TEST(NormalFormsSlow, StiffRelaxationOscillationIsFollowed) {
     const Model model = van_der_pol(1000, 0);
     AttractorOptions options;
     options.section = "top";
@@ -265,12 +264,12 @@ TEST(NormalFormsSlow, relaxation_oscillation_is_followed_for_as_long_as_it_is_to
     const double mu = 1000, first_zero = 2.338107410459767;
     EXPECT_NEAR(solution.orbit.period(), (3 - 2 * std::log(2.0)) * mu + 3 * first_zero / std::cbrt(mu),
                 3 * std::log(mu) / mu);
-    EXPECT_NEAR(solution.orbit.period(), 1614.4011258083, 1e-9); // between two passages of a simulation
+    EXPECT_NEAR(solution.orbit.period(), 1614.4011258083, 1e-9); // from two passages of a simulation
     ASSERT_EQ(solution.multipliers.size(), 1U);
     EXPECT_LT(std::abs(solution.multipliers[0]), 1e-12);
 }
 
-TEST(NormalForms, search_for_an_orbit_ends_when_it_is_interrupted) {
+TEST(NormalForms, SearchForAnOrbitCanBeInterrupted) {
     const Model model = van_der_pol(1, 0.1);
     AttractorOptions options;
     options.section = "top";
@@ -279,11 +278,11 @@ TEST(NormalForms, search_for_an_orbit_ends_when_it_is_interrupted) {
     EXPECT_EQ(asked, 2);
 }
 
-TEST(NormalForms, van_der_pol_has_its_published_period) {
+TEST(NormalForms, VanDerPolHasItsPublishedPeriod) {
     const Model model = van_der_pol(1, 0.1);
     const OrbitSolution solution = settled(model, "top");
     EXPECT_NEAR(solution.orbit.period(), 6.66328686, 1e-8);
-    // The multiplier 1 of shifts along the orbit is not among them.
+    // The trivial multiplier 1 is not listed.
     ASSERT_EQ(solution.multipliers.size(), 1U);
     BranchSettings settings;
     settings.least = 0.05;
@@ -310,7 +309,7 @@ TEST(NormalForms, van_der_pol_has_its_published_period) {
     EXPECT_NEAR(stiff.points.back().solution.orbit.period(), 19.07836957, 1e-6);
 }
 
-TEST(NormalForms, duffing_folds_where_its_response_turns) {
+TEST(NormalForms, DuffingHasTheFoldsOfItsResponse) {
     // x'' + d x' + x + x^3 = F cos(w t) in w: two folds of the primary resonance.
     const Model model = model_from(R"toml(
 [parameters]

@@ -1,4 +1,4 @@
-// How branches begin, end and are cut into steps: none of it may change what is found on them.
+// Starts, ends and step lengths of branches, which must not change the points found.
 
 #include "follow.hpp"
 
@@ -30,7 +30,7 @@ struct OneImpact {
     }
 };
 
-TEST(OrbitBranch, finds_the_same_from_both_ends) {
+TEST(OrbitBranch, FindsTheSamePointsFromBothEnds) {
     OneImpact one;
     const Branch up = follow_branch(one.model, one.orbit, one.settings);
     one.settings.direction = -1;
@@ -51,7 +51,7 @@ TEST(OrbitBranch, finds_the_same_from_both_ends) {
     EXPECT_NEAR(all.special[2].parameter, down.special[1].parameter, 1e-13);
 }
 
-TEST(OrbitBranch, steps_do_not_matter) {
+TEST(OrbitBranch, PointsDoNotDependOnStepLengths) {
     OneImpact one;
     one.settings.direction = -1;
     const Branch reference = follow_branch(one.model, one.orbit, one.settings);
@@ -71,7 +71,7 @@ TEST(OrbitBranch, steps_do_not_matter) {
         }
 }
 
-TEST(OrbitBranch, ends_on_its_bounds) {
+TEST(OrbitBranch, EndsOnItsBounds) {
     OneImpact one;
     for (const int direction : {1, -1}) {
         one.settings.direction = direction;
@@ -85,7 +85,7 @@ TEST(OrbitBranch, ends_on_its_bounds) {
         EXPECT_EQ(branch.points.back().parameter, bound);
         EXPECT_EQ(branch.points.back().solution.orbit.parameters[one.settings.parameter.place()], bound);
         EXPECT_LT(branch.special[0].solution.residual, 1e-11);
-        // Where it stands on the bound already, going beyond ends it at once, and going back does not.
+        // From a point on the bound, the branch ends at once in one direction and continues in the other.
         one.settings.least = direction > 0 ? -0.1 : 0.02;
         one.settings.greatest = direction > 0 ? 0.02 : 0.05;
         const Branch none = follow_branch(one.model, one.orbit, one.settings);
@@ -99,7 +99,7 @@ TEST(OrbitBranch, ends_on_its_bounds) {
     }
 }
 
-TEST(OrbitBranch, stops_where_it_is_told) {
+TEST(OrbitBranch, StopsAtRequestedTypes) {
     OneImpact one;
     one.settings.stop_at = {PointType::flip};
     const Branch branch = follow_branch(one.model, one.orbit, one.settings);
@@ -121,7 +121,7 @@ TEST(OrbitBranch, stops_where_it_is_told) {
     EXPECT_EQ(visited.points.size(), 4U);
 }
 
-TEST(OrbitBranch, may_go_on_where_orbits_are_impossible) {
+TEST(OrbitBranch, MayContinueThroughInadmissibleOrbits) {
     OneImpact one;
     one.settings.stop_when_unphysical = false;
     one.settings.steps = 1000;
@@ -129,12 +129,12 @@ TEST(OrbitBranch, may_go_on_where_orbits_are_impossible) {
     const auto grazings = of_type(branch, PointType::grazing);
     ASSERT_GE(grazings.size(), 1U);
     EXPECT_TRUE(grazings[0].at_end);
-    // All solutions lie on a closed curve, which has impossible parts.
+    // All solutions lie on a closed curve with inadmissible parts.
     EXPECT_EQ(branch.outcome, BranchOutcome::closed) << branch.detail;
     std::size_t possible = 0;
     const Simulation simulation(one.model);
     for (const BranchPoint& point : branch.points) {
-        // The simulator follows the possible ones, and no others.
+        // Simulation follows exactly the admissible ones.
         const Orbit& orbit = point.solution.orbit;
         const bool leaves = orbit.starts[0][1] < 0;
         const FollowedMotion motion =
@@ -148,7 +148,7 @@ TEST(OrbitBranch, may_go_on_where_orbits_are_impossible) {
     EXPECT_LT(possible + 10, branch.points.size());
 }
 
-TEST(OrbitBranch, is_an_iterator) {
+TEST(OrbitBranch, CanBeStoppedAndResumed) {
     OneImpact one;
     const Branch whole = follow_branch(one.model, one.orbit, one.settings);
     OrbitBranch first(one.model, one.orbit, one.settings);
@@ -170,7 +170,7 @@ TEST(OrbitBranch, is_an_iterator) {
     EXPECT_EQ(moved.outcome(), whole.outcome);
 }
 
-TEST(OrbitBranch, sixty_segments_are_as_good_as_one) {
+TEST(OrbitBranch, SixtySegmentsGiveTheSamePointsAsOne) {
     OneImpact one;
     one.settings.direction = -1;
     const Branch single = follow_branch(one.model, one.orbit, one.settings);
@@ -198,7 +198,7 @@ std::string refusal(const std::function<void()>& action) {
     return "nothing was refused";
 }
 
-TEST(OrbitBranch, says_what_is_wrong) {
+TEST(OrbitBranch, WrongSettingsAreRefused) {
     const OneImpact one;
     const auto refused = [&](const std::function<void(BranchSettings&)>& change) {
         BranchSettings settings = one.settings;
@@ -230,7 +230,7 @@ TEST(OrbitBranch, says_what_is_wrong) {
     }
 }
 
-TEST(OrbitBranch, says_where_nothing_leads_on) {
+TEST(OrbitBranch, PointsWithoutOtherBranchesAreRefused) {
     const OneImpact one;
     BranchSettings settings = one.settings;
     settings.direction = -1;
@@ -242,8 +242,8 @@ TEST(OrbitBranch, says_where_nothing_leads_on) {
     EXPECT_NE(refusal([&] { branches_at(one.model, bounded.special.at(0), settings); }).find("BD"), std::string::npos);
 }
 
-/// An oscillator that hits a stop, and beside it u' = u (p - u^2) about a motion: branches cross at p = 0 whatever the
-/// oscillator does. It loses its impact where the stop is out of reach, at p = lost.
+/// An oscillator with a stop, and an independent u' = u (p - u^2) whose branches cross at p = 0. The impact disappears
+/// at p = lost, where the stop is out of reach.
 Model pitchfork_beside_impacts(double lost) {
     const double reach = 1 / std::hypot(1 - 2.4 * 2.4, 2 * 0.05 * 2.4);
     return model_from(fmt::format(R"toml(
@@ -278,12 +278,12 @@ value = 0
                                   reach, lost));
 }
 
-TEST(OrbitBranch, a_crossing_beside_a_contact_that_vanishes_is_kept) {
+TEST(OrbitBranch, CrossingNearAVanishingContactIsKept) {
     for (const double lost : {-3e-4, 1e-4, 3e-4, 6e-4}) {
         const Model model = pitchfork_beside_impacts(lost);
         BranchSettings settings;
         settings.parameter = model.independent_parameter("p");
-        // The orbit without impacts touches the stop there; with one impact it goes on from that.
+        // The orbit without impacts touches the stop there, and the branch with one impact begins there.
         const Orbit clear = settled(model, "phase0").orbit;
         Orbit trivial = clear;
         trivial.starts[0][2] = std::cos(trivial.starts[0][3]);
@@ -299,7 +299,7 @@ TEST(OrbitBranch, a_crossing_beside_a_contact_that_vanishes_is_kept) {
         const Branch impacting = follow(model, branches_at(model, grazing, settings).at(0), settings);
         ASSERT_GT(impacting.points.size(), 10U);
         EXPECT_LT(impacting.points.back().parameter, -1e-3);
-        // Back to where it loses its impact, in steps of different lengths.
+        // Back to where the impact disappears, with different step lengths.
         for (const double step : {0.02, 0.05}) {
             settings.continuation.largest_step = step;
             settings.steps = 1000;
@@ -319,7 +319,7 @@ TEST(OrbitBranch, a_crossing_beside_a_contact_that_vanishes_is_kept) {
                     if (special.type == PointType::grazing) {
                         EXPECT_NEAR(special.parameter, lost, 1e-10);
                         const OrbitSolution again = solve_orbit(model, special.solution.orbit);
-                        EXPECT_TRUE(again.multipliers.empty()); // without speed they have no limit
+                        EXPECT_TRUE(again.multipliers.empty()); // they diverge at zero speed
                     }
                 }
             EXPECT_NE(found.find("GR"), std::string::npos) << lost;

@@ -1,4 +1,4 @@
-// Conditions on numbers of orbits: gradients against differences, and zeros where special points have been found.
+// Conditions on quantities of orbits: gradients against differences, and zeros at located special points.
 
 #include "branch/orbit_quantity.hpp"
 
@@ -27,7 +27,7 @@ std::unique_ptr<OrbitCondition> held(OrbitQuantity quantity) {
     return std::make_unique<OrbitQuantity>(std::move(quantity));
 }
 
-TEST(OrbitQuantities, gradients_are_those_of_the_values_for_every_shipped_model) {
+TEST(OrbitQuantities, GradientsEqualDifferencesForEveryShippedModel) {
     std::mt19937 random(3);
     EXPECT_EQ(std::size(motions), catalogue().size());
     for (const Motion& motion : motions) {
@@ -49,12 +49,13 @@ TEST(OrbitQuantities, gradients_are_those_of_the_values_for_every_shipped_model)
               Monitor::Kind::minimum, Monitor::Kind::mean, Monitor::Kind::norm})
             for (std::size_t s = 0; s < std::min<std::size_t>(orbit.segments(), 3); ++s) {
                 if (s == 1 && (kind == Monitor::Kind::mean || kind == Monitor::Kind::norm))
-                    continue; // they take long
+                    continue; // these take long
                 Monitor monitor;
                 monitor.kind = kind;
                 monitor.expression = expression;
                 std::optional<std::size_t> segment = s;
-                // The whole; an extremum of it may be at the end of one arc and at the start of the next, which differ.
+                // An extremum over the whole orbit may lie at a jump, where the end of one arc and the start of the
+                // next differ.
                 if (s == 2 &&
                     (kind == Monitor::Kind::duration || kind == Monitor::Kind::mean || kind == Monitor::Kind::norm))
                     segment.reset();
@@ -68,7 +69,7 @@ TEST(OrbitQuantities, gradients_are_those_of_the_values_for_every_shipped_model)
     }
 }
 
-TEST(OrbitQuantities, gradients_of_what_vanishes_at_special_points) {
+TEST(OrbitQuantities, GradientsOfConditionsOfSpecialPointsEqualDifferences) {
     std::mt19937 random(4);
     std::size_t touches = 0, guards = 0;
     for (const Motion& motion : motions) {
@@ -125,7 +126,7 @@ TEST(OrbitQuantities, gradients_of_what_vanishes_at_special_points) {
     EXPECT_GT(guards, 0U);
 }
 
-TEST(OrbitQuantities, vanish_at_the_points_that_their_tests_have_found) {
+TEST(OrbitQuantities, ConditionsVanishAtLocatedPoints) {
     Model model = load_model("impact-microactuator");
     model.set_parameter("V", 0.1);
     model.set_parameter("omega", 0.9189);
@@ -161,7 +162,7 @@ TEST(OrbitQuantities, vanish_at_the_points_that_their_tests_have_found) {
                 EXPECT_LT(std::abs(condition->value()), 1e-9 * size) << short_name(special.type) << special.detail;
             }
         }
-    EXPECT_EQ(grazings, 2U); // where the contact comes, and where it goes
+    EXPECT_EQ(grazings, 2U); // where the contact appears and where it disappears
 }
 
 } // namespace

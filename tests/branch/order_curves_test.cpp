@@ -1,5 +1,4 @@
-// Curves along which events keep coming at once, a segment takes no time, or a guard is about to change: all closed
-// forms.
+// Curves of simultaneous events, vanishing segments and changing guards, with closed forms.
 
 #include "maps.hpp"
 
@@ -15,9 +14,9 @@ namespace {
 
 using namespace graze::testing;
 
-/// x decays, at other rates after each event of a clock: 1 up to a, 3 from then on, 2 after b^2 if that comes, until
-/// the clock is set back after a time 2 and x gains 1.
-/// @param watched in the second mode; @param next of the first event, as TOML
+/// x decays at rates that change with events of a clock: 1 up to time a, then 3, and 2 after b^2 if that event happens,
+/// until the clock is reset at time 2 and x increases by 1.
+/// @param watched events watched in the second mode; @param next mode after the first event, as TOML
 Model timed(const std::string& first_watched, const std::string& second_watched, const std::string& next) {
     return model_from(fmt::format(R"toml(
 [parameters]
@@ -82,12 +81,12 @@ mode = "first"
                                   first_watched, second_watched, next));
 }
 
-/// x after it has gained 1, where it decays by so much in between.
+/// Returns x after its increase by 1, from the total decay in between.
 double start_of(double decay) {
     return 1 / (1 - std::exp(-decay));
 }
 
-/// The branch in a, up to its only point of this type.
+/// Follows the branch in a to its only point of this type.
 SpecialPoint found(const Model& model, const std::string& signature, std::vector<std::vector<double>> starts,
                    std::vector<double> durations, PointType type) {
     BranchSettings settings = in_parameter(model, "a", 0.1, 1.5);
@@ -99,8 +98,8 @@ SpecialPoint found(const Model& model, const std::string& signature, std::vector
     return branch.special.empty() ? SpecialPoint{} : branch.special.back();
 }
 
-TEST(OrderCurves, of_two_events_at_once_have_their_closed_form) {
-    // After the first event the later one is watched no more: orbits are A E as long as a < b^2.
+TEST(OrderCurves, SimultaneousEventsHaveTheirClosedForm) {
+    // After the first event the later one is not watched: orbits are A E as long as a < b^2.
     const Model model = timed("\"early\", \"late\"", "\"set_back\"", "\"second\"");
     const double x = start_of(0.5 + 3 * 1.5);
     const SpecialPoint point =
@@ -120,7 +119,7 @@ TEST(OrderCurves, of_two_events_at_once_have_their_closed_form) {
     }
 }
 
-TEST(OrderCurves, of_vanishing_segments_have_their_closed_form) {
+TEST(OrderCurves, VanishingSegmentsHaveTheirClosedForm) {
     const Model model = timed("\"early\"", "\"late\", \"set_back\"", "\"second\"");
     const double x = start_of(0.5 + 3 * 0.5 + 2 * 1);
     const SpecialPoint point = found(model, "A B C", {{x, 0}, {x * std::exp(-0.5), 0.5}, {x * std::exp(-2), 1}},
@@ -141,8 +140,8 @@ TEST(OrderCurves, of_vanishing_segments_have_their_closed_form) {
     }
 }
 
-TEST(OrderCurves, of_guards_about_to_change_have_their_closed_form) {
-    // Whether x exceeds g when the first event comes decides what follows.
+TEST(OrderCurves, ChangingGuardsHaveTheirClosedForm) {
+    // The next mode depends on whether x exceeds g at the first event.
     const Model model =
         timed("\"early\"", "\"set_back\"", R"([{ when = "x - g > 0", mode = "second" }, { mode = "third" }])");
     const auto level = [](double a) { return std::exp(-a) * start_of(a + 3 * (2 - a)); };
@@ -162,8 +161,8 @@ TEST(OrderCurves, of_guards_about_to_change_have_their_closed_form) {
     }
 }
 
-/// x'' + 0.2 x' + x = F cos(c) with the phase c, set back at 2 pi, and two events that change what y does: at a phase
-/// 0.5 and at 0.3 omega. What the stop does is of no interest: it is only touched, at a phase beyond 2.
+/// x'' + 0.2 x' + x = F cos(c) with the phase c, reset at 2 pi, and two events that change the motion of y: at the
+/// phase 0.5 and at 0.3 omega. The stop is only touched, at a phase above 2.
 Model touching_among_events() {
     std::string text = R"toml(
 [parameters]
@@ -222,7 +221,7 @@ mode = "neither"
     return model_from(text);
 }
 
-TEST(OrderCurves, of_touches_go_on_where_other_events_change_their_order) {
+TEST(OrderCurves, TouchesContinueWhereOtherEventsChangeTheirOrder) {
     const Model model = touching_among_events();
     const auto force = [](double omega) { return std::hypot(1 - omega * omega, 0.2 * omega); };
     const OrbitSolution start = settled(model, "late", 400);
@@ -231,7 +230,7 @@ TEST(OrderCurves, of_touches_go_on_where_other_events_change_their_order) {
     const auto touches = of_type(branch, PointType::grazing);
     ASSERT_EQ(touches.size(), 1U) << names(branch) << branch.detail;
     EXPECT_NEAR(touches[0].parameter, force(1.3), 1e-11);
-    // Beyond omega = 5/3 the fixed event comes first, before that the moving one.
+    // Above omega = 5/3 the fixed event happens first, below it the moving one.
     const Branch curve = curve_of(model, touches[0], settings, "omega", 0.9, 2.2, 1);
     EXPECT_EQ(curve.outcome, BranchOutcome::bound) << names(curve) << curve.detail;
     std::size_t changes = 0;
@@ -248,8 +247,8 @@ TEST(OrderCurves, of_touches_go_on_where_other_events_change_their_order) {
         EXPECT_TRUE(one.solution.certificate.admissible) << one.solution.certificate.reason;
     }
     EXPECT_NEAR(value_of(model, curve.points.back().solution, "omega"), 2.2, 1e-12);
-    // The touch comes at the phase of the response, atan2(0.2 omega, 1 - omega^2): earlier the slower the force is, at
-    // 0.5 with the fixed event, and before that in the segment that this one ends.
+    // The touch occurs at the phase of the response, atan2(0.2 omega, 1 - omega^2), which decreases with omega: it
+    // passes the fixed event at 0.5 into the segment before it.
     const Branch slower = curve_of(model, touches[0], settings, "omega", 0.1, 2.2, -1);
     EXPECT_EQ(slower.outcome, BranchOutcome::bound) << names(slower) << slower.detail;
     EXPECT_NEAR(value_of(model, slower.points.back().solution, "omega"), 0.1, 1e-12);
@@ -263,8 +262,8 @@ TEST(OrderCurves, of_touches_go_on_where_other_events_change_their_order) {
     EXPECT_GT(after, 5U);
 }
 
-/// A forced oscillator with these stops. The touch of its linear response comes at the phase of the section where
-/// omega is 1.5, and before it above.
+/// A forced oscillator with these stops. The touch of its linear response coincides with the section at omega = 1.5,
+/// and precedes it above.
 Model with_stops(const std::vector<std::pair<std::string, std::string>>& stops, const std::string& more = {}) {
     std::string watched, events, transitions;
     for (const auto& [name, function] : stops) {
@@ -296,7 +295,7 @@ mode = "free"
                                   watched, events, transitions, std::atan2(0.3, 1 - 1.5 * 1.5), more));
 }
 
-TEST(OrderCurves, of_touches_pass_the_section_at_which_the_orbit_is_closed) {
+TEST(OrderCurves, TouchesPassTheSectionOfTheOrbit) {
     const Model model = with_stops({{"stop", "1 - x"}});
     BranchSettings settings = in_parameter(model, "F", 0.1, 5);
     const Branch branch = follow_branch(model, settled(model, "phase").orbit, settings);
@@ -312,8 +311,8 @@ TEST(OrderCurves, of_touches_pass_the_section_at_which_the_orbit_is_closed) {
     }
 }
 
-TEST(OrderCurves, of_touches_pass_the_ends_of_a_half_orbit) {
-    // Of two stops the one is touched at the phase of the linear response, the other half a period later.
+TEST(OrderCurves, TouchesPassTheEndsOfAHalfOrbit) {
+    // One stop is touched at the phase of the linear response, the other half a period later.
     const Model model =
         with_stops({{"right", "1 - x"}, {"left", "1 + x"}},
                    "[symmetries.reflection]\nmap = { x = \"-x\", v = \"-v\", theta = \"theta + pi\" }\n");
@@ -332,7 +331,7 @@ TEST(OrderCurves, of_touches_pass_the_ends_of_a_half_orbit) {
         EXPECT_NEAR(one.parameter, std::hypot(1 - omega * omega, 0.2 * omega), 1e-10);
         EXPECT_TRUE(one.solution.certificate.admissible) << one.solution.certificate.reason;
         ++(omega < 1.5 ? before : after);
-        // Of the half orbit each event is touched on one side of that frequency only.
+        // In the half orbit each event is touched on one side of that frequency only.
         for (const OrbitMinimum& minimum : one.solution.certificate.minima) {
             if (std::abs(minimum.value) > 1e-9 || std::abs(omega - 1.5) < 1e-2)
                 continue;

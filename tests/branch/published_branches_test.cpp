@@ -1,4 +1,4 @@
-// Branches of the shipped models against values that are published or were computed independently, by other methods.
+// Branches of the shipped models against published or independently computed values.
 
 #include "follow.hpp"
 
@@ -31,7 +31,7 @@ struct Microactuator {
     Branch without_contact() const { return follow_branch(model, settled(model, "longest", 4000).orbit, settings); }
 };
 
-TEST(PublishedBranches, microactuator_up_to_its_first_contact) {
+TEST(PublishedBranches, MicroactuatorHasItsPublishedPointsUpToTheFirstContact) {
     const Microactuator one(0.9189);
     const Branch branch = one.without_contact();
     ASSERT_EQ(names(branch), "PD PD SN GR");
@@ -44,12 +44,12 @@ TEST(PublishedBranches, microactuator_up_to_its_first_contact) {
     expect_flip(branch.special[1]);
     expect_fold(branch, branch.special[2]);
     expect_touch(one.model, branch.special[3], 0.5);
-    // The fold and the touch lie 2e-5 apart in V, in this order.
+    // The fold and the touch are 2e-5 apart in V, in this order.
     EXPECT_LT(branch.special[2].arclength, branch.special[3].arclength);
     const SpecialPoint& grazing = branch.special[3];
     const double phase = grazing.solution.orbit.starts[grazing.segment][4] + 0.9189 * grazing.time;
     EXPECT_NEAR(std::remainder(phase - 3.132040065911, pi), 0, 1e-11);
-    // Points end where the orbits cease to be possible.
+    // The branch ends where orbits become inadmissible.
     EXPECT_NEAR(branch.points.back().parameter, grazing.parameter, 1e-15);
     for (const BranchPoint& point : branch.points) {
         ASSERT_EQ(point.solution.multipliers.size(), 2U);
@@ -58,7 +58,7 @@ TEST(PublishedBranches, microactuator_up_to_its_first_contact) {
     }
 }
 
-/// One contact more at each grazing, and what is found on each of these branches.
+/// Adds one contact at each grazing and checks the points on each of these branches.
 void expect_contacts(double omega, const std::vector<double>& grazings, double tolerance) {
     const Microactuator one(omega);
     Branch branch = one.without_contact();
@@ -79,20 +79,20 @@ void expect_contacts(double omega, const std::vector<double>& grazings, double t
     }
 }
 
-TEST(PublishedBranches, microactuator_gains_contact_after_contact) {
+TEST(PublishedBranches, MicroactuatorGainsContactAfterContact) {
     expect_contacts(
         0.9189, {0.5876212422746997, 0.7304755333366196, 0.8095127614194632, 0.8558788675649937, 0.8819580628177297},
         1e-12);
 }
 
-TEST(PublishedBranches, microactuator_gains_contact_after_contact_at_another_frequency) {
+TEST(PublishedBranches, MicroactuatorGainsContactAfterContactAtAnotherFrequency) {
     expect_contacts(2.0056,
                     {.52745995765981, .66636423118007, .74940362005310, .79897011651099, .82715666925300,
                      .84240315127881, .85032000894172, .85431167398464},
                     2e-13);
 }
 
-TEST(PublishedBranches, microactuator_with_one_contact_has_its_flip) {
+TEST(PublishedBranches, MicroactuatorWithOneContactHasItsFlip) {
     const Microactuator one(0.9189);
     const Branch before = one.without_contact();
     const Branch branch =
@@ -103,7 +103,7 @@ TEST(PublishedBranches, microactuator_with_one_contact_has_its_flip) {
     expect_flip(flips[0]);
 }
 
-TEST(PublishedBranches, microactuator_loses_its_contact_where_it_was_gained) {
+TEST(PublishedBranches, MicroactuatorLosesItsContactWhereItWasGained) {
     const Microactuator one(0.9189);
     const Branch before = one.without_contact();
     Branch branch = follow(one.model, branches_at(one.model, before.special.back(), one.settings).at(0), one.settings);
@@ -118,7 +118,7 @@ TEST(PublishedBranches, microactuator_loses_its_contact_where_it_was_gained) {
     const SpecialPoint& lost = returned.special[0];
     EXPECT_TRUE(lost.at_end);
     EXPECT_EQ(returned.outcome, BranchOutcome::unphysical);
-    // The contact's speed vanishes with the root of the distance: less is known of the parameter's last digits.
+    // The contact speed vanishes with the square root of the distance, so the parameter is less accurate.
     EXPECT_NEAR(lost.parameter, 0.5876212422746997, 1e-11);
     const auto starts = branches_at(one.model, lost, one.settings);
     ASSERT_EQ(starts.size(), 1U);
@@ -131,7 +131,7 @@ TEST(PublishedBranches, microactuator_loses_its_contact_where_it_was_gained) {
     EXPECT_EQ(of_type(without, PointType::fold).size(), 1U);
 }
 
-TEST(PublishedBranches, testbed_grazes) {
+TEST(PublishedBranches, TestbedHasItsPublishedGrazing) {
     for (const auto& [frequency, voltage] :
          {std::pair{6.25, 4.833263260865}, {7.0, 3.675357252066}, {8.0, 3.998955699893}}) {
         Model model = load_model("electromagnetic-testbed");
@@ -153,8 +153,8 @@ TEST(PublishedBranches, testbed_grazes) {
     }
 }
 
-/// Below 7.69 Hz the touch comes at another end of the half that is followed.
-TEST(PublishedBranches, testbed_grazes_along_one_curve) {
+/// Below 7.69 Hz the touch lies at the other end of the half orbit.
+TEST(PublishedBranches, TestbedHasOneCurveOfGrazings) {
     Model model = load_model("electromagnetic-testbed");
     model.set_parameter("f", 8);
     model.set_parameter("V0", 3);
@@ -174,7 +174,7 @@ TEST(PublishedBranches, testbed_grazes_along_one_curve) {
     }
 }
 
-TEST(PublishedBranches, testbed_orbit_of_three_periods) {
+TEST(PublishedBranches, TestbedOrbitOfThreePeriodsHasItsPublishedPoints) {
     Model model = load_model("electromagnetic-testbed");
     model.set_initial("I", 0.1);
     const OrbitSolution solution = settled(model, "phase0", 600);
@@ -193,12 +193,12 @@ TEST(PublishedBranches, testbed_orbit_of_three_periods) {
     const auto breaking = of_type(up, PointType::asymmetry);
     ASSERT_GE(breaking.size(), 1U);
     EXPECT_NEAR(breaking[0].parameter, 4.846244144797, 1e-11);
-    // Located with the half map, whose multiplier is -1; the whole one has 1.
+    // Located by the half map, which has the multiplier -1; the whole map has 1.
     const auto& halves = breaking[0].solution.half_multipliers;
     EXPECT_LT(std::abs(halves.at(0) + 1.0), 1e-9);
     EXPECT_LT(nearest_multiplier(breaking[0].solution, 1), 1e-9);
 
-    // Two branches without the symmetry, images of each other.
+    // Two asymmetric branches, images of each other.
     const auto starts = branches_at(model, breaking[0], settings);
     ASSERT_EQ(starts.size(), 2U);
     const Branch one = follow(model, starts[0], settings), other = follow(model, starts[1], settings);
@@ -213,7 +213,7 @@ TEST(PublishedBranches, testbed_orbit_of_three_periods) {
     EXPECT_NEAR(whole.period(), 3 / 6.25, 1e-10);
 }
 
-TEST(PublishedBranches, mems_switch_grazes) {
+TEST(PublishedBranches, MemsSwitchHasItsPublishedGrazing) {
     Model model = load_model("mems-switch");
     model.set_parameter("V", 0.15);
     model.set_initial("q", 0);
@@ -229,7 +229,7 @@ TEST(PublishedBranches, mems_switch_grazes) {
     EXPECT_NEAR(grazing.solution.multipliers[0].real(), 0.8765517138529, 1e-11);
     EXPECT_NEAR(std::abs(grazing.solution.multipliers[0].imag()), 0.0970812655112, 1e-11);
     expect_touch(model, grazing, 0.6);
-    // The orbit with an impact is there, but unstable from the start: beyond grazing nothing but snap-through is left.
+    // The orbit with an impact exists, but is unstable from the start: beyond grazing only snap-through remains.
     const auto starts = branches_at(model, grazing, settings);
     ASSERT_EQ(starts.size(), 1U);
     const Branch impacting = follow(model, starts[0], settings);
@@ -241,7 +241,7 @@ TEST(PublishedBranches, mems_switch_grazes) {
     }
 }
 
-TEST(PublishedBranches, microbeam_touches_its_stop) {
+TEST(PublishedBranches, MicrobeamHasItsPublishedGrazing) {
     Model model = load_model("microbeam");
     model.set_parameter("V", 0.01);
     BranchSettings settings;
@@ -260,14 +260,14 @@ TEST(PublishedBranches, microbeam_touches_its_stop) {
     ASSERT_EQ(folds.size(), 2U);
     EXPECT_NEAR(folds[0].parameter, 0.032825650930776, 1e-13);
     expect_fold(deeper, folds[0]);
-    // Where contact lasts beyond the end of the pulse, the same branch goes on in another order of events; it turns
-    // again where the high-penetration orbits begin.
+    // Where contact lasts beyond the end of the pulse, the branch continues with another order of events; its next fold
+    // is where the high-penetration orbits begin.
     EXPECT_EQ(of_type(deeper, PointType::vanishing).size(), 1U);
     EXPECT_NEAR(folds[1].parameter, 0.022532683475758, 1e-13);
     expect_fold(deeper, folds[1]);
 }
 
-TEST(PublishedBranches, microbeam_deep_in_its_stop_and_without_one) {
+TEST(PublishedBranches, MicrobeamHasItsPublishedFoldsWithAndWithoutStop) {
     Model model = load_model("microbeam");
     model.set_parameter("V", 0.034);
     BranchSettings settings;

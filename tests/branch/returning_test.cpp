@@ -1,5 +1,5 @@
-// Branches of less regular orbits between two points of a more regular one: they end at the other of the two, however
-// the steps fall.
+// Branches of doubled or asymmetric orbits between two points of a branch of simpler orbits: they end at the second
+// point for any step lengths.
 
 #include "follow.hpp"
 
@@ -13,7 +13,7 @@ namespace {
 
 using namespace graze::testing;
 
-/// Duffing's oscillator with a force F, in units of time and length, and something that it drives along.
+/// Duffing's oscillator with a force F, in units of time and length, with a driven state.
 Model duffing(double damping, double omega, double time, double length) {
     return model_from(fmt::format(R"toml(
 [parameters]
@@ -36,7 +36,7 @@ map = {{ x = "-x", v = "-v", theta = "theta + pi" }}
                                   time, length, damping, omega));
 }
 
-TEST(ReturningBranches, come_back_where_the_more_regular_orbits_change_again) {
+TEST(ReturningBranches, EndAtTheSecondPointOfTheSimplerBranch) {
     struct Case {
         double damping, omega, time, length;
     };

@@ -1,4 +1,4 @@
-// The condition at the boundary between classes of touches: its gradient, which is by differences.
+// The gradient, by differences, of the condition at the boundary between classes of touches.
 
 #include "branch/sensitivity_condition.hpp"
 
@@ -28,8 +28,8 @@ Touching touching(Model model, const char* parameter, double greatest) {
     return {std::move(model), found.empty() ? SpecialPoint{} : found.front()};
 }
 
-/// The greatest error of the gradient's entries, in the sizes of the unknowns, as a share of the greatest of them.
-/// Against differences over four steps of a much greater length, whose errors are of the eighth order.
+/// Returns the largest scaled error of the gradient relative to its largest entry, against eighth-order differences
+/// with much larger steps.
 double error_of_gradient(const Touching& touch, std::vector<ParameterId> free) {
     const Simulation simulation(touch.model, {}, {}, integration(1e-14));
     Shooting equations(simulation, touch.point.solution.orbit, std::move(free));
@@ -63,8 +63,8 @@ double error_of_gradient(const Touching& touch, std::vector<ParameterId> free) {
     return error / greatest;
 }
 
-/// What the method page says of it.
-TEST(SensitivityCondition, has_a_gradient_to_eight_digits) {
+/// As documented in docs/method.md.
+TEST(SensitivityCondition, GradientIsAccurateToEightDigits) {
     Model oscillator = load_model("impact-oscillator");
     oscillator.set_parameter("sigma", 0.5);
     oscillator.set_parameter("amplitude", 0.1);

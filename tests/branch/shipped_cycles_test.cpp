@@ -1,4 +1,4 @@
-// Maps of whole cycles of the shipped models against exact simulation: their errors fall with the stated order.
+// Maps of whole cycles of the shipped models against simulation: the errors fall with the stated order.
 
 #include "cycle_error.hpp"
 #include "follow.hpp"
@@ -24,8 +24,8 @@ SpecialPoint first_touch(const Model& model, const char* section, const char* pa
     return found.empty() ? SpecialPoint{} : found.front();
 }
 
-/// One coefficient of friction at rest and while sliding, so that the mass sticks for a moment.
-TEST(ShippedCycles, of_dry_friction_err_by_the_next_power_of_the_depth) {
+/// Equal static and dynamic friction, so that the mass sticks for a short time.
+TEST(ShippedCycles, ErrorForDryFrictionFallsWithTheNextPowerOfTheDepth) {
     Model model = load_model("dry-friction-oscillator");
     model.set_parameter("friction_static", 0.3);
     model.set_parameter("friction_dynamic", 0.3);
@@ -36,7 +36,7 @@ TEST(ShippedCycles, of_dry_friction_err_by_the_next_power_of_the_depth) {
     expect_rates(model, map, 1e-3);
 }
 
-TEST(ShippedCycles, err_by_the_next_power_of_the_depth) {
+TEST(ShippedCycles, ErrorFallsWithTheNextPowerOfTheDepth) {
     Model oscillator = load_model("impact-oscillator");
     oscillator.set_parameter("sigma", 0.5);
     oscillator.set_parameter("amplitude", 0.1);

@@ -1,4 +1,4 @@
-// What becomes of the shipped models beyond their grazings: maps of the cycles, verdicts, and what simulation says.
+// The shipped models beyond their grazings: cycle maps, verdicts and simulation.
 
 #include "follow.hpp"
 
@@ -35,7 +35,7 @@ Judged judged(const Model& model, const SpecialPoint& point, const char* paramet
     EXPECT_TRUE(result.map.exists()) << result.map.reason;
     result.verdict = verdict_of(result.map);
     result.trial = try_verdict(system, result.map, result.verdict, *options.parameter);
-    // The map is that of the orbit: its multipliers are.
+    // The map has the multipliers of the orbit.
     const auto& known = point.solution.orbit.symmetry ? point.solution.half_multipliers : point.solution.multipliers;
     EXPECT_EQ(known.size(), result.map.multipliers.size());
     if (!known.empty() && !result.map.multipliers.empty()) {
@@ -44,7 +44,7 @@ Judged judged(const Model& model, const SpecialPoint& point, const char* paramet
     return result;
 }
 
-/// Speeds of the first contacts of the motion that begins where the orbit without contact would be.
+/// Returns the speeds of the first contacts of a motion that starts on the orbit without contact.
 std::vector<double> speeds_beyond(const Model& model, const CycleMap& map, ParameterId parameter, double distance,
                                   double cycles) {
     std::vector<double> parameters = map.contact.touch.parameters, state = map.contact.touch.state;
@@ -67,8 +67,8 @@ std::vector<double> speeds_beyond(const Model& model, const CycleMap& map, Param
     return speeds;
 }
 
-/// The least value of the touched function one cycle and more after a contact of small speed, by simulation; of a half
-/// orbit after as many halves. What the projections leave out goes with the speed.
+/// Compares the minimum of the touched function one or more (half) cycles after a slow contact with the projections;
+/// the error is proportional to the speed.
 void expect_projections(const Model& model, const CycleMap& map, std::size_t cycles) {
     const System system(model);
     const TouchState& touch = map.contact.touch;
@@ -83,7 +83,7 @@ void expect_projections(const Model& model, const CycleMap& map, std::size_t cyc
         std::sqrt(2 * map.contact.acceleration) * std::sqrt(std::abs(map.contact.acceleration)) * map.time;
     double before = 0;
     for (const double share : {1e-5, 1e-6}) {
-        // A motion that meets the surface with a speed s has been s/a before its touch there.
+        // A motion reaches the surface with speed s at the time s/a before its minimum.
         const double speed = share * usual;
         std::vector<double> state = touch.state;
         EXPECT_EQ(flow.run(touch.mode, state, -speed / map.contact.acceleration), ModeFlow::Ending::done);
@@ -91,13 +91,13 @@ void expect_projections(const Model& model, const CycleMap& map, std::size_t cyc
         double square = 0;
         for (std::size_t i = 0; i < state.size(); ++i)
             square += value[1 + i] * value[1 + i] * touch.scales[i] * touch.scales[i];
-        // Not quite on the surface yet, which takes a share of the speed.
+        // Start slightly off the surface, with a correspondingly smaller speed.
         const double lift = 0.01 * value[0], met = std::sqrt(0.99) * speed;
         for (std::size_t i = 0; i < state.size(); ++i)
             state[i] -= (value[0] - lift) / square * value[1 + i] * touch.scales[i] * touch.scales[i];
         Observer nobody;
         Trajectory trajectory(simulation, touch.parameters, nobody);
-        // Where the pass hits, it does so before its least value by the root of the depth.
+        // A pass that impacts does so before its minimum, by a time proportional to the square root of the depth.
         const double projection = map.projections(cycles).back();
         const double short_of = std::max(20 * speed / map.contact.acceleration,
                                          3 * std::sqrt(2 * std::abs(projection) * speed / map.contact.acceleration));
@@ -128,7 +128,7 @@ Branch mems_branch(Model& model, const BranchSettings& settings) {
     return follow_branch(model, settled(model, "phase0").orbit, settings);
 }
 
-TEST(ShippedGrazings, mems_switch_trips) {
+TEST(ShippedGrazings, MemsSwitchTrips) {
     Model model = load_model("mems-switch");
     BranchSettings settings;
     settings.parameter = model.independent_parameter("V");
@@ -146,7 +146,7 @@ TEST(ShippedGrazings, mems_switch_trips) {
     // Snap-through ends both motions.
     for (const TrialMotion& motion : one.trial.motions)
         EXPECT_TRUE(motion.ended);
-    // |v| = c (V - V*)^(1/2) of the first contact, and growth of the next: what is left out goes with that root.
+    // |v| = c (V - V*)^(1/2) for the first contact, and the growth to the next; the relative error has the same order.
     double before_first = 0, before_next = 0;
     for (const double distance : {1e-4, 1e-6, 1e-8}) {
         const auto speeds = speeds_beyond(model, one.map, settings.parameter, distance, 1.5);
@@ -155,7 +155,7 @@ TEST(ShippedGrazings, mems_switch_trips) {
                      next = std::abs(speeds[1] / (*one.verdict.growth * std::sqrt(speeds[0])) - 1);
         if (before_first > 0) {
             EXPECT_LT(first, 0.15 * before_first);
-            EXPECT_LT(next, 0.4 * before_next); // by the root of the first speed
+            EXPECT_LT(next, 0.4 * before_next); // with the square root of the first speed
         }
         before_first = first;
         before_next = next;
@@ -164,7 +164,7 @@ TEST(ShippedGrazings, mems_switch_trips) {
     EXPECT_LT(before_next, 0.05);
 }
 
-TEST(ShippedGrazings, testbed_loses_its_orbit) {
+TEST(ShippedGrazings, TestbedLosesItsOrbit) {
     for (const auto& [frequency, voltage] :
          {std::pair(6.25, 4.833263260865), std::pair(7.0, 3.675357252066), std::pair(8.0, 3.998955699893)}) {
         Model model = load_model("electromagnetic-testbed");
@@ -187,7 +187,7 @@ TEST(ShippedGrazings, testbed_loses_its_orbit) {
     }
 }
 
-TEST(ShippedGrazings, microactuators_orbits_are_not_stable_where_they_touch) {
+TEST(ShippedGrazings, OrbitsOfTheMicroactuatorAreUnstableAtTheirTouches) {
     Model model = load_model("impact-microactuator");
     model.set_parameter("V", 0.1);
     model.set_parameter("omega", 0.9189);
@@ -201,7 +201,7 @@ TEST(ShippedGrazings, microactuators_orbits_are_not_stable_where_they_touch) {
         ASSERT_EQ(grazings.size(), 1U);
         EXPECT_NEAR(grazings[0].parameter, voltage, 1e-11);
         const Judged one = judged(model, grazings[0], "V");
-        // The impact, the slip that it sets off, and the end of that.
+        // The impact starts a slip, which ends by sticking.
         EXPECT_EQ(one.map.contact.contacts.size(), 2U);
         EXPECT_EQ(one.verdict.outcome, GrazingOutcome::undecided);
         EXPECT_EQ(one.verdict.reason, "the orbit that touches is not stable itself");
@@ -212,7 +212,7 @@ TEST(ShippedGrazings, microactuators_orbits_are_not_stable_where_they_touch) {
     }
 }
 
-TEST(ShippedGrazings, maps_are_the_same_from_either_side) {
+TEST(ShippedGrazings, MapsAreTheSameFromBothSides) {
     Model model = load_model("impact-oscillator");
     model.set_parameter("sigma", 0.5);
     model.set_parameter("omega", 1.2);
@@ -247,9 +247,8 @@ TEST(ShippedGrazings, maps_are_the_same_from_either_side) {
     EXPECT_NEAR(*one.map.clearance_rate, *other.clearance_rate, 1e-7);
 }
 
-/// Orbits with impacts of their own, which touch once more: from one touch to the next along the branches of random
-/// oscillators.
-TEST(ShippedGrazings, verdicts_hold_for_orbits_that_impact_already) {
+/// Orbits with impacts and an additional touch: from one touch to the next along branches of random oscillators.
+TEST(ShippedGrazings, VerdictsHoldForOrbitsWithImpacts) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> uniform(0, 1);
     std::map<std::string, int> counts;
@@ -289,8 +288,8 @@ TEST(ShippedGrazings, verdicts_hold_for_orbits_that_impact_already) {
     EXPECT_GE(counts["impacting persists agreed"], 2);
 }
 
-/// The predicted distance of the fold becomes right as the stop becomes stiffer, and the fold comes nearer.
-TEST(ShippedGrazings, microbeam_folds_where_the_cubic_does) {
+/// The predicted distance of the fold becomes accurate as the stop becomes stiffer and the fold nearer.
+TEST(ShippedGrazings, MicrobeamHasTheFoldOfTheCubic) {
     double before = 1;
     for (const double stiffness : {100.0, 1000.0, 10000.0}) {
         Model model = load_model("microbeam");

@@ -13,9 +13,9 @@ namespace {
 
 using namespace graze::testing;
 
-/// How numbers of other units follow from those of the model: times these.
+/// Factors from the model's units to other units.
 struct Factors {
-    std::map<std::string, double> states; ///< of those that are not dimensionless
+    std::map<std::string, double> states; ///< factors of states that are not dimensionless
     double time = 1, parameters = 1, events = 1;
 
     double of(const State& state) const {
@@ -24,7 +24,7 @@ struct Factors {
     }
 };
 
-/// The model in other units. What is defined, as dependent parameters are, keeps its own.
+/// Returns the model in other units. Definitions, such as dependent parameters, keep theirs.
 Model rescaled(const Model& given, const Factors& factors) {
     Model model = given;
     std::vector<Replacement> old;
@@ -82,8 +82,8 @@ Branch microactuator_branch(const Factors& factors) {
     return follow_branch(model, settled(model, "longest", 4000).orbit, settings);
 }
 
-/// Lengths in nm and times in us, were they in m and s; and all that has a unit a million times as large or as small.
-TEST(Units, of_a_shipped_model_do_not_matter) {
+/// Lengths in nm and times in us instead of m and s; and all units scaled by a million up and down.
+TEST(Units, ShippedModelDoesNotDependOnUnits) {
     const Branch reference = microactuator_branch({});
     ASSERT_EQ(names(reference), "PD PD SN GR");
     const auto lengths = [](double length, double velocity) {

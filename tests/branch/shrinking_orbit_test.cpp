@@ -1,5 +1,5 @@
-// Branches of free oscillations that shrink to an equilibrium end there, and once: at values that normal forms, the
-// criterion of Routh and Hurwitz, or a scaling of the equations tell.
+// Branches of free oscillations that shrink to an equilibrium end there: at values known from normal forms, the
+// Routh-Hurwitz criterion or scaling.
 
 #include "follow.hpp"
 #include "maps.hpp"
@@ -60,7 +60,7 @@ void expect_hopf(const Branch& branch, const Model& model, double parameter, dou
     EXPECT_EQ(end.type, PointType::hopf);
     EXPECT_NEAR(end.parameter, parameter, 1e-10 * (1 + std::abs(parameter)));
     EXPECT_NEAR(end.solution.orbit.period(), period, 1e-8 * period);
-    // What it says of its own error is true.
+    // The error estimate holds.
     ASSERT_TRUE(end.solution.error);
     const std::string detail = end.detail;
     const double error = std::stod(detail.substr(detail.find("+-") + 3));
@@ -70,7 +70,7 @@ void expect_hopf(const Branch& branch, const Model& model, double parameter, dou
     EXPECT_EQ(end.solution.orbit.parameters[model.independent_parameter("mu").place()], end.parameter);
 }
 
-TEST(ShrinkingOrbit, ends_at_a_hopf_point_of_a_normal_form) {
+TEST(ShrinkingOrbit, EndsAtTheHopfPointOfANormalForm) {
     for (const double a : {0.0, 3.0})
         for (const double largest : {0.05, 0.4, 0.013}) {
             const Model model = normal_form(1, 0, 0.25, 0.5, a);
@@ -80,7 +80,7 @@ TEST(ShrinkingOrbit, ends_at_a_hopf_point_of_a_normal_form) {
             for (std::size_t k = 0; k + 1 < branch.points.size(); ++k) {
                 const BranchPoint& point = branch.points[k];
                 const double u = point.solution.orbit.starts[0][0] - a * point.parameter;
-                EXPECT_GT(u, 0); // nothing is gone over twice
+                EXPECT_GT(u, 0); // no part is followed twice
                 EXPECT_NEAR(u * u, point.parameter, 1e-9);
                 // The multiplier is exp(-2 mu T), which counts as 1 from 1 - 1e-8 on: up to mu = 1e-9.
                 EXPECT_TRUE(point.stable || point.parameter < 2e-9);
@@ -88,8 +88,8 @@ TEST(ShrinkingOrbit, ends_at_a_hopf_point_of_a_normal_form) {
         }
 }
 
-TEST(ShrinkingOrbit, finds_a_fold_before_the_hopf_point) {
-    // mu = -c r^2 + r^4 turns at r^2 = c/2.
+TEST(ShrinkingOrbit, FoldBeforeTheHopfPointIsFound) {
+    // mu = -c r^2 + r^4 has a fold at r^2 = c/2.
     for (const double c : {1.0, 0.1, 0.01}) {
         const double radius = std::sqrt(2 * c), mu = -c * radius * radius + std::pow(radius, 4);
         const Model model = normal_form(-c, 1, mu, radius);
@@ -100,8 +100,8 @@ TEST(ShrinkingOrbit, finds_a_fold_before_the_hopf_point) {
     }
 }
 
-TEST(ShrinkingOrbit, goes_where_the_criterion_of_routh_and_hurwitz_says) {
-    // A relief valve (C. Hos and A. R. Champneys, Physica D 241, 2012) loses its rest where (k + g)(k g + 1) = g + h.
+TEST(ShrinkingOrbit, EndsWhereTheRouthHurwitzCriterionPredicts) {
+    // A relief valve (C. Hos and A. R. Champneys, Physica D 241, 2012) has a Hopf point where (k + g)(k g + 1) = g + h.
     constexpr double k = 1.25, beta = 20, delta = 10;
     const auto lack = [](double y) {
         const double root = std::sqrt(y + delta), g = beta * y / (2 * root), h = beta * root;
@@ -141,7 +141,7 @@ direction = "falling"
     expect_hopf(branch, model, flow, 2 * pi / std::sqrt(k * g + 1));
 }
 
-TEST(ShrinkingOrbit, in_proportion_to_the_parameter_ends_on_a_surface) {
+TEST(ShrinkingOrbit, OrbitsProportionalToTheParameterEndOnASurface) {
     // Growing about x = mu on the right of x = 0 and decaying on its left, all in proportion to mu.
     const Model model = model_from(R"toml(
 [parameters]
@@ -184,8 +184,8 @@ mode = "right"
     EXPECT_NE(branch.special.back().detail.find("on the surface of event"), std::string::npos);
 }
 
-TEST(ShrinkingOrbit, is_none_where_a_clock_goes_on) {
-    // A force p cos(theta) on a linear oscillator: at p = 0 nothing moves but the clock, and the branch goes through.
+TEST(ShrinkingOrbit, BranchWithAClockDoesNotEnd) {
+    // A force p cos(theta) on a linear oscillator: at p = 0 only the clock moves, and the branch continues through.
     const Model model = model_from(R"toml(
 [parameters]
 mu = 0.5

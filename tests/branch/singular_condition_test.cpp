@@ -1,4 +1,4 @@
-// Conditions on multipliers: gradients against differences, and zeros where special points have been found.
+// Conditions on multipliers: gradients against differences, and zeros at located special points.
 
 #include "branch/singular_condition.hpp"
 
@@ -26,23 +26,23 @@ Factory of_multiplier(double multiplier) {
     };
 }
 
-/// All that have the gradients of their values. @return whether the motion has a complex pair of multipliers
+/// Checks the gradients of all conditions on multipliers. @return true if the motion has a complex pair of multipliers
 bool check_gradients(OrbitEquations& equations, const Orbit& orbit, const std::string& what, std::mt19937& random) {
     const Eigen::VectorXd unknowns = equations.unknowns_of(orbit);
-    constexpr double step = 3e-6; // determinants change faster than what they are made of
+    constexpr double step = 3e-6; // determinants change faster than their entries
     expect_gradient(equations, unknowns, of_multiplier(1), what + " fold", random, step);
     expect_gradient(equations, unknowns, of_multiplier(-1), what + " flip", random, step);
     OrbitEvaluation at = equations.evaluation();
     EXPECT_TRUE(equations.evaluate(unknowns, at)) << what;
     auto torus = TorusCondition::of_pair(equations, at);
-    // A pair that is next to nothing has a modulus that differences do not see.
+    // Differences are too inaccurate for a pair of tiny modulus.
     if (!torus || !torus->evaluate(equations, at) || torus->value() < -0.999)
         return false;
     expect_gradient(equations, unknowns, TorusCondition::of_pair, what + " torus", random, step);
     return true;
 }
 
-TEST(SingularConditions, gradients_are_those_of_the_values_for_every_shipped_model) {
+TEST(SingularConditions, GradientsEqualDifferencesForEveryShippedModel) {
     std::mt19937 random(5);
     for (const Motion& motion : motions) {
         FollowedEquations followed(motion);
@@ -50,7 +50,7 @@ TEST(SingularConditions, gradients_are_those_of_the_values_for_every_shipped_mod
     }
 }
 
-TEST(SingularConditions, torus_has_its_closed_form) {
+TEST(SingularConditions, TorusHasItsClosedForm) {
     const Model model = torus_model();
     const Orbit orbit{parse_signature(model, "start"), model.parameter_values(), {{1, 0, 0}}, {2 * pi}, {}};
     const Simulation simulation(model, {}, {}, integration(1e-14));
@@ -61,7 +61,7 @@ TEST(SingularConditions, torus_has_its_closed_form) {
     ASSERT_TRUE(condition && condition->evaluate(equations, at));
     const double square = std::exp(-0.4 * pi);
     EXPECT_NEAR(condition->value(), square - 1, 1e-13);
-    // Along the branch, on which the orbit stays where it is.
+    // Along the branch, on which the orbit is constant.
     const auto& gradient = condition->gradient();
     EXPECT_NEAR(gradient[gradient.size() - 2], 4 * pi * square, 1e-11);
     EXPECT_NEAR(gradient[gradient.size() - 1], 0, 1e-11);
@@ -74,9 +74,10 @@ TEST(SingularConditions, torus_has_its_closed_form) {
     EXPECT_NEAR(met.orbit.parameters[0], 0, 1e-13);
 }
 
-TEST(SingularConditions, fold_and_flip_of_the_bouncing_ball_have_their_closed_forms) {
-    // A ball on a table a sin(w t), one contact a period: it folds where a w^2 = g pi (1 - e) / (1 + e) and doubles
-    // its period where cos of the phase is -2 (1 + e^2) g / ((1 + e)^2 a w^2); by Newton's method, from orbits between.
+TEST(SingularConditions, FoldAndFlipOfTheBouncingBallHaveTheirClosedForms) {
+    // A ball on a table a sin(w t), one contact per period: it has a fold where a w^2 = g pi (1 - e) / (1 + e) and
+    // doubles its period where cos of the phase is -2 (1 + e^2) g / ((1 + e)^2 a w^2); by Newton's method, from orbits
+    // between.
     const Model model = load_model("bouncing-ball");
     const auto value = [&](const char* name) {
         return model.parameter_values()[model.independent_parameter(name).place()];
@@ -110,7 +111,7 @@ TEST(SingularConditions, fold_and_flip_of_the_bouncing_ball_have_their_closed_fo
     }
 }
 
-TEST(SingularConditions, vanish_where_their_tests_have_found_points_of_symmetric_orbits) {
+TEST(SingularConditions, ConditionsVanishAtLocatedPointsOfSymmetricOrbits) {
     Model model = load_model("electromagnetic-testbed");
     model.set_initial("I", 0.1);
     const OrbitSolution solution = settled(model, "phase0", 600);

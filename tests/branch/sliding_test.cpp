@@ -1,4 +1,4 @@
-// Orbits that touch a surface on which motions stick: grazing-sliding, on an oscillator that rubs on a moving belt.
+// Orbits that touch a surface on which motions stick: grazing-sliding of an oscillator on a moving belt.
 
 #include "belt.hpp"
 #include "cycle_error.hpp"
@@ -35,8 +35,8 @@ Judgement judgement(const Model& model, const SpecialPoint& point, ParameterId p
     return result;
 }
 
-/// Both orbits go on, neither stable beyond: chaos at once.
-TEST(Sliding, on_a_belt_sets_off_chaos) {
+/// Both orbits continue, neither is stable beyond: immediate chaos.
+TEST(Sliding, GrazingOnABeltStartsChaos) {
     Model model = belt();
     model.set_parameter("nu", 1.711);
     const BranchSettings settings = along(model, "nu", -1, 1.65, 1.72);
@@ -51,13 +51,14 @@ TEST(Sliding, on_a_belt_sets_off_chaos) {
     EXPECT_EQ(one.verdict.attractor, AttractorKind::chaotic);
     EXPECT_EQ(one.verdict.side, -1);
     EXPECT_EQ(one.trial.outcome, TrialOutcome::agreed) << one.trial.reason;
-    // The slope of a tent map beyond its top, below -1/(the other one): no orbit of twice the period is stable either.
+    // The slope of the tent map beyond its top is below -1/(the other slope): orbits of twice the period are unstable
+    // too.
     EXPECT_LT(-*one.verdict.leading * std::abs(one.map.multipliers[0]), -1);
     expect_rates(model, map_at(model, touches[0]), 1e-4);
 }
 
-/// With a constant force of friction nothing bends the motion off the belt, and what is computed of that is noise.
-TEST(Sliding, is_told_where_what_bends_it_is_noise) {
+/// With constant friction the coefficient that bends the motion off the belt is zero, and its computed value is noise.
+TEST(Sliding, VerdictIsRightWhereTheBendingCoefficientIsNoise) {
     const Model model = model_from(R"toml(
 name = "rubbing"
 [parameters]
@@ -117,19 +118,19 @@ value = 0
     ASSERT_FALSE(touches.empty());
     const double zeta = 0.05, omega = 0.6, turn = 2 * std::numbers::pi / omega, own = std::sqrt(1 - zeta * zeta);
     const double amplitude = touches[0].solution.orbit.parameters[settings.parameter.place()];
-    // The linear response's greatest speed is that of the belt.
+    // The largest speed of the linear response equals that of the belt.
     EXPECT_NEAR(amplitude, 0.5 / omega * std::hypot(1 - omega * omega, 2 * zeta * omega), 1e-10);
     const Judgement one = judgement(model, touches[0], settings.parameter);
     ASSERT_EQ(one.map.contact.order, MapOrder::linear) << one.map.reason << one.map.contact.reason;
-    // Where it sticks only the displacement is left, and what becomes of it in a period.
+    // After sticking only the displacement and its evolution over a period matter.
     EXPECT_NEAR(std::abs(*one.verdict.leading),
                 std::exp(-zeta * turn) * std::abs(std::cos(own * turn) + zeta / own * std::sin(own * turn)), 1e-9);
     EXPECT_EQ(one.verdict.outcome, GrazingOutcome::persists) << one.verdict.reason;
     EXPECT_EQ(one.trial.outcome, TrialOutcome::agreed) << one.trial.reason;
 }
 
-/// The branch of the orbit that sticks once more begins on the predicted side, with the predicted multiplier.
-TEST(Sliding, goes_on_with_dry_friction) {
+/// The branch of the orbit with one more sticking phase begins on the predicted side, with the predicted multiplier.
+TEST(Sliding, BranchContinuesWithDryFriction) {
     Model model = load_model("dry-friction-oscillator");
     model.set_parameter("friction_static", 0.3);
     model.set_parameter("omega", 0.2);
@@ -148,9 +149,9 @@ TEST(Sliding, goes_on_with_dry_friction) {
     EXPECT_GT(beyond.points[1].parameter, touches[0].parameter);
     const OrbitSolution& near = beyond.points[0].solution;
     EXPECT_EQ(near.orbit.segments(), touches[0].solution.orbit.segments() + 2);
-    // It begins a thousandth of the usual speed beyond, and multipliers go with the speed.
+    // It begins at a thousandth of the typical speed, and multipliers change linearly with the speed.
     EXPECT_NEAR(std::abs(near.half_multipliers.at(0)), *one.verdict.leading, 2e-3 * *one.verdict.leading);
-    // From the other side, where the orbit that sticks once more loses that.
+    // From the other side, where the additional sticking phase disappears.
     model.set_parameter("omega", 0.215);
     const BranchSettings down = along(model, "omega", -1, 0.15, 0.22);
     const auto ends = of_type(follow_branch(model, settled(model, "phase0").orbit, down), PointType::grazing);
@@ -164,8 +165,8 @@ TEST(Sliding, goes_on_with_dry_friction) {
     EXPECT_NEAR(*other.map.clearance_rate, *one.map.clearance_rate, 1e-8);
 }
 
-/// The orbit that slides is there before the touch, and neither beyond it.
-TEST(Sliding, on_a_belt_folds) {
+/// The sliding orbit exists before the touch, and neither exists beyond it.
+TEST(Sliding, GrazingOnABeltMayBeAFold) {
     Model model = belt();
     model.set_parameter("nu", 2.2);
     const BranchSettings settings = along(model, "nu", -1, 2, 2.4);
@@ -184,7 +185,7 @@ TEST(Sliding, on_a_belt_folds) {
     EXPECT_GE(folds, 1U);
 }
 
-/// Touches along branches of random belts, and what trials say of the verdicts.
+/// Counts outcomes of verdicts and trials at touches along branches of random belts.
 std::map<std::string, int> try_random(int count, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> uniform(0, 1);
@@ -233,12 +234,12 @@ std::map<std::string, int> try_random(int count, unsigned seed) {
     return counts;
 }
 
-TEST(Sliding, verdicts_agree_with_simulation_on_random_belts) {
+TEST(Sliding, VerdictsAgreeWithSimulationOnRandomBelts) {
     auto counts = try_random(12, 1);
     EXPECT_GE(counts["agreed"], 3);
 }
 
-TEST(SlidingSlow, verdicts_agree_with_simulation_on_many_random_belts) {
+TEST(SlidingSlow, VerdictsAgreeWithSimulationOnManyRandomBelts) {
     auto counts = try_random(400, 2);
     EXPECT_GE(counts["agreed"], 90);
 }

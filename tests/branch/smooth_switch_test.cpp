@@ -1,5 +1,5 @@
-// Switches across which the vector field is continuous, as where a soft stop begins: branches of a driven oscillator
-// beside it, whose touches have a closed form.
+// Switches with a continuous vector field, such as a soft stop: branches of a driven oscillator whose touches have a
+// closed form.
 
 #include "maps.hpp"
 
@@ -73,7 +73,7 @@ value = 0
     }
 };
 
-TEST(SmoothSwitch, is_touched_where_the_free_motion_reaches_it) {
+TEST(SmoothSwitch, TouchIsWhereTheFreeMotionReachesTheStop) {
     for (const SoftStop& stop :
          {SoftStop{1.55, 1.8, 0.02, 100, 1}, SoftStop{0.2, 0.7, 0.1, 5, 1}, SoftStop{0.1, 2.3, 0.3, 0.5, 1e-3}})
         for (const char* const kind : {"section", "barrier"}) {
@@ -90,7 +90,7 @@ TEST(SmoothSwitch, is_touched_where_the_free_motion_reaches_it) {
         }
 }
 
-TEST(SmoothSwitch, is_touched_on_either_side_of_the_resonance) {
+TEST(SmoothSwitch, TouchesExistOnBothSidesOfTheResonance) {
     const double F = 1.8171679737395643, z = 0.02, g = 1;
     // (1 - w^2)^2 + 4 z^2 w^2 = (F/g)^2
     const double middle = 1 - 2 * z * z, root = std::sqrt(middle * middle - 1 + F * F / (g * g));
@@ -104,8 +104,8 @@ TEST(SmoothSwitch, is_touched_on_either_side_of_the_resonance) {
     EXPECT_NEAR(branch.special[0].parameter, above, 1e-11);
 }
 
-TEST(SmoothSwitch, no_extremum_of_the_period_is_where_the_force_fixes_it) {
-    // The contact loses its speed at the end of the branch, where the frequency goes on.
+TEST(SmoothSwitch, PeriodFixedByTheForceHasNoExtremum) {
+    // The contact speed vanishes at the end of the branch, where the frequency still varies.
     const SoftStop stop{1, 1.472, 0.03, 20, 0.2};
     const Model model = stop.model("section");
     const Branch branch = follow_branch(model, settled(model, "ph", 400).orbit, in_parameter(model, "w", 0.2, 4));
@@ -113,7 +113,7 @@ TEST(SmoothSwitch, no_extremum_of_the_period_is_where_the_force_fixes_it) {
     ASSERT_FALSE(of_type(branch, PointType::grazing).empty()) << names(branch);
 }
 
-TEST(SmoothSwitch, curves_of_touches_begin_at_the_contact_that_vanishes_too) {
+TEST(SmoothSwitch, CurvesOfTouchesMayBeginAtAVanishingContact) {
     const SoftStop stop{0.5, 0.8, 0.1, 5, 1};
     const Model model = stop.model("section");
     BranchSettings settings = in_parameter(model, "F", 0.1, 2);
@@ -132,7 +132,7 @@ TEST(SmoothSwitch, curves_of_touches_begin_at_the_contact_that_vanishes_too) {
     }
 }
 
-TEST(SmoothSwitch, a_second_contact_comes_and_goes) {
+TEST(SmoothSwitch, SecondContactAppearsAndDisappears) {
     const SoftStop stop{1, 0.641, 0.03, 2, 1};
     const Model model = stop.model("section");
     BranchSettings settings = in_parameter(model, "w", 0.2, 4);
@@ -141,12 +141,12 @@ TEST(SmoothSwitch, a_second_contact_comes_and_goes) {
     ASSERT_EQ(names(once), "GR") << once.detail;
     const Branch more = follow(model, branches_at(model, once.special[0], settings).front(), settings);
     ASSERT_EQ(names(more), "GR") << more.detail;
-    // The contact that vanishes lies across the place where the orbit is closed.
+    // The vanishing contact lies across the start of the orbit.
     EXPECT_TRUE(more.special[0].at_end);
     const Branch fewer = follow(model, branches_at(model, more.special[0], settings).front(), settings);
     EXPECT_EQ(names(fewer), "BD") << fewer.detail;
     EXPECT_EQ(fewer.points.back().solution.orbit.segments(), 2U);
-    // Where the touch comes to the contact that is left, no multiplier is -1: the vector field is continuous.
+    // Where the touch meets the remaining contact no multiplier is -1, since the vector field is continuous.
     for (const int way : {1, -1}) {
         const Branch curve = curve_of(model, once.special[0], in_parameter(model, "w", 0.2, 4), "F", 0.05, 4, way);
         EXPECT_GT(curve.points.size(), 10U) << curve.detail;

@@ -13,7 +13,7 @@ namespace {
 
 using namespace graze::testing;
 
-/// The orbit with half of the greatest speed that there can be, on the side on which the model can follow it.
+/// Returns the orbit with half the largest possible speed, on the admissible side.
 OrbitSolution start_of(const Oscillator& known, double periods) {
     const double after = -0.5 * known.radius / std::abs(known.k) * std::abs(known.b);
     OrbitSolution solution;
@@ -33,13 +33,13 @@ OrbitSolution start_of(const Oscillator& known, double periods) {
     return solution;
 }
 
-/// What multipliers of a flip have too much, by the speed: they grow as it falls.
+/// Returns the residual of the flip condition divided by the speed, since multipliers grow as it decreases.
 double off_flip(const Oscillator& known, double after, double sigma) {
     return (known.trace(after, known.phase(after, sigma), sigma) + 1 + known.product()) * std::abs(after) /
            known.radius;
 }
 
-TEST(SubharmonicCurves, of_folds_and_flips_with_one_impact_in_two_and_three_periods_have_their_closed_forms) {
+TEST(SubharmonicCurves, FoldsAndFlipsOfSubharmonicsHaveTheirClosedForms) {
     for (const double periods : {2.0, 3.0}) {
         const Oscillator known(2.4 * periods, periods);
         const OrbitSolution start = start_of(known, periods);
@@ -67,7 +67,8 @@ TEST(SubharmonicCurves, of_folds_and_flips_with_one_impact_in_two_and_three_peri
                         } else if (std::abs(after) > 1e-3 * there.radius) {
                             EXPECT_NEAR(off_flip(there, after, sigma), 0, 1e-9);
                         }
-                        EXPECT_NEAR(one.solution.orbit.round(), 2 * std::numbers::pi * periods / there.omega, 1e-12);
+                        EXPECT_NEAR(one.solution.orbit.return_time(), 2 * std::numbers::pi * periods / there.omega,
+                                    1e-12);
                     }
                 }
             }

@@ -1,5 +1,5 @@
-// Branches of orbits that come to touch the section at which they are cut only, and then no longer reach it: orbits and
-// multipliers in closed form, which know nothing of sections.
+// Branches of orbits that first touch their section and then no longer reach it: orbits and multipliers have closed
+// forms that do not depend on sections.
 
 #include "follow.hpp"
 
@@ -14,8 +14,7 @@ namespace {
 using namespace graze::testing;
 using std::numbers::pi;
 
-/// A circle of the radius r with r' = r g(r, mu), at the frequency w, in the plane of x and y; the section is x =
-/// level.
+/// A circle of radius r with r' = r g(r, mu) and frequency w in the plane of x and y; the section is x = level.
 std::string circle(const std::string& growth, double level, const std::string& direction, const std::string& more = "",
                    const std::string& states = "") {
     return fmt::format(R"toml(
@@ -52,7 +51,7 @@ double radius_of(const BranchPoint& point) {
     return std::hypot(start[0], start[1]);
 }
 
-TEST(TouchedSection, circle_shrinks_through_it) {
+TEST(TouchedSection, CircleShrinksThroughIt) {
     for (const bool falling : {true, false})
         for (const double level : {0.5, -0.4}) {
             const Model model = model_from(circle("mu - s", level, falling ? "falling" : "rising"));
@@ -73,7 +72,7 @@ TEST(TouchedSection, circle_shrinks_through_it) {
             }
             EXPECT_EQ(to_string(model, branch.points.front().solution.orbit.signature), "level");
             EXPECT_EQ(to_string(model, branch.points.back().solution.orbit.signature), "~");
-            // And back from there, with the cut, to where the circle is large.
+            // And back from there, with the cut, to a large circle.
             settings.direction = 1;
             const Branch back = follow_branch(model, branch.points.back().solution.orbit, settings);
             EXPECT_EQ(names(back), "BD");
@@ -82,8 +81,8 @@ TEST(TouchedSection, circle_shrinks_through_it) {
         }
 }
 
-/// r' = r (mu + r^2 - r^4): two circles meet at mu = -1/4, where the section has been left already.
-TEST(TouchedSection, fold_beyond_it_is_found) {
+/// r' = r (mu + r^2 - r^4): two circles meet at mu = -1/4, inside the section.
+TEST(TouchedSection, FoldBeyondItIsFound) {
     const double level = 0.8;
     const Model model = model_from(circle("mu + s - s^2", level, "falling"));
     BranchSettings settings;
@@ -100,16 +99,16 @@ TEST(TouchedSection, fold_beyond_it_is_found) {
         const double s = std::pow(radius_of(point), 2);
         EXPECT_NEAR(point.parameter + s - s * s, 0, 1e-9);
     }
-    // Not where the section is touched, at s = level^2.
+    // Not at the touch of the section, s = level^2.
     EXPECT_LT(radius_of(branch.points.back()), level);
 }
 
-/// Beside the circle (p, q), which turn by half a turn in each round: multipliers -exp(a T) and -exp(-T). Two orbits
-/// of twice the period with p^2 = a leave at a = mu - 0.1 = 0.
+/// In addition to the circle (p, q), which rotate by half a turn per period: multipliers -exp(a T) and -exp(-T). Orbits
+/// of twice the period with p^2 = a bifurcate at a = mu - 0.1 = 0.
 const char* const half_turns =
     R"(, p = "(0.5*(a - 1) - (p^2 + q^2))*p + 0.5*(a + 1)*(c*p + d*q) - 0.5*w*q", q = "(0.5*(a - 1) - (p^2 + q^2))*q + 0.5*(a + 1)*(d*p - c*q) + 0.5*w*p")";
 
-TEST(TouchedSection, flip_beyond_it_is_found_and_left) {
+TEST(TouchedSection, FlipBeyondItIsFoundAndSwitchedAt) {
     const double level = 0.5;
     std::string text = circle("mu - s", level, "falling", half_turns, "p = 0\nq = 0");
     text.replace(text.find("w = 1.3"), 7, "w = 1.3\na = \"mu - 0.1\"\nc = \"x/sqrt(s)\"\nd = \"y/sqrt(s)\"");
@@ -134,15 +133,15 @@ TEST(TouchedSection, flip_beyond_it_is_found_and_left) {
         EXPECT_NEAR(radius_of(point), std::sqrt(point.parameter), 1e-9);
     }
     EXPECT_EQ(names(doubled), "BD");
-    // Down again it comes back to the orbits of half its period.
+    // In the other direction it returns to the orbits of half its period.
     settings.direction = -1;
     const Branch back = follow_branch(model, doubled.points.back().solution.orbit, settings);
     EXPECT_EQ(back.outcome, BranchOutcome::returned) << back.detail << names(back);
     EXPECT_NEAR(back.points.back().parameter, 0.1, 1e-6);
 }
 
-/// The circle is run through at two frequencies, on either side of x = 0, and has a section on its way.
-TEST(TouchedSection, orbits_with_events_go_on_without_it) {
+/// The circle has two frequencies, on both sides of x = 0, and an additional section.
+TEST(TouchedSection, OrbitsWithEventsContinueWithoutIt) {
     const Model model = model_from(R"toml(
 [initial]
 mode = "right"
@@ -199,7 +198,7 @@ direction = "falling"
         EXPECT_NEAR(point.solution.orbit.period(), 1.5 * pi, 1e-9);
         EXPECT_NEAR(point.solution.multipliers.at(0).real(), std::exp(-3 * pi * point.parameter), 1e-8);
     }
-    // What is told of the passage of the section has no value beyond: the branch ends there, and says so.
+    // A monitor at the section has no value beyond, so the branch ends there with the reason.
     settings.monitors = {{"speed", "", Monitor::Kind::value, model.symbol("y"), "level", false, {}, {}, {}, {}}};
     branch = follow_branch(model, orbit, settings);
     EXPECT_EQ(branch.outcome, BranchOutcome::undefined);
@@ -209,9 +208,9 @@ direction = "falling"
     EXPECT_LT(branch.points.back().parameter, 0.26);
 }
 
-TEST(TouchedSection, curves_of_touches_go_on_where_the_section_is_the_touch) {
-    // The circle of the radius mu^(1/2) touches the wall at its greatest x, where the section is; with two walls it
-    // touches both all along.
+TEST(TouchedSection, CurvesOfTouchesContinueWhereTheSectionIsTheTouch) {
+    // The circle of radius mu^(1/2) touches the wall at its largest x, where the section is; with two walls it touches
+    // both all along.
     for (const bool both : {false, true}) {
         const Model model = model_from(fmt::format(R"toml(
 [parameters]

@@ -11,7 +11,7 @@ namespace {
 
 using namespace graze::testing;
 
-/// An oscillator between two stops, with the counter of a machine that it drives, in units of time and length.
+/// An oscillator between two stops, with a driven counter, in units of time and length.
 Model between_stops(double time, double length) {
     return model_from(fmt::format(R"toml(
 [parameters]
@@ -52,7 +52,7 @@ map = {{ x = "-x", v = "-v", theta = "theta + pi" }}
                                   1.5 / time, time, length));
 }
 
-TEST(Units, do_not_matter) {
+TEST(Units, BranchDoesNotDependOnUnits) {
     Branch reference;
     for (const auto& [time, length] :
          {std::pair{1.0, 1.0}, {1e-9, 1e-9}, {1e6, 1e6}, {1e-9, 1e6}, {1e6, 1e-12}, {1e-3, 1e-12}}) {
@@ -74,7 +74,7 @@ TEST(Units, do_not_matter) {
         ASSERT_EQ(names(branch), names(reference)) << time << ' ' << length;
         for (std::size_t i = 0; i < branch.special.size(); ++i)
             EXPECT_NEAR(branch.special[i].parameter * time / reference.special[i].parameter, 1, 1e-9);
-        // Whatever is found is left for the same orbits.
+        // The special points and the branches that leave them are the same.
         for (std::size_t i = 0; i < branch.special.size(); ++i) {
             if (branch.special[i].type != PointType::asymmetry && branch.special[i].type != PointType::flip)
                 continue;

@@ -1,4 +1,4 @@
-// Branches of models with dry friction and of such as users write, whose answers are known in closed form.
+// Branches of models with dry friction and of typical user models, with closed forms.
 
 #include "follow.hpp"
 
@@ -13,7 +13,7 @@ namespace {
 using namespace graze::testing;
 using std::numbers::pi;
 
-/// Sliding without stops under dry friction F and the force cos(omega t) (J. P. Den Hartog, 1931), without viscous
+/// Sliding without sticking under dry friction F and the force cos(omega t) (J. P. Den Hartog, 1931), without viscous
 /// damping: amplitude sqrt(V^2 - (F U)^2), V the response and U the damping function, force at the turning points
 /// omega^2 times that.
 struct Sliding {
@@ -45,7 +45,7 @@ Orbit sliding_orbit(const Sliding& known, const Model& model) {
     return half_orbit(model, orbit).value();
 }
 
-TEST(UserModels, dry_friction_holds_where_den_hartog_says) {
+TEST(UserModels, DryFrictionSticksWhereDenHartogPredicts) {
     const Sliding known{0.8, 0.3};
     const Model model = sliding_model(known, 0.3);
     BranchSettings settings;
@@ -60,15 +60,15 @@ TEST(UserModels, dry_friction_holds_where_den_hartog_says) {
         if (point.parameter < known.force()) {
             EXPECT_EQ(point.solution.orbit.segments(), 1U);
             EXPECT_NEAR(std::abs(point.solution.orbit.starts[0][0]), known.amplitude(), 1e-12);
-        } else { // there are stops now, which last the longer the firmer the mass is held
+        } else { // now the mass sticks, the longer the higher the static friction
             EXPECT_EQ(point.solution.orbit.segments(), 2U) << point.parameter;
         }
     }
     EXPECT_EQ(branch.points.back().solution.orbit.segments(), 2U);
 }
 
-TEST(UserModels, dry_friction_slides_at_the_amplitude_of_den_hartog) {
-    // With more friction while sliding, and with another frequency.
+TEST(UserModels, DryFrictionSlidesWithTheAmplitudeOfDenHartog) {
+    // With more dynamic friction, and with another frequency.
     for (const char* parameter : {"friction_dynamic", "omega"}) {
         const Sliding begin{0.8, 0.3};
         const Model model = sliding_model(begin, 0.3);
@@ -129,7 +129,7 @@ mode = "stiff"
                                   stiffness));
 }
 
-TEST(UserModels, bilinear_oscillator_is_linear_where_both_sides_are_alike) {
+TEST(UserModels, BilinearOscillatorIsLinearForEqualSprings) {
     const Model model = bilinear(1.4);
     const Orbit orbit = settled(model, "start").orbit;
     BranchSettings settings;
@@ -140,7 +140,7 @@ TEST(UserModels, bilinear_oscillator_is_linear_where_both_sides_are_alike) {
     ASSERT_EQ(branch.outcome, BranchOutcome::bound) << names(branch);
     for (const BranchPoint& point : branch.points) {
         ASSERT_EQ(point.solution.multipliers.size(), 2U);
-        // A spring without jumps of velocity: damping alone decides the product.
+        // Without jumps of velocity, damping alone determines the product.
         EXPECT_NEAR((point.solution.multipliers[0] * point.solution.multipliers[1]).real(),
                     std::exp(-2 * 0.05 * point.solution.orbit.period()), 1e-11);
     }
@@ -151,8 +151,8 @@ TEST(UserModels, bilinear_oscillator_is_linear_where_both_sides_are_alike) {
         EXPECT_NEAR(std::abs(linear.starts[k][1]), 2.3 * amplitude, 1e-11); // x = 0 is passed at the greatest speed
 }
 
-TEST(UserModels, bilinear_oscillator_leaves_the_stiff_side_by_a_touch) {
-    // Pressed to one side by a load, x is load / stiffness + response: it reaches zero where both are equal.
+TEST(UserModels, BilinearOscillatorLeavesTheStiffSideAtATouch) {
+    // With a load, x is load / stiffness + response and reaches zero where both are equal.
     Model model = bilinear(3);
     model.set_parameter("load", 10);
     model.set_initial("x", 3.3);
@@ -166,7 +166,8 @@ TEST(UserModels, bilinear_oscillator_leaves_the_stiff_side_by_a_touch) {
     ASSERT_EQ(names(branch), "GR");
     EXPECT_NEAR(branch.special[0].parameter, 3 / std::hypot(3 - 2.3 * 2.3, 0.23), 1e-12);
     expect_touch(model, branch.special[0], 1);
-    // Beyond, both springs act in turn, until the load presses it to the other side: there the soft one acts alone.
+    // Beyond, both springs act in turn, until the load presses the mass to the other side, where the soft spring acts
+    // alone.
     const auto starts = branches_at(model, branch.special[0], settings);
     ASSERT_EQ(starts.size(), 1U);
     EXPECT_EQ(starts[0].orbit.segments(), 2U);

@@ -1,4 +1,4 @@
-// Torus points of van der Pol's oscillator with a force, in the plane of frequency and force, by Liouville's formula.
+// Torus points of the forced van der Pol oscillator in the plane of frequency and force, by Liouville's formula.
 
 #include "maps.hpp"
 
@@ -39,8 +39,8 @@ double omega_of(const Model& model, const OrbitSolution& solution) {
     return value_of(model, solution, "omega");
 }
 
-/// The product of multipliers is exp(growth * integral of 1 - x^2): one where the mean of x^2 is 1. Both multipliers
-/// are known from the matrix of the equations, the mean from the motion itself.
+/// The product of multipliers is exp(growth * integral of 1 - x^2): one where the mean of x^2 is 1. The multipliers
+/// come from the matrix of the equations, the mean from the motion.
 void expect_torus(const Model& model, const OrbitSolution& solution) {
     Monitor square;
     square.name = "square";
@@ -50,15 +50,14 @@ void expect_torus(const Model& model, const OrbitSolution& solution) {
     EXPECT_NEAR(monitors(solution.orbit)[0], 1, 1e-10) << omega_of(model, solution);
 }
 
-TEST(VanDerPolCurves, of_torus_points_go_from_resonance_to_resonance) {
+TEST(VanDerPolCurves, TorusPointsConnectResonances) {
     const Model model = van_der_pol();
     BranchSettings settings = in_parameter(model, "F", 0.05, 3);
     settings.direction = -1;
     const Branch branch = follow_branch(model, settled(model, "start").orbit, settings);
     const auto torus = of_type(branch, PointType::torus);
     ASSERT_EQ(torus.size(), 1U) << names(branch);
-    // By the method of averaging the amplitude is 2^(1/2) there, and half of the growth is lost: to the order of its
-    // square.
+    // By averaging the amplitude is 2^(1/2) there and the effective growth is halved, up to errors of its square.
     const double w = 1.2, averaged = std::sqrt(2) * std::hypot(1 - w * w, 0.5 * growth * w);
     EXPECT_NEAR(torus[0].parameter, averaged, growth * growth * averaged);
     std::string met;
@@ -72,16 +71,16 @@ TEST(VanDerPolCurves, of_torus_points_go_from_resonance_to_resonance) {
         met += names(curve) + ' ';
         found.insert(found.end(), curve.special.begin(), curve.special.end());
     }
-    // The pair turns with the oscillator's own frequency, which is 1 to the order of the square of the growth: by a
-    // quarter and by a third of a turn. Half a turn, where the force makes two oscillations, is no resonance: the orbit
-    // is its own image half a period later, and the half of it has the pair i, -i there.
+    // The argument of the pair follows the natural frequency, which is 1 up to the square of the growth: resonances at
+    // a quarter and a third of a turn. Half a turn is not a resonance, because the orbit is symmetric and its half map
+    // has the pair i, -i there.
     ASSERT_EQ(met, "R1 R4 R3 R3 BD ");
     const double turns[] = {1, 4.0 / 3, 3.0 / 2, 3};
     for (std::size_t i = 1; i < std::size(turns); ++i)
         EXPECT_NEAR(omega_of(model, found[i].solution) / turns[i], 1, growth * growth) << i;
 }
 
-TEST(VanDerPolCurves, of_folds_meet_those_of_torus_points_where_two_multipliers_are_one) {
+TEST(VanDerPolCurves, FoldsMeetTorusPointsInAOneToOneResonance) {
     const Model model = van_der_pol();
     BranchSettings down = in_parameter(model, "F", 0.02, 3);
     down.direction = -1;
@@ -97,7 +96,7 @@ TEST(VanDerPolCurves, of_folds_meet_those_of_torus_points_where_two_multipliers_
     ASSERT_FALSE(meetings.empty());
     for (const SpecialPoint& meeting : meetings) {
         expect_torus(model, meeting.solution);
-        // On along the folds, and back from there.
+        // Continue along the folds, and back.
         std::size_t come_back = 0;
         for (const int way : {1, -1}) {
             BranchSettings along = in_omega;

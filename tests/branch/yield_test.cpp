@@ -13,14 +13,14 @@ namespace {
 
 using namespace graze::testing;
 
-struct Workshop {
+struct YieldExample {
     DrivenOscillator known;
     Model model = known.model();
     SpecialPoint point = known.grazing(model);
     ParameterId force = model.independent_parameter("F");
     YieldSettings settings;
 
-    explicit Workshop(const DrivenOscillator& of = {}) : known(of) {
+    explicit YieldExample(const DrivenOscillator& of = {}) : known(of) {
         settings.devices = 500;
         settings.jobs = 2;
     }
@@ -30,15 +30,15 @@ struct Workshop {
     Yield yield() const { return yield_of(model, point, force, settings); }
 };
 
-TEST(Yield, of_each_device_is_that_of_the_closed_form) {
+TEST(Yield, ValueOfEachDeviceHasItsClosedForm) {
     for (const double unit : {1.0, 1e-9, 1e6}) {
-        Workshop shop(DrivenOscillator{unit, 1 / unit, unit});
+        YieldExample shop(DrivenOscillator{unit, 1 / unit, unit});
         shop.add("omega", 0.03 * shop.known.omega);
         const Yield yield = shop.yield();
         ASSERT_EQ(yield.found, 500U);
         const double derivative = shop.known.derivatives()[3];
         for (const Device& device : yield.devices) {
-            DrivenOscillator one = shop.known; // what was drawn follows from the linear estimate
+            DrivenOscillator one = shop.known; // the drawn parameter follows from the linear estimate
             one.omega += (device.linear - yield.nominal) / derivative;
             EXPECT_NEAR(device.value / one.force(), 1, 1e-11);
         }
@@ -46,12 +46,12 @@ TEST(Yield, of_each_device_is_that_of_the_closed_form) {
     }
 }
 
-TEST(Yield, OfGivenDevicesIsThatOfTheClosedForm) {
-    Workshop shop;
+TEST(Yield, GivenDevicesHaveTheirClosedForm) {
+    YieldExample shop;
     MadeDevices given{{shop.model.independent_parameter("omega"), shop.model.independent_parameter("sigma")}, {}};
-    for (int i = 0; i < 50; ++i) // that depend on one another, as those of one process
+    for (int i = 0; i < 50; ++i) // correlated, as from one process
         given.values.push_back({shop.known.omega * (1 + 0.001 * i), shop.known.sigma * (1 - 0.002 * i)});
-    given.values.emplace_back(); // one that cannot be made
+    given.values.emplace_back(); // a device that cannot be made
     std::vector<double> told(given.values.size());
     shop.settings.solved = [&](std::size_t i, const LocatedSolution& solution) { told[i] = solution.value; };
     shop.settings.least = 0;
@@ -72,8 +72,8 @@ TEST(Yield, OfGivenDevicesIsThatOfTheClosedForm) {
     EXPECT_THROW(yield_of(shop.model, shop.point, shop.force, given, shop.settings), InputError);
 }
 
-TEST(Yield, where_the_value_is_linear_has_the_statistics_of_what_was_drawn) {
-    Workshop shop;
+TEST(Yield, LinearValueHasTheStatisticsOfTheDrawnParameter) {
+    YieldExample shop;
     shop.settings.devices = 4000;
     shop.add("sigma", 0.02);
     shop.settings.least = shop.known.force() - 0.02 * shop.known.derivatives()[4]; // one standard deviation below
@@ -81,13 +81,13 @@ TEST(Yield, where_the_value_is_linear_has_the_statistics_of_what_was_drawn) {
     const double deviation = 0.02 * shop.known.derivatives()[4];
     EXPECT_NEAR(yield.linear_deviation, deviation, 1e-11);
     EXPECT_LT(yield.largest_departure, 1e-11); // the value is linear in sigma
-    // Four standard errors: a seed that is changed would fail once in 16000 times.
+    // Four standard errors: another seed would fail once in 16000 times.
     const double error = deviation / std::sqrt(4000.0);
     EXPECT_NEAR(yield.mean.value().value, shop.known.force(), 4 * error);
     EXPECT_NEAR(yield.mean->high - yield.mean->value, 1.96 * error, 0.1 * error);
     EXPECT_NEAR(yield.deviation.value().value, deviation, 4 * error / std::sqrt(2.0));
     EXPECT_NEAR(yield.deviation->high - yield.deviation->value, 1.96 * error / std::sqrt(2.0), 0.1 * error);
-    constexpr double share = 0.8413447460685429; // of a normal distribution above -1
+    constexpr double share = 0.8413447460685429; // share of a normal distribution above -1
     EXPECT_NEAR(yield.within.value().value, share, 4 * std::sqrt(share * (1 - share) / 4000));
     const ConfidenceInterval surely =
         wilson_interval(static_cast<std::size_t>(std::lround(4000 * yield.within->value)), 4000, 0.9999);
@@ -103,8 +103,8 @@ TEST(Yield, where_the_value_is_linear_has_the_statistics_of_what_was_drawn) {
         EXPECT_GT(yield.quantiles[i].value, yield.quantiles[i - 1].value);
 }
 
-TEST(Yield, adds_variances_and_says_which_parameter_contributes_most) {
-    Workshop shop;
+TEST(Yield, ContributionsAreSortedSharesOfTheVariance) {
+    YieldExample shop;
     shop.settings.devices = 2000;
     shop.add("m", 0.004, Spread::uniform);
     shop.add("e", 0.1);
@@ -123,10 +123,10 @@ TEST(Yield, adds_variances_and_says_which_parameter_contributes_most) {
     EXPECT_NEAR(yield.contributions[0].deviation, mass_first ? of_mass : of_stop, 1e-12);
 }
 
-TEST(Yield, is_the_same_bit_for_bit_on_any_number_of_threads) {
-    Workshop shop;
+TEST(Yield, ResultsAreIdenticalOnAnyNumberOfThreads) {
+    YieldExample shop;
     shop.settings.devices = 300;
-    shop.add("omega", 0.3, Spread::uniform); // wide enough for divided ways
+    shop.add("omega", 0.3, Spread::uniform); // wide enough for divided paths
     shop.add("k", 0.2);
     shop.settings.jobs = 1;
     const Yield once = shop.yield();
@@ -145,10 +145,10 @@ TEST(Yield, is_the_same_bit_for_bit_on_any_number_of_threads) {
     EXPECT_NE(shop.yield().mean.value().value, once.mean.value().value);
 }
 
-TEST(Yield, counts_devices_that_are_not_found) {
-    Workshop shop;
+TEST(Yield, DevicesThatAreNotFoundAreCounted) {
+    YieldExample shop;
     shop.settings.devices = 200;
-    shop.add("sigma", 1.2); // some stops lie beyond where the oscillator is at rest: no orbit touches from inside
+    shop.add("sigma", 1.2); // some stops lie beyond the rest position, so that no orbit touches from inside
     shop.settings.least = 0;
     const Yield yield = shop.yield();
     EXPECT_EQ(yield.made, 200U);
@@ -163,8 +163,8 @@ TEST(Yield, counts_devices_that_are_not_found) {
     EXPECT_LE(yield.within.value().value, static_cast<double>(yield.found) / 200);
 }
 
-TEST(Yield, stops_when_it_is_interrupted) {
-    Workshop shop;
+TEST(Yield, StopsWhenInterrupted) {
+    YieldExample shop;
     shop.add("sigma", 0.01);
     shop.settings.jobs = 1;
     std::size_t seen = 0;
@@ -174,11 +174,11 @@ TEST(Yield, stops_when_it_is_interrupted) {
     EXPECT_TRUE(yield.interrupted);
     EXPECT_EQ(yield.made, 7U);
     EXPECT_EQ(yield.found, 7U);
-    EXPECT_FALSE(yield.quantiles[0].low); // too few for a limit
+    EXPECT_FALSE(yield.quantiles[0].low); // too few devices for a confidence limit
 }
 
-TEST(Yield, refuses_settings_out_of_range) {
-    Workshop shop;
+TEST(Yield, SettingsOutOfRangeAreRefused) {
+    YieldExample shop;
     EXPECT_THROW(shop.yield(), InputError);
     shop.add("sigma", -1);
     EXPECT_THROW(shop.yield(), InputError);
@@ -201,7 +201,7 @@ TEST(Yield, refuses_settings_out_of_range) {
     EXPECT_THROW(shop.yield(), InputError); // twice
 }
 
-TEST(WilsonInterval, is_that_of_the_formula) {
+TEST(WilsonInterval, LimitsSolveTheDefiningEquation) {
     // Both limits p solve (share - p)^2 = z^2 p (1 - p) / n.
     constexpr double z = 1.959963984540054;
     for (const auto& [hits, trials] : {std::pair<std::size_t, std::size_t>{3, 10}, {50, 1000}, {999, 1000}}) {

@@ -1,4 +1,4 @@
-// A curve of contacts without speed that ends where they have no acceleration either: a closed form.
+// A curve of contacts of zero speed that ends where their acceleration vanishes too: a closed form.
 
 #include "maps.hpp"
 
@@ -13,12 +13,12 @@ namespace {
 
 using namespace graze::testing;
 
-/// A ball that is let go from rest at a height, falls on a table that moves as A sin(omega t), rests on it, and is
-/// taken up again after each period. With the phase p of the table at which it lands without speed,
+/// A ball is released from rest at a height, falls onto a table that moves as A sin(omega t), rests on it, and is
+/// lifted again after each period. With the phase p of the table at which it lands with zero speed,
 ///     A = -p / cos(p) g / omega^2,   H = (p^2 / 2 - p tan(p)) g / omega^2 - k w(p),
-/// where w remembers how long it fell: without that no orbit would know when it landed. The gap has the acceleration A
-/// omega^2 sin(p) - g, which is zero where p tan(p) = -1. Its next derivative is negative there: the gap is positive
-/// before.
+/// where the state w depends on the duration of the fall, so that orbits depend on the landing. The gap has the
+/// acceleration A omega^2 sin(p) - g, which is zero where p tan(p) = -1. Its next derivative is negative there: the gap
+/// is positive before.
 struct SoftLanding {
     double length, time; ///< units
     double g = length / (time * time), omega = 1.3 / time, unit = g / (omega * omega);
@@ -68,13 +68,13 @@ mode = "falling"
 )toml",
                                          amplitude(first), height(first), g, omega, 0.3 * unit));
 
-    static constexpr double first = 2.2; // phase of the touch from which curves begin
+    static constexpr double first = 2.2; // phase of the touch at the start of curves
 
     double amplitude(double phase) const { return -phase / std::cos(phase) * unit; }
     double height(double phase) const {
         return (phase * phase / 2 - phase * std::tan(phase) - 0.3 * memory(phase)) * unit;
     }
-    /// w before it gains 1, with which the ball is let go: it decays at other rates when that falls and rests.
+    /// Returns w before its increase by 1 at the release; it decays at different rates during fall and rest.
     static double memory(double phase) { return 1 / (std::exp(0.6 * std::numbers::pi - 0.2 * phase) - 1); }
     /// p tan(p) = -1, as p sin(p) + cos(p) = 0 by Newton's method
     static double last_phase() {
@@ -84,11 +84,11 @@ mode = "falling"
         return p;
     }
 
-    /// Orbits with this amplitude from a height, up to where one touches.
+    /// Follows orbits of this amplitude in the height, up to a touch.
     SpecialPoint touch(double height_then, int direction) {
         model.set_parameter("H", height_then);
         const double a = amplitude(first);
-        double phase = 0; // of landing: the first zero of the gap
+        double phase = 0; // phase of landing: the first zero of the gap
         const auto gap = [&](double p) { return height_then + (0.3 * memory(p) - p * p / 2) * unit - a * std::sin(p); };
         while (gap(phase) > 0)
             phase += 1e-3;
@@ -124,31 +124,31 @@ protected:
 
     double amplitude_at(const OrbitSolution& solution) const { return value_of(one.model, solution, "A"); }
     double height_at(const OrbitSolution& solution) const { return value_of(one.model, solution, "H"); }
-    /// Each point of a curve by the phase at which the ball lands without speed.
+    /// Verifies a point of a curve by the phase of landing at zero speed.
     void expect_on_curve(const BranchPoint& point) const {
         const double phase = point.solution.orbit.durations[0] * one.omega;
-        // Of a phase that the integration leaves within 1e-13.
+        // The phase is accurate to 1e-13.
         EXPECT_NEAR(amplitude_at(point.solution), one.amplitude(phase), 1e-11 * one.unit);
         EXPECT_NEAR(height_at(point.solution), one.height(phase), 1e-11 * one.unit);
         EXPECT_EQ(point.solution.certificate.admissible, phase <= SoftLanding::last_phase() + 1e-6) << phase;
     }
 };
 
-TEST_P(ZeroAcceleration, of_a_landing_without_speed_has_its_closed_form) {
+TEST_P(ZeroAcceleration, LandingAtZeroSpeedHasItsClosedForm) {
     const double last = SoftLanding::last_phase();
     const SpecialPoint touch = one.touch(0.97 * one.height(SoftLanding::first), 1);
     ASSERT_TRUE(touch.at_end);
     EXPECT_NEAR(touch.parameter, one.height(SoftLanding::first), 1e-11 * one.unit);
-    // In lower heights the curve comes to it, and ends there.
+    // Towards lower heights the curve ends there.
     const Branch curve = one.curve(touch, -1);
-    // The speed of this ball has no memory, so that A turns there as well: before or after it by round-off.
+    // A has an extremum there too, before or after it by round-off.
     ASSERT_TRUE(names(curve) == "ZA" || names(curve) == "EX ZA") << names(curve) << ' ' << curve.detail;
     EXPECT_EQ(curve.outcome, BranchOutcome::unphysical) << curve.detail;
     const SpecialPoint& point = curve.special.back();
     EXPECT_TRUE(point.located);
     EXPECT_TRUE(point.solution.certificate.admissible);
     EXPECT_EQ(point.detail, "contact: touched without acceleration");
-    // The phase is where a function with a slope of one is zero: of the same digits as the parameters.
+    // The phase is as accurate as the parameters.
     EXPECT_NEAR(point.solution.orbit.durations[0] * one.omega, last, 1e-10);
     EXPECT_NEAR(amplitude_at(point.solution), one.amplitude(last), 1e-10 * one.unit);
     EXPECT_NEAR(height_at(point.solution), one.height(last), 1e-10 * one.unit);
@@ -156,14 +156,14 @@ TEST_P(ZeroAcceleration, of_a_landing_without_speed_has_its_closed_form) {
     EXPECT_GE(point.bracket.second, point.parameter * (1 - 1e-12));
     for (const BranchPoint& each : curve.points)
         expect_on_curve(each);
-    // The other way the acceleration only grows.
+    // In the other direction the acceleration only grows.
     const Branch away = one.curve(touch, 1);
     EXPECT_EQ(names(away), "BD") << away.detail;
     for (const BranchPoint& each : away.points)
         expect_on_curve(each);
 }
 
-TEST_P(ZeroAcceleration, is_followed_by_touches_from_the_wrong_side) {
+TEST_P(ZeroAcceleration, CurveBeyondItIsInadmissible) {
     const SpecialPoint touch = one.touch(0.97 * one.height(SoftLanding::first), 1);
     ASSERT_TRUE(touch.at_end);
     const Branch curve = one.curve(touch, -1, false);
@@ -174,16 +174,16 @@ TEST_P(ZeroAcceleration, is_followed_by_touches_from_the_wrong_side) {
     EXPECT_GT(curve.points.back().solution.orbit.durations[0] * one.omega, 3.5);
 }
 
-/// Of balls that touch and land later, the touch comes to the end of its segment there.
-TEST_P(ZeroAcceleration, is_where_touches_inside_of_a_segment_end) {
+/// For balls that touch and land later, the touch reaches the end of its segment there.
+TEST_P(ZeroAcceleration, CurveOfTouchesInsideASegmentEndsThere) {
     const SpecialPoint inside = one.touch(1.03 * one.height(SoftLanding::first), -1);
     ASSERT_EQ(inside.type, PointType::grazing);
     ASSERT_FALSE(inside.at_end);
     const Branch curve = one.curve(inside, -1);
     EXPECT_NE(curve.outcome, BranchOutcome::bound) << curve.detail;
     ASSERT_FALSE(curve.points.empty());
-    // The landing follows by three times the phase that is left for the touch, and both vanish: the curve ends within a
-    // step of it, however small that is.
+    // The landing follows the touch at three times the remaining phase, and both vanish: the curve ends within one step
+    // of it.
     const double last = SoftLanding::last_phase();
     EXPECT_NEAR(amplitude_at(curve.points.back().solution), one.amplitude(last), 1e-2 * one.unit);
     EXPECT_NEAR(height_at(curve.points.back().solution), one.height(last), 1e-2 * one.unit);

@@ -1,4 +1,4 @@
-// Branches that leave orbits along which a state is zero, in whatever units: maps whose other orbits are closed forms.
+// Branches that leave orbits along which a state is zero, in any units, for maps with closed forms.
 
 #include "follow.hpp"
 #include "maps.hpp"
@@ -16,15 +16,15 @@ using namespace graze::testing;
 constexpr double units[] = {1, 1e-9, 1e6};
 
 struct Case {
-    std::string image; ///< with x in its unit
+    std::string image; ///< map of x in its unit
     PointType type;
-    double power;      ///< of x in its unit, which is p on the other branch
-    double multiplier; ///< at the point
+    double power;      ///< power of x that equals p on the other branch
+    double multiplier; ///< multiplier at the point
 };
 
 class ZeroState : public ::testing::TestWithParam<Case> {};
 
-TEST_P(ZeroState, is_left_by_the_other_branch_in_any_unit) {
+TEST_P(ZeroState, OtherBranchLeavesItInAnyUnit) {
     for (const double unit : units) {
         SCOPED_TRACE(unit);
         const Model model = map_model(fmt::format("p = -0.2\nunit = {}", unit), {GetParam().image});
@@ -43,7 +43,7 @@ TEST_P(ZeroState, is_left_by_the_other_branch_in_any_unit) {
                 EXPECT_NEAR(std::pow(x, GetParam().power), point.parameter, 1e-8);
                 EXPECT_GT(std::abs(x), 1e-8);
             }
-            EXPECT_NEAR(std::abs(other.points.back().parameter), 0.5, 0.11); // one bound or the other
+            EXPECT_NEAR(std::abs(other.points.back().parameter), 0.5, 0.11); // either bound
         }
     }
 }
@@ -53,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(Maps, ZeroState,
                                            Case{"x + 0.5*x*(p - (x/unit)^2)", PointType::branch_point, 2, 1},
                                            Case{"-(1 + 0.5*p)*x + 0.5*x*(x/unit)^2", PointType::flip, 2, -1}));
 
-TEST(ZeroStateOfSettledOrbit, does_not_hide_that_the_orbit_is_its_own_image) {
+TEST(ZeroStateOfSettledOrbit, SymmetricOrbitsAreRecognised) {
     const Model model = model_from(R"toml(
 [parameters]
 p = -0.3

@@ -1,4 +1,4 @@
-// Local maps of cycles that graze, against closed forms and published values.
+// Return maps of grazing orbits against closed forms and published values.
 
 #include "graze/base/input_error.hpp"
 #include "graze/grazing/cycle_map.hpp"
@@ -17,7 +17,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// The ball at rest in front of the shaker, whose amplitude just reaches it.
+/// The ball at rest in front of the shaker; with a = b the shaker just touches it.
 Orbit resting_ball(const Model& model) {
     Orbit orbit;
     orbit.signature = parse_signature(model, "free:phase0");
@@ -36,7 +36,7 @@ constexpr Shaker published[] = {{6, 1, 1.01155084345},
                                 {18, 3, 1.48867209817},
                                 {22, 3, 1.34410718122}};
 
-TEST(CycleMap, of_ball_and_shaker_has_the_published_growth) {
+TEST(CycleMap, BallAndShakerHasThePublishedGrowth) {
     constexpr double zeta = 0.0881, omega_n = 25.2, e = 0.55, b = 0.65;
     for (const Shaker& one : published) {
         Model model = load_model("ball-and-shaker");
@@ -53,7 +53,7 @@ TEST(CycleMap, of_ball_and_shaker_has_the_published_growth) {
         ASSERT_TRUE(map.exists()) << map.reason;
         EXPECT_EQ(map.contact.order, MapOrder::square_root);
         const double omega = 2 * pi * one.f, own = omega_n * std::sqrt(1 - zeta * zeta);
-        // Sums of a few terms of the size of the result.
+        // The tolerances allow for sums of a few terms of the size of the result.
         EXPECT_NEAR(map.contact.acceleration, b * omega * omega, 1e-13 * b * omega * omega);
         EXPECT_NEAR(map.contact.restitution, e, 1e-14);
         ASSERT_TRUE(map.clearance_rate);
@@ -62,7 +62,7 @@ TEST(CycleMap, of_ball_and_shaker_has_the_published_growth) {
         std::size_t next = 0;
         for (std::size_t k = 1; k <= projections.size(); ++k) {
             const double time = static_cast<double>(k) / one.f;
-            // The flow is integrated to 1e-13 of the size of what is carried, a few steps for each cycle.
+            // The flow has a relative tolerance of 1e-13 and takes a few steps per cycle.
             EXPECT_NEAR(projections[k - 1], (1 + e) * std::exp(-zeta * omega_n * time) * std::sin(own * time) / own,
                         1e-12 * (1 + e) / own)
                 << k;
@@ -72,7 +72,7 @@ TEST(CycleMap, of_ball_and_shaker_has_the_published_growth) {
         EXPECT_EQ(static_cast<double>(next), one.n);
         // The jump of the velocity is 1 + e times the speed: c of Eq. (4.25).
         const double c = std::sqrt(-2 * map.contact.acceleration * projections[next - 1] * (1 + e));
-        EXPECT_NEAR(std::log10(c), one.log_c, 1e-11); // all digits that are published
+        EXPECT_NEAR(std::log10(c), one.log_c, 1e-11); // all published digits
         const double closed = omega * (1 + e) *
                               std::sqrt(-2 * b * std::exp(-2 * one.n * pi * zeta * omega_n / omega) / own *
                                         std::sin(2 * one.n * pi * own / omega));
@@ -80,7 +80,7 @@ TEST(CycleMap, of_ball_and_shaker_has_the_published_growth) {
     }
 }
 
-/// The motion between two stops that just reaches both. @param half from the mean position on one side to the other
+/// Returns the steady motion that just touches both stops. @param half return a half orbit
 Orbit between_stops(Model& model, bool half) {
     const double zeta = 0.02, omega = 1.2;
     const double in_phase = (1 - omega * omega), out_of_phase = 2 * zeta * omega,
@@ -96,7 +96,7 @@ Orbit between_stops(Model& model, bool half) {
     return orbit;
 }
 
-TEST(CycleMap, of_a_half_orbit_ends_at_its_image) {
+TEST(CycleMap, HalfOrbitEndsAtItsImage) {
     Model model = load_model("impact-oscillator-two-stops");
     const Orbit half = between_stops(model, true);
     const System system(model);
@@ -107,7 +107,7 @@ TEST(CycleMap, of_a_half_orbit_ends_at_its_image) {
     const CycleMap map = cycle_map(system, half, touches[0], options);
     ASSERT_TRUE(map.exists()) << map.reason;
     EXPECT_TRUE(map.half);
-    // After half a period the image of what the impact has changed, which has the other sign.
+    // After half a period the symmetry reverses the sign of the change by the impact.
     const double zeta = 0.02, d = std::sqrt(1 - zeta * zeta), time = pi / 1.2;
     const auto projections = map.projections(6);
     for (int k = 1; k <= 6; ++k) {
@@ -120,7 +120,7 @@ TEST(CycleMap, of_a_half_orbit_ends_at_its_image) {
     EXPECT_EQ(trial.outcome, TrialOutcome::agreed) << trial.reason;
 }
 
-TEST(CycleMap, of_a_whole_orbit_that_touches_twice_decides_nothing) {
+TEST(CycleMap, OrbitWithTwoTouchesIsUndecided) {
     Model model = load_model("impact-oscillator-two-stops");
     const Orbit whole = between_stops(model, false);
     const System system(model);
@@ -134,7 +134,7 @@ TEST(CycleMap, of_a_whole_orbit_that_touches_twice_decides_nothing) {
     EXPECT_EQ(verdict.reason, "the orbit touches in 2 places at once");
 }
 
-TEST(CycleMap, says_why_there_is_none) {
+TEST(CycleMap, ReasonTellsWhyTheMapDoesNotExist) {
     Model model = load_model("ball-and-shaker");
     model.set_parameter("a", 0.6);
     const System system(model);
@@ -148,13 +148,13 @@ TEST(CycleMap, says_why_there_is_none) {
     EXPECT_EQ(map.reason, "the state is not on the surface of event 'contact'");
     EXPECT_TRUE(map.projections(3).empty());
     EXPECT_EQ(verdict_of(map).reason, map.reason);
-    touch.time = 0.75 / 6; // farthest away
+    touch.time = 0.75 / 6; // time at which the shaker is farthest away
     EXPECT_EQ(cycle_map(system, orbit, touch).reason,
-              "the function of event 'contact' is greatest, not least, at the touch");
+              "the function of event 'contact' has a maximum, not a minimum, at the touch");
     EXPECT_THROW(map_motion(map, -1e-6), InputError);
 }
 
-TEST(CycleMap, needs_what_fits_the_orbit) {
+TEST(CycleMap, ArgumentsThatDoNotFitAreRefused) {
     Model model = load_model("ball-and-shaker");
     const System system(model);
     const Orbit orbit = resting_ball(model);

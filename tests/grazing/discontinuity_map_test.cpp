@@ -1,4 +1,4 @@
-// Discontinuity maps against exact simulation: their errors fall with the next power of the depth.
+// Discontinuity maps against simulation: the error falls with the next power of the depth.
 
 #include "graze/grazing/discontinuity_map.hpp"
 
@@ -22,11 +22,11 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// The greatest difference, in the states' sizes, of what the model does from a neighbour of the touch that would go to
-/// a depth, and what the map says.
+/// Returns the largest scaled difference between the simulation and the map for a motion near the touch that would
+/// penetrate to `depth`.
 double error_at(const System& system, const DiscontinuityMap& map, double depth, double time) {
     const TouchState& touch = map.touch;
-    // On the surface where the rate is zero, to this depth: Newton's method along gradient and rate's gradient.
+    // Find the state of zero rate at this depth: Newton's method along the gradients of function and rate.
     std::vector<double> state = touch.state;
     const std::size_t n = state.size();
     const auto inputs = [&](std::vector<double> values) {
@@ -73,7 +73,7 @@ double error_at(const System& system, const DiscontinuityMap& map, double depth,
     return error;
 }
 
-/// The same with the next order, which is known of sliding and of all that single jumps make: by half a power more.
+/// Checks that with the next order the error falls with half a power more.
 void expect_next_order(const System& system, DiscontinuityMap map, double depth, double time, double rate) {
     ASSERT_EQ(map.second.size(), map.direction.size());
     const double far = error_at(system, map, 10 * depth, time), near = error_at(system, map, depth, time);
@@ -82,7 +82,7 @@ void expect_next_order(const System& system, DiscontinuityMap map, double depth,
     EXPECT_LT(near, 0.3 * error_at(system, map, depth, time));
 }
 
-/// The power of the depth with which the error falls over a hundredth, to leading order.
+/// Checks the power of the depth with which the error of the leading order falls when the depth falls to a hundredth.
 void expect_rate(const System& system, DiscontinuityMap map, double depth, double time, double rate) {
     ASSERT_TRUE(map.exists()) << map.reason;
     EXPECT_EQ(map.second.empty(),
@@ -91,7 +91,7 @@ void expect_rate(const System& system, DiscontinuityMap map, double depth, doubl
         expect_next_order(system, map, depth, time, rate);
     map.second.clear();
     const double far = error_at(system, map, depth, time), near = error_at(system, map, depth / 100, time);
-    // What comes next may happen to be zero.
+    // The next term may be zero, so the error may fall faster.
     EXPECT_GT(std::log(far / near) / std::log(100), rate - 0.05) << far << ' ' << near;
 }
 
@@ -106,8 +106,9 @@ TouchState touch_of(const Model& model, const std::string& mode, const std::stri
     return touch;
 }
 
-/// x'' = 2 + x z - v at the wall x = 0, with z' = 1 - z + v x; what happens there is to be filled in.
-Model wall(const std::string& parameters, const std::string& rest) {
+/// x'' = 2 + x z - v with z' = 1 - z + v x in front of a wall_model at x = 0. @param contact transitions and further
+/// modes
+Model wall_model(const std::string& parameters, const std::string& contact) {
     return parse_model(fmt::format(R"toml(
 [parameters]
 e = 0.7
@@ -132,12 +133,12 @@ watch = ["touch"]
 rates = {{ x = "v", v = "free", z = "1 - z + v*x + 0.2*w", w = "z - 0.4*w" }}
 {}
 )toml",
-                                   parameters, rest),
+                                   parameters, contact),
                        "wall.toml");
 }
 
 Model compliant(const std::string& force) {
-    return wall("", fmt::format(R"toml(
+    return wall_model("", fmt::format(R"toml(
 [modes.on]
 watch = ["leave"]
 rates = {{ x = "v", v = "free + {}", z = "1 - z + v*x + 0.2*w", w = "z - 0.4*w" }}
@@ -150,13 +151,13 @@ mode = "on"
 event = "leave"
 next = "free"
 )toml",
-                                force));
+                                      force));
 }
 
 const std::vector<double> at_wall{0, 0, 0.3, 0.2};
 
-TEST(DiscontinuityMap, of_an_impact_has_its_closed_form) {
-    const Model model = wall("", R"toml(
+TEST(DiscontinuityMap, ImpactHasItsClosedForm) {
+    const Model model = wall_model("", R"toml(
 [jumps.impact]
 v = "-e*v"
 [[transitions]]
@@ -175,8 +176,8 @@ next = "free"
     expect_rate(model, map, 1e-6, 0.1, 1);
 }
 
-TEST(DiscontinuityMap, of_an_impact_that_changes_several_states) {
-    const Model model = wall("", R"toml(
+TEST(DiscontinuityMap, ImpactMayChangeSeveralStates) {
+    const Model model = wall_model("", R"toml(
 [jumps.impact]
 v = "-e*v*(1 + 0.2*z)"
 z = "z - 0.4*v + v^2"
@@ -195,7 +196,7 @@ next = "free"
     expect_rate(model, map, 1e-6, 0.1, 1);
 }
 
-TEST(DiscontinuityMap, of_a_moving_wall_and_of_friction_that_an_impact_overcomes) {
+TEST(DiscontinuityMap, MovingWallsAndSlipAfterImpactsHaveSquareRootMaps) {
     Model shaker = load_model("ball-and-shaker");
     shaker.set_parameter("a", 0.65);
     const DiscontinuityMap moving =
@@ -203,7 +204,7 @@ TEST(DiscontinuityMap, of_a_moving_wall_and_of_friction_that_an_impact_overcomes
     ASSERT_EQ(moving.order, MapOrder::square_root) << moving.reason;
     expect_rate(shaker, moving, 1e-6, 0.005, 1);
 
-    // The frame slips for a time in proportion to the speed, and sticks again.
+    // The frame slips for a time proportional to the speed, and sticks again.
     const Model actuator = load_model("impact-microactuator");
     const DiscontinuityMap slipping =
         discontinuity_map(actuator, touch_of(actuator, "stick", "front", {0, 0, 0.5, 0, 2.9}));
@@ -213,7 +214,7 @@ TEST(DiscontinuityMap, of_a_moving_wall_and_of_friction_that_an_impact_overcomes
     expect_rate(actuator, slipping, 1e-6, 0.1, 1);
 }
 
-/// A state of a shipped model that touches, with sizes of its states and times that are short for it.
+/// A touching state of a shipped model, with the scales of its states, a depth and a time that is short for it.
 struct Shipped {
     const char* model;
     std::vector<std::pair<const char*, double>> parameters;
@@ -224,7 +225,7 @@ struct Shipped {
     MapOrder order;
 };
 
-TEST(DiscontinuityMap, of_shipped_models_errs_by_the_next_power) {
+TEST(DiscontinuityMap, ErrorForShippedModelsFallsWithTheNextPower) {
     const double deflection = -0.004 / 1.5881462620646052;
     const Shipped all[] = {
         {"impact-oscillator", {}, "free", "stop", {0.1, 0, 3}, {1, 1, 1}, 1e-5, 0.1, MapOrder::square_root},
@@ -262,7 +263,7 @@ TEST(DiscontinuityMap, of_shipped_models_errs_by_the_next_power) {
         EXPECT_EQ(map.order, one.order) << map.reason;
         expect_rate(model, map, one.depth, one.time, one.order == MapOrder::square_root ? 1 : 2);
     }
-    // The mass of the testbed: with a current that pulls it off the stop again.
+    // The mass of the testbed touches its stop with a current that pulls it away.
     const Model testbed = load_model("electromagnetic-testbed");
     const double delta = testbed.values_of(std::array{testbed.symbol("delta")})[0];
     const DiscontinuityMap map =
@@ -271,7 +272,7 @@ TEST(DiscontinuityMap, of_shipped_models_errs_by_the_next_power) {
     expect_rate(testbed, map, 1e-8, 0.001, 1);
 }
 
-TEST(DiscontinuityMap, of_a_preloaded_stop_goes_with_the_root) {
+TEST(DiscontinuityMap, PreloadedStopHasASquareRootMap) {
     const Model model = compliant("c - k*x");
     const DiscontinuityMap map = discontinuity_map(model, touch_of(model, "free", "touch", at_wall));
     ASSERT_EQ(map.order, MapOrder::square_root) << map.reason;
@@ -282,7 +283,7 @@ TEST(DiscontinuityMap, of_a_preloaded_stop_goes_with_the_root) {
     expect_rate(model, map, 1e-6, 0.1, 1);
 }
 
-TEST(DiscontinuityMap, of_compliant_stops_goes_with_the_power_three_halves) {
+TEST(DiscontinuityMap, CompliantStopsHaveThreeHalvesMaps) {
     for (const char* force : {"(-k*x)", "(-k*x*(1 + z))", "(-k*x - c*v)", "(-k*x - c*v*(1 + z + v))", "(-c*v)"}) {
         SCOPED_TRACE(force);
         const Model model = compliant(force);
@@ -295,8 +296,8 @@ TEST(DiscontinuityMap, of_compliant_stops_goes_with_the_power_three_halves) {
     EXPECT_NEAR(map.direction[1], 4 * std::sqrt(2 / map.acceleration), 1e-14); // 4/3 k (2/a)^(1/2)
 }
 
-/// A relay: the field is `first` where h = x - 0.3 sin(w) is positive and `second` beyond, and on h = 0 their mean that
-/// stays there (A. F. Filippov). Begins with h > 0.
+/// A relay system: the vector field is `first` where h = x - 0.3 sin(w) is positive, `second` where it is negative, and
+/// on h = 0 the convex combination that keeps h zero (A. F. Filippov). The initial state has h > 0.
 std::string relay_text(const std::string& jump) {
     return fmt::format(R"toml(
 [states]
@@ -352,34 +353,34 @@ Model relay(const std::string& jump) {
     return parse_model(relay_text(jump), "relay.toml");
 }
 
-/// Where it touches: first_x is the surface's own rate.
+/// The touching state, where first_x equals the rate of the surface.
 std::vector<double> touch_of_relay() {
     const double z = 0.3, w = 0.2, x = 0.3 * std::sin(w);
     return {x, 0.3 * std::cos(w) * (z - 0.4 * w) - 0.4 * z * z + 0.7 * x - 0.2 * x * z, z, w};
 }
 
-TEST(DiscontinuityMap, of_grazing_sliding_is_linear) {
+TEST(DiscontinuityMap, GrazingSlidingHasALinearMap) {
     for (const char* jump : {"identity", "put"}) {
         const Model model = relay(jump);
         const std::vector<double> state = touch_of_relay();
         const DiscontinuityMap map = discontinuity_map(model, touch_of(model, "free", "touch", state));
         ASSERT_EQ(map.order, MapOrder::linear) << map.reason;
         EXPECT_EQ(map.contacts.size(), 2U);
-        // (second - first) over the rate at which the second field meets the surface.
+        // (second - first) divided by the rate at which the second field meets the surface.
         const double y = state[1], rate = 2 + state[2] + 0.3 * y * y;
         EXPECT_NEAR(map.direction[0], 1, 1e-13);
         EXPECT_NEAR(map.direction[1], (-0.8 + 0.5 * state[0]) / rate, 1e-13);
         EXPECT_NEAR(map.direction[2], 0.7 * std::cos(y) / rate, 1e-13);
         EXPECT_EQ(map.direction[3], 0);
-        // It slides from where the surface is met to where the touch would have been.
+        // It slides from the contact until the time at which the motion would have touched.
         EXPECT_NEAR(map.time, 1 / map.acceleration, 1e-13);
         expect_rate(model, map, 1e-4, 0.1, 1.5);
     }
 }
 
-/// The shipped oscillator with one coefficient of friction: what sticks instead of going back and forth stays ahead by
-/// the way that it would have gone, a/3 (2 d/a)^(3/2).
-TEST(DiscontinuityMap, of_an_oscillator_that_sticks_for_a_moment) {
+/// With one coefficient of friction, a mass that sticks instead of moving back and forth keeps a lead of the distance
+/// that it would have moved back, a/3 (2 d/a)^(3/2).
+TEST(DiscontinuityMap, ShortStickingHasALinearMapWithItsClosedForm) {
     for (const double zeta : {0.0, 0.1}) {
         Model model = load_model("dry-friction-oscillator");
         model.set_parameter("zeta", zeta);
@@ -396,7 +397,7 @@ TEST(DiscontinuityMap, of_an_oscillator_that_sticks_for_a_moment) {
         EXPECT_NEAR(map.second[0], a / 3 * std::pow(2 / a, 1.5), 1e-14);
         EXPECT_EQ(map.second[1], 0);
         expect_rate(model, map, 2e-6, 0.3, 1.5);
-        // Reflected.
+        // The symmetric image.
         for (std::size_t i = 0; i < 2; ++i)
             touch.state[i] = -touch.state[i];
         touch.state[2] += std::acos(-1.0);
@@ -406,7 +407,7 @@ TEST(DiscontinuityMap, of_an_oscillator_that_sticks_for_a_moment) {
         ASSERT_EQ(mirrored.order, MapOrder::linear) << mirrored.reason;
         EXPECT_NEAR(mirrored.direction[1], -1, 1e-15);
         EXPECT_NEAR(mirrored.second[0], -map.second[0], 1e-14);
-        // Greater friction at rest holds the mass for a time that does not vanish with the depth.
+        // Higher static friction holds the mass for a time that does not vanish with the depth.
         model.set_parameter("friction_static", 0.31);
         touch.parameters = model.parameter_values();
         const DiscontinuityMap held = discontinuity_map(model, touch);
@@ -415,8 +416,8 @@ TEST(DiscontinuityMap, of_an_oscillator_that_sticks_for_a_moment) {
     }
 }
 
-/// m x'' = A cos(w t) - k x - F in whatever units.
-TEST(DiscontinuityMap, of_sticking_does_not_depend_on_units) {
+/// m x'' = A cos(w t) - k x - F in several units.
+TEST(DiscontinuityMap, StickingScalesWithTheUnits) {
     for (const double length : {1.0, 1e-9, 1e6})
         for (const double clock : {1.0, 1e-9, 1e6}) {
             const double velocity = length / clock, force = velocity / clock;
@@ -467,20 +468,20 @@ next = "slip"
         }
 }
 
-/// Where the greatest force just reaches friction: beyond it the mass slips by the square of the depth.
-TEST(DiscontinuityMap, of_the_end_of_sliding_is_refused_with_the_reason) {
+/// The largest force just reaches friction; beyond it the mass slips by the square of the depth.
+TEST(DiscontinuityMap, EndOfSlidingIsRefusedWithTheReason) {
     Model model = load_model("dry-friction-oscillator");
     model.set_parameter("friction_static", 0.3);
     const DiscontinuityMap map = discontinuity_map(model, touch_of(model, "stick", "break_plus", {0.7, 0, 0}));
     EXPECT_FALSE(map.exists());
     EXPECT_THAT(map.reason, HasSubstr("the motion slides along the surface of event 'stop_plus'"));
-    // With greater friction at rest it slips far.
+    // With higher static friction the mass slips far.
     model.set_parameter("friction_static", 0.4);
     EXPECT_THAT(discontinuity_map(model, touch_of(model, "stick", "break_plus", {0.6, 0, 0})).reason,
                 HasSubstr("mode 'slip_plus', from which the motion does not come back at once"));
 }
 
-TEST(DiscontinuityMap, of_sliding_is_refused_with_the_reason) {
+TEST(DiscontinuityMap, UnsuitableSlidingIsRefusedWithTheReason) {
     const auto reason_of = [](const Model& model) {
         const DiscontinuityMap map = discontinuity_map(model, touch_of(model, "free", "touch", touch_of_relay()));
         EXPECT_FALSE(map.exists());
@@ -499,14 +500,14 @@ TEST(DiscontinuityMap, of_sliding_is_refused_with_the_reason) {
                 HasSubstr("mode 'slide' does not stay on the surface of event 'touch'"));
 }
 
-TEST(DiscontinuityMap, is_refused_with_the_reason) {
+TEST(DiscontinuityMap, UnsuitableContactsAreRefusedWithTheReason) {
     const auto reason = [](const Model& model, std::vector<double> state = at_wall) {
         const DiscontinuityMap map = discontinuity_map(model, touch_of(model, "free", "touch", std::move(state)));
         EXPECT_FALSE(map.exists());
         return map.reason;
     };
     const auto jumping = [](const std::string& jump, const std::string& next = "\"free\"") {
-        return wall("", fmt::format(R"toml(
+        return wall_model("", fmt::format(R"toml(
 [jumps.impact]
 {}
 [[transitions]]
@@ -515,7 +516,7 @@ event = "touch"
 jump = "impact"
 next = {}
 )toml",
-                                    jump, next));
+                                          jump, next));
     };
     EXPECT_THAT(reason(jumping("v = \"1\"")), HasSubstr("is not the identity at zero speed: it changes 'v'"));
     EXPECT_THAT(reason(jumping("v = \"-e*v\"\nw = \"0.2 + 2*(w - 0.2)\"")),
@@ -525,16 +526,17 @@ next = {}
     EXPECT_THAT(reason(jumping("v = \"-e*v\"", "\"end\"")), HasSubstr("the motion ends at event 'touch'"));
     EXPECT_THAT(reason(jumping("v = \"-e*v\"", "[{ when = \"z > 5\", mode = \"free\" }]")),
                 HasSubstr("no alternative of the guard"));
-    EXPECT_THAT(reason(jumping("v = \"-e*v\""), {0, 1, 0.3, 0.2}), HasSubstr("is met with speed"));
+    EXPECT_THAT(reason(jumping("v = \"-e*v\""), {0, 1, 0.3, 0.2}), HasSubstr("is reached with nonzero speed"));
     EXPECT_THAT(reason(jumping("v = \"-e*v\""), {0.5, 0, 0.3, 0.2}), HasSubstr("not on the surface"));
-    EXPECT_THAT(reason(wall("", "[jumps.impact]\nv = \"-e*v\"\n[[transitions]]\nmode = \"free\"\nevent = \"touch\"\n"
-                                "next = \"held\"\n[modes.held]\nwatch = []\nrates = { x = 0, v = 0, z = 0, w = 0 }")),
-                HasSubstr("from which the motion does not come back at once"));
-    EXPECT_THAT(reason(wall("", "[[transitions]]\nmode = \"free\"\nevent = \"touch\"\nnext = \"free\"")),
+    EXPECT_THAT(
+        reason(wall_model("", "[jumps.impact]\nv = \"-e*v\"\n[[transitions]]\nmode = \"free\"\nevent = \"touch\"\n"
+                              "next = \"held\"\n[modes.held]\nwatch = []\nrates = { x = 0, v = 0, z = 0, w = 0 }")),
+        HasSubstr("from which the motion does not come back at once"));
+    EXPECT_THAT(reason(wall_model("", "[[transitions]]\nmode = \"free\"\nevent = \"touch\"\nnext = \"free\"")),
                 HasSubstr("changes nothing"));
 }
 
-TEST(DiscontinuityMap, needs_numbers_that_fit) {
+TEST(DiscontinuityMap, NumbersThatDoNotFitAreRefused) {
     const Model model = load_model("impact-oscillator");
     EXPECT_THROW(discontinuity_map(model, touch_of(model, "free", "stop", {0, 0})), InputError);
     EXPECT_THROW(discontinuity_map(model, touch_of(model, "free", "stop", {0, 0, NAN})), InputError);

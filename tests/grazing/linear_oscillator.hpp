@@ -1,4 +1,4 @@
-// Linear oscillators of one and two degrees of freedom that touch a stop, in closed form.
+// Linear oscillators with one and two degrees of freedom that touch a stop, with closed forms.
 
 #pragma once
 
@@ -24,8 +24,8 @@ struct LinearOscillator {
     Eigen::MatrixXd damping, stiffness;
     Eigen::VectorXd force;
     double omega = 1, restitution = 0.8;
-    double length = 1, clock = 1; ///< units: one of length, one of time
-    double wall = 0;              ///< with it the same is seen from a ground to which the stop goes back and forth
+    double length = 1, clock = 1; ///< units of length and time
+    double wall = 0; ///< amplitude of a moving frame of reference, in which the stop oscillates; 0: frame at rest
 
     std::size_t degrees() const { return static_cast<std::size_t>(force.size()); }
     Eigen::VectorXcd amplitude() const {
@@ -38,14 +38,14 @@ struct LinearOscillator {
     }
     double stop() const { return std::abs(amplitude()[0]); }
     double period() const { return 2 * std::numbers::pi / omega; }
-    /// The matrix of q, q' over one period: exp(A T).
+    /// Returns the matrix of (q, q') over one period: exp(A T).
     Eigen::MatrixXd return_map() const {
         const Eigen::Index n = force.size();
         Eigen::MatrixXd a = Eigen::MatrixXd::Zero(2 * n, 2 * n);
         a.topRightCorner(n, n).setIdentity();
         a.bottomLeftCorner(n, n) = -stiffness;
         a.bottomRightCorner(n, n) = -damping;
-        // By scaling and squaring of a Taylor series.
+        // Scaling and squaring of a Taylor series.
         constexpr int squarings = 16, terms = 20;
         const Eigen::MatrixXd small = a * period() / std::pow(2.0, squarings);
         Eigen::MatrixXd term = Eigen::MatrixXd::Identity(2 * n, 2 * n), sum = term;
@@ -57,7 +57,8 @@ struct LinearOscillator {
             sum = (sum * sum).eval();
         return sum;
     }
-    /// What an impact of unit speed at the stop does to the clearance k periods later: it takes (1 + e) from q_1'.
+    /// Returns the change of the clearance k periods after an impact of unit speed at the stop, which subtracts 1 + e
+    /// from q_1'.
     double projection(int k) const {
         Eigen::VectorXd state = Eigen::VectorXd::Zero(2 * force.size());
         state[force.size()] = -(1 + restitution);
@@ -68,7 +69,9 @@ struct LinearOscillator {
     }
     double acceleration() const { return omega * omega * stop(); }
 
-    /// In the chosen units. @param jump of the velocity q_1'; @param extra lines of the model file
+    /// Returns the model in the chosen units. @param contact modes and transitions at the stop; empty: a rigid impact.
+    /// In it, RATES, JUMP and HELD stand for the free rates, the velocity after an impact and the rates with a spring k
+    /// behind the stop
     Model model(const std::string& contact = "") const {
         const std::size_t n = degrees();
         std::string states, rates;
@@ -132,7 +135,7 @@ value = 0
         }
         return parse_model(text, "oscillator.toml");
     }
-    /// The steady motion, which touches.
+    /// Returns the steady motion, which touches the stop.
     Orbit orbit(const Model& made) const {
         Orbit result;
         result.signature = parse_signature(made, "free:start");
@@ -143,7 +146,7 @@ value = 0
         for (Eigen::Index k = 0; k < motion.size(); ++k)
             for (const double one : {motion[k].real() * length, (i * omega * motion[k]).real() * length / clock})
                 start.push_back(one);
-        if (wall != 0) { // the state of the first one is the last
+        if (wall != 0) { // the model then lists the state of the first mass last
             start[1] += wall * omega * length / clock;
             std::rotate(start.begin(), start.begin() + 2, start.end());
         }
@@ -165,7 +168,7 @@ inline LinearOscillator one_degree(double zeta, double omega, double restitution
     return result;
 }
 
-/// Two masses in a chain, damped in proportion to stiffness and mass.
+/// Two masses in a chain with Rayleigh damping.
 inline LinearOscillator two_degrees(double coupling, double zeta, double omega, double restitution, double other) {
     LinearOscillator result;
     result.stiffness.resize(2, 2);

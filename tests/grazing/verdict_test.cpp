@@ -1,4 +1,4 @@
-// Verdicts on linear oscillators, whose maps and classes have closed forms.
+// Verdicts on linear oscillators, whose maps and classification have closed forms.
 
 #include "graze/grazing/verdict.hpp"
 
@@ -39,7 +39,7 @@ void expect_closed_form(const LinearOscillator& oscillator) {
     EXPECT_NEAR(map.contact.acceleration, a, 1e-11 * a);
     EXPECT_NEAR(map.contact.restitution, oscillator.restitution, 1e-9);
     const std::vector<double> projections = map.projections(12);
-    // The flow is integrated to 1e-13 of each state, and carried over so many cycles.
+    // The flow has a relative tolerance of 1e-13, and errors accumulate over the cycles.
     double size = oscillator.clock;
     for (int k = 1; k <= 12; ++k)
         EXPECT_NEAR(projections[static_cast<std::size_t>(k - 1)], oscillator.projection(k) * oscillator.clock,
@@ -50,7 +50,7 @@ void expect_closed_form(const LinearOscillator& oscillator) {
                 1e-10 * oscillator.stop() * oscillator.length);
 }
 
-TEST(Verdict, maps_of_linear_oscillators_have_their_closed_form_in_all_units) {
+TEST(Verdict, MapsOfLinearOscillatorsHaveTheirClosedFormInAllUnits) {
     for (const double length : {1.0, 1e-9, 1e6})
         for (const double clock : {1.0, 1e-9, 1e6})
             for (LinearOscillator one :
@@ -67,7 +67,8 @@ TEST(Verdict, maps_of_linear_oscillators_have_their_closed_form_in_all_units) {
             }
 }
 
-/// The same oscillator with a spring behind the stop, of a stiffness in units of the first one's.
+/// Returns the contact of an oscillator with a spring behind the stop. @param stiffness relative to the oscillator's
+/// own spring
 std::string spring(double stiffness, const LinearOscillator& oscillator) {
     return fmt::format(R"toml(
 [parameters.k]
@@ -96,7 +97,7 @@ next = "free"
                        stiffness / (oscillator.clock * oscillator.clock));
 }
 
-TEST(Verdict, compliant_stops_of_linear_oscillators_have_their_closed_form) {
+TEST(Verdict, CompliantStopsOfLinearOscillatorsHaveTheirClosedForm) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> uniform(0, 1);
     int folds = 0, agreed = 0;
@@ -111,7 +112,7 @@ TEST(Verdict, compliant_stops_of_linear_oscillators_have_their_closed_form) {
         const Model model = one.model(spring(k, one));
         const CycleMap map = map_of(one, model);
         ASSERT_EQ(map.contact.order, MapOrder::three_halves) << map.reason;
-        // The force -k h acts on q_1' for the time in which h is negative: 4/3 (2/a)^(1/2) d^(3/2) in all.
+        // The force -k h acts on q_1' while h is negative: in total 4/3 (2/a)^(1/2) d^(3/2).
         const Eigen::Index n = one.force.size();
         Eigen::VectorXd gain = Eigen::VectorXd::Zero(2 * n);
         gain[n] = -k * 4 / 3 * std::sqrt(2 / one.acceleration());
@@ -135,13 +136,13 @@ TEST(Verdict, compliant_stops_of_linear_oscillators_have_their_closed_form) {
     std::cout << "compliant: " << folds << " fold, " << agreed << " of 60 agreed with simulation\n";
 }
 
-/// Verdicts on random oscillators, and what trials say of them.
+/// Counts the outcomes of verdicts on random oscillators and of their trials by simulation.
 std::map<std::string, int> try_random(int count, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> uniform(0, 1);
     std::map<std::string, int> counts;
     for (int trial = 0; trial < count; ++trial) {
-        // From weak damping to more than critical, where multipliers are real.
+        // From weak to supercritical damping, where multipliers are real.
         const double zeta = std::pow(10, -2.5 + 3.1 * uniform(random)), omega = 0.4 + 5 * uniform(random),
                      e = 0.95 * uniform(random);
         LinearOscillator one = trial % 2 == 0
@@ -164,20 +165,20 @@ std::map<std::string, int> try_random(int count, unsigned seed) {
     return counts;
 }
 
-TEST(Verdict, agrees_with_simulation_on_random_oscillators) {
+TEST(Verdict, AgreesWithSimulationOnRandomOscillators) {
     const auto counts = try_random(100, 7);
     EXPECT_GE(counts.at("persists, agreed"), 10);
     EXPECT_GE(counts.at("lost, agreed"), 50);
 }
 
-TEST(VerdictSlow, agrees_with_simulation_on_a_thousand_random_oscillators) {
+TEST(VerdictSlow, AgreesWithSimulationOnAThousandRandomOscillators) {
     const auto counts = try_random(1200, 20);
     EXPECT_GE(counts.at("agreed"), 1000);
     EXPECT_GE(counts.at("persists, agreed"), 100);
 }
 
-/// A trial is worth something only if it would have objected.
-TEST(Verdict, that_is_turned_round_is_contradicted) {
+/// A trial must contradict a wrong verdict.
+TEST(Verdict, ReversedVerdictsAreContradictedByTrials) {
     for (const bool weak : {true, false}) {
         const LinearOscillator one = weak ? testing::one_degree(0.05, 1.3, 0.8) : testing::one_degree(1.3, 3, 0.8);
         const Model model = one.model();
@@ -200,7 +201,7 @@ TEST(Verdict, that_is_turned_round_is_contradicted) {
     }
 }
 
-TEST(Verdict, trial_is_undecided_where_numbers_leave_no_room_for_growth) {
+TEST(Verdict, TrialIsUndecidedWherePrecisionLimitsGrowth) {
     const LinearOscillator one = testing::one_degree(0.95, 5, 0.8);
     const Model model = one.model();
     const CycleMap map = map_of(one, model);
@@ -213,7 +214,7 @@ TEST(Verdict, trial_is_undecided_where_numbers_leave_no_room_for_growth) {
     EXPECT_EQ(tried.outcome, TrialOutcome::undecided) << tried.reason;
 }
 
-TEST(Verdict, motion_is_lost_where_contact_ends_it) {
+TEST(Verdict, AttractorIsLostWhereTheContactEndsTheMotion) {
     const LinearOscillator one = testing::one_degree(1.2, 1, 0.5);
     const Model model = one.model(R"toml(
 [modes.free]
@@ -239,8 +240,8 @@ next = "end"
     EXPECT_EQ(trial.outcome, TrialOutcome::agreed) << trial.reason;
 }
 
-/// Where a linear oscillator changes its class: at sin(d T) = 0 the first projection vanishes.
-TEST(Verdict, classes_of_one_degree_have_their_boundaries) {
+/// The classification of a linear oscillator changes where sin(d T) = 0: there the first projection vanishes.
+TEST(Verdict, ClassificationOfOneDegreeHasItsKnownBoundaries) {
     for (const double zeta : {0.02, 0.2, 0.6}) {
         const double d = std::sqrt(1 - zeta * zeta);
         for (const int k : {1, 2, 3}) {
@@ -249,7 +250,7 @@ TEST(Verdict, classes_of_one_degree_have_their_boundaries) {
                 const LinearOscillator one = testing::one_degree(zeta, omega * (1 + way * 1e-6), 0.7);
                 const Verdict verdict = verdict_of(map_of(one, one.model()));
                 ASSERT_EQ(verdict.outcome, GrazingOutcome::lost);
-                // Above the boundary k half oscillations are not over yet when the force has made one.
+                // Above the boundary, k half oscillations take longer than one period of the force.
                 const bool at_once = std::sin(d * one.period()) < 0;
                 EXPECT_EQ(verdict.next_contact == 1, at_once) << zeta << ' ' << k << ' ' << way;
                 EXPECT_EQ(at_once, (way > 0) == (k % 2 == 0)) << zeta << ' ' << k << ' ' << way;
@@ -262,8 +263,8 @@ TEST(Verdict, classes_of_one_degree_have_their_boundaries) {
     }
 }
 
-/// More than critically damped, the leading multiplier is exp(-(zeta - sqrt(zeta^2 - 1)) T).
-TEST(Verdict, leading_multiplier_says_which_attractors_remain) {
+/// Above critical damping the leading multiplier is exp(-(zeta - sqrt(zeta^2 - 1)) T).
+TEST(Verdict, LeadingMultiplierClassifiesTheAttractor) {
     for (const auto& [omega, kind] :
          {std::pair(1.0, AttractorKind::period_adding), std::pair(4.0, AttractorKind::periodic_windows),
           std::pair(12.0, AttractorKind::chaotic)}) {
@@ -286,8 +287,8 @@ TEST(Verdict, leading_multiplier_says_which_attractors_remain) {
     }
 }
 
-/// A map of one state with the slope a without sliding and b with it: the tent map with two slopes, whose attractors
-/// are known (Yu. L. Maistrenko, V. L. Maistrenko and L. O. Chua, Int. J. Bifurcation Chaos 3, 1993).
+/// A map of one state with slope a without sliding and b with it: the skew tent map, whose attractors are known (Yu. L.
+/// Maistrenko, V. L. Maistrenko and L. O. Chua, Int. J. Bifurcation Chaos 3, 1993).
 CycleMap tent(double a, double b) {
     CycleMap map;
     map.contact.order = MapOrder::linear;
@@ -302,7 +303,7 @@ CycleMap tent(double a, double b) {
     return map;
 }
 
-TEST(Verdict, of_sliding_is_that_of_the_tent_map) {
+TEST(Verdict, SlidingFollowsTheTentMap) {
     const auto judged = [](double a, double b) { return verdict_of(tent(a, b)); };
     const auto expect_period = [&](double a, double b, std::size_t period) {
         const Verdict verdict = judged(a, b);
@@ -316,7 +317,7 @@ TEST(Verdict, of_sliding_is_that_of_the_tent_map) {
     };
     for (const double b : {-0.9, -0.2, 0.3, 0.95})
         expect_period(0.4, b, 1);
-    // Of the period m the slope is a^(m-1) b, and there is such an orbit for b < -(1 + a + ... + a^(m-2))/a^(m-2).
+    // An orbit of period m has the slope a^(m-1) b and exists for b < -(1 + a + ... + a^(m-2))/a^(m-2).
     expect_period(0.4, -1.2, 2);
     expect_period(0.4, -2.4, 2);
     expect_period(0.4, -4, 3);
@@ -340,13 +341,14 @@ TEST(Verdict, of_sliding_is_that_of_the_tent_map) {
     EXPECT_EQ(judged(1.2, 0.5).reason, "the orbit that touches is not stable itself");
 }
 
-/// All is in proportion to the clearance.
-TEST(Verdict, motions_that_slide_do_not_depend_on_the_distance) {
+/// The map scales with the clearance.
+TEST(Verdict, SlidingMotionsScaleWithTheClearance) {
     const CycleMap map = tent(0.4, -2);
     for (const double clearance : {-1.0, -1e-8}) {
         const MapMotion motion = map_motion(map, clearance);
         EXPECT_EQ(motion.period, 2U);
-        // x -> a x without; with the depth d: x' = b x + (b - a) C. Two rounds meet at x, from the free side.
+        // x' = a x without sliding, x' = b x + (b - a) C with it. The orbit of period 2 has this x on the side without
+        // sliding.
         const double a = 0.4, b = -2, x = a * (b - a) * clearance / (1 - a * b), depth = -(clearance + x);
         EXPECT_NEAR(motion.largest, std::sqrt(4 * depth), 1e-9 * motion.largest) << clearance;
     }
@@ -354,7 +356,7 @@ TEST(Verdict, motions_that_slide_do_not_depend_on_the_distance) {
     EXPECT_THROW(CycleMap{}.image({}, -1), InputError);
 }
 
-/// Contacts at the stop after a transient, over whole cycles.
+/// Counts the contacts after a transient.
 class Counter : public Observer {
 public:
     explicit Counter(double from) : from_(from) {}
@@ -368,7 +370,7 @@ private:
     std::size_t count_ = 0;
 };
 
-TEST(Verdict, attractors_of_the_map_are_those_of_simulation) {
+TEST(Verdict, AttractorsOfTheMapEqualThoseOfSimulation) {
     int periodic = 0;
     for (const double omega : {1.0, 1.5, 2.0, 4.0})
         for (const double depth : {1e-4, 3e-6, 1e-7}) {
@@ -382,12 +384,13 @@ TEST(Verdict, attractors_of_the_map_are_those_of_simulation) {
             ++periodic;
             std::vector<double> parameters = map.contact.touch.parameters;
             parameters[model.independent_parameter("force").place()] += clearance / *map.clearance_rate;
-            // As the map does, from the orbit without contact, which goes with the force: attractors may be several.
+            // Start like the map, from the orbit without contact, which is proportional to the force: several
+            // attractors may coexist.
             std::vector<double> start = one.orbit(model).starts[0];
             for (double& component : start)
                 component *= parameters[model.independent_parameter("force").place()];
             const Simulation simulation(model, {}, {}, SimulationOptions{.tolerance = 1e-15});
-            // Cycles are counted at the start's phase, which is not that of the touch.
+            // Cycles are counted from the phase of the start, not of the touch.
             constexpr std::size_t transient = 300, rounds = 20;
             Counter counter(transient * one.period());
             Trajectory trajectory(simulation, parameters, counter);

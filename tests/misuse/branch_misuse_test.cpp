@@ -1,9 +1,9 @@
-// Continuation, branches, monitors, special points.
+// Wrong uses of continuation, branches, monitors and special points.
 
-#include "misuse/right_things.hpp"
+#include "misuse/valid_objects.hpp"
 #include "misuse/wrong_use.hpp"
 
-// What is not said of a struct is as its header says.
+// Omitted members of a struct have the defaults of its header.
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 
 namespace graze {

@@ -1,6 +1,6 @@
-// Tapes, jets, steps, roots, systems, flows.
+// Wrong uses of tapes, jets, steps, roots, systems and flows.
 
-#include "misuse/right_things.hpp"
+#include "misuse/valid_objects.hpp"
 #include "misuse/wrong_use.hpp"
 
 #include "graze/flow/mode_flow.hpp"
@@ -373,7 +373,7 @@ void mode_flows(WrongUses& wrong) {
     });
 }
 
-/// What is right for the oscillator by one of its parameters, to be spoiled.
+/// Valid arguments for the oscillator with one free parameter, of which tests spoil one each.
 struct SecondOrderRun {
     VariationalSystem system{oscillator(), {ParameterId(0)}};
     SecondOrderFlow flow{system, 1e-10};

@@ -1,4 +1,4 @@
-// Designs, drawings, and tables that go to users.
+// Wrong uses of designs, drawings and tables.
 
 #include "misuse/wrong_use.hpp"
 
@@ -21,7 +21,7 @@ GridPolygon triangle() {
     return {{0, 0}, {1000, 0}, {0, 1000}};
 }
 
-/// Two cells, the first of which is in the second.
+/// Two cells, the second of which contains the first.
 LayoutLibrary library() {
     LayoutLibrary two{"library", {{"inner", {}, {}, {}}, {"outer", {}, {}, {}}}};
     two.cells[0].add({1, 0}, triangle());
@@ -134,7 +134,7 @@ void designs(WrongUses& wrong) {
     wrong("design_unknown", [] { keep(load_design("nothing-there")); });
 }
 
-/// Two rows of a number and a text.
+/// A table with two rows of a number and a text.
 Table table() {
     Table two({{"number", "m"}, {"text", ""}});
     for (const char* text : {"a", "b"}) {
@@ -170,8 +170,8 @@ TEST(WrongLayoutUse, IsRefused) {
     each_of(wrong_uses(), expect_refusal);
 }
 
-/// A copy has its texts, whatever becomes of the first.
-TEST(WrongLayoutUse, TablesOutliveWhatTheyWereCopiedFrom) {
+/// A copy of a table owns its texts.
+TEST(WrongLayoutUse, TablesOutliveTheirSource) {
     Table copy;
     {
         const Table first = table();

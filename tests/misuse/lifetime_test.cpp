@@ -1,6 +1,6 @@
-// What must work: temporaries handed to constructors, and things that outlive what they were made from.
+// Correct uses that must work: temporaries passed to constructors, and objects that outlive those they were made from.
 
-#include "misuse/right_things.hpp"
+#include "misuse/valid_objects.hpp"
 #include "misuse/wrong_use.hpp"
 
 #include "graze/study/runner.hpp"
@@ -11,7 +11,7 @@
 
 #include <optional>
 
-// What is not said of a struct is as its header says.
+// Omitted members of a struct have the defaults of its header.
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 
 namespace graze {
@@ -19,7 +19,7 @@ namespace {
 
 using namespace graze::testing;
 
-/// Runs a trajectory on which nothing of what it was made from remains but its observer.
+/// Runs a trajectory after all objects that it was made from, except its observer, have been destroyed.
 void run_alone(Trajectory& trajectory) {
     trajectory.start(oscillator().initial_state(), 0, 0, 1);
     JetSet jets(trajectory.simulation(), LaneKind::single);
@@ -296,7 +296,7 @@ std::vector<WrongUse> right_uses() {
     return right.list();
 }
 
-TEST(Lifetime, DoesNotMatter) {
+TEST(Lifetime, ObjectsOutliveThoseTheyWereMadeFrom) {
     each_of(right_uses(), [](const auto& right) { EXPECT_NO_THROW(right.use()) << right.name; });
 }
 

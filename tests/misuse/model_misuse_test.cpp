@@ -1,6 +1,6 @@
-// Models that cannot be: whatever is handed one refuses it. And what models are asked for that they do not have.
+// Invalid models, which every function that takes a model refuses; and requests for parts that a model does not have.
 
-#include "misuse/right_things.hpp"
+#include "misuse/valid_objects.hpp"
 #include "misuse/wrong_use.hpp"
 
 #include "graze/model/check.hpp"

@@ -1,12 +1,12 @@
-// Orbits and signatures that cannot be.
+// Invalid orbits and signatures.
 
-#include "misuse/right_things.hpp"
+#include "misuse/valid_objects.hpp"
 #include "misuse/wrong_use.hpp"
 
 #include "graze/branch/monitor.hpp"
 #include "graze/orbit/orbit_file.hpp"
 
-// What is not said of a struct is as its header says.
+// Omitted members of a struct have the defaults of its header.
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 
 namespace graze {
@@ -81,7 +81,7 @@ void defective_orbits(WrongUses& wrong) {
             keep(image_of(symmetric_oscillator(), 0, o.signature.empty() ? Segment{huge} : o.signature[0], o));
         });
     }
-    // With an orbit of this model, whose symmetry it is: half orbits are asked for more than whole ones.
+    // With an orbit of the symmetric model: half orbits have more requirements than whole ones.
     for (const auto& [kind, index] : wrong_indices(symmetric_oscillator().symmetries.size())) {
         wrong("image_under_symmetry_" + kind,
               [right, i = index] { keep(image_of(symmetric_oscillator(), i, right.signature[0], right)); });

@@ -1,4 +1,4 @@
-// Records, what is made of them, and experiments.
+// Wrong uses of records, their processing, and experiments.
 
 #include "misuse/wrong_use.hpp"
 
@@ -188,7 +188,7 @@ void stages(WrongUses& wrong) {
     on_record("low_pass_of_nothing", [](SampleSource& s) { LowPass(s, {}); });
     on_record("low_pass_keeps_none", [](SampleSource& s) { LowPass(s, {.pass = 1, .every = 0}); });
     for (const auto& [name, value] : not_positive())
-        if (value != 0) { // which asks for the usual one
+        if (value != 0) { // zero requests the default
             on_record("low_pass_pass_" + name, [value = value](SampleSource& s) { LowPass(s, {.pass = value}); });
             on_record("low_pass_stop_" + name,
                       [value = value](SampleSource& s) { LowPass(s, {.pass = 1, .stop = value}); });
@@ -243,7 +243,7 @@ void estimates(WrongUses& wrong) {
     }
 }
 
-/// An instrument that never says anything.
+/// An instrument that never answers.
 class SilentLine : public InstrumentLine {
 public:
     void send(std::string_view /*line*/) override {}
@@ -285,8 +285,8 @@ TEST(WrongRecordUse, IsRefused) {
     each_of(wrong_uses(), expect_refusal);
 }
 
-/// However many times it has to repeat.
-TEST(WrongRecordUse, RepeatsBeyondAllCountsDoNotWrap) {
+/// Huge repetition counts must not overflow.
+TEST(WrongRecordUse, HugeRepetitionCountsDoNotOverflow) {
     RepeatWatch watch({0.1}, huge, 2);
     for (int i = 0; i < 10; ++i)
         watch.add({1});

@@ -1,6 +1,6 @@
-// Files of results and what is made of them; studies.
+// Wrong uses of result files, their contents, and studies.
 
-#include "misuse/right_things.hpp"
+#include "misuse/valid_objects.hpp"
 #include "misuse/wrong_use.hpp"
 
 #include "graze/record/spectrum.hpp"
@@ -20,8 +20,8 @@ namespace {
 
 using namespace graze::testing;
 
-/// A folder with a file in which there are a sweep of four points with two states, coordinates and values, and a
-/// branch.
+/// A folder with a result file that contains a branch and a sweep of four points with two states, coordinates and
+/// values.
 struct Results {
     std::filesystem::path folder =
         std::filesystem::temp_directory_path() / ("graze-misuse-" + std::to_string(getpid()));

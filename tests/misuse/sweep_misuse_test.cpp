@@ -1,11 +1,11 @@
-// Attractors, simulations of many points, plans.
+// Wrong uses of attractors, simulations of many points, and plans.
 
-#include "misuse/right_things.hpp"
+#include "misuse/valid_objects.hpp"
 #include "misuse/wrong_use.hpp"
 
 #include "graze/sweep/plan.hpp"
 
-// What is not said of a struct is as its header says.
+// Omitted members of a struct have the defaults of its header.
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 
 namespace graze {
@@ -152,7 +152,7 @@ void point_searches(WrongUses& wrong) {
     });
 }
 
-/// Four points in two chains, quickly done.
+/// Four points in two chains that are computed quickly.
 struct Execution {
     std::unique_ptr<SearchFactory> factory = transient_searches(oscillator(), {.time = 0.1}, {}, {}, {});
     Plan plan{.chains = 2, .chain_length = 2, .start = [](std::size_t) {

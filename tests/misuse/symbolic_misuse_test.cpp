@@ -1,4 +1,4 @@
-// Expressions, their functions, their texts.
+// Wrong uses of expressions, their functions and their texts.
 
 #include "misuse/wrong_use.hpp"
 
@@ -41,7 +41,7 @@ std::vector<std::pair<std::string, Binary>> binary_functions() {
             {"pow", [](const Expression& a, const Expression& b) { return pow(a, b); }}};
 }
 
-/// A graph, and another one.
+/// Two separate expression graphs.
 struct Graphs {
     std::shared_ptr<Graph> graph = Graph::create(), other = Graph::create();
     Expression x = graph->symbol("x"), y = graph->symbol("y"), foreign = other->symbol("x"), none;

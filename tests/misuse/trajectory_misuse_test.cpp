@@ -1,6 +1,6 @@
-// Simulations, trajectories and those who drive and observe them.
+// Wrong uses of simulations, trajectories, their drivers and observers.
 
-#include "misuse/right_things.hpp"
+#include "misuse/valid_objects.hpp"
 #include "misuse/wrong_use.hpp"
 
 #include "graze/trajectory/ensemble.hpp"
@@ -222,7 +222,7 @@ void carried(WrongUses& wrong) {
     });
 }
 
-/// Calls that need a start, a proposal, or that it is not over.
+/// Calls in the wrong order: before the start, without a proposed step, or after the end.
 void order_of_calls(WrongUses& wrong) {
     const auto of_motion = [&](const std::string& name, const std::function<void(Motion&)>& use) {
         wrong(name, [use] {

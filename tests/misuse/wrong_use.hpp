@@ -27,7 +27,7 @@ inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 inline constexpr std::size_t huge = static_cast<std::size_t>(-1);
 
-/// Something that a user might do by mistake.
+/// A mistake that a user of the library might make.
 struct WrongUse {
     std::string name;
     std::function<void()> use;
@@ -36,10 +36,10 @@ inline std::ostream& operator<<(std::ostream& stream, const WrongUse& use) {
     return stream << use.name;
 }
 
-/// Uses that look wrong and are accepted after all: they are run, and must not be refused, so that this list cannot
-/// hide any that are. A star stands for anything.
+/// Uses that look wrong but are accepted. They are run and must not be refused, so that the list stays correct. A star
+/// matches anything.
 inline constexpr std::string_view accepted[] = {
-    // Enumerators that only a cast makes.
+    // Enumerators that only a cast can make.
     "name_of_no_*_outcome",
     "name_of_no_ending",
     "name_of_no_label",
@@ -54,7 +54,7 @@ inline constexpr std::string_view accepted[] = {
     "end_name_no_end",
     "to_string_no_end",
     "orbit_monitors_signature_no_end",
-    // Rooms may be larger than is needed.
+    // Buffers may be larger than needed.
     "evaluate_inputs_too_long",
     "evaluate_results_too_long",
     "error_bounds_*_too_long",
@@ -67,18 +67,18 @@ inline constexpr std::string_view accepted[] = {
     "step_check_series_too_long",
     "step_check_floors_too_long",
     "step_size_floors_too_long",
-    // Parts of what there is may be asked for.
+    // A part of the output may be requested.
     "step_check_series_too_short",
     "jet_*_find_disagreement_lengths",
     "jet_2_guard_steps_not_for_tangents",
-    // Count as the nearest.
+    // Clamped to the nearest valid value.
     "order_for_tolerance_1_000000",
     "order_for_tolerance_inf",
     "step_size_tolerance_1_000000",
     "step_size_tolerance_inf",
     "step_check_tolerance_1_000000",
     "step_check_tolerance_inf",
-    // No bound, or nothing to do.
+    // Infinite means no bound; zero means nothing to do.
     "*_longest_return_infinite",
     "transient_*_time_infinite",
     "*_greatest_speed_infinite",
@@ -101,7 +101,7 @@ inline constexpr std::string_view accepted[] = {
     "shortened_to_too_little",
     "patience_negative",
     "sampler_period_negative",
-    // An outcome or a value says what becomes of it.
+    // The outcome or a returned value reports the problem.
     "continuation_start_direction_0",
     "continuation_along_direction_zero",
     "continuation_along_distance_negative",
@@ -112,11 +112,11 @@ inline constexpr std::string_view accepted[] = {
     "continuation_between_2_000000",
     "orbit_branch_along_nothing",
     "orbit_branch_along_distance_negative",
-    "*_duration_negative", // such orbits are marked as unphysical
+    "*_duration_negative", // such orbits are marked as inadmissible
     "parameter_values_missing",
-    // Named by mode and event.
+    // The name is made from mode and event.
     "*_transition_label_empty",
-    // Found where it is used.
+    // Detected at the first use.
     "branch_settings_monitor_of_*",
     "branch_settings_monitor_segment_*",
     "branches_at_monitor_of_*",
@@ -134,20 +134,20 @@ inline constexpr std::string_view accepted[] = {
     "branches_at_orbit_without_tangent_of_type_4",
     "branches_at_grazing_time_negative",
     "branches_at_grazing_time_after_the_end",
-    // Looks at nothing of the orbit but values at its starts, if at those; names of ends do not need the mode.
+    // Only the starts of the orbit are used; names of ends do not need the mode.
     "image_of_signature_longer",
     "image_of_segment_without_end",
     "image_of_start_*",
     "image_of_duration_*",
     "image_of_parameter*",
     "image_of_symmetry_*",
-    "image_of_mode_size", // the symmetric model has one more
+    "image_of_mode_size", // the symmetric model has one mode more
     "image_of_section_size",
     "end_name_mode_*",
     "end_name_transition_of_another_mode",
     "to_string_transition_of_another_mode",
     "orbit_monitors_signature_transition_of_another_mode",
-    // What the file does not have: nothing is found.
+    // Unknown items of a file: the result is empty.
     "results_complete_unknown",
     "results_last_points_unknown",
     "results_last_points_of_empty_chains",
@@ -161,22 +161,22 @@ inline constexpr std::string_view accepted[] = {
     "results_point_count_unknown",
     "results_point_unknown",
     "results_remove_unknown",
-    // What other programs may write as well.
+    // Other programs may write such files.
     "results_add_orbit_approach_speeds_missing",
     "results_add_point_no_label",
     "results_add_point_number_*",
     "results_begin_run_column_twice",
     "results_begin_run_column_without_name",
     "results_begin_run_settings_no_json",
-    // As in SQL.
+    // The same as in SQL.
     "query_select__1",
     "query_values_too_many",
     "rows_number_of_a_text",
 };
 
-/// Uses that are not run, since nothing is promised of them, not even an exception.
+/// Uses that are not run, because their behaviour is undefined.
 inline constexpr std::string_view unchecked[] = {
-    // May be assigned to or destroyed, no more.
+    // A moved-from model may only be assigned to or destroyed.
     "moved_model_*",
     "moved_monitors",
     "moved_simulation",
@@ -193,9 +193,9 @@ inline constexpr std::string_view unchecked[] = {
     "rows_integer_moved",
     "rows_text_moved",
     "rows_moved_*",
-    // A tape that was spoiled by hand.
+    // A tape that was modified by hand.
     "make_jet_tape_*",
-    // Asked at every step, and said to be unchecked.
+    // Called at every step and documented as unchecked.
     "step_state_of_no_step",
     "outlook_of_another_width",
     "outlook_length_*",
@@ -208,11 +208,11 @@ inline constexpr std::string_view unchecked[] = {
     "advance_after_end",
     "advance_lane_*",
     "advance_with_another_models_outlook",
-    // In another order than is said.
+    // Calls in another order than documented.
     "attractor_search_proceed_*",
     "transient_search_proceed_*",
     "*_search_trajectory_before_begin",
-    // Do not fit into memory, or into time.
+    // Would exceed memory or time.
     "dense_problem_unknowns_huge",
     "execute_points_that_overflow",
 };
@@ -228,7 +228,7 @@ inline bool is_among(std::span<const std::string_view> patterns, std::string_vie
     return std::any_of(patterns.begin(), patterns.end(), [&](const auto& pattern) { return matches(name, pattern); });
 }
 
-/// Gathers wrong uses under names that GoogleTest admits.
+/// Collects wrong uses under names that are valid in GoogleTest.
 class WrongUses {
 public:
     void operator()(std::string name, std::function<void()> use) {
@@ -250,17 +250,17 @@ private:
     std::vector<WrongUse> list_;
 };
 
-/// What a call returns is not thrown away by the compiler.
+/// Keeps the compiler from discarding a returned value.
 template <class T>
 void keep(const T& value) {
     asm volatile("" : : "r"(&value) : "memory");
 }
 
-/// Indices that something of a size does not have.
+/// Returns indices that are out of range for a size.
 inline std::vector<std::pair<std::string, std::size_t>> wrong_indices(std::size_t size) {
     return {{"size", size}, {"size_plus_1", size + 1}, {"huge", huge}};
 }
-/// Lengths of spans that should have another.
+/// Returns wrong lengths for spans of a given length.
 inline std::vector<std::pair<std::string, std::size_t>> wrong_lengths(std::size_t length) {
     std::vector<std::pair<std::string, std::size_t>> result = {{"too_long", length + 1}};
     if (length > 0)
@@ -272,17 +272,17 @@ inline std::vector<std::pair<std::string, std::size_t>> wrong_lengths(std::size_
 inline std::vector<std::pair<std::string, double>> not_finite() {
     return {{"nan", not_a_number}, {"infinite", infinity}, {"minus_infinite", -infinity}};
 }
-/// What is no positive number.
+/// Returns values that are not positive numbers.
 inline std::vector<std::pair<std::string, double>> not_positive() {
     return {{"zero", 0}, {"negative", -1}, {"nan", not_a_number}, {"infinite", infinity}};
 }
-/// What is no number from 0 on.
+/// Returns values that are not nonnegative numbers.
 inline std::vector<std::pair<std::string, double>> negative() {
     return {{"negative", -1}, {"nan", not_a_number}, {"infinite", infinity}};
 }
 
-/// Demands that a wrong use is refused in words of the library: neither by nothing nor by what the standard library
-/// says of itself (which names nothing). One that is accepted must not be refused.
+/// Expects that a wrong use is refused with a message of the library, not accepted and not refused by an exception of
+/// the standard library, which would name nothing. Accepted uses must not be refused.
 inline void expect_refusal(const WrongUse& wrong) {
     if (is_among(accepted, wrong.name)) {
         EXPECT_NO_THROW(wrong.use()) << "ACCEPTED " << wrong.name << ": take it out of the list";
@@ -304,7 +304,7 @@ inline void expect_refusal(const WrongUse& wrong) {
     ADD_FAILURE() << "SILENT " << wrong.name << ": no exception";
 }
 
-/// Goes through all of them, or those alone whose names begin as the environment's WRONG_USE says: for one that
+/// Visits all uses, or only those whose names begin with the environment variable WRONG_USE, to isolate one that
 /// crashes.
 inline void each_of(const std::vector<WrongUse>& uses, const std::function<void(const WrongUse&)>& visit) {
     const char* chosen = std::getenv("WRONG_USE");

@@ -1,4 +1,4 @@
-// Cyclic matrices against the same ones written out.
+// CyclicMatrix against dense matrices with the same blocks.
 
 #include "orbit/cyclic_matrix.hpp"
 
@@ -38,7 +38,7 @@ struct Case {
     }
     Eigen::Index size() const { return m * (n + 1); }
     CyclicMatrix matrix(double factor) const { return {system, factor, rows, columns}; }
-    Eigen::MatrixXcd written_out(std::complex<double> factor) const {
+    Eigen::MatrixXcd dense(std::complex<double> factor) const {
         Eigen::MatrixXcd result = Eigen::MatrixXcd::Zero(size(), size());
         for (Eigen::Index k = 0; k < m; ++k) {
             const CyclicSystem::Block& block = system.block(std::size_t(k));
@@ -50,12 +50,12 @@ struct Case {
     }
 };
 
-TEST(CyclicMatrices, bordered_systems_are_those_of_the_matrix_written_out) {
+TEST(CyclicMatrix, BorderedSolutionsEqualThoseOfTheDenseMatrix) {
     for (const std::size_t n : {1, 2, 5})
         for (const std::size_t m : {1, 2, 7})
             for (const double factor : {1.0, -1.0}) {
                 const Case one(n, m, unsigned(10 * n + m));
-                const Eigen::MatrixXd matrix = one.written_out(factor).real();
+                const Eigen::MatrixXd matrix = one.dense(factor).real();
                 const Eigen::VectorXd b = Eigen::VectorXd::Random(one.size()), c = Eigen::VectorXd::Random(one.size());
                 Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(one.size() + 1, one.size() + 1);
                 whole.topLeftCorner(one.size(), one.size()) = matrix;
@@ -74,27 +74,27 @@ TEST(CyclicMatrices, bordered_systems_are_those_of_the_matrix_written_out) {
             }
 }
 
-TEST(CyclicMatrices, multipliers_make_the_matrix_singular) {
+TEST(CyclicMatrix, MultipliersMakeTheMatrixSingular) {
     for (const std::size_t n : {2, 4})
         for (const std::size_t m : {1, 3}) {
             const Case one(n, m, unsigned(100 * n + m));
             const auto all = one.matrix(1).multipliers();
             EXPECT_EQ(all.size(), n);
             for (const std::complex<double> multiplier : all) {
-                const Eigen::VectorXd values = singular_values(one.written_out(multiplier));
+                const Eigen::VectorXd values = singular_values(one.dense(multiplier));
                 EXPECT_LT(values[values.size() - 1], 1e-11 * values[0]) << multiplier;
             }
         }
 }
 
-/// Two multipliers' plane is taken to nothing with its map, from both sides; and the map's changes are what is said,
-/// against differences of its trace and determinant.
+/// Checks that the left and right planes of two multipliers are invariant under their map, and compares the documented
+/// derivative of the map with differences of its trace and determinant.
 void expect_plane(const Case& one, std::complex<double> first, std::complex<double> second) {
     CyclicMatrix::Plane plane;
     ASSERT_TRUE(one.matrix(1).plane_near(first, second, plane));
     EXPECT_NEAR(plane.map.trace(), (first + second).real(), 1e-6 * (std::abs(first) + std::abs(second)));
     EXPECT_NEAR(plane.map.determinant(), (first * second).real(), 1e-6 * std::abs(first * second));
-    const Eigen::MatrixXd open = one.written_out(0).real(), closing = one.written_out(1).real() - open;
+    const Eigen::MatrixXd open = one.dense(0).real(), closing = one.dense(1).real() - open;
     const double size = open.norm() * plane.right.norm();
     EXPECT_LT((open * plane.right + closing * plane.right * plane.map).norm(), 1e-10 * size);
     EXPECT_LT((plane.left.transpose() * closing * plane.right - Eigen::Matrix2d::Identity()).norm(),
@@ -119,7 +119,7 @@ void expect_plane(const Case& one, std::complex<double> first, std::complex<doub
     EXPECT_NEAR(of_determinant, expected, 1e-6 * (1 + by.norm()) * (1 + plane.map.norm()));
 }
 
-TEST(CyclicMatrices, planes_of_two_multipliers_have_their_map_and_its_changes) {
+TEST(CyclicMatrix, PlanesOfTwoMultipliersAreInvariantAndDifferentiable) {
     std::size_t complex = 0, real = 0;
     for (const std::size_t n : {2, 3, 4, 6})
         for (const std::size_t m : {1, 3}) {
@@ -141,7 +141,7 @@ TEST(CyclicMatrices, planes_of_two_multipliers_have_their_map_and_its_changes) {
     EXPECT_GT(real, 2U);
 }
 
-TEST(CyclicMatrices, planes_are_smooth_where_two_multipliers_are_one_with_one_vector) {
+TEST(CyclicMatrix, PlanesAreSmoothWhereADoubleMultiplierHasOneEigenvector) {
     // One segment with next = identity: x_1 = -G x_0 for own = (1, 0; 0, G) up to order; here G has a Jordan block.
     Case one(3, 1, 7);
     CyclicSystem::Block& block = one.system.block(0);
@@ -154,10 +154,10 @@ TEST(CyclicMatrices, planes_are_smooth_where_two_multipliers_are_one_with_one_ve
     expect_plane(one, 1, 1);
 }
 
-TEST(CyclicMatrices, null_vectors_of_a_singular_matrix) {
+TEST(CyclicMatrix, NullVectorsOfASingularMatrixAreFound) {
     for (const double factor : {1.0, -1.0}) {
         Case one(3, 4, 5);
-        // Its last block is changed so that a vector of chance is taken to nothing.
+        // The blocks are changed so that a random vector is in the null space.
         const Eigen::VectorXd vector = Eigen::VectorXd::Random(one.size());
         one.rows.setOnes();
         one.columns.setOnes();
@@ -171,7 +171,7 @@ TEST(CyclicMatrices, null_vectors_of_a_singular_matrix) {
         Eigen::VectorXd right, left;
         ASSERT_TRUE(one.matrix(factor).null_vectors(right, left));
         EXPECT_NEAR(std::abs(right.dot(vector.normalized())), 1, 1e-11);
-        const Eigen::MatrixXd matrix = one.written_out(factor).real();
+        const Eigen::MatrixXd matrix = one.dense(factor).real();
         EXPECT_LT((matrix.transpose() * left).norm(), 1e-11 * matrix.norm());
     }
 }

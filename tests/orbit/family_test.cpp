@@ -1,4 +1,4 @@
-// Orbits of models that conserve something: one of many at the same parameters is found, and told to be one.
+// Orbits of models that conserve a quantity: one member of the family is found and reported as such.
 
 #include "graze/model/model_file.hpp"
 #include "graze/orbit/solve.hpp"
@@ -58,7 +58,7 @@ Orbit bilinear_orbit(const Model& model, double speed, double k) {
             std::nullopt};
 }
 
-TEST(Family, orbit_of_a_bilinear_oscillator_is_found_and_stays_where_it_was) {
+TEST(Family, BilinearOscillatorKeepsTheAmplitudeOfTheCandidate) {
     const Model model = parse_model(bilinear, "test.toml");
     for (const double speed : {1.0, 0.3, 77.0}) {
         const OrbitSolution solution = solve_orbit(model, bilinear_orbit(model, speed, 4));
@@ -72,8 +72,8 @@ TEST(Family, orbit_of_a_bilinear_oscillator_is_found_and_stays_where_it_was) {
     }
 }
 
-/// With damping there is one orbit at rest only, and with a fold two that meet: neither is one of a family.
-TEST(Family, orbits_alone_are_none) {
+/// A model with isolated orbits, two of which meet in a fold.
+TEST(Family, IsolatedOrbitsAreNotReportedAsAFamily) {
     const Model model = parse_model(R"toml(
 [parameters]
 mu = 1
@@ -96,8 +96,8 @@ value = 0
     }
 }
 
-/// Far from a solution of the family Newton's method still finds the nearest members.
-TEST(Family, pendulum_swings_as_far_as_its_candidate_about) {
+/// From a candidate that is not an orbit, Newton's method finds a nearby member of the family.
+TEST(Family, PendulumHasNearlyTheAmplitudeOfTheCandidate) {
     const Model model = parse_model(R"toml(
 [parameters]
 g = 1
@@ -123,14 +123,14 @@ direction = "falling"
     EXPECT_NEAR(solution.orbit.period(), 2 * pi / a, 1e-10);
 }
 
-/// What a map that is made at each tick of a clock brings back after two of them, whatever it was.
-TEST(Family, a_state_that_ticks_reverse_tells_one_of_many_orbits) {
+/// A jump at each tick of a clock returns some states after two ticks, whatever they were.
+TEST(Family, AStateThatTicksReverseParametrisesAFamily) {
     struct Case {
-        const char* map; ///< of x, y, z
+        const char* map; ///< jump of x, y, z
         std::size_t moving;
-        double rest; ///< the other multiplier, of two periods
+        double rest; ///< multiplier of the decaying state over two ticks
     };
-    // Of x and y that change places nothing rests; where x alone is reversed y does, and is no more than a parameter.
+    // Where x and y swap, both vary; where only x is reversed, y is constant and acts as a parameter.
     for (const Case& one :
          {Case{"x = \"1 - x\"\nz = \"0.5*z + x\"", 1, 0.25}, Case{"x = \"-x\"\nz = \"0.3*z + x\"", 1, 0.09},
           Case{"x = \"y\"\ny = \"x\"\nz = \"0.5*z + x\"", 2, 0.25}}) {

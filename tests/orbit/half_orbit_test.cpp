@@ -1,5 +1,5 @@
-// Orbits that are their own images, of models with a clock: given by their half where the symmetry takes events to
-// events, and whole where it does not.
+// Orbits of models with a clock that are their own images: half orbits where the symmetry maps events to events, whole
+// orbits where it does not.
 
 #include "graze/model/model_file.hpp"
 #include "graze/orbit/orbit.hpp"
@@ -17,7 +17,8 @@ namespace {
 using std::numbers::pi;
 
 /// A linear oscillator under a square wave of force: 0.3 in mode `plus`, -0.3 in `minus`, of the frequency 1.2.
-/// @param clock its state; @param half, full what ends the two halves; @param reset what the clock is after the second
+/// @param clock declaration of its state; @param half, full event functions that end the two halves; @param reset value
+/// of the clock after the second half
 Model square_wave(const std::string& clock, const std::string& half, const std::string& full, const std::string& reset,
                   const std::string& image) {
     return parse_model(fmt::format(R"toml(
@@ -85,22 +86,22 @@ void expect_orbit(const Model& model, bool is_half) {
     }
 }
 
-TEST(HalfOrbit, of_a_square_wave_begins_where_its_clock_is_at_zero) {
+TEST(HalfOrbit, ExistsForASquareWaveWithACyclicClock) {
     const std::string cyclic = "{ initial = 0.1, period = \"2*pi\" }";
     expect_orbit(square_wave(cyclic, "sin(theta)", "-sin(theta)", "theta", "theta + pi"), true);
     expect_orbit(square_wave(cyclic, "sin(theta)", "-sin(theta)", "theta", "theta - pi"), true);
-    // Events that are those of one period of the clock only.
+    // Events that hold in one period of the clock only.
     expect_orbit(square_wave(cyclic, "pi - theta", "2*pi - theta", "theta - 2*pi", "theta + pi"), true);
 }
 
-TEST(HalfOrbit, of_a_clock_that_is_set_back_is_the_whole) {
-    // The map is right for one half only: the image of the other one is at times before the clock began.
+TEST(HalfOrbit, DoesNotExistForAClockThatIsReset) {
+    // The map is a symmetry of one half only: it takes the other half to times before the clock starts.
     expect_orbit(square_wave("0.1", "pi - theta", "2*pi - theta", "theta - 2*pi", "theta - pi"), false);
     expect_orbit(square_wave("0.1", "pi - theta", "2*pi - theta", "theta - 2*pi", "theta + pi"), false);
 }
 
-TEST(HalfOrbit, is_there_where_a_state_is_the_sign_of_the_force) {
-    // Which each switch reverses: after two of them it is what it was, whatever that is.
+TEST(HalfOrbit, ExistsWhereAStateIsTheSignOfTheForce) {
+    // Each switch reverses the sign, so that two switches restore any value of u.
     const Model model = parse_model(R"toml(
 [states]
 x = 0.1

@@ -1,4 +1,4 @@
-// Multipliers of orbits that contract by many powers of ten, against closed forms.
+// Multipliers of strongly contracting orbits against closed forms.
 
 #include "graze/model/model_file.hpp"
 #include "graze/orbit/solve.hpp"
@@ -41,7 +41,7 @@ value = 0
                        "relaxation.toml");
 }
 
-TEST(Multipliers, of_stiff_relaxations_are_known_to_their_last_power_of_ten) {
+TEST(Multipliers, StiffRelaxationHasItsClosedForm) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> skew(-1, 1), slow(0.01, 1), exponent(5, 600);
     for (int trial = 0; trial < 20; ++trial) {
@@ -53,13 +53,13 @@ TEST(Multipliers, of_stiff_relaxations_are_known_to_their_last_power_of_ten) {
         ASSERT_EQ(solution.multipliers.size(), 2U);
         std::vector<double> known{-2 * pi * fast, -2 * pi * rest};
         std::sort(known.begin(), known.end());
-        // Derivatives are known to 1e-11 or so in each of the parts, of which there are some ten for each e^-100.
+        // Derivatives are accurate to about 1e-11 in each part, and each factor e^-100 takes about ten parts.
         EXPECT_NEAR(std::log(solution.multipliers[0].real()), known[1], 1e-9);
         EXPECT_NEAR(std::log(solution.multipliers[1].real()), known[0], 1e-8);
     }
 }
 
-TEST(Multipliers, below_what_a_number_can_hold_are_zero) {
+TEST(Multipliers, ValuesBelowTheSmallestDoubleAreZero) {
     const Model model = relaxation(200, 0.1, 0.5);
     const Orbit orbit{parse_signature(model, "start"), {}, {{1, 0, 0}}, {2 * pi}, {}};
     const OrbitSolution solution = solve_orbit(model, orbit);
@@ -68,8 +68,8 @@ TEST(Multipliers, below_what_a_number_can_hold_are_zero) {
     EXPECT_EQ(std::abs(solution.multipliers[1]), 0);
 }
 
-TEST(Multipliers, of_a_relaxation_oscillator_are_its_contraction_of_area) {
-    // Van der Pol: the multiplier is exp of the integral of the divergence, which is followed as a further state.
+TEST(Multipliers, RelaxationOscillatorContractsByItsDivergence) {
+    // Van der Pol: the multiplier is exp of the integral of the divergence, which an additional state integrates.
     for (const double mu : {3.0, 8.0, 15.0}) {
         const Model model = parse_model(fmt::format(R"toml(
 [parameters]

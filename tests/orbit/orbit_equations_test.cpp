@@ -1,4 +1,4 @@
-// The same demands on every discretisation of an orbit's equations: shooting and collocation.
+// The same tests for both discretisations of an orbit's equations: shooting and collocation.
 
 #include "orbit/certify.hpp"
 #include "orbit/collocation.hpp"
@@ -21,8 +21,7 @@ namespace {
 
 enum class Method { shooting, collocation };
 
-/// Two orbits of different kinds: one with an impact, whose jump and end condition count, and one of a stiffer model
-/// whose segments are smooth.
+/// Two kinds of orbit: one with an impact, which tests jump and end condition, and one of a stiffer model.
 struct Case {
     Method method;
     std::string model;
@@ -76,8 +75,8 @@ protected:
     Orbit orbit;
 };
 
-/// Of all equations, in the order of the blocks.
-Eigen::VectorXd defects(const OrbitEvaluation& at) {
+/// Returns the residuals of all equations, in the order of the blocks.
+Eigen::VectorXd residuals(const OrbitEvaluation& at) {
     Eigen::VectorXd result(0);
     for (std::size_t k = 0; k < at.system.segments(); ++k) {
         const Eigen::VectorXd& right = at.system.block(k).right;
@@ -87,7 +86,7 @@ Eigen::VectorXd defects(const OrbitEvaluation& at) {
     return result;
 }
 
-TEST_P(Equations, newtons_method_comes_back_and_finds_what_shooting_finds) {
+TEST_P(Equations, NewtonsMethodConvergesToTheOrbitOfShooting) {
     const auto equations = make({});
     Eigen::VectorXd unknowns = equations->unknowns_of(orbit);
     for (Eigen::Index i = 0; i < unknowns.size(); ++i)
@@ -117,7 +116,7 @@ TEST_P(Equations, newtons_method_comes_back_and_finds_what_shooting_finds) {
         EXPECT_NEAR(std::abs(solution.multipliers[i]), std::abs(reference.multipliers[i]), 1e-8);
 }
 
-TEST_P(Equations, derivatives_are_those_of_the_defects) {
+TEST_P(Equations, DerivativesEqualDifferencesOfTheResiduals) {
     const auto equations = make({parameter()});
     const Eigen::VectorXd unknowns = equations->unknowns_of(orbit);
     OrbitEvaluation at = equations->evaluation(), ahead = equations->evaluation(), behind = equations->evaluation();
@@ -127,14 +126,14 @@ TEST_P(Equations, derivatives_are_those_of_the_defects) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> uniform(-1, 1);
     for (int trial = 0; trial < 5; ++trial) {
-        // Inner unknowns have been eliminated: the defects do not change with them.
+        // Inner unknowns have been eliminated: the residuals do not change with them.
         Eigen::VectorXd direction = Eigen::VectorXd::Zero(unknowns.size());
         for (Eigen::Index i = 0; i < direction.size(); ++i)
             direction[i] = equations->scales()[i] * uniform(random);
         constexpr double step = 1e-5;
         ASSERT_TRUE(equations->evaluate(unknowns + step * direction, ahead));
         ASSERT_TRUE(equations->evaluate(unknowns - step * direction, behind));
-        const Eigen::VectorXd differences = (defects(ahead) - defects(behind)) / (2 * step);
+        const Eigen::VectorXd differences = (residuals(ahead) - residuals(behind)) / (2 * step);
         const Eigen::VectorXd scaled = direction.cwiseQuotient(equations->scales());
         Eigen::VectorXd derivatives(0);
         for (std::size_t k = 0; k < layout.pieces(); ++k) {
@@ -151,7 +150,7 @@ TEST_P(Equations, derivatives_are_those_of_the_defects) {
     }
 }
 
-TEST_P(Equations, a_tangent_is_a_direction_of_the_orbit) {
+TEST_P(Equations, TangentEqualsDifferencesOfOrbits) {
     const auto equations = make({parameter()});
     OrbitEvaluation at = equations->evaluation();
     Eigen::VectorXd unknowns = equations->unknowns_of(orbit), tangent;
@@ -165,7 +164,7 @@ TEST_P(Equations, a_tangent_is_a_direction_of_the_orbit) {
     const Eigen::VectorXd again = equations->unknowns_of(direction, at);
     EXPECT_LT((again - tangent).cwiseQuotient(equations->scales()).cwiseAbs().maxCoeff(),
               1e-9 * tangent.cwiseQuotient(equations->scales()).cwiseAbs().maxCoeff());
-    // Orbits at parameters nearby differ by it: central differences.
+    // Central differences of orbits at nearby parameters.
     const double step = 1e-4 * equations->scales()[index(equations->layout().parameter(0))];
     std::vector<Orbit> beside;
     for (const double sign : {1.0, -1.0}) {
@@ -184,7 +183,7 @@ TEST_P(Equations, a_tangent_is_a_direction_of_the_orbit) {
         }
 }
 
-TEST_P(Equations, a_direction_that_does_not_fit_is_refused) {
+TEST_P(Equations, ADirectionOfAnotherSizeIsRefused) {
     const auto equations = make({parameter()});
     OrbitEvaluation at = equations->evaluation();
     ASSERT_TRUE(equations->evaluate(equations->unknowns_of(orbit), at));
@@ -199,7 +198,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, Equations,
                                            Case{Method::collocation, "electromagnetic-testbed"}),
                          name_of);
 
-TEST(Collocation, converges_with_the_eighth_power) {
+TEST(Collocation, ErrorFallsWithTheEighthPower) {
     const Model model = model_of("impact-oscillator");
     const Orbit orbit = orbit_of(model);
     std::vector<double> errors;

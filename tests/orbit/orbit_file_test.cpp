@@ -27,7 +27,7 @@ Model oscillator() {
     return model;
 }
 
-TEST(OrbitTable, has_starts_and_durations) {
+TEST(OrbitTable, GivesStartsAndDurations) {
     const Model model = oscillator();
     const Orbit orbit = parse_orbit_table(model, "# a comment\n\n" + heading + rows, "", "orbit.csv");
     ASSERT_EQ(orbit.segments(), 1u);
@@ -35,14 +35,14 @@ TEST(OrbitTable, has_starts_and_durations) {
     EXPECT_EQ(orbit.starts[0], (std::vector<double>{0.1, -0.9, 2.8}));
     EXPECT_NEAR(orbit.durations[0], 2.85, 1e-15);
     EXPECT_EQ(orbit.parameters, model.parameter_values());
-    // Columns in another order, the signature apart.
+    // Columns in another order, with the signature as an argument.
     const Orbit other =
         parse_orbit_table(model, "theta,v,x,t,segment\n2.8,-0.9,0.1,0,1\n2.8,1.1,0.1,2.85,1\n", "impact", "orbit.csv");
     EXPECT_EQ(other.starts, orbit.starts);
     EXPECT_EQ(other.signature, orbit.signature);
 }
 
-TEST(OrbitTable, leads_to_the_orbit) {
+TEST(OrbitTable, IsAFirstGuessOfTheOrbit) {
     const Model model = oscillator();
     const OrbitSolution solution = solve_orbit(model, parse_orbit_table(model, heading + rows, "", "orbit.csv"));
     ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
@@ -50,7 +50,7 @@ TEST(OrbitTable, leads_to_the_orbit) {
     EXPECT_NEAR(solution.orbit.period(), 2 * 3.14159265358979312 / 2.2, 1e-14);
 }
 
-TEST(OrbitTable, mistakes_are_told_with_their_place) {
+TEST(OrbitTable, MistakesAreReportedWithTheirPlace) {
     const Model model = oscillator();
     const auto refusal = [&](const std::string& text, const std::string& signature = "impact") {
         try {
@@ -69,7 +69,7 @@ TEST(OrbitTable, mistakes_are_told_with_their_place) {
     EXPECT_THAT(refusal("segment,t,x,v,theta\n1,0,0.1,nan,0\n"), HasSubstr("'nan' is not a number"));
     EXPECT_THAT(refusal("segment,t,x,v,theta\n2,0,0.1,1,0\n"), HasSubstr("orbit.csv:2:1: segment 2 follows 0"));
     EXPECT_THAT(refusal("segment,t,x,v,theta\n1,1,0.1,1,0\n1,0,0.1,1,0\n"), HasSubstr("orbit.csv:3:3: time goes back"));
-    EXPECT_THAT(refusal("segment,t,x,v,theta\n1,1,0.1,1,0\n", ""), HasSubstr("nothing says what ends the segments"));
+    EXPECT_THAT(refusal("segment,t,x,v,theta\n1,1,0.1,1,0\n", ""), HasSubstr("the ends of the segments are not given"));
     EXPECT_THAT(refusal("segment,t,x,v,theta\n1,1,0.1,1,0\n2,1,0.1,1,0\n"),
                 HasSubstr("the signature has 1 segments and the table 2"));
     EXPECT_THAT(refusal("segment,t,x,v,theta\n1,1,0.1,1,0\n", "bang"), HasSubstr("bang"));

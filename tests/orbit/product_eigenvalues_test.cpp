@@ -30,7 +30,7 @@ std::vector<Eigen::MatrixXd> factors_with(const std::vector<double>& eigenvalues
     return factors;
 }
 
-TEST(ProductEigenvalues, keep_eighteen_powers_of_ten_apart) {
+TEST(ProductEigenvalues, ResolveEighteenPowersOfTen) {
     const std::vector<double> known{1e6, -3.0, 0.5, 2e-7, -1e-12};
     for (const std::size_t count : {5u, 20u, 100u}) {
         const auto found = product_eigenvalues(factors_with(known, count));
@@ -42,7 +42,7 @@ TEST(ProductEigenvalues, keep_eighteen_powers_of_ten_apart) {
     }
 }
 
-TEST(ProductEigenvalues, equal_those_of_the_product_when_that_is_harmless) {
+TEST(ProductEigenvalues, EqualThoseOfAWellConditionedProduct) {
     std::mt19937 random(3);
     std::normal_distribution<double> normal;
     for (int trial = 0; trial < 50; ++trial) {
@@ -64,9 +64,9 @@ TEST(ProductEigenvalues, equal_those_of_the_product_when_that_is_harmless) {
     }
 }
 
-TEST(ProductEigenvalues, complex_pairs_and_zeros) {
+TEST(ProductEigenvalues, IncludeComplexPairsAndZeros) {
     std::vector<Eigen::MatrixXd> factors(2, Eigen::MatrixXd::Zero(3, 3));
-    factors[0] << 0.6, -0.8, 0, 0.8, 0.6, 0, 0, 0, 1; // a turn
+    factors[0] << 0.6, -0.8, 0, 0.8, 0.6, 0, 0, 0, 1; // a rotation
     factors[1] << 2, 0, 0, 0, 2, 0, 0, 0, 0;
     const auto found = product_eigenvalues(factors);
     EXPECT_NEAR(std::abs(found[0]), 2, 1e-14);

@@ -1,4 +1,4 @@
-// Orbits that are asked for by their signature, and their symmetry.
+// Search for orbits with a given signature.
 
 #include "graze/base/input_error.hpp"
 #include "graze/model/catalogue.hpp"
@@ -22,7 +22,7 @@ std::string refusal(const Model& model, const std::string& signature, const Sign
     return "";
 }
 
-TEST(OrbitWithSignature, transitions_that_change_nothing_and_sections_count_where_they_are_named) {
+TEST(OrbitWithSignature, IdentityTransitionsAndSectionsCountWhereTheSignatureNamesThem) {
     Model model = load_model("impact-microactuator");
     model.set_parameter("V", 0.2);
     OrbitSolution at_section;
@@ -40,7 +40,7 @@ TEST(OrbitWithSignature, transitions_that_change_nothing_and_sections_count_wher
     }
 }
 
-TEST(OrbitWithSignature, work_is_bounded_and_can_be_interrupted) {
+TEST(OrbitWithSignature, SearchIsBoundedAndCanBeInterrupted) {
     Model model = load_model("impact-microactuator");
     model.set_parameter("V", 0.2); // no impacts
     SignatureSearchOptions search;
@@ -52,13 +52,13 @@ TEST(OrbitWithSignature, work_is_bounded_and_can_be_interrupted) {
     EXPECT_FALSE(orbit_with_signature(model, parse_signature(model, "J1 J8"), {}, {}, search));
 }
 
-TEST(OrbitWithSignature, must_be_admissible) {
-    // So far below resonance one impact in a period is a solution of the equations, but it passes through the stop.
+TEST(OrbitWithSignature, InadmissibleOrbitsAreRefusedUnlessAllowed) {
+    // Far below resonance the equations have a solution with one impact per period, but it penetrates the stop.
     Model model = load_model("impact-oscillator");
     model.set_parameter("sigma", 0.5);
     for (const double omega : {0.25, 0.35, 0.45}) {
         model.set_parameter("omega", omega);
-        EXPECT_NE(refusal(model, "impact").find("is not admissible: event 'stop' comes within segment 1"),
+        EXPECT_NE(refusal(model, "impact").find("is not admissible: event 'stop' happens within segment 1"),
                   std::string::npos);
         SignatureSearchOptions search;
         search.unphysical = true;
@@ -89,7 +89,7 @@ map = { x = "-x", y = "-y" }
                        "lorenz.toml");
 }
 
-TEST(OrbitWithSignature, is_given_by_its_half_where_it_is_its_own_image) {
+TEST(OrbitWithSignature, SymmetricOrbitsAreReturnedAsHalfOrbits) {
     Model model = lorenz(350);
     double period = 0;
     for (const char* signature : {"level^2", "side"}) {
@@ -104,7 +104,7 @@ TEST(OrbitWithSignature, is_given_by_its_half_where_it_is_its_own_image) {
         period = found->orbit.period();
         for (std::size_t i = 0; i < 3; ++i)
             model.set_initial(model.states[i].name, found->orbit.starts[0][i]);
-        // The whole is the same orbit: contraction of volume is known.
+        // The whole orbit has the same period and contracts volumes at the known rate.
         const OrbitSolution whole = solve_orbit(model, whole_orbit(model, found->orbit));
         ASSERT_EQ(whole.outcome, OrbitOutcome::converged) << whole.detail;
         EXPECT_NEAR(whole.orbit.period(), period, 1e-11);

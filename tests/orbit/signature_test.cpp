@@ -7,7 +7,7 @@
 namespace graze {
 namespace {
 
-std::string again(const char* model_name, const char* text) {
+std::string rewritten(const char* model_name, const char* text) {
     const Model model = load_model(model_name);
     const Signature signature = parse_signature(model, text);
     validate_signature(model, signature);
@@ -16,15 +16,15 @@ std::string again(const char* model_name, const char* text) {
     return written;
 }
 
-TEST(Signature, reads_what_people_write) {
-    EXPECT_EQ(again("impact-microactuator", "{J1,J8}^2"), "(J1 J8)^2");
-    EXPECT_EQ(again("impact-microactuator", "J5"), "J5");
-    EXPECT_EQ(again("impact-microactuator", "{J1 J8}^10, J1, J8"), "(J1 J8)^11");
-    EXPECT_EQ(again("impact-oscillator", "impact^3"), "impact^3");
-    EXPECT_EQ(again("electromagnetic-testbed", "phase0"), "phase0");
+TEST(Signature, RepetitionsAndSeparatorsAreNormalised) {
+    EXPECT_EQ(rewritten("impact-microactuator", "{J1,J8}^2"), "(J1 J8)^2");
+    EXPECT_EQ(rewritten("impact-microactuator", "J5"), "J5");
+    EXPECT_EQ(rewritten("impact-microactuator", "{J1 J8}^10, J1, J8"), "(J1 J8)^11");
+    EXPECT_EQ(rewritten("impact-oscillator", "impact^3"), "impact^3");
+    EXPECT_EQ(rewritten("electromagnetic-testbed", "phase0"), "phase0");
 }
 
-TEST(Signature, modes_follow_from_the_graph) {
+TEST(Signature, ModesFollowFromTheGraph) {
     const Model model = load_model("impact-microactuator");
     const Signature signature = parse_signature(model, "J1 J8");
     EXPECT_EQ(model.modes[signature[0].mode].name, "stick");
@@ -41,7 +41,7 @@ std::string message(const char* text) {
     return "";
 }
 
-TEST(Signature, mistakes_are_told_with_their_place) {
+TEST(Signature, MistakesAreReportedWithTheirPlace) {
     EXPECT_NE(message("J1 J99").find("study.toml:3:13: in the signature 'J1 J99': the model has no transition"),
               std::string::npos)
         << message("J1 J99");

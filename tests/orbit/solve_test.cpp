@@ -49,7 +49,7 @@ OneImpact one_impact(double zeta, double omega, double sigma, double e, int n, b
     return result;
 }
 
-TEST(SolveOrbit, linear_impact_oscillator_has_its_closed_form) {
+TEST(SolveOrbit, LinearImpactOscillatorHasItsClosedForm) {
     Model model = load_model("impact-oscillator");
     const double zeta = 0.05, omega = 2.4, sigma = 0.02, e = 0.7;
     model.set_parameter("zeta", zeta);
@@ -91,8 +91,8 @@ TEST(SolveOrbit, linear_impact_oscillator_has_its_closed_form) {
     EXPECT_GE(found, 3u);
 }
 
-TEST(SolveOrbit, orbits_that_penetrate_are_marked) {
-    // The upper solution with three periods to an impact crosses the stop in between, whatever Newton says.
+TEST(SolveOrbit, PenetratingOrbitsAreMarkedInadmissible) {
+    // The upper solution with three periods per impact crosses the stop in between, although Newton's method converges.
     Model model = load_model("impact-oscillator");
     model.set_parameter("zeta", 0.05);
     model.set_parameter("omega", 2.4);
@@ -111,7 +111,7 @@ TEST(SolveOrbit, orbits_that_penetrate_are_marked) {
                         {}};
             const OrbitSolution solution = solve_orbit(model, guess);
             ASSERT_EQ(solution.outcome, OrbitOutcome::converged);
-            // Simulation from the start meets the stop first at the end exactly if the orbit is admissible.
+            // The orbit is admissible if and only if simulation from its start first reaches the stop at its end.
             const Simulation simulation(model);
             const FollowedMotion motion = follow_motion(simulation, model.parameter_values(), solution.orbit.starts[0],
                                                         0, solution.orbit.period() * 1.001);
@@ -126,7 +126,7 @@ TEST(SolveOrbit, orbits_that_penetrate_are_marked) {
     EXPECT_GE(bad, 2u);
 }
 
-TEST(FindOrbit, testbed_at_published_values) {
+TEST(FindOrbit, TestbedHasThePublishedMultipliers) {
     Model model = load_model("electromagnetic-testbed");
     model.set_initial("I", 0.1);
     AttractorOptions settle;
@@ -141,14 +141,14 @@ TEST(FindOrbit, testbed_at_published_values) {
     EXPECT_NEAR(solution.multipliers[0].real(), 0.6128, 5e-5);
     EXPECT_NEAR(solution.multipliers[1].real(), 0.1126, 5e-5);
     EXPECT_TRUE(solution.certificate.admissible) << solution.certificate.reason;
-    // Half and whole orbit are the same thing.
+    // Half and whole orbit have the same multipliers.
     const OrbitSolution whole = solve_orbit(model, whole_orbit(model, solution.orbit));
     ASSERT_EQ(whole.outcome, OrbitOutcome::converged) << whole.detail;
     EXPECT_LE(whole.iterations, 2u);
     EXPECT_NEAR(std::abs(whole.multipliers[0] - solution.multipliers[0]), 0, 1e-8);
 }
 
-TEST(FindOrbit, a_motion_without_contact_ends_at_the_section) {
+TEST(FindOrbit, AnOrbitWithoutContactEndsAtTheSection) {
     Model model = load_model("electromagnetic-testbed");
     model.set_parameter("V0", 4.5);
     AttractorOptions settle;
@@ -162,7 +162,7 @@ TEST(FindOrbit, a_motion_without_contact_ends_at_the_section) {
     EXPECT_NEAR(std::abs(whole.multipliers[0] - solution.multipliers[0]), 0, 1e-10);
 }
 
-TEST(SolveOrbit, microactuator_without_impacts_holds_the_frame) {
+TEST(SolveOrbit, TheFrameOfAMicroactuatorWithoutImpactsIsNeutral) {
     Model model = load_model("impact-microactuator");
     model.set_parameter("V", 0.2);
     AttractorOptions settle;
@@ -171,12 +171,12 @@ TEST(SolveOrbit, microactuator_without_impacts_holds_the_frame) {
     const OrbitSolution solution = find_orbit(model, settle);
     ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
     EXPECT_EQ(solution.multipliers.size(), 2u);
-    // Dissipation alone: the product of multipliers is that of the damping.
+    // By Liouville's formula the product of multipliers follows from the damping.
     EXPECT_NEAR(std::abs(solution.multipliers[0] * solution.multipliers[1]), std::exp(-0.04 * pi / 0.9189), 1e-10);
     EXPECT_EQ(to_string(model, parse_signature(model, "{J5}")), "J5");
 }
 
-TEST(SolveOrbit, slow_forcing_has_fast_derivatives) {
+TEST(SolveOrbit, SlowForcingHasTheMultipliersOfTheFreeOscillation) {
     Model model = load_model("impact-oscillator");
     model.set_parameter("sigma", 0.5);
     model.set_parameter("amplitude", 0.1);
@@ -186,7 +186,7 @@ TEST(SolveOrbit, slow_forcing_has_fast_derivatives) {
         model.set_parameter("omega", omega);
         const OrbitSolution solution = find_orbit(model, settle);
         ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << omega;
-        // The motion follows the force, its disturbances oscillate freely: a pair exp(-zeta T +- i sqrt(1 - zeta^2) T).
+        // Disturbances oscillate freely: the multipliers are the pair exp(-zeta T +- i sqrt(1 - zeta^2) T).
         const double T = 2 * pi / omega, zeta = 0.02;
         ASSERT_EQ(solution.multipliers.size(), 2u) << omega;
         const std::complex<double> exact = std::exp(std::complex<double>(-zeta * T, std::sqrt(1 - zeta * zeta) * T));
@@ -197,7 +197,7 @@ TEST(SolveOrbit, slow_forcing_has_fast_derivatives) {
     }
 }
 
-TEST(SolveOrbit, says_what_is_wrong) {
+TEST(SolveOrbit, ImpossibleCandidatesAreRefused) {
     const Model model = load_model("impact-oscillator");
     Orbit orbit;
     orbit.signature = parse_signature(model, "impact");
@@ -216,7 +216,7 @@ TEST(SolveOrbit, says_what_is_wrong) {
     EXPECT_FALSE(lost.detail.empty());
 }
 
-TEST(SolveOrbit, a_single_state_that_is_reset_forgets_all) {
+TEST(SolveOrbit, ASingleStateThatIsResetHasMultiplierZero) {
     const Model model = parse_model(R"toml(
 name = "integrate and fire"
 [states]
@@ -248,8 +248,8 @@ next = "only"
     EXPECT_TRUE(is_stable(found));
 }
 
-/// Friction that exceeds the force: slips to one side become less and less, and no orbit has any.
-TEST(FindOrbit, slips_below_round_off_are_part_of_no_orbit) {
+/// Friction exceeds the force: slips shrink without end, and no periodic orbit has slips.
+TEST(FindOrbit, SlipsBelowRoundOffAreNotPartOfAnOrbit) {
     Model model = load_model("dry-friction-oscillator");
     model.set_parameter("friction_static", 1.05);
     model.set_parameter("friction_dynamic", 1.05);
@@ -258,7 +258,7 @@ TEST(FindOrbit, slips_below_round_off_are_part_of_no_orbit) {
     settle.section = "phase0";
     model.set_initial("x", 0.2);
     EXPECT_THROW(find_orbit(model, settle), InputError);
-    // Newton's method, begun from two segments of the motion, goes to where they vanish.
+    // Newton's method from two segments of the motion converges to where they vanish.
     const Simulation simulation(model, {}, {}, {});
     for (const double left : {1e-4, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9, 1e-9}) {
         const FollowedMotion motion = follow_motion(simulation, model.parameter_values(),
@@ -274,7 +274,7 @@ TEST(FindOrbit, slips_below_round_off_are_part_of_no_orbit) {
         const OrbitSolution solution = solve_orbit(model, candidate);
         EXPECT_FALSE(solution.outcome == OrbitOutcome::converged && solution.certificate.admissible) << left;
     }
-    // Where the force is the stronger by 1 %, the slips of an orbit are small, but there.
+    // Where the force exceeds friction by 1 %, the orbit has small slips.
     model.set_parameter("friction_static", 0.99);
     model.set_parameter("friction_dynamic", 0.99);
     const OrbitSolution slips = find_orbit(model, settle);

@@ -1,5 +1,3 @@
-// Lines of equal values over a grid.
-
 #include "picture/contour_lines.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +24,7 @@ ContourGrid grid_of(double (*value)(double, double)) {
 
 } // namespace
 
-TEST(ContourLines, OfAPlaneAreStraight) {
+TEST(ContourLines, AreStraightForAPlane) {
     const ContourGrid grid = grid_of([](double x, double y) { return 3 * x + y; });
     const std::vector<PlanePoint> line = contour_line(grid, 20.05);
     ASSERT_FALSE(line.empty());
@@ -38,8 +36,8 @@ TEST(ContourLines, OfAPlaneAreStraight) {
             EXPECT_NEAR(3 * line[i].x + line[i].y, 20.05, 1e-12);
 }
 
-// Steps between values that are large or lie far from zero are no numbers, or too small to go on by.
-TEST(ContourLines, OfAnyRangeHaveAnEnd) {
+// For such ranges the step between levels overflows, vanishes, or is lost in rounding.
+TEST(ContourLines, LevelsAreFewForExtremeRanges) {
     for (const auto& [low, high] : {std::pair{-1.7e308, 1.7e308}, std::pair{-9e307, 9e307}, std::pair{0.0, 1e-310},
                                     std::pair{1.0, 1.0 + 1e-15}, std::pair{1e17, 1e17 + 64}}) {
         ContourGrid grid{{0, 1}, {0, 1}, {low, high, low, high}};
@@ -47,7 +45,7 @@ TEST(ContourLines, OfAnyRangeHaveAnEnd) {
     }
 }
 
-TEST(ContourLines, HaveRoundLevelsBetweenTheEnds) {
+TEST(ContourLines, LevelsAreRoundAndWithinTheRange) {
     const ContourGrid grid = grid_of([](double x, double y) { return 3 * x + y; }); // 10 to 36
     EXPECT_EQ(contour_levels(grid, 6), (std::vector<double>{15, 20, 25, 30, 35}));
     EXPECT_TRUE(contour_levels(grid_of([](double, double) { return 1.0; }), 6).empty());

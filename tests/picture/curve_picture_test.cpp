@@ -1,4 +1,4 @@
-// Pictures of curves in two parameters: what their styles mean.
+// Pictures of curves in two parameters: line styles in the legend.
 
 #include "graze/picture/result_picture.hpp"
 #include "graze/study/runner.hpp"
@@ -48,7 +48,7 @@ along = { omega = [1, 3], amplitude = [0.01, 2] }
 steps = 3
 )";
 
-/// What the legend says of styles, whatever the colour.
+/// Titles and styles of the legend's entries about styles, which are black.
 std::vector<std::pair<std::string, FigureSeries::Style>> meanings(const ResultFile& file,
                                                                   const std::vector<std::string>& runs) {
     StudyPicture picture;
@@ -62,7 +62,7 @@ std::vector<std::pair<std::string, FigureSeries::Style>> meanings(const ResultFi
     return found;
 }
 
-TEST(CurvePicture, SaysWhatStylesMeanUnlessEachIsThatOfOneRun) {
+TEST(CurvePicture, LegendExplainsStylesUnlessEachBelongsToOneRun) {
     const std::string path =
         (std::filesystem::temp_directory_path() / ("graze-curves-" + std::to_string(getpid()) + ".sqlite")).string();
     std::filesystem::remove(path);

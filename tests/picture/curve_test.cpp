@@ -27,12 +27,12 @@ TEST(Curve, SimplifiedStaysClose) {
     }
 }
 
-TEST(Curve, SimplifiedKeepsWhatCannotBeShortened) {
+TEST(Curve, SimplifiedKeepsEndsAndTurningPoints) {
     EXPECT_TRUE(simplified({}, 1, 1, 0.1).empty());
     const Polyline two{{0, 0}, {1, 1}};
     EXPECT_EQ(simplified(two, 1, 1, 0.1).size(), 2U);
     const Polyline back{{0, 0}, {1, 0}, {0, 0}};
-    EXPECT_EQ(simplified(back, 1, 1, 0.1).size(), 3U) << "there and back again is not a point";
+    EXPECT_EQ(simplified(back, 1, 1, 0.1).size(), 3U) << "a line there and back is not a point";
 }
 
 TEST(Curve, AxesHaveRoundTics) {
@@ -51,8 +51,8 @@ TEST(Curve, AxesHaveRoundTics) {
     EXPECT_LT(nothing.low, nothing.high);
 }
 
-// A circle through 24 points: directions at extrema are exact, others those of harmonic means.
-TEST(Curve, SmoothedComesCloserThanChords) {
+// A circle through 24 points: directions at extrema are exact, others are harmonic means of slopes.
+TEST(Curve, SmoothedIsCloserToACircleThanChords) {
     Polyline line;
     std::vector<double> along;
     const double step = 2 * std::numbers::pi / 24;
@@ -64,7 +64,7 @@ TEST(Curve, SmoothedComesCloserThanChords) {
     ASSERT_EQ(curve.size(), 24U * 8 + 1);
     const double sagitta = 1 - std::cos(step / 2);
     double farthest = 0, least = 1;
-    for (std::size_t i = 8; i + 8 < curve.size(); ++i) { // directions at the ends are those of chords
+    for (std::size_t i = 8; i + 8 < curve.size(); ++i) { // without the first and last interval
         farthest = std::max(farthest, std::abs(std::hypot(curve[i].x, curve[i].y) - 1));
         EXPECT_LE(std::abs(curve[i].x), 1);
         EXPECT_LE(std::abs(curve[i].y), 1);
@@ -82,7 +82,8 @@ TEST(Curve, SmoothedKeepsCornersAndGaps) {
     for (const PlanePoint& point : smoothed(line, along, std::vector<std::size_t>{1, 2}))
         EXPECT_NEAR(point.y, point.x <= 1 ? point.x : point.x <= 2 ? 2 - point.x : point.x - 2, 1e-14);
     EXPECT_EQ(smoothed(line, {}, {}).size(), 4U);
-    EXPECT_EQ(smoothed(line, std::vector<double>(4, 0.0), {}).size(), 4U); // nothing is known of distances
+    EXPECT_EQ(smoothed(line, std::vector<double>(4, 0.0), {}).size(),
+              4U); // arclengths that do not increase are not used
     const double nothing = std::nan("");
     const Polyline gap{{0, 0}, {1, 0}, {nothing, nothing}, {2, 0}, {3, 0}};
     const Polyline curve = smoothed(gap, std::vector<double>{0, 1, 2, 3, 4}, {});

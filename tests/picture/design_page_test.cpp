@@ -1,4 +1,4 @@
-// The page of a design: which panels it has, and what they show.
+// The page of a design: its panels and their contents.
 
 #include "graze/picture/design_page.hpp"
 
@@ -51,20 +51,20 @@ struct PageOfASwitch : public ::testing::Test {
 
 } // namespace
 
-TEST_F(PageOfASwitch, HasALineForEachClassOfACurve) {
+TEST_F(PageOfASwitch, CurvesHaveALineForEachClass) {
     const Figure page = design_page(design, *trip, report);
     ASSERT_EQ(page.panels.size(), 2U); // no times, tuning or devices
     const FigurePanel& curve = page.panels[0];
     ASSERT_EQ(curve.series.size(), 3U); // two classes and the device
     EXPECT_EQ(curve.series[0].title, "trips");
     EXPECT_EQ(curve.series[1].title, "persists");
-    // The first goes on to where the second begins.
+    // The first line extends to the first point of the second.
     EXPECT_TRUE(std::isfinite(curve.series[0].points[1].y));
     EXPECT_FALSE(std::isfinite(curve.series[0].points[2].y));
     EXPECT_FALSE(std::isfinite(curve.series[1].points[0].y));
 }
 
-TEST_F(PageOfASwitch, HasAPanelForEachCurveAndColumnsForThem) {
+TEST_F(PageOfASwitch, EachCurveHasAPanel) {
     EXPECT_EQ(design_page(design, *trip, report).columns, 2U);
     const DimensionCurve curve = report.curves.front();
     const std::size_t many = 9;
@@ -74,7 +74,7 @@ TEST_F(PageOfASwitch, HasAPanelForEachCurveAndColumnsForThem) {
     EXPECT_EQ(page.columns, 3U);
 }
 
-TEST_F(PageOfASwitch, HasColouredPlanesWithContours) {
+TEST_F(PageOfASwitch, PlanesHaveColouredCellsAndContours) {
     const Figure page = design_page(design, *trip, report);
     const FigurePanel& plane = page.panels[1];
     ASSERT_FALSE(plane.series.empty());
@@ -82,10 +82,10 @@ TEST_F(PageOfASwitch, HasColouredPlanesWithContours) {
     EXPECT_EQ(plane.series.front().cells.size(), 4U);
     EXPECT_FALSE(plane.labels.empty());
     const FigureLabel& label = plane.labels.front();
-    EXPECT_NEAR(label.at.x + label.at.y, std::stod(label.text), 1e-12); // bilinear, as the values are
+    EXPECT_NEAR(label.at.x + label.at.y, std::stod(label.text), 1e-12); // the values are bilinear
 }
 
-TEST_F(PageOfASwitch, SaysInItsTitleWhereAndOfWhichClass) {
+TEST_F(PageOfASwitch, TitleHasTripValueAndClass) {
     report.reset.value = 0.1;
     EXPECT_EQ(design_page(design, *trip, report).title, "switch: trips at V = 0.2, back at 0.1");
 }

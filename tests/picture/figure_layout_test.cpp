@@ -1,4 +1,4 @@
-// Where things stand in pictures: measured from the boxes that are placed, for pictures of all shipped studies too.
+// Layout of pictures, checked by the boxes of their texts and symbols, also for the pictures of all shipped studies.
 
 #include "picture/figure_layout.hpp"
 
@@ -46,18 +46,18 @@ FigurePanel panel_with(std::size_t points) {
     return panel;
 }
 
-/// A study with few points of each sweep, which is done in seconds.
+/// A shipped study with few points in each sweep, which is computed in seconds.
 Study quick(const std::string& name) {
     Study study = load_study(name);
     for (StudyRun& run : study.runs) {
-        constexpr std::size_t large = 15, enough = 40; // states; points of what takes long
+        constexpr std::size_t large = 15, enough = 40; // number of states; steps of branches of such models
         if (run.is_branch() && run.model.states.size() > large)
             run.branch().settings.steps = std::min(run.branch().settings.steps, enough);
         if (!run.has_motions())
             continue;
         run.motion().draws = std::min<std::size_t>(run.motion().draws, 6);
         for (Variation& axis : run.motion().axes) {
-            constexpr std::size_t every = 68, few = 60; // 4.84 V, where a branch starts, is among them
+            constexpr std::size_t every = 68, few = 60; // keeps 4.84 V, where a branch starts
             std::vector<double> kept;
             for (std::size_t i = 0; i<axis.values.size(); i += axis.values.size()> few ? every : 1)
                 kept.push_back(axis.values[i]);
@@ -69,7 +69,7 @@ Study quick(const std::string& name) {
 
 } // namespace
 
-TEST(FigureLayout, NothingLiesOnAnythingElse) {
+TEST(FigureLayout, NothingOverlaps) {
     for (const FigureStyle& style : styles)
         for (const std::size_t points : {std::size_t{2}, std::size_t{12}, std::size_t{200}})
             for (const std::size_t panels : {std::size_t{1}, std::size_t{2}, std::size_t{5}}) {
@@ -84,8 +84,8 @@ TEST(FigureLayout, NothingLiesOnAnythingElse) {
             }
 }
 
-// gnuplot draws lines beside a panel, too, and into the next one.
-TEST(FigureLayout, LinesOfChangesStayWithinTheirPanel) {
+// gnuplot would draw lines also outside a panel, into the next one.
+TEST(FigureLayout, VerticalLinesStayWithinTheirPanel) {
     Figure figure;
     figure.panels.push_back(panel_with(50));
     figure.panels[0].x_range = std::pair(0.2, 0.6);
@@ -98,7 +98,7 @@ TEST(FigureLayout, LinesOfChangesStayWithinTheirPanel) {
     EXPECT_EQ(lines, 2U);
 }
 
-TEST(FigureLayout, HasTheSizeThatWasAskedFor) {
+TEST(FigureLayout, HasTheRequestedSize) {
     Figure figure{"", 1, {panel_with(3)}};
     figure.style = {85, 60, 7, ""};
     const FigureLayout page = layout_of(figure);
@@ -108,7 +108,7 @@ TEST(FigureLayout, HasTheSizeThatWasAskedFor) {
     EXPECT_EQ(page.font, 7);
 }
 
-TEST(FigureLayout, PanelsThatWouldBeTooNarrowStandBelowOneAnother) {
+TEST(FigureLayout, NarrowPicturesHaveOneColumn) {
     Figure figure{"", 2, {panel_with(3), panel_with(3)}};
     figure.style.width = 170;
     EXPECT_EQ(layout_of(figure).panels[0].frame.low, layout_of(figure).panels[1].frame.low);
@@ -116,7 +116,7 @@ TEST(FigureLayout, PanelsThatWouldBeTooNarrowStandBelowOneAnother) {
     EXPECT_GT(layout_of(figure).panels[0].frame.low, layout_of(figure).panels[1].frame.high);
 }
 
-TEST(FigureLayout, WhatAllPanelsSayTheLegendSaysOnce) {
+TEST(FigureLayout, PanelsWithEqualSeriesShareALegend) {
     Figure figure{"", 2, {panel_with(3), panel_with(3)}};
     EXPECT_EQ(layout_of(figure).legend.size(), 1U);
     EXPECT_TRUE(layout_of(figure).panels[0].legend.empty());
@@ -134,7 +134,7 @@ TEST(FigureLayout, LabelsOfAxesHaveUnitsAndPowersOfTen) {
     EXPECT_THAT(texts, HasSubstr("(10−6 m/s2)")); // as 10^-6, and a raised 2
 }
 
-TEST(FigureLayout, UnitsStandInBracketsOnALineOfTheirOwnToo) {
+TEST(FigureLayout, UnitsOnTheirOwnLineHaveParentheses) {
     Figure figure{"", 1, {panel_with(3)}};
     figure.panels[0].y_label = "velocity jump at the next";
     figure.panels[0].y_words = "";
@@ -149,7 +149,7 @@ TEST(FigureLayout, UnitsStandInBracketsOnALineOfTheirOwnToo) {
     }
 }
 
-TEST(FigureLayout, SymbolsAreSetAsSuchInTitlesLegendsAndLabels) {
+TEST(FigureLayout, NamesAreSymbolsInTitlesLegendsAndLabels) {
     Figure figure{"Orbits at V0 = 3 V", 1, {panel_with(3)}};
     figure.symbols = {"V0"};
     figure.panels[0].title = "V0 up";
@@ -173,7 +173,7 @@ TEST(FigureLayout, SymbolsAreSetAsSuchInTitlesLegendsAndLabels) {
 
 namespace {
 
-/// Names of parameters, states, modes and runs that stand in a picture as they stand in files: unless they are words.
+/// Names with digits or underscores of parameters, states, modes and runs that a picture shows as they are in files.
 std::vector<std::string> raw_names(const FigureLayout& page, const Study& study, const StudyPicture& picture) {
     std::set<std::string> names;
     const auto add = [&](const std::string& name) {
@@ -239,7 +239,7 @@ TEST_P(ShippedPictures, NothingOverlapsAndNoNameIsRaw) {
     for (StudyPicture picture : study.pictures)
         for (const FigureStyle& style : styles) {
             if (style.height > 0 && style.width < 100)
-                continue; // as high as several panels need
+                continue; // too low for several panels
             picture.style = style;
             const Figure figure = make_picture(picture, file).figure;
             const FigureLayout page = layout_of(figure);
@@ -259,11 +259,11 @@ TEST_P(ShippedPictures, NothingOverlapsAndNoNameIsRaw) {
             }
             EXPECT_EQ(std::count(all.begin(), all.end(), '('), std::count(all.begin(), all.end(), ')'))
                 << picture.name << " shows " << all;
-            // As many as are shown before the rest is counted, and full and dashed lines.
+            // At most 24 entries, and two for line styles.
             for (const PanelLayout& panel : page.panels)
                 EXPECT_LE(panel.legend.size(), 26U);
         }
-    // Where a dozen points crowd together there may be no such place that is nearer to its own point than to others.
+    // Among a dozen close points there may be no free place that is nearer to the label's own point than to others.
     EXPECT_LE(40 * crossed, labels) << crossed << " of " << labels << ":\n" << places;
     RecordProperty("labels", static_cast<int>(labels));
     RecordProperty("crossed", static_cast<int>(crossed));

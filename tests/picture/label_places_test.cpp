@@ -46,11 +46,11 @@ TEST(LabelPlaces, OneLabelStandsWherePointsCoincide) {
     EXPECT_EQ(places.omitted, 0U);
 }
 
-TEST(LabelPlaces, LinesLeadToLabelsThatStandOff) {
+TEST(LabelPlaces, LabelsAwayFromTheirPointHaveLeaders) {
     FigurePanel panel = unit_panel();
     FigureSeries symbols{"", FigureSeries::Style::symbols, 0, {}};
     for (int i = 0; i < 5; ++i)
-        for (int k = 0; k < 5; ++k) // a crowd around the point in the middle, which lines leave between two symbols
+        for (int k = 0; k < 5; ++k) // symbols around the point in the centre, between which a leader can pass
             symbols.points.push_back({0.5 + 0.045 * (i - 2), 0.5 + 0.07 * (k - 2)});
     panel.series = {symbols};
     panel.labels = {{{0.5, 0.5}, "SN1"}};
@@ -61,11 +61,11 @@ TEST(LabelPlaces, LinesLeadToLabelsThatStandOff) {
         EXPECT_FALSE(places.labels[0].box.meets(mark));
 }
 
-TEST(LabelPlaces, WhatCouldBeTakenForAnotherPointsLabelIsListed) {
+TEST(LabelPlaces, AmbiguousLabelsAreListed) {
     FigurePanel panel = unit_panel();
     FigureSeries symbols{"", FigureSeries::Style::symbols, 0, {}};
     for (int i = 0; i < 9; ++i)
-        for (int k = 0; k < 9; ++k) // symbols so dense that no line leaves without meeting one
+        for (int k = 0; k < 9; ++k) // symbols so dense that every leader would cross one
             symbols.points.push_back({0.5 + 0.012 * (i - 4), 0.5 + 0.018 * (k - 4)});
     panel.series = {symbols};
     panel.labels = {{{0.5, 0.5}, "SN1", 0, 0, "branch"}};
@@ -74,7 +74,7 @@ TEST(LabelPlaces, WhatCouldBeTakenForAnotherPointsLabelIsListed) {
     EXPECT_THAT(places.notes, ElementsAre("without room for a label: SN1 (branch)"));
 }
 
-TEST(LabelPlaces, EachIsNearerToItsOwnSymbolThanToAnyOther) {
+TEST(LabelPlaces, EachLabelIsNearestToItsOwnSymbol) {
     FigurePanel panel = unit_panel();
     FigureSeries symbols{"", FigureSeries::Style::symbols, 0, {}};
     for (int i = 0; i < 12; ++i) {
@@ -103,7 +103,7 @@ TEST(LabelPlaces, EachIsNearerToItsOwnSymbolThanToAnyOther) {
         }
 }
 
-TEST(LabelPlaces, MergedLabelsHaveNoCurvesColourAndMoreThanThreeAreListed) {
+TEST(LabelPlaces, MergedLabelsAreBlackAndMoreThanThreeAreListed) {
     FigurePanel panel = unit_panel();
     panel.labels = {{{0.3, 0.3}, "GR1", 0}, {{0.3, 0.3}, "SN1", 1}, {{0.6, 0.6}, "PD1", 2}, {{0.6, 0.6}, "PD2", 2}};
     for (int i = 1; i < 6; ++i)
@@ -116,7 +116,7 @@ TEST(LabelPlaces, MergedLabelsHaveNoCurvesColourAndMoreThanThreeAreListed) {
     EXPECT_THAT(places.notes, ElementsAre("[1]: GR1 (G), GR2 (G), GR3 (G), GR4 (G), GR5 (G)"));
 }
 
-TEST(LabelPlaces, OfTooManyTheMostImportantStay) {
+TEST(LabelPlaces, LabelsOfLowestRankArePlacedFirst) {
     FigurePanel panel = unit_panel();
     for (int i = 0; i < 150; ++i)
         panel.labels.push_back(
@@ -133,13 +133,13 @@ TEST(LabelPlaces, OfTooManyTheMostImportantStay) {
         EXPECT_EQ(again.labels[i].box.left, places.labels[i].box.left);
 }
 
-TEST(LabelPlaces, KeepOffCurvesWhereThereIsRoom) {
+TEST(LabelPlaces, LabelsAvoidCurves) {
     FigurePanel panel = unit_panel();
     panel.series.push_back({"", FigureSeries::Style::line, 0, {{0, 0.5}, {1, 0.6}}});
     panel.series.push_back({"", FigureSeries::Style::line, 0, {{0, 0.45}, {1, 0.65}}});
     panel.labels = {{{0.5, 0.55}, "BP1"}};
     const PlacedLabel label = places_of(panel).labels.at(0);
-    // Neither line runs through the box.
+    // Neither line crosses the box.
     for (double x = label.box.left; x <= label.box.right; x += 0.5)
         for (const double y : {200 * (0.5 + 0.1 * x / 300), 200 * (0.45 + 0.2 * x / 300)})
             EXPECT_FALSE(label.box.holds(PlanePoint{x, y})) << x;

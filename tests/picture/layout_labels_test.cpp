@@ -10,14 +10,14 @@
 namespace graze::testing {
 namespace {
 
-/// Whether any polygon of a layer, of the flattened drawing, has a place.
+/// True when a polygon of a layer in the flattened drawing contains a point.
 bool has(const Layout& layout, MaskLayer layer, GridPoint at) {
     const std::vector<PlacedShape> shapes = flattened(layout.library, layout.top);
     return std::any_of(shapes.begin(), shapes.end(),
                        [&](const PlacedShape& one) { return one.layer == layer && contains(one.polygon, at); });
 }
 
-/// What is drawn at a place, by the layers of the drawing.
+/// The part that is drawn at a point.
 std::string part_at(const Layout& layout, GridPoint at) {
     for (const MaskLayer layer : {mask_layers::beams, mask_layers::trusses, mask_layers::mass, mask_layers::electrode,
                                   mask_layers::stops, mask_layers::front})
@@ -26,7 +26,7 @@ std::string part_at(const Layout& layout, GridPoint at) {
     return "frame";
 }
 
-TEST(LayoutLabels, LeadToTheirParts) {
+TEST(LayoutLabels, LeadersEndOnTheirParts) {
     const std::vector<GivenLengths> devices{
         {},
         {{"electrode_length", 600}, {"pad_width", 1800}},

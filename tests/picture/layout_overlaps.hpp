@@ -14,7 +14,7 @@
 
 namespace graze::testing {
 
-/// What stands on a page, with a name for messages.
+/// A box on the page, with a name for messages.
 struct NamedBox {
     std::string name;
     Box box;
@@ -41,8 +41,8 @@ inline std::vector<NamedBox> boxes_of(const FigureLayout& page) {
     return boxes;
 }
 
-/// All that lies on something else: texts, legends and frames of a page; within frames labels, symbols and leaders. And
-/// what sticks out of the page or, of labels, out of their frame, or has lost its point.
+/// Messages about overlaps of texts, legends and frames of a page, and of labels and symbols within frames; about boxes
+/// beyond the page, labels beyond their frame, and labels away from their point without a leader.
 inline std::vector<std::string> overlaps_of(const FigureLayout& page) {
     std::vector<std::string> found;
     const std::vector<NamedBox> boxes = boxes_of(page);
@@ -65,15 +65,14 @@ inline std::vector<std::string> overlaps_of(const FigureLayout& page) {
             for (const Box& mark : panel.labels.marks)
                 if (label.box.meets(mark))
                     found.push_back("label " + label.text + " lies on a symbol");
-            // Either it stands at its point, or a line leads there.
+            // A label stands at its point or has a leader.
             if (!label.led && !label.box.grown(mark_size(page.font)).holds(label.point))
                 found.push_back("label " + label.text + " has lost its point");
         }
     return found;
 }
 
-/// Labels that a line of their panel runs through, of lines as they are drawn. @param counted receives how many labels
-/// there are
+/// Messages about labels that a line of their panel crosses. @param counted is increased by the number of labels
 inline std::vector<std::string> labels_on_lines(const Figure& figure, const FigureLayout& page, std::size_t& counted) {
     using Style = FigureSeries::Style;
     constexpr double step = 0.5; // points, which is less than the width of a line

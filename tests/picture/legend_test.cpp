@@ -17,7 +17,7 @@ FigurePanel panel_of(std::size_t runs) {
 
 } // namespace
 
-TEST(Legend, SaysHowManyItLeavesOut) {
+TEST(Legend, CountsEntriesThatAreLeftOut) {
     EXPECT_EQ(legend_entries(panel_of(24)).size(), 25U);
     const auto entries = legend_entries(panel_of(40));
     ASSERT_EQ(entries.size(), 25U);
@@ -27,23 +27,23 @@ TEST(Legend, SaysHowManyItLeavesOut) {
     EXPECT_EQ(entries[24].title, "stable");
 }
 
-TEST(Legend, EachTitleStandsThereOnceAndWhatIsEmptyNever) {
+TEST(Legend, HasEachTitleOnceAndNoEmptySeries) {
     FigurePanel panel = panel_of(1);
     panel.series.push_back(panel.series[0]);
     panel.series.push_back({"nothing", FigureSeries::Style::dots, 3, {}});
     EXPECT_EQ(legend_entries(panel).size(), 2U);
 }
 
-TEST(Legend, SaysWhatVerticalLinesMean) {
+TEST(Legend, ExplainsVerticalLines) {
     FigurePanel panel = panel_of(1);
     panel.marks_title = "period changes";
-    EXPECT_EQ(legend_entries(panel).size(), 2U); // there are none
+    EXPECT_EQ(legend_entries(panel).size(), 2U); // there are no vertical lines
     panel.marks = {0.5};
     ASSERT_EQ(legend_entries(panel).size(), 3U);
     EXPECT_EQ(legend_entries(panel).back().title, "period changes");
 }
 
-TEST(Legend, OneIsThereForPanelsOfWhichSomeShowMore) {
+TEST(Legend, PanelsThatShareEntriesHaveOneLegend) {
     const auto of = [](const std::vector<std::string>& titles, std::size_t colour = 0) {
         FigurePanel panel;
         for (const std::string& title : titles)
@@ -70,7 +70,7 @@ TEST(Legend, OneIsThereForPanelsOfWhichSomeShowMore) {
     EXPECT_FALSE(joined({}));
 }
 
-TEST(Legend, EntriesStandBesideOneAnotherWithinTheRoom) {
+TEST(Legend, EntriesFitTheWidthWithoutOverlap) {
     for (const double width : {100.0, 240.0, 480.0}) {
         auto entries = legend_entries(panel_of(9));
         const double height = place_legend(entries, 10, 200, width, 9);

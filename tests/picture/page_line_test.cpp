@@ -20,7 +20,7 @@ double length_of(const Polyline& line) {
     return length;
 }
 
-/// The share of a level line that two sets of dashes cover together.
+/// The fraction of a horizontal line that two sets of dashes cover together.
 double covered(const std::vector<Polyline>& one, const std::vector<Polyline>& other) {
     std::size_t seen = 0;
     constexpr std::size_t places = 10'000;
@@ -36,15 +36,15 @@ double covered(const std::vector<Polyline>& one, const std::vector<Polyline>& ot
 
 } // namespace
 
-TEST(PageLine, DashesOfLinesThatCoincideLeaveTheirGapsOpen) {
+TEST(PageLine, DashesOfCoincidingLinesCoincide) {
     const auto one = dashes_of({{1, 100}, {299, 100}}, dashed, frame);
     const auto back = dashes_of({{297.3, 100}, {20.7, 100}, {3.1, 100}}, dashed, frame);
     EXPECT_NEAR(covered(one, back), dashed.dash / dashed.length(), 0.01);
     const auto dotted = dashes_of({{7.7, 100}, {290, 100}}, dash_pattern(FigureSeries::Style::dotted, 1), frame);
-    EXPECT_LT(covered(one, dotted), 0.85); // still no solid line
+    EXPECT_LT(covered(one, dotted), 0.85); // not a solid line
 }
 
-TEST(PageLine, DashesHaveGapsWhateverTheSlope) {
+TEST(PageLine, DashesHaveGapsAtEverySlope) {
     for (int degrees = 0; degrees < 180; degrees += 5) {
         const double angle = degrees * std::numbers::pi / 180;
         const auto dashes = dashes_of({{150 - 90 * std::cos(angle), 100 - 90 * std::sin(angle)},
@@ -59,7 +59,7 @@ TEST(PageLine, DashesHaveGapsWhateverTheSlope) {
     }
 }
 
-TEST(PageLine, OnlyWhatRunsInTheFrameIsDashed) {
+TEST(PageLine, DashesStayInTheFrame) {
     const auto dashes = dashes_of({{-1e6, 100}, {1e6, 100}}, dashed, frame);
     EXPECT_EQ(dashes.size(), static_cast<std::size_t>(std::ceil(300 / dashed.length())));
     EXPECT_TRUE(dashes_of({{-10, 0}, {-10, 100}}, dashed, frame).empty());

@@ -27,20 +27,20 @@ std::string texts_of(const PanelAxis& axis) {
 
 } // namespace
 
-TEST(PanelAxis, NumbersHaveTheDigitsThatTheyNeed) {
+TEST(PanelAxis, LabelsHaveTheNecessaryDigits) {
     EXPECT_EQ(texts_of(panel_axis(panel_between(0, 1), true, 300, 9)), "0.0 0.2 0.4 0.6 0.8 1.0 ");
     EXPECT_EQ(texts_of(panel_axis(panel_between(-2, 2), false, 200, 9)), "−2.0 −1.5 −1.0 −0.5 0.0 0.5 1.0 1.5 2.0 ");
     EXPECT_EQ(texts_of(panel_axis(panel_between(4.832, 4.834), true, 200, 9)), "4.8320 4.8325 4.8330 4.8335 4.8340 ");
 }
 
-TEST(PanelAxis, VerySmallAndLargeNumbersAreInPowersOfTen) {
+TEST(PanelAxis, SmallAndLargeNumbersHaveAPowerOfTen) {
     const PanelAxis small = panel_axis(panel_between(0, 4e-6), true, 300, 9);
     EXPECT_EQ(small.power, -6);
     EXPECT_EQ(texts_of(small), "0.0 0.5 1.0 1.5 2.0 2.5 3.0 3.5 4.0 ");
     EXPECT_EQ(panel_axis(panel_between(0, 2e7), true, 300, 9).power, 7);
 }
 
-TEST(PanelAxis, RefusesWhatHasNoPlaceOnOne) {
+TEST(PanelAxis, RefusesRangesThatCannotBeDrawn) {
     const double infinite = std::numeric_limits<double>::infinity();
     for (const auto& [low, high] :
          {std::pair{-9e307, 9e307}, std::pair{-1.7e308, 1.7e308}, std::pair{0.0, 1e-310}, std::pair{-1e-310, 1.7e308},
@@ -52,7 +52,7 @@ TEST(PanelAxis, RefusesWhatHasNoPlaceOnOne) {
     }
 }
 
-TEST(PanelAxis, NumbersKeepClearOfOneAnother) {
+TEST(PanelAxis, LabelsDoNotOverlap) {
     for (const double length : {40.0, 80.0, 160.0, 400.0})
         for (const double low : {-1e4, 0.0, 4.83211})
             for (const bool horizontal : {true, false}) {
@@ -76,7 +76,7 @@ TEST(PanelAxis, LogarithmicAxesHaveDecades) {
     EXPECT_GE(panel_axis(panel, true, 300, 9).tics.size(), 3U);
 }
 
-TEST(PanelAxis, AllThatIsDrawnIsSeen) {
+TEST(PanelAxis, RangeIncludesAllData) {
     FigurePanel panel;
     panel.series.push_back({"", FigureSeries::Style::line, 0, {{1, 5}, {3, 9}, {std::nan(""), 100}}});
     const PanelAxis x = panel_axis(panel, true, 300, 9), y = panel_axis(panel, false, 300, 9);

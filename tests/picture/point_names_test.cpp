@@ -1,4 +1,4 @@
-// What a study calls special points of its runs: in pictures, tables and exports, and where points are asked for.
+// Names that a study gives to special points (key point_names): in pictures, tables, exports and references to points.
 
 #include "graze/picture/result_picture.hpp"
 #include "graze/results/result_table.hpp"
@@ -20,8 +20,8 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// @param names of the branch without impacts
-/// @param point what its touch is called where it is asked for
+/// @param names point_names of the branch without impacts
+/// @param point name by which the other run and the table refer to its grazing
 std::string study_text(const std::string& names, const std::string& point = "first touch") {
     return R"(name = "s"
 model = "impact-oscillator"
@@ -83,12 +83,12 @@ protected:
         (std::filesystem::temp_directory_path() / ("graze-names-" + std::to_string(getpid()) + ".sqlite")).string();
 };
 
-TEST_F(PointNames, stand_in_the_place_of_labels) {
+TEST_F(PointNames, ReplaceLabels) {
     for (const RunReport& report : run(study_text(named)))
         EXPECT_TRUE(report.complete()) << report.name << ": " << report.problem;
     EXPECT_THAT(labels_of("free"), Contains("first touch"));
     EXPECT_THAT(labels_of("free"), Not(Contains("GR1")));
-    EXPECT_THAT(labels_of("again"), Contains("GR1")); // the same point has its label there, for nobody names it
+    EXPECT_THAT(labels_of("again"), Contains("GR1")); // this run gives the point no name
     const ResultFile file(path_, ResultFile::Access::read);
     const OrbitRecord by_name = find_stored_orbit(file, "free:first touch", {}).record;
     EXPECT_EQ(by_name.label, "GR1");
@@ -118,7 +118,7 @@ TEST_F(PointNames, stand_in_the_place_of_labels) {
     }
 }
 
-TEST_F(PointNames, change_without_anything_being_computed_again) {
+TEST_F(PointNames, CanChangeWithoutComputation) {
     run(study_text(named));
     const std::string other = "point_names = { GR1 = \"G-1\" }\n";
     for (const RunReport& report : run(study_text(other, "G-1")))
@@ -130,7 +130,7 @@ TEST_F(PointNames, change_without_anything_being_computed_again) {
     EXPECT_THAT(labels_of("free"), Contains("GR1"));
 }
 
-TEST_F(PointNames, are_kept_with_the_study_until_its_runs_begin) {
+TEST_F(PointNames, AreStoredWithTheStudy) {
     {
         ResultFile file(path_, ResultFile::Access::write);
         store_study(parse_study(study_text(named), "s.toml"), file);
@@ -141,7 +141,7 @@ TEST_F(PointNames, are_kept_with_the_study_until_its_runs_begin) {
     EXPECT_EQ(study.find_run("free")->point_names[0].name, "first touch");
 }
 
-TEST(PointNamesOfStudies, are_refused_where_they_could_mean_something_else) {
+TEST(PointNamesOfStudies, AreRefusedIfAmbiguous) {
     const auto refusal = [](const std::string& names) {
         try {
             parse_study(study_text("point_names = " + names + "\n", "GR1"), "s.toml");

@@ -26,7 +26,7 @@ protected:
     testing::TemporaryFolder folder_;
 };
 
-TEST_F(RecordPictures, a_diagram_has_a_panel_for_each_value_and_direction) {
+TEST_F(RecordPictures, DiagramsHaveAPanelForEachValueAndDirection) {
     for (int i = 1; i <= 3; ++i) {
         folder_.write(fmt::format("u{}.csv", i), waves(i, 1));
         folder_.write(fmt::format("d{}.csv", i), waves(4 - i, 1, 0.1));
@@ -37,13 +37,13 @@ TEST_F(RecordPictures, a_diagram_has_a_panel_for_each_value_and_direction) {
     ResultFile file(folder_ / "results.sqlite", ResultFile::Access::write);
     run_study(study, file, {});
     const Figure figure = make_picture(default_picture(*file.find_run("r")), file).figure;
-    ASSERT_EQ(figure.panels.size(), 4); // two values, two directions; rows of records are none of its points
+    ASSERT_EQ(figure.panels.size(), 4); // two values, two directions; rows of records are not drawn
     for (const FigurePanel& panel : figure.panels)
         EXPECT_EQ(panel.series.size(), 1);
     EXPECT_EQ(figure.panels[0].x_unit, "V");
 }
 
-TEST_F(RecordPictures, measured_points_lie_over_computed_ones) {
+TEST_F(RecordPictures, MeasuredPointsAreDrawnOverComputedOnes) {
     for (int i = 1; i <= 2; ++i)
         folder_.write(fmt::format("{}.csv", i), waves(i, 1));
     folder_.write("m.toml", R"(name = "m"
@@ -89,12 +89,12 @@ run = "computed"
         EXPECT_TRUE(std::abs(point.x - 1) < 1e-6 || std::abs(point.x - 2) < 1e-6) << point.x;
         EXPECT_NEAR(point.y, 4, 1e-4);
     }
-    EXPECT_LT(figure.panels[0].x_range->first, 1); // room for all of them
+    EXPECT_LT(figure.panels[0].x_range->first, 1); // the axis includes all measured points
     EXPECT_GT(figure.panels[0].x_range->second, 2);
     EXPECT_THROW(make_picture(study.pictures[1], file), InputError); // no values of the same name
 }
 
-TEST_F(RecordPictures, rows_of_records_have_histories_and_spectra) {
+TEST_F(RecordPictures, RowsOfRecordsHaveHistoriesAndSpectra) {
     folder_.write("a.csv", waves(2, 1.999)); // ten periods
     folder_.write("b.csv", waves(2, 20));
     const Study study = read_study(folder_.write("s.toml", std::string(head) + R"(files = ["a.csv", "b.csv"]
@@ -123,8 +123,8 @@ run = "r"
         return highest;
     };
     EXPECT_NEAR(peak(0).x, frequency, 1e-9);
-    EXPECT_NEAR(peak(0).y, 2, 1e-9);                      // whole periods: nothing leaks
-    EXPECT_NEAR(peak(1).x, frequency, 0.5 * 1000 / 8192); // the nearest of the frequencies of parts
+    EXPECT_NEAR(peak(0).y, 2, 1e-9);                      // whole periods: no leakage
+    EXPECT_NEAR(peak(1).x, frequency, 0.5 * 1000 / 8192); // the nearest frequency of the parts
     EXPECT_NEAR(peak(1).y, 2, 2 * 0.15);                  // Hann's window between two frequencies: 15 % less
     const Figure history = make_picture(study.pictures[2], file).figure;
     ASSERT_EQ(history.panels.size(), 2);
@@ -132,7 +132,7 @@ run = "r"
     double highest = 0;
     for (const PlanePoint& point : history.panels[0].series[0].points)
         highest = std::max(highest, point.y);
-    EXPECT_NEAR(highest, 2, 1e-12); // none that stands out is missing
+    EXPECT_NEAR(highest, 2, 1e-12); // extrema are kept
 }
 
 } // namespace

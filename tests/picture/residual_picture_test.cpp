@@ -11,8 +11,8 @@
 
 namespace graze::testing {
 
-// What is left is the difference of what was measured from what was fitted.
-TEST(ResidualPicture, ShowsAllThatWasMeasuredAndWhatIsLeft) {
+// Residuals are measured less fitted values.
+TEST(ResidualPicture, ShowsMeasuredValuesAndResiduals) {
     const TemporaryFolder folder;
     std::string text = "t [s], v [m/s]\n";
     for (int i = 0; i < 1500; ++i) {

@@ -17,7 +17,7 @@ TEST(RichText, NamesAreSymbolsWithIndicesOrWords) {
     EXPECT_EQ(letters_of(rich_power(-6)), "10−6");
 }
 
-TEST(RichText, NamesWithinWordsAreSymbolsWhereTheyCanBeNothingElse) {
+TEST(RichText, UnambiguousNamesWithinTextAreSymbols) {
     const std::vector<std::string> symbols{"V0", "x3", "V", "a", "delta", "k_s"};
     const auto shown = [&](const std::string& text) { return gnuplot_markup(rich_words(text, symbols)); };
     EXPECT_EQ(shown("V0 = 4.833 V: period 3"), "{/:Italic V}_{0} = 4.833 V: period 3");
@@ -32,7 +32,7 @@ TEST(RichText, NamesWithinWordsAreSymbolsWhereTheyCanBeNothingElse) {
     EXPECT_EQ(shown("ä V = ö"), "ä {/:Italic V} = ö");
 }
 
-TEST(RichText, LatexTakesNoLetterAsACommand) {
+TEST(RichText, LatexMarkupContainsNoCommandsOfTheText) {
     EXPECT_EQ(latex_markup(rich("50% of $x_1$ & \\input{a} #~^|<>\"`")),
               "50\\\\% of \\\\$x\\\\_1\\\\$ \\\\& \\\\textbackslash{}input\\\\{a\\\\} "
               "\\\\#\\\\textasciitilde{}\\\\textasciicircum{}\\\\textbar{}\\\\textless{}\\\\textgreater{}"
@@ -54,7 +54,7 @@ TEST(RichText, LinesAreBrokenAtBlanks) {
         EXPECT_LE(width_of(rich(line)), 6) << line;
 }
 
-TEST(RichText, WidthsAreThoseOfTheFont) {
+TEST(RichText, WidthsEqualThoseOfDejaVuSans) {
     // Advances of DejaVu Sans in 2048ths of its size: H 1540, i 569, 0 1303.
     EXPECT_NEAR(width_of(rich("H")), 1540.0 / 2048, 5e-4);
     EXPECT_NEAR(width_of(rich("i")), 569.0 / 2048, 5e-4);

@@ -16,7 +16,7 @@ std::vector<PlanePoint> points_of(const Figure& figure) {
     return points;
 }
 
-TEST_F(StoredPictures, are_redrawn_from_results_alone) {
+TEST_F(StoredPictures, CanBeDrawnFromResultsAlone) {
     run_and_forget();
     const ResultFile file(path("results.sqlite"), ResultFile::Access::read);
     const Study study = stored_study(file);

@@ -12,7 +12,7 @@ namespace graze::testing {
 
 namespace {
 
-/// @param columns names; histories of the first ones, then portraits
+/// @param columns names of values; @param histories the number of columns, from the first, that are drawn over time
 Figure drawn(const Model& model, double time, const std::vector<std::string>& columns, std::size_t histories,
              const std::vector<std::pair<std::size_t, std::size_t>>& portraits) {
     MotionPanelChoice choice;
@@ -41,8 +41,8 @@ const FigureSeries* series(const FigurePanel& panel, const std::string& title) {
 
 } // namespace
 
-// The velocity of a ball falls along each arc and rises only in between.
-TEST(TrajectoryFigure, CurvesAreBrokenWhereTheMotionJumps) {
+// The velocity of a ball falls along each arc and rises only at contacts.
+TEST(TrajectoryFigure, CurvesAreInterruptedAtJumps) {
     const Figure figure = drawn(load_model("bouncing-ball"), 0.25, {"v"}, 1, {});
     ASSERT_EQ(figure.panels.size(), 1U);
     int arcs = 0;
@@ -64,7 +64,7 @@ TEST(TrajectoryFigure, CurvesAreBrokenWhereTheMotionJumps) {
     EXPECT_EQ(contacts->points.size(), 2U) << "before and after the only one";
 }
 
-TEST(TrajectoryFigure, OnePortraitStandsBesideAllHistories) {
+TEST(TrajectoryFigure, APortraitSpansAllHistories) {
     const Figure figure = drawn(load_model("electromagnetic-testbed"), 1, {"q", "v", "I"}, 3, {{0, 1}});
     ASSERT_EQ(figure.panels.size(), 4U);
     EXPECT_EQ(figure.columns, 2U);
@@ -78,8 +78,8 @@ TEST(TrajectoryFigure, OnePortraitStandsBesideAllHistories) {
     EXPECT_EQ(figure.panels[0].x_range->second, 1);
 }
 
-// x' = x^2 from 1 ends at 1: what is drawn of x must not be its last moments alone.
-TEST(TrajectoryFigure, WhatGrowsWithoutBoundsRunsOutOfThePicture) {
+// x' = x^2 from x(0) = 1 is singular at t = 1: the axis of x must not be that of its last moments.
+TEST(TrajectoryFigure, UnboundedValuesLeaveTheFrame) {
     const Model model = parse_model(R"(name = "blows"
 [states]
 x = 1

@@ -19,10 +19,10 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// The program in a process of its own, which ends with the test.
+/// The program in another process, which is killed at the end of the test.
 class Process {
 public:
-    /// @param log for what it prints; @param most bytes of a file that it may write; 0: any
+    /// @param log file for its output; @param most largest size in bytes of files that it writes; 0: no limit
     Process(const std::string& line, std::string log, rlim_t most = 0) : log_(std::move(log)) {
         std::vector<std::string> words = split(program_file + (" " + line), ' ');
         std::vector<char*> arguments;
@@ -54,7 +54,7 @@ public:
         if (process_ > 0)
             kill(process_, number);
     }
-    /// The exit status, 128 and the signal where one has ended it.
+    /// Waits for its end. @return the exit status, or 128 plus the number of the signal that ended it
     int wait() {
         int status = 0;
         if (process_ <= 0)
@@ -70,7 +70,7 @@ private:
     pid_t process_ = -1;
 };
 
-/// A bench of the testbed that serves in a process of its own, and an experiment with it.
+/// A simulated bench of the testbed, in another process, and an experiment file that uses it.
 class Experiment {
 public:
     explicit Experiment(const std::string& options = "", const std::string& steps = "0.1")
@@ -93,7 +93,7 @@ public:
     std::string command(const std::string& records) const {
         return "acquire " + path("sweep.toml") + " --output " + path(records);
     }
-    /// What the generator gives, when nobody works with the records any more.
+    /// The generator's amplitude in V, read when no process has the records locked any more.
     double amplitude(const std::string& records) const {
         if (const int lock = open(path(records).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); lock >= 0) {
             flock(lock, LOCK_EX);
@@ -127,7 +127,7 @@ bool same(const std::map<std::string, std::string>& one, const std::map<std::str
     return one.size() == other.size();
 }
 
-/// Carries the experiment out. @return how long that took
+/// Carries out the whole experiment. @return the time that it took
 std::chrono::microseconds carried_out(const Experiment& experiment, const std::string& records) {
     const auto begin = std::chrono::steady_clock::now();
     Process whole(experiment.command(records), experiment.path("said.txt"));
@@ -135,8 +135,9 @@ std::chrono::microseconds carried_out(const Experiment& experiment, const std::s
     return std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - begin);
 }
 
-/// Kills the program at random moments, until it has come to its end. The moments are such shares of the time that
-/// the whole takes that it cannot have come to its end before the last of them. @return how many times
+/// Kills the program at random times until it finishes. The times are fractions of the duration of the whole
+/// experiment, so small that it cannot finish before the last kill. @param at_most number of kills. @return number of
+/// kills
 int killed(const Experiment& experiment, const std::string& records, unsigned seed, std::chrono::microseconds whole,
            int at_most) {
     const auto longest = static_cast<unsigned>(whole.count() / at_most);
@@ -162,7 +163,7 @@ int killed(const Experiment& experiment, const std::string& records, unsigned se
 
 } // namespace
 
-TEST(Acquire, CarriesOutAnExperimentAndIsDoneTheSecondTime) {
+TEST(Acquire, RecordsAllLevelsOnceAndNothingTheSecondTime) {
     const Experiment experiment;
     Process first(experiment.command("records"), experiment.path("said.txt"));
     EXPECT_EQ(first.wait(), 0);
@@ -177,7 +178,7 @@ TEST(Acquire, CarriesOutAnExperimentAndIsDoneTheSecondTime) {
     EXPECT_EQ(Csv(sections.out).rows.size(), 11U); // 2 s at 6.1 Hz
 }
 
-TEST(Acquire, GoesOnAfterItHasBeenKilledWithTheSameRecords) {
+TEST(Acquire, ContinuesAfterKillsWithTheSameRecords) {
     const Experiment experiment;
     const auto whole = carried_out(experiment, "whole");
     const Experiment another;
@@ -186,8 +187,8 @@ TEST(Acquire, GoesOnAfterItHasBeenKilledWithTheSameRecords) {
     EXPECT_TRUE(same(experiment.files("whole"), parts));
 }
 
-TEST(AcquireSlow, GoesOnAfterFiftyKillsWithTheSameRecords) {
-    const std::string fine = "0.005"; // some two hundred records
+TEST(AcquireSlow, ContinuesAfterFiftyKillsWithTheSameRecords) {
+    const std::string fine = "0.005"; // about two hundred records
     const Experiment experiment("", fine);
     const auto whole = carried_out(experiment, "whole");
     for (const unsigned seed : {1U, 2U}) {
@@ -197,9 +198,9 @@ TEST(AcquireSlow, GoesOnAfterFiftyKillsWithTheSameRecords) {
     }
 }
 
-TEST(Acquire, KeepsWhatItHasWhenTheDiskIsFull) {
+TEST(Acquire, ContinuesAfterTheDiskWasFull) {
     const Experiment experiment;
-    // The list of records grows beyond what a file may have only later than a record does.
+    // The size limit is below the size of a record, but above that of the list of records.
     Process full(experiment.command("records"), experiment.path("said.txt"), 60'000);
     EXPECT_EQ(full.wait(), 2);
     EXPECT_EQ(experiment.amplitude("records"), 0.1);
@@ -211,7 +212,7 @@ TEST(Acquire, KeepsWhatItHasWhenTheDiskIsFull) {
     EXPECT_EQ(experiment.files("records").size(), 14U);
 }
 
-TEST(Acquire, TellsAGeneratorThatGivesLess) {
+TEST(Acquire, ReportsAGeneratorThatClips) {
     const Experiment experiment(" --clip 9.7");
     const Printed clipped = run_graze(experiment.command("records"));
     EXPECT_EQ(clipped.code, 3);
@@ -220,7 +221,7 @@ TEST(Acquire, TellsAGeneratorThatGivesLess) {
     EXPECT_EQ(experiment.amplitude("records"), 0.1);
 }
 
-TEST(Acquire, SaysWhatIsNotThere) {
+TEST(Acquire, ReportsMissingInstrumentsAndFiles) {
     const Folder folder;
     std::ofstream(folder / "e.toml") << "name = \"e\"\n[generator]\n[limits]\namplitude = 1\nsafe = 0.1\n[samples]\n"
                                         "rate = 10\n[sweep]\nfrequency = 1\namplitude = 0.5\n[record]\ntime = 1\n";
@@ -239,7 +240,7 @@ TEST(Acquire, SaysWhatIsNotThere) {
                 HasSubstr("the folder has records of other settings: 'format csv' there, 'format h5' here"));
 }
 
-TEST(Bench, SaysWhatItCannotBe) {
+TEST(Bench, RefusesWrongOptions) {
     const Folder folder;
     const std::string port = " --port " + (folder / "port");
     for (const auto& [options, message] : std::vector<std::pair<std::string, std::string>>{

@@ -44,7 +44,7 @@ protected:
 
 } // namespace
 
-TEST_F(BranchPicture, LinesChangeTheirStyleWhereOrbitsDo) {
+TEST_F(BranchPicture, LinesChangeTheirStyleWithStability) {
     const Figure figure = drawn(picture_of("", {"first"}));
     ASSERT_EQ(figure.panels.size(), 2U);
     const FigurePanel& panel = figure.panels[0];
@@ -63,7 +63,7 @@ TEST_F(BranchPicture, LinesChangeTheirStyleWhereOrbitsDo) {
     EXPECT_EQ(xs(*lines[3]), (std::vector<double>{1, 0.9})); // the other part begins anew
     EXPECT_EQ(xs(*lines[4]), (std::vector<double>{0.9, 0.8}));
     EXPECT_EQ(lines[4]->style, FigureSeries::Style::dashed);
-    // The monitor has its own column beside that of the period, which has the same name.
+    // The monitor named `period` has its own column beside the orbit's period.
     EXPECT_EQ(lines_of(figure.panels[1])[1]->points[2].y, 1);
 }
 
@@ -82,7 +82,7 @@ TEST_F(BranchPicture, SpecialPointsAreMarkedAndLabelled) {
     EXPECT_THAT(script, Not(HasSubstr("EP1")));
 }
 
-TEST_F(BranchPicture, LabelsDoNotLieOnOneAnother) {
+TEST_F(BranchPicture, LabelsDoNotOverlap) {
     FigurePanel panel;
     panel.series.push_back({"", FigureSeries::Style::line, 0, {{0, 0}, {1, 1}}});
     for (int i = 0; i < 60; ++i)
@@ -98,7 +98,7 @@ TEST_F(BranchPicture, LabelsDoNotLieOnOneAnother) {
          at = script.find("set label \"GR", at + 1))
         ++labels;
     EXPECT_GT(labels, 4U);
-    EXPECT_LT(labels, 32U); // places in the panel, and the list of the others
+    EXPECT_LT(labels, 32U); // labels placed in the panel, and the list of the others
 }
 
 TEST_F(BranchPicture, SeveralRunsShareAPanel) {
@@ -165,7 +165,7 @@ TEST_F(BranchPicture, HistoriesShareTheirPanels) {
     EXPECT_EQ(curve.points.back().x, 1);
 }
 
-TEST_F(BranchPicture, GrazePlotDrawsThem) {
+TEST_F(BranchPicture, GrazePlotDrawsBranches) {
     const auto plotted = [&](const std::vector<std::string>& options) {
         std::vector<std::string> words{"plot", path, "--output", folder / "p.svg", "--data", folder / "p.gp"};
         words.insert(words.end(), options.begin(), options.end());
@@ -181,7 +181,7 @@ TEST_F(BranchPicture, GrazePlotDrawsThem) {
     EXPECT_GT(std::filesystem::file_size(folder / "p.svg"), 2'000U);
 }
 
-TEST_F(BranchPicture, WrongInputsAreTold) {
+TEST_F(BranchPicture, WrongOptionsAreRefused) {
     write_sweep();
     const auto said = [&](const std::vector<std::string>& options) {
         std::vector<std::string> words{"plot", path, "--output", folder / "no.svg"};

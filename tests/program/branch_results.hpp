@@ -10,8 +10,8 @@
 
 namespace graze::testing {
 
-/// Results that are written by hand, so that what must be shown is known: a ball that bounces without loss, thrown up
-/// at speed 1 by gravity g, for the time 2/g and to the height 1/(2g).
+/// Results written by hand, so that the expected output is known: a ball that bounces without loss, thrown up with
+/// speed 1 under gravity g. It flies for the time 2/g and to the height 1/(2g).
 class BranchResults : public ::testing::Test {
 protected:
     static constexpr const char* ball = R"(
@@ -69,7 +69,7 @@ energy = { value = "v^2/2 + g*x", unit = "m^2/s^2" }
         point.solution.residual = 1e-14;
         point.solution.multipliers = {{stable ? 0.5 : -1.5, 0}, {0.25, 0.125}, {0.25, -0.125}};
         point.solution.certificate.admissible = admissible;
-        point.solution.certificate.reason = admissible ? "" : "event 'floor' comes within segment 1";
+        point.solution.certificate.reason = admissible ? "" : "event 'floor' happens within segment 1";
         Orbit& orbit = point.solution.orbit;
         orbit.signature = parse_signature(model, "bounce");
         orbit.parameters = {1, g};
@@ -91,7 +91,7 @@ energy = { value = "v^2/2 + g*x", unit = "m^2/s^2" }
         }
         file.complete_run(run.name);
     }
-    /// One branch up and down, another one with w = 2, and a single orbit.
+    /// Writes a branch in two directions, another branch with w = 2, and a single orbit.
     void write_branches() const {
         ResultFile file(path, ResultFile::Access::write);
         write_first(file);
@@ -115,7 +115,7 @@ energy = { value = "v^2/2 + g*x", unit = "m^2/s^2" }
                    orbit_of("down", end, 1, true, true), orbit_of("down", flip, 0.9, true, true),
                    orbit_of("down", regular, 0.8, false, true)});
     }
-    /// A sweep beside the branches, with one point.
+    /// Writes a sweep with one point.
     void write_sweep() const {
         ResultFile file(path, ResultFile::Access::write);
         RunRecord run = run_of("swept", "sweep");

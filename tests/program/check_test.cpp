@@ -42,7 +42,7 @@ TEST(Check, WarnsAndReportsPlaces) {
     EXPECT_THAT(wrong.err, HasSubstr("graze: " + file + ":5:"));
 }
 
-TEST(Check, TellsSeveralMistakesALineEach) {
+TEST(Check, ReportsEachMistakeOnItsOwnLine) {
     const Folder folder;
     const std::string file = folder / "wrong.toml";
     std::string text = "[states]\nx = 1\n[modes.m]\nrates = { x = \"-k*x\" }\n[definitions]\n";
@@ -61,7 +61,7 @@ TEST(Check, TellsSeveralMistakesALineEach) {
     const std::vector<std::string> many = split(run_graze("check " + file).err, '\n');
     EXPECT_EQ(many.size(), 21U);
     EXPECT_EQ(many.back(), "graze: and 31 more; mend these first");
-    // Very many are not all looked for.
+    // The search ends after a number of mistakes.
     for (int i = 50; i < 30000; ++i)
         text += "d" + std::to_string(i) + " = \"2*x" + std::to_string(i) + "\"\n";
     std::ofstream(file) << text;
@@ -70,7 +70,8 @@ TEST(Check, TellsSeveralMistakesALineEach) {
     EXPECT_EQ(most.back(), "graze: and at least 80 more; mend these first");
 }
 
-/// Barriers of random lines, the start on either side; a wall that the start, or a jump, is beyond has the wrong sign.
+/// Random walls with the initial state on either side. A wall beyond which the initial state or a jump lies probably
+/// has the wrong sign.
 TEST(Check, WarnsOfAProbablyWrongSign) {
     const Folder folder;
     const std::string file = folder / "model.toml";
@@ -95,7 +96,7 @@ TEST(Check, WarnsOfAProbablyWrongSign) {
             EXPECT_THAT(run.err, AllOf(HasSubstr("graze: warning: " + file + (in_table ? ":10:1: " : ":11:1: ")),
                                        HasSubstr("wrong side"), HasSubstr("give the function the other sign")));
     }
-    // The start is all right, but the jump leads beyond another wall.
+    // The initial state is admissible, but the jump leads beyond another wall.
     std::ofstream(file) << "name = \"m\"\n[states]\nx = 0\n[modes.a]\nrates = { x = 1 }\nwatch = [\"one\"]\n[modes.b]\n"
                            "rates = { x = 1 }\nwatch = [\"two\"]\n[events]\none = \"1 - x\"\ntwo = \"x - 2\"\n"
                            "[[transitions]]\nmode = \"a\"\nevent = \"one\"\nnext = \"b\"\n"
@@ -105,7 +106,7 @@ TEST(Check, WarnsOfAProbablyWrongSign) {
                       HasSubstr("barrier 'two'"), HasSubstr("perhaps its function has the wrong sign")));
 }
 
-TEST(Check, DrawsTheGraph) {
+TEST(Check, DrawsTheGraphOfModes) {
     const Folder folder;
     EXPECT_EQ(run_graze("check mems-switch --graph " + (folder / "modes.dot")).code, 0);
     EXPECT_THAT(contents(folder / "modes.dot"), HasSubstr("digraph"));
@@ -119,7 +120,7 @@ TEST(Check, DrawsTheGraph) {
     EXPECT_EQ(folder.files(), 4U);
 }
 
-TEST(Check, SaysWhatToDoWithoutGraphviz) {
+TEST(Check, NamesTheProgramToInstall) {
     const std::string path = std::getenv("PATH");
     setenv("PATH", "/nonexistent", 1);
     const Folder folder;

@@ -1,4 +1,4 @@
-// Texts in a result file that somebody has changed: each is used or refused, and whatever is said names the file.
+// Changed texts in a result file: each is used or refused, and error messages name the file.
 
 #include "run_graze.hpp"
 
@@ -59,7 +59,7 @@ std::vector<std::vector<std::string>> rows_of(sqlite3* database, const std::stri
     return rows;
 }
 
-/// A statement for each column with texts, and for each text that belongs to no run; %s stands for the new text.
+/// SQL statements that change each column of texts and each value of the table `meta`; %s stands for the new text.
 std::vector<std::string> changes_of(const std::string& path) {
     std::vector<std::string> changes;
     const Database database = opened(path);
@@ -102,7 +102,7 @@ TEST(DamagedResultsSlow, AreUsedOrRefusedWithTheNameOfTheFile) {
         for (const char* text : {"''", "NULL", "'{'", "'{\"name\": 1}'", "char(27) || '[2J'"}) {
             const std::string sql = std::string(change).replace(change.find("%s"), 2, text);
             for (const std::vector<std::string>& command : commands) {
-                if (command[0] == "plot" && text != std::string_view("'{'")) // gnuplot takes its time
+                if (command[0] == "plot" && text != std::string_view("'{'")) // gnuplot is slow
                     continue;
                 std::filesystem::copy_file(whole + "/results.sqlite", file,
                                            std::filesystem::copy_options::overwrite_existing);
@@ -112,7 +112,7 @@ TEST(DamagedResultsSlow, AreUsedOrRefusedWithTheNameOfTheFile) {
                 EXPECT_THAT(printed.code, AnyOf(exit_success, exit_bad_input, exit_irregular))
                     << command[0] << " after " << sql << ": " << printed.err;
                 if (printed.code == exit_bad_input) {
-                    // Unless it is what was asked for that is not there any more.
+                    // Messages about a missing point or run name the argument instead.
                     EXPECT_THAT(printed.err,
                                 AnyOf(HasSubstr(file), StartsWith("graze: POINT: "), StartsWith("graze: --run: ")))
                         << command[0] << " after " << sql;

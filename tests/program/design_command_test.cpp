@@ -1,4 +1,4 @@
-// Designs from the command line: what they write, print and refuse.
+// Designs from the command line: the files they write, their output and their error messages.
 
 #include "run_graze.hpp"
 
@@ -14,8 +14,8 @@ using ::testing::HasSubstr;
 
 namespace {
 
-/// A design with few points, which takes little time.
-std::string small_design(const std::string& rest = "") {
+/// A design with few points, which is computed fast. @param further text at the end of the file
+std::string small_design(const std::string& further = "") {
     return R"(name = "small"
 model = "mems-switch"
 control = "V"
@@ -36,7 +36,7 @@ plane = 3
 [yield]
 devices = 20
 within = [0.19, 0.21]
-)" + rest;
+)" + further;
 }
 
 struct DesignCommand : public ::testing::Test {
@@ -60,14 +60,14 @@ TEST_F(DesignCommand, WritesTablesAPageAndTheDevice) {
          {"facts.csv", "sensitivities.csv", "earlier.csv", "trip-times.csv", "curve-delta.csv", "plane-delta-zeta.csv",
           "tuning.csv", "devices.csv", "report.json", "page.svg", "page.pdf", "device.toml", "results.sqlite"})
         EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(results) / name)) << name;
-    // Other commands take what it leaves.
+    // Other commands read its files.
     EXPECT_EQ(run_graze({"check", results + "/device.toml"}).code, 0);
     EXPECT_THAT(run_graze({"grazing", results, "GR1"}).out, HasSubstr("lost"));
-    // Done again it prints the same.
+    // A second run prints the same.
     EXPECT_EQ(run_graze({"design", folder / "small.toml", "--output", results, "--format", "csv"}).out, printed.out);
 }
 
-TEST_F(DesignCommand, MeetsWishesOrSaysThatItCannot) {
+TEST_F(DesignCommand, MeetsWishesOrReportsThemUnmet) {
     const std::string results = folder / "results";
     Printed printed = run_graze({"design", design(small_design("[wanted]\nvalue = 0.21\n")), "--output", results,
                                  "--no-pictures", "--format", "csv"});
@@ -83,10 +83,10 @@ TEST_F(DesignCommand, MeetsWishesOrSaysThatItCannot) {
     EXPECT_THAT(printed.out, HasSubstr("wishes,unmet"));
 }
 
-TEST_F(DesignCommand, LeavesNoTablesOfAnotherDesignInItsFolder) {
+TEST_F(DesignCommand, RemovesTablesOfAnEarlierDesign) {
     const std::string results = folder / "results";
     ASSERT_EQ(run_graze({"design", design(small_design()), "--output", results, "--quiet"}).code, 0);
-    // Of another's work it takes nothing away, whatever it is called.
+    // Files that graze has not written stay, whatever their names.
     const std::string mine = results + "/curve-mine.csv";
     std::ofstream(mine) << "t,q\n0,1\n";
     const std::string page = (folder / "page.svg"); // in a folder that has not been used before
@@ -106,7 +106,7 @@ TEST_F(DesignCommand, LeavesNoTablesOfAnotherDesignInItsFolder) {
         EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(results) / name)) << name;
 }
 
-/// What is drawn is the device of the design that is named, and no earlier one.
+/// `graze layout --from-design` draws only the device of the named design in its present version.
 TEST_F(DesignCommand, DevicesOfOtherDesignsAndUnfinishedOnesAreNotDrawn) {
     const std::string results = folder / "results", wanted = "[wanted]\nvalue = 0.21\n", drawn = "[device]\n";
     const std::string unfinished = results + "/design-unfinished.txt";
@@ -120,11 +120,11 @@ TEST_F(DesignCommand, DevicesOfOtherDesignsAndUnfinishedOnesAreNotDrawn) {
     EXPECT_FALSE(std::filesystem::exists(unfinished));
     EXPECT_THAT(refusal(small_design("[wanted]\nvalue = 0.2\n" + drawn)),
                 HasSubstr("the device of " + results + " is of another design, or of this one before it was changed"));
-    // Words and what is drawn of it make no other design.
+    // Comments, texts and the table [device] do not change the design.
     for (const std::string& same : {"# a remark\n" + small_design(wanted + drawn),
                                     "text = \"a switch\"\n" + small_design(wanted + "[device]\ngap = \"9 um\"\n")})
         EXPECT_THAT(refusal(same), ::testing::Not(HasSubstr("another design")));
-    // A run that ends before its time, here since nothing is touched.
+    // A run that fails, here since the range has no grazing.
     std::string failing = small_design(wanted + drawn);
     failing.replace(failing.find("[0.05, 0.4]"), 11, "[0.05, 0.06]");
     failing.replace(failing.find("value = 0.21"), 12, "value = 0.06");
@@ -136,12 +136,12 @@ TEST_F(DesignCommand, DevicesOfOtherDesignsAndUnfinishedOnesAreNotDrawn) {
     EXPECT_THAT(refusal(small_design(wanted + drawn)), ::testing::Not(HasSubstr("has not come to its end")));
 }
 
-TEST_F(DesignCommand, LeavesNoWayOfAFinishedDeviceOfAnotherDesign) {
+TEST_F(DesignCommand, RemovesResultsOfAnEarlierFinishedDevice) {
     const std::string results = folder / "results", designed = results + "/designed.sqlite";
-    const std::vector<std::string> rest{"--output", results, "--no-pictures", "--quiet"};
+    const std::vector<std::string> options{"--output", results, "--no-pictures", "--quiet"};
     const auto run = [&](const std::string& wanted) {
         std::vector<std::string> arguments{"design", design(small_design(wanted))};
-        arguments.insert(arguments.end(), rest.begin(), rest.end());
+        arguments.insert(arguments.end(), options.begin(), options.end());
         return run_graze(arguments).code;
     };
     ASSERT_EQ(run("[wanted]\nvalue = 0.21\n"), 0);
@@ -150,11 +150,11 @@ TEST_F(DesignCommand, LeavesNoWayOfAFinishedDeviceOfAnotherDesign) {
     for (const char* beside : {"", "-wal", "-shm"})
         EXPECT_FALSE(std::filesystem::exists(designed + beside)) << beside;
     EXPECT_TRUE(std::filesystem::exists(results + "/results.sqlite"));
-    // Its lock stays, as locks do. A second finished device begins anew.
+    // Its lock file stays. Results of a second finished device begin with an empty file.
     ASSERT_EQ(run("[wanted]\nvalue = 0.205\n"), 0);
     ASSERT_TRUE(std::filesystem::exists(designed));
     ASSERT_EQ(run(""), 0);
-    // What is no result file is another's work.
+    // A file of that name that is no result file is kept.
     std::ofstream(designed) << "mine\n";
     ASSERT_EQ(run(""), 0);
     std::string kept;
@@ -162,7 +162,7 @@ TEST_F(DesignCommand, LeavesNoWayOfAFinishedDeviceOfAnotherDesign) {
     EXPECT_EQ(kept, "mine");
 }
 
-TEST_F(DesignCommand, SaysThatAnAllowanceOfCyclesDecidesNothing) {
+TEST_F(DesignCommand, ReportsTooFewCyclesForTheSimulationCheck) {
     std::string text = small_design();
     text.replace(text.find("overshoots"), 0, "cycles = 2\n");
     const Printed printed =
@@ -173,7 +173,7 @@ TEST_F(DesignCommand, SaysThatAnAllowanceOfCyclesDecidesNothing) {
     EXPECT_THAT(printed.err, HasSubstr("give more trip.cycles than 2"));
 }
 
-TEST_F(DesignCommand, SaysWhereARangeBeginsThatComesFromBeyondAnotherTouch) {
+TEST_F(DesignCommand, RefusesARangeThatBeginsBeyondATouch) {
     const auto refusal = [&](const std::string& model, const std::string& control, const std::string& range) {
         const Printed printed =
             run_graze({"design",
@@ -192,12 +192,12 @@ TEST_F(DesignCommand, SaysWhereARangeBeginsThatComesFromBeyondAnotherTouch) {
                 HasSubstr("small.toml:6:1: at V = 0.6, where the range begins, there is no orbit: the motion does"));
 }
 
-TEST_F(DesignCommand, ListsAndShowsThoseThatComeWithIt) {
+TEST_F(DesignCommand, ListsAndShowsShippedDesigns) {
     EXPECT_THAT(run_graze("design --list").out, HasSubstr("mems-switch"));
     EXPECT_THAT(run_graze("design mems-switch --show").out, HasSubstr("[dimensions.delta]"));
 }
 
-TEST_F(DesignCommand, RefusesMistakesWithTheirPlaces) {
+TEST_F(DesignCommand, ReportsThePlacesOfMistakes) {
     EXPECT_EQ(run_graze("design").code, 2);
     EXPECT_THAT(run_graze("design mems-swich").err, HasSubstr("mems-switch"));
     const Printed printed = run_graze(
@@ -213,7 +213,7 @@ TEST_F(DesignCommand, RefusesMistakesWithTheirPlaces) {
         EXPECT_EQ(refused.code, 2);
         return refused.err;
     };
-    // A dimension that is there, but wrong, is not missing.
+    // A dimension with a mistake is not also reported as missing.
     const std::string turned = refusal("[0.5, 0.7]", "[0.7, 0.5]");
     EXPECT_THAT(turned, HasSubstr("small.toml:11:9: dimensions.delta.range goes from 0.7 to 0.5"));
     EXPECT_EQ(std::count(turned.begin(), turned.end(), '\n'), 1) << turned;

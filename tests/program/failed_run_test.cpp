@@ -1,4 +1,4 @@
-// A study of which one run fails: every list says so, with what to do, and the others can be looked at.
+// A study with a failed run: every list reports it with a remedy, and the results of the other runs can be used.
 
 #include "run_graze.hpp"
 
@@ -43,7 +43,7 @@ protected:
 
 } // namespace
 
-TEST_F(FailedRun, IsSaidToHaveFailedAndWhyInEveryList) {
+TEST_F(FailedRun, IsListedWithItsReasonByEveryCommand) {
     EXPECT_EQ(first.code, exit_irregular) << first.err;
     const std::string runs = run_graze({"export", out, "--what", "runs", "--format", "csv"}).out;
     EXPECT_THAT(runs, AllOf(HasSubstr("bad,continue,failed,"), HasSubstr(why), HasSubstr("free,continue,complete,")));
@@ -58,7 +58,7 @@ TEST_F(FailedRun, IsSaidToHaveFailedAndWhyInEveryList) {
     EXPECT_THAT(points.err, AllOf(HasSubstr("graze: run 'bad' failed: "), HasSubstr(why)));
 }
 
-TEST_F(FailedRun, KeepsNoPictureOfOthersFromBeingDrawn) {
+TEST_F(FailedRun, DoesNotPreventPicturesOfOtherRuns) {
     EXPECT_THAT(first.err, HasSubstr("picture 'both' was drawn without run 'bad', which has no points"));
     EXPECT_THAT(contents(folder / "out/both.svg"), HasSubstr("</svg>"));
     const std::string picture = folder / "all.svg";
@@ -72,8 +72,8 @@ TEST_F(FailedRun, KeepsNoPictureOfOthersFromBeingDrawn) {
     EXPECT_EQ(run_graze({"plot", out, "--run", "free", "--output", folder / "free.svg"}).code, 0);
 }
 
-TEST_F(FailedRun, IsNoLongerSaidToHaveFailedWhenItDoesNot) {
-    const Printed again = run(); // tried again, and in vain
+TEST_F(FailedRun, IsNotListedAsFailedAfterItSucceeds) {
+    const Printed again = run(); // fails again
     EXPECT_EQ(again.code, exit_irregular);
     EXPECT_THAT(again.err, HasSubstr(why));
     write("EP1");

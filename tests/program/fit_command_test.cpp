@@ -16,7 +16,7 @@ namespace {
 
 constexpr double decay = 0.3, frequency = 2, displacement = 1.5;
 
-/// x'' = -2 c x' - k x from x(0) = 1.5 at rest, in closed form: records of it are right to the last digit.
+/// Records of x'' = -2 c x' - k x from x(0) = 1.5, v(0) = 0, computed by the closed form to all digits.
 class FitCommand : public ::testing::Test {
 protected:
     FitCommand() {
@@ -51,7 +51,9 @@ force = { value = "-k*x", unit = "m/s^2" }
         std::ofstream(folder / name) << text;
         return folder / name;
     }
-    std::string fit(const std::string& rest) const { return "identify fit " + (folder / "swing.toml") + " " + rest; }
+    std::string fit(const std::string& options) const {
+        return "identify fit " + (folder / "swing.toml") + " " + options;
+    }
     const Folder folder;
     const double stiffness = frequency * frequency + decay * decay;
 };
@@ -80,7 +82,7 @@ TEST_F(FitCommand, FindsParametersThatOtherCommandsTake) {
                 1e-8);
 }
 
-TEST_F(FitCommand, FindsWhatAStudyFindsToTheBit) {
+TEST_F(FitCommand, EqualsTheFitOfAStudyBitForBit) {
     const std::string a = record("a.csv", 1, "m"), b = record("b.csv", 1, "m", 60);
     written("s.toml", R"(name = "s"
 model = "./swing.toml"
@@ -109,7 +111,7 @@ known = ["v"]
             EXPECT_EQ(table.text(row, column), study.text(row, column));
 }
 
-TEST_F(FitCommand, WhatComesLaterCountsMoreThanAFile) {
+TEST_F(FitCommand, LaterAssignmentsReplaceThoseOfAFile) {
     const std::string model = folder / "swing.toml", found = folder / "found.toml", more = folder / "more.toml";
     std::ofstream(found) << "model = \"swing\"\n[set]\nc = 0.25\nk = 5\n[from]\nx = 2\n";
     std::ofstream(more) << "[set]\nk = 7\n";
@@ -178,7 +180,7 @@ TEST_F(FitCommand, NeverWritesOverItsModel) {
     EXPECT_EQ(contents(model), before);
 }
 
-TEST_F(FitCommand, SaysWhatIsNotFinite) {
+TEST_F(FitCommand, ReportsReadingsThatAreNotFinite) {
     for (const char* reading : {"x=1/0", "x=log(-1-x^2)"}) {
         const Printed printed = run_graze(fit(record("a.csv", 1, "m") + " --free c,k --reading " + reading));
         EXPECT_EQ(printed.code, 3) << reading;
@@ -187,7 +189,7 @@ TEST_F(FitCommand, SaysWhatIsNotFinite) {
     }
 }
 
-TEST_F(FitCommand, WhatIsNotDeterminedIsNoSuccess) {
+TEST_F(FitCommand, DoesNotSaveUndeterminedParameters) {
     const std::string found = folder / "found.toml";
     const Printed printed = run_graze(fit(record("a.csv", 1, "m") + " --free c,k,spare --save " + found));
     EXPECT_EQ(printed.code, 3);
@@ -221,11 +223,11 @@ TEST_F(FitCommand, MistakesAreOneLineWithARemedy) {
         {(folder / "none.csv") + " --free c", "none.csv: the record cannot be read"},
         {a + " --free c --save " + a, "is the file of an input too"},
     };
-    for (const auto& [rest, message] : mistakes) {
-        const Printed printed = run_graze(fit(rest));
-        EXPECT_EQ(printed.code, 2) << rest;
-        EXPECT_THAT(printed.err, HasSubstr(message)) << rest;
-        EXPECT_THAT(printed.err, HasSubstr(";")) << rest;
+    for (const auto& [options, message] : mistakes) {
+        const Printed printed = run_graze(fit(options));
+        EXPECT_EQ(printed.code, 2) << options;
+        EXPECT_THAT(printed.err, HasSubstr(message)) << options;
+        EXPECT_THAT(printed.err, HasSubstr(";")) << options;
         EXPECT_EQ(std::count(printed.err.begin(), printed.err.end(), '\n'), 1) << printed.err;
     }
     EXPECT_EQ(run_graze("identify decrement " + a + " --free c").code, 2);

@@ -1,4 +1,4 @@
-// A disk that takes no more, wherever that begins: one message, exit code 2, and nothing that is half there.
+// A disk that becomes full at any point of the output: one message, exit code 2, and no incomplete file.
 
 #include "graze/record/record_writer.hpp"
 #include "run_graze.hpp"
@@ -37,7 +37,7 @@ protected:
         std::filesystem::create_directory(folder / "out");
     }
 
-    /// The file that a command would write with room enough, `OUT` in its words, has more bytes than any of the sizes.
+    /// Runs a command, which writes the file `OUT`, with several size limits below the size of that file.
     void refuse(std::vector<std::string> words, const std::string& name) {
         const std::string out = folder / "out/" + name;
         for (std::string& word : words)
@@ -51,7 +51,7 @@ protected:
             EXPECT_EQ(run.code, 2) << ::testing::PrintToString(words) << size << run.err;
             EXPECT_EQ(run.signal, 0) << ::testing::PrintToString(words) << size;
             EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-            EXPECT_THAT(run.err, ::testing::HasSubstr(out)) << "the file by its name";
+            EXPECT_THAT(run.err, ::testing::HasSubstr(out)) << "the message names the file";
             EXPECT_EQ(contents(out), "old") << ::testing::PrintToString(words) << size;
             EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "out"), {}), 1)
                 << ::testing::PrintToString(words) << size;

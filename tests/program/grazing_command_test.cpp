@@ -1,4 +1,4 @@
-// What the program says of orbits that touch, on shipped studies and on a model of a user.
+// `graze grazing` on shipped studies and on a study of a user.
 
 #include "run_graze.hpp"
 
@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 
 namespace {
 
-/// The value of a quantity in a table of the command.
+/// The value of a quantity in the command's table.
 std::string value_of(const Csv& csv, const std::string& quantity) {
     for (std::size_t row = 0; row < csv.rows.size(); ++row)
         if (csv.text(row, "quantity") == quantity)
@@ -47,7 +47,7 @@ struct GrazingCommand : public ::testing::Test {
 
 } // namespace
 
-TEST_F(GrazingCommand, TellsTheGrowthOfBallAndShaker) {
+TEST_F(GrazingCommand, FindsTheGrowthOfJumpsOfBallAndShaker) {
     const std::string results = run_only("ball-and-shaker", {"rest_6Hz", "touch_6Hz", "rest_18Hz", "touch_18Hz"});
     for (const auto& [point, n, log_c] :
          {std::tuple("touch_6Hz:GR1", "1", 1.01155084345), std::tuple("touch_18Hz:GR1", "3", 1.48867209817)}) {
@@ -64,8 +64,8 @@ TEST_F(GrazingCommand, TellsTheGrowthOfBallAndShaker) {
     EXPECT_THAT(json.out, HasSubstr("\"trial_motions\":[{"));
 }
 
-/// Table 4.1 of the dissertation: lines through simulated impacts, each against the one before, on logarithmic scales.
-/// How they were drawn is not said there, which leaves 0.003; the map's line is that of vanishing speeds.
+/// Table 4.1 of the dissertation: regression lines of the logarithms of successive jumps at simulated impacts. It does
+/// not tell the range of the fit, hence the tolerance of 0.003. The line of the map is the limit of small speeds.
 TEST_F(GrazingCommand, PredictsTheLinesOfSimulatedImpacts) {
     struct Line {
         int f;
@@ -113,17 +113,17 @@ TEST_F(GrazingCommand, PredictsTheLinesOfSimulatedImpacts) {
         EXPECT_NEAR(slope, line.slope, 0.003) << f;
         EXPECT_NEAR(intercept, line.intercept, 0.003) << f;
         const Csv csv = table({results, fmt::format("touch_{}Hz:GR1", f)});
-        // What is left out goes with the root of the speeds, of which the fit has up to 1 mm/s.
+        // The next order of the map grows with the root of the speed, up to 1 mm/s in the fit.
         EXPECT_NEAR(slope, 0.5, 1e-3) << f;
         EXPECT_NEAR(intercept, std::stod(value_of(csv, "log10_jump_growth")), 2e-3) << f;
     }
 }
 
-TEST_F(GrazingCommand, TakesAnyPointThatTouches) {
+TEST_F(GrazingCommand, AcceptsAnyPointWhoseOrbitTouches) {
     const std::string results = run_only("mems-switch", {"free", "no_impact", "touches_gap"});
     const Csv touch = table({results, "no_impact:GR1"});
     EXPECT_EQ(value_of(touch, "parameter"), "V");
-    // A curve of touches begins there, and its points touch though they are no grazings of their own.
+    // The curve of touches begins at that grazing. Its points have other types, but their orbits touch.
     for (const char* point : {"touches_gap:EP1", "touches_gap:BD1", "touches_gap:3"}) {
         const Csv csv = table({results, point, "--parameter", "V"});
         EXPECT_EQ(value_of(csv, "verdict"), "lost") << point;
@@ -132,7 +132,7 @@ TEST_F(GrazingCommand, TakesAnyPointThatTouches) {
                 std::stod(value_of(table({results, "touches_gap:EP1", "--parameter", "V"}), "jump_growth")), 1e-9);
 }
 
-TEST_F(GrazingCommand, RefusesWhatTouchesNothing) {
+TEST_F(GrazingCommand, RefusesOrbitsWithoutATouch) {
     const std::string results = run_only("mems-switch", {"free", "no_impact"});
     const Printed none = run_graze({"grazing", results, "no_impact:EP1"});
     EXPECT_EQ(none.code, 2);
@@ -144,7 +144,7 @@ TEST_F(GrazingCommand, RefusesWhatTouchesNothing) {
     EXPECT_EQ(missing.code, 2);
 }
 
-TEST_F(GrazingCommand, SaysWhereACompliantStopFolds) {
+TEST_F(GrazingCommand, FindsTheFoldOfACompliantStop) {
     const std::string results = run_only("microbeam", {"free", "no_contact"});
     const Csv csv = table({results, "no_contact:GR1", "--verify"});
     EXPECT_EQ(value_of(csv, "map"), "three-halves");
@@ -153,7 +153,7 @@ TEST_F(GrazingCommand, SaysWhereACompliantStopFolds) {
     EXPECT_EQ(value_of(csv, "trial"), "agreed");
 }
 
-TEST_F(GrazingCommand, SaysWhatBecomesOfAnOrbitThatSticks) {
+TEST_F(GrazingCommand, FindsThePersistenceOfAStickingOrbit) {
     const std::string study = folder / "rubbing.toml";
     std::ofstream(study) << R"toml(
 name = "rubbing"
@@ -172,7 +172,7 @@ along = { omega = [0.15, 0.3] }
     EXPECT_EQ(value_of(csv, "border"), "persistence");
     EXPECT_EQ(value_of(csv, "beyond"), "1 in 1");
     EXPECT_EQ(value_of(csv, "trial"), "agreed");
-    // What trips by rigid contacts has times; what slides has none.
+    // Trip times exist only for rigid contacts.
     const Printed trip = run_graze({"trip", results, "GR1", "--overshoot", "1e-4"});
     EXPECT_EQ(trip.code, 2);
 }

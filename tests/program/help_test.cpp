@@ -20,7 +20,7 @@ const std::vector<std::string> commands{"check",  "models", "simulate", "run",  
                                         "points", "orbit",  "grazing",  "trip",  "ladder",  "tolerance", "design",
                                         "layout", "record", "identify", "bench", "acquire", "help",      "completion"};
 
-/// What a shell command prints.
+/// The output of a shell command.
 std::string printed_by(const std::string& command) {
     std::string text;
     FILE* pipe = popen(command.c_str(), "r");
@@ -31,7 +31,7 @@ std::string printed_by(const std::string& command) {
     return text;
 }
 
-/// What bash would complete a line with, whose last word is the one to be completed.
+/// The words that bash offers for the last word of a line.
 std::vector<std::string> completed(const std::string& script, const std::string& line) {
     const auto words = static_cast<int>(std::count(line.begin(), line.end(), ' '));
     std::string array;
@@ -57,7 +57,7 @@ struct Declared {
 
 } // namespace
 
-TEST(Help, SaysWhatHelpOptionsSay) {
+TEST(Help, CommandAndOptionPrintTheSame) {
     EXPECT_EQ(run_graze("help").out, run_graze("--help").out);
     for (const std::string& command : commands) {
         const Printed help = run_graze("help " + command);
@@ -67,7 +67,7 @@ TEST(Help, SaysWhatHelpOptionsSay) {
     }
 }
 
-TEST(Help, PagesForManHaveAllOptions) {
+TEST(Help, ManualPagesHaveAllOptions) {
     const Declared declared;
     for (const std::string& command : commands) {
         const std::string page = run_graze("help --man " + command).out;
@@ -85,7 +85,7 @@ TEST(Help, PagesForManHaveAllOptions) {
     }
 }
 
-TEST(Help, PagesAreReadByGroffWithoutAWarning) {
+TEST(Help, GroffReadsManualPagesWithoutWarnings) {
     if (printed_by("command -v groff").empty())
         GTEST_SKIP() << "no groff";
     const Folder folder;
@@ -98,7 +98,7 @@ TEST(Help, PagesAreReadByGroffWithoutAWarning) {
                 HasSubstr("graze run [STUDY]"));
 }
 
-TEST(Completion, OfBashKnowsCommandsOptionsAndValues) {
+TEST(Completion, BashOffersCommandsOptionsAndValues) {
     const Folder folder;
     const std::string script = folder / "graze.bash";
     ASSERT_EQ(run_graze("completion bash --output " + script).code, 0);
@@ -114,7 +114,7 @@ TEST(Completion, OfBashKnowsCommandsOptionsAndValues) {
     EXPECT_EQ(completed(script, "graze run --jobs "), std::vector<std::string>{});
 }
 
-TEST(Completion, OfAllShellsHasAllThatIsDeclared) {
+TEST(Completion, ScriptsOfAllShellsHaveAllOptions) {
     const Declared declared;
     for (const std::string shell : {"bash", "zsh", "fish"}) {
         const std::string script = run_graze("completion " + shell).out;
@@ -132,7 +132,7 @@ TEST(Completion, OfAllShellsHasAllThatIsDeclared) {
     }
 }
 
-TEST(Completion, OffersOnlyWhatOptionsTake) {
+TEST(Completion, OffersOnlyAcceptedValues) {
     const Declared declared;
     std::size_t tried = 0;
     for (const CLI::App* command : declared_commands(declared.app))
@@ -144,13 +144,13 @@ TEST(Completion, OffersOnlyWhatOptionsTake) {
                     CLI::App& app = const_cast<CLI::App&>(command_named(fresh.app, command->get_name()));
                     for (CLI::Option* other : app.get_options())
                         other->required(false);
-                    // Words come to CLI11 from the last to the first.
+                    // CLI11 expects the last word first.
                     EXPECT_NO_THROW(app.parse(std::vector<std::string>{word, option.name})) << option.name << word;
                 }
     EXPECT_GT(tried, 40U);
 }
 
-TEST(Help, RefusesWhatThereIsNot) {
+TEST(Help, RefusesUnknownCommandsAndShells) {
     const Folder folder;
     std::ofstream(folder / "file") << "";
     const std::vector<std::pair<std::string, std::string>> mistakes{

@@ -1,4 +1,4 @@
-// What a stranger may put into models, studies and result files, and where he may lead outputs.
+// Malicious contents of models, studies and result files, and malicious links in output folders.
 
 #include "branch_results.hpp"
 #include "graze/base/input_error.hpp"
@@ -38,7 +38,7 @@ protected:
         std::ofstream(folder / "model.toml") << oscillator;
         study("\"study\"");
     }
-    /// A study of the least work, with something of a stranger's in it.
+    /// Writes a study with one short run. The arguments are names and a title as TOML, which may be malicious.
     std::string study(const std::string& name, const std::string& run = "\"r\"", const std::string& picture = "\"p\"",
                       const std::string& title = "\"t\"") const {
         std::ofstream(folder / "study.toml")
@@ -60,7 +60,8 @@ protected:
     Folder folder;
 };
 
-/// Pieces of which names and texts are made that want out.
+/// A random text of pieces that would leave quotes, run commands or control a terminal.
+/// @param trace file that an executed command would make
 std::string nasty(std::mt19937& random, const std::string& trace) {
     const std::vector<std::string> parts{"\n",
                                          "\nsystem 'touch " + trace + "'\n",
@@ -97,7 +98,7 @@ std::string nasty(std::mt19937& random, const std::string& trace) {
     return text;
 }
 
-TEST_F(Hostile, NamesLeadNowhereAndStartNothing) {
+TEST_F(Hostile, NamesNeitherLeaveTheFolderNorRunCommands) {
     const std::string trace = folder / "trace";
     std::mt19937 random(1);
     for (int i = 0; i < 150; ++i) {
@@ -106,13 +107,13 @@ TEST_F(Hostile, NamesLeadNowhereAndStartNothing) {
         const Printed printed =
             run_graze(std::vector<std::string>{"run", folder / "study.toml", "--output", folder / "out"});
         if (printed.code == 0)
-            continue; // a letter or two: a name like others
+            continue; // the random text was a valid name
         EXPECT_EQ(printed.code, 2) << wrong;
         EXPECT_THAT(printed.err, AnyOf(HasSubstr("cannot be the name of a"), HasSubstr("control a terminal"),
-                                       HasSubstr("in the middle of a word"))) // of a key outside ASCII
+                                       HasSubstr("in the middle of a word"))) // for a key outside ASCII
             << wrong;
         EXPECT_TRUE(is_plain_text(printed.err));
-        // A line for each place of the name: that of the run, and where the picture refers to it.
+        // One line for each place of the name: the run, and the picture that refers to it.
         const std::vector<std::string> lines = split(printed.err, '\n');
         EXPECT_LE(lines.size(), i % 3 == 1 ? 2u : 1u) << printed.err;
         for (const std::string& line : lines)
@@ -137,7 +138,7 @@ TEST_F(Hostile, TextsOfPicturesAreDrawnOrRefused) {
     }
 }
 
-/// gnuplot leaves what ends a section of XML alone.
+/// gnuplot itself does not escape "]]>".
 TEST_F(Hostile, PicturesAreWellFormed) {
     const std::string title = "a ]]> b < & > \xef\xbf\xbe c";
     study("\"s\"", "\"r\"", "\"p\"", quoted(title));
@@ -164,7 +165,7 @@ TEST_F(Hostile, TextForGnuplotStaysText) {
         for (const std::string& escaped :
              {plain(text), name_text(text), unit_text(text), with_unit(plain(text), text)}) {
             EXPECT_EQ(escaped.find_first_of("`@\n\r"), std::string::npos) << escaped;
-            for (std::size_t at = 0; at < escaped.size(); ++at) // gnuplot's way through double quotes
+            for (std::size_t at = 0; at < escaped.size(); ++at) // as gnuplot reads a text in double quotes
                 if (escaped[at] == '\\')
                     ++at;
                 else
@@ -173,7 +174,7 @@ TEST_F(Hostile, TextForGnuplotStaysText) {
     }
 }
 
-TEST_F(Hostile, NothingIsWrittenOntoDatabases) {
+TEST_F(Hostile, DatabasesAreNeverOverwritten) {
     const std::string results = folder / "out/results.sqlite";
     study("\"s\"");
     ASSERT_EQ(run_graze("run " + (folder / "study.toml") + " --no-pictures --output " + (folder / "out")).code, 0);
@@ -231,14 +232,14 @@ TEST_F(Hostile, PipesAndDevicesAreRefusedAtOnce) {
           "orbit " + pipe + " 1", "export " + pipe, std::string("export /dev/zero"), std::string("points /dev/null"),
           std::string("simulate /dev/zero --time 1"), std::string("run /dev/./zero")}) {
         const Printed printed = run_graze(command);
-        // A study's other runs go on where one cannot read its table.
+        // A run that cannot read its table fails, and the study's other runs are computed: exit code 3.
         EXPECT_EQ(printed.code, command.find("of_table") == std::string::npos ? 2 : 3) << command << printed.err;
         EXPECT_THAT(printed.err, AnyOf(HasSubstr("pipe"), HasSubstr("device"), HasSubstr("no plain file")));
     }
     EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(10));
 }
 
-TEST_F(Hostile, PathsThatLeadNowhereAreTold) {
+TEST_F(Hostile, UnusablePathsAreRefusedInOneLine) {
     const std::string loop = folder / "loop.toml", name(300, 'a'), path(5000, 'b');
     std::filesystem::create_symlink("loop.toml", loop);
     for (const std::string& file : {loop, loop + "/x", folder / name, name, path, folder / (path + "/" + path)})
@@ -258,8 +259,8 @@ TEST_F(Hostile, PathsThatLeadNowhereAreTold) {
     }
 }
 
-/// What gnuplot leaves when the disk is full: an empty file, or a part of one, and exit status 0.
-TEST_F(Hostile, PicturesThatAreNotWholeAreTold) {
+/// On a full disk gnuplot leaves an empty or incomplete file and returns exit status 0.
+TEST_F(Hostile, IncompletePicturesAreReported) {
     const std::string old_path = std::getenv("PATH"), fake = folder / "gnuplot";
     study("\"s\"");
     for (const std::string does :
@@ -280,7 +281,7 @@ TEST_F(Hostile, PicturesThatAreNotWholeAreTold) {
     }
 }
 
-TEST_F(Hostile, StudiesThatWantEverythingAreRefused) {
+TEST_F(Hostile, ExcessiveStudiesAreRefused) {
     const std::string head = "name = \"s\"\nmodel = \"impact-oscillator\"\n";
     std::string keys = head, runs = head;
     for (int i = 0; i < 100'000; ++i)
@@ -324,7 +325,7 @@ TEST_F(Hostile, StudiesThatWantEverythingAreRefused) {
     }
 }
 
-TEST_F(Hostile, CirclesAreToldInALine) {
+TEST_F(Hostile, CircularDefinitionsAreReportedInOneLine) {
     std::ofstream model(folder / "circle.toml");
     model << oscillator << "[definitions]\n";
     for (int i = 0; i < 3000; ++i)
@@ -338,7 +339,7 @@ TEST_F(Hostile, CirclesAreToldInALine) {
 
 class HostileResults : public BranchResults {};
 
-TEST_F(HostileResults, ShowWhatWouldActOnATerminal) {
+TEST_F(HostileResults, ControlCharactersArePrintedAsCodes) {
     write_branches();
     sqlite3* database = nullptr;
     ASSERT_EQ(sqlite3_open(path.c_str(), &database), SQLITE_OK);

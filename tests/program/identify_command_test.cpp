@@ -16,7 +16,7 @@ namespace {
 constexpr double natural = 95.94, damping = 0.01626, beta1 = 1.902e-5, beta2 = 1.631e-3, gap = 4.79e-3;
 constexpr double stiffness = 5948, resistance = 1.39, leakage = 10.55e-3;
 
-/// Records without noise: parameters are found to nine digits.
+/// Records without noise, from which parameters are found to nine digits.
 class IdentifyCommand : public ::testing::Test {
 protected:
     std::string release(const std::string& name, double displacement) const {
@@ -69,10 +69,10 @@ TEST_F(IdentifyCommand, FindsFrequencyAndDamping) {
     EXPECT_NEAR(table.number(0, "value"), natural, 1e-9 * natural);
     EXPECT_NEAR(table.number(1, "value"), damping, 1e-9);
     EXPECT_LE(table.number(0, "low"), table.number(0, "value"));
-    EXPECT_GT(table.number(0, "freedom"), 1000); // all samples tell, not the peaks alone
+    EXPECT_GT(table.number(0, "freedom"), 1000); // all samples are used, not only the peaks
 }
 
-TEST_F(IdentifyCommand, FindsWhereAReleaseComesToRest) {
+TEST_F(IdentifyCommand, FindsTheRestPositionOfARelease) {
     const double damped = natural * std::sqrt(1 - damping * damping);
     std::string text = "t [s], q [mm]\n";
     for (int i = 0; i < 1500; ++i) {
@@ -86,7 +86,7 @@ TEST_F(IdentifyCommand, FindsWhereAReleaseComesToRest) {
     EXPECT_NEAR(table.number(4, "value"), 3, 1e-9);
 }
 
-TEST_F(IdentifyCommand, TellsTheFrequencyOfAnImpedanceAndWarnsOfSigns) {
+TEST_F(IdentifyCommand, FindsTheFrequencyAndWarnsOfNegativeResistance) {
     const Csv table = identified("impedance " + clamped(20));
     EXPECT_EQ(table.text(2, "name"), "frequency");
     EXPECT_EQ(table.text(2, "unit"), "Hz");
@@ -161,8 +161,8 @@ TEST_F(IdentifyCommand, MistakesAreOneLineWithARemedy) {
     }
 }
 
-/// Records from files, and the same that another run has kept.
-TEST_F(IdentifyCommand, FindsWhatAStudyFindsToTheBit) {
+/// The command reads the files; the study stores their records in one run and uses them in another.
+TEST_F(IdentifyCommand, EqualsTheEstimatesOfAStudyBitForBit) {
     const std::string a = release("a.csv", 1), b = release("b.csv", 0.5), loads = equilibria(), coil = clamped(20);
     std::filesystem::copy(loads, folder / "more.csv");
     written("s.toml", R"(name = "s"
@@ -222,8 +222,8 @@ clamped = 1e-3
     EXPECT_EQ(found, study.rows.size());
 }
 
-/// Its runs of that kind, and what they need, but not its sweep.
-TEST_F(IdentifyCommand, DoesWhatAStudyIdentifies) {
+/// Computes the study's runs of kind identify and the runs they depend on, but not its sweep.
+TEST_F(IdentifyCommand, ComputesOnlyTheIdentifyRunsOfAStudy) {
     const std::filesystem::path before = std::filesystem::current_path();
     std::filesystem::current_path(folder / ".");
     const Printed printed = run_graze("identify testbed-experiment --format csv");

@@ -38,7 +38,7 @@ sample = { top = { maxima = "x" } }
 run = "swept"
 )";
 
-/// The value of a fact in CSV without cells in quotation marks.
+/// The value of a fact in CSV without quoted cells. @param start item, name and property
 std::string fact(const std::string& csv, const std::string& start) {
     const std::size_t at = csv.find("\n" + start + ",");
     if (at == std::string::npos)
@@ -57,7 +57,7 @@ void write_model(const std::string& path) {
 
 } // namespace
 
-TEST_F(Info, CountsWhatIsInResults) {
+TEST_F(Info, CountsPointsOfResults) {
     write_branches();
     const Printed printed = run_graze({"info", path, "--format", "csv"});
     EXPECT_EQ(printed.code, 0) << printed.err;
@@ -81,7 +81,7 @@ TEST_F(Info, CountsWhatIsInResults) {
     EXPECT_TRUE(JsonCheck(run_graze({"info", path, "--format", "json"}).out).valid());
 }
 
-TEST_F(Info, TellsHowAndWhenResultsWereMade) {
+TEST_F(Info, ShowsHowAndWhenResultsWereComputed) {
     write_model(folder / "model.toml");
     std::ofstream(folder / "two.toml") << study;
     const std::string results = folder / "made";
@@ -102,7 +102,7 @@ TEST_F(Info, TellsHowAndWhenResultsWereMade) {
     EXPECT_TRUE(std::regex_match(begun, std::regex("20..-..-..T..:..:..Z"))) << begun;
     EXPECT_LE(begun, ended);
     EXPECT_EQ(fact(csv, "picture,all,run"), "swept");
-    // A second time nothing is computed, and nothing made anew.
+    // A second run computes nothing and changes no time.
     ASSERT_EQ(run_graze(run).code, 0);
     const std::string again = run_graze({"info", results, "--format", "csv"}).out;
     for (const char* one : {"run,swept,begun", "run,swept,ended", "run,swept,seconds", "run,thrown,seconds"})
@@ -115,7 +115,7 @@ TEST_F(Info, TellsHowAndWhenResultsWereMade) {
     EXPECT_THAT(run_graze({"info", results, "--all"}).out, HasSubstr("run swept: parameters\n  w = 3\n  g = 2 m\n"));
 }
 
-TEST_F(Info, ListsRunsInAHundredColumns) {
+TEST_F(Info, ListsRunsWithinAHundredColumns) {
     for (const char* name : {"microactuator", "microbeam", "electromagnetic-testbed", "mems-switch"}) {
         std::istringstream text(run_graze(std::vector<std::string>{"info", name}).out);
         for (std::string line; std::getline(text, line);)
@@ -123,7 +123,7 @@ TEST_F(Info, ListsRunsInAHundredColumns) {
     }
 }
 
-TEST_F(Info, RefusesWhatSaysNothing) {
+TEST_F(Info, RefusesEmptyAndSpecialFiles) {
     const Folder begun;
     const auto refused = [&](const std::string& name, const std::string& words) {
         const Printed printed = run_graze({"info", name});
@@ -139,7 +139,7 @@ TEST_F(Info, RefusesWhatSaysNothing) {
     refused(begun / "pipe", "pipe: this is no plain file");
 }
 
-TEST_F(Info, TellsOfModelsAndStudies) {
+TEST_F(Info, DescribesModelsAndStudies) {
     write_model(folder / "model.toml");
     std::ofstream(folder / "two.toml") << study;
     const std::string told = run_graze({"info", folder / "model.toml", "--format", "csv"}).out;
@@ -162,7 +162,7 @@ TEST_F(Info, TellsOfModelsAndStudies) {
     EXPECT_THAT(contents(folder / "told.txt"), StartsWith("model, of graze"));
 }
 
-TEST_F(Info, RefusesWhatItCannotTellOf) {
+TEST_F(Info, RefusesUnreadableInputs) {
     write_model(folder / "model.toml");
     std::ofstream(folder / "torn.toml") << "name = \"torn";
     std::filesystem::create_directory(folder / "empty");

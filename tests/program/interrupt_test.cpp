@@ -1,4 +1,4 @@
-// Ctrl-C and SIGTERM, with a process of their own.
+// Ctrl-C, SIGTERM and other signals, sent to the program in another process.
 
 #include "places.hpp"
 #include "run_graze.hpp"
@@ -18,7 +18,7 @@ namespace graze::testing {
 
 namespace {
 
-/// Starts a program; what it says of itself goes into a file. @return 0: it cannot be started
+/// Starts a program. @param messages file for its standard error. @return its process, 0 if it cannot be started
 pid_t started(std::vector<std::string> words, const std::string& messages) {
     std::vector<char*> pointers;
     for (std::string& word : words)
@@ -39,7 +39,7 @@ pid_t started(std::vector<std::string> words, const std::string& messages) {
 class Interrupt : public ::testing::TestWithParam<int> {};
 class EndingSignal : public ::testing::TestWithParam<int> {};
 
-TEST_P(Interrupt, WritesWhatWasComputed) {
+TEST_P(Interrupt, WritesTheTableComputedSoFar) {
     const Folder folder;
     const std::string file = folder / "run.csv", messages = folder / "messages";
     std::vector<std::string> words{program_file, "simulate",  "electromagnetic-testbed",
@@ -62,8 +62,8 @@ TEST_P(Interrupt, WritesWhatWasComputed) {
     EXPECT_EQ(folder.files(), 2U);
 }
 
-/// The program is stopped while it writes a record: nothing of that is left.
-TEST_P(Interrupt, LeavesNoPartOfARecord) {
+/// The program is interrupted while it writes a record.
+TEST_P(Interrupt, LeavesNoIncompleteRecord) {
     const Folder folder;
     const std::string record = folder / "in.csv", file = folder / "out.csv", messages = folder / "messages";
     {
@@ -75,7 +75,7 @@ TEST_P(Interrupt, LeavesNoPartOfARecord) {
     std::vector<std::string> words{program_file, "record", record, "--derivative", "q", "--write", file};
     const pid_t child = started(words, messages);
     ASSERT_GT(child, 0);
-    constexpr std::size_t with_its_own = 3; // the record, the messages, and what is being written
+    constexpr std::size_t with_its_own = 3; // the record, the messages, and the temporary file
     for (int i = 0; i < 10'000 && folder.files() < with_its_own; ++i)
         usleep(1000);
     kill(child, GetParam());
@@ -87,9 +87,9 @@ TEST_P(Interrupt, LeavesNoPartOfARecord) {
     EXPECT_EQ(folder.files(), 2U);
 }
 
-/// A command that has nothing to bring to an end is broken off: nothing of what it was writing is left.
-TEST_P(EndingSignal, LeavesNoPartOfAnExport) {
-    const rlimit no_core{0, 0}; // some of these signals leave a picture of the memory
+/// `graze export` ends at once, and its temporary file is removed.
+TEST_P(EndingSignal, LeavesNoIncompleteExport) {
+    const rlimit no_core{0, 0}; // some of these signals would write a core file
     setrlimit(RLIMIT_CORE, &no_core);
     const Folder folder;
     const std::string study = folder.write("s.toml", "name = \"s\"\nmodel = \"bouncing-ball\"\n[runs.r]\nkind = "
@@ -102,7 +102,7 @@ TEST_P(EndingSignal, LeavesNoPartOfAnExport) {
     const pid_t child = started(
         {program_file, "export", folder / "results", "--sql", rows, "--format", "csv", "--output", file}, messages);
     ASSERT_GT(child, 0);
-    constexpr std::size_t with_its_own = 4; // study, results, messages, and what is being written
+    constexpr std::size_t with_its_own = 4; // study, results, messages, and the temporary file
     for (int i = 0; i < 20'000 && folder.files() < with_its_own; ++i)
         usleep(1000);
     EXPECT_EQ(folder.files(), with_its_own);
@@ -114,8 +114,8 @@ TEST_P(EndingSignal, LeavesNoPartOfAnExport) {
     EXPECT_EQ(folder.files(), with_its_own - 1);
 }
 
-/// One motion of a study that would take years: it is left as soon as that is asked for.
-TEST_P(Interrupt, LeavesALongMotionOfAStudy) {
+/// A motion of a study that would take years ends soon after the signal.
+TEST_P(Interrupt, EndsALongMotionOfAStudy) {
     const Folder folder;
     const std::string study = folder / "stiff.toml", results = folder / "results", messages = folder / "messages";
     std::ofstream(study) << "name = \"stiff\"\nmodel = \"electromagnetic-testbed\"\nset = { R = 1.41e12 }\n"
@@ -125,7 +125,7 @@ TEST_P(Interrupt, LeavesALongMotionOfAStudy) {
     ASSERT_GT(child, 0);
     for (int i = 0; i < 60'000 && !std::filesystem::exists(results + "/results.sqlite"); ++i)
         usleep(1000);
-    usleep(300'000); // so that the motion has begun; where it has not, the study is left all the same
+    usleep(300'000); // so that the motion has begun; the test holds even if it has not
     kill(child, GetParam());
     int status = 0;
     pid_t ended = 0;

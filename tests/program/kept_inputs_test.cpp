@@ -30,7 +30,7 @@ void for_each_option(const std::function<void(const CLI::App&, const CLI::Option
                 work(*command, *option);
 }
 
-/// `input` in the place of all that a command is told to read, and an output of that option at `output`.
+/// A command line with `input` for all positional arguments and `output` for the option.
 std::vector<std::string> command_line(const CLI::App& command, const CLI::Option& option, const std::string& input,
                                       const std::string& output) {
     std::vector<std::string> words{command.get_name()};
@@ -39,7 +39,7 @@ std::vector<std::string> command_line(const CLI::App& command, const CLI::Option
             words.push_back(one->get_name() == "WHAT" ? "fit" : input);
     const std::string name = option.get_lnames().front();
     words.insert(words.end(), {"--" + name, output});
-    if (name == "data") // which is part of a picture
+    if (name == "data") // which needs a picture
         for (const CLI::Option* one : command.get_options())
             if (one->check_lname("plot"))
                 words.insert(words.end(), {"--plot", input + "-other.svg"});
@@ -48,7 +48,7 @@ std::vector<std::string> command_line(const CLI::App& command, const CLI::Option
 
 } // namespace
 
-TEST(KeptInputs, NoOutputOfAnyCommandReplacesWhatItReads) {
+TEST(KeptInputs, NoCommandReplacesAFileThatItReads) {
     const Folder folder;
     const std::string input = folder / "input.csv", link = folder / "link.csv", hard = folder / "hard.csv";
     write_file(input, "t [s], x [m]\n0, 1\n1, 2\n");
@@ -71,9 +71,9 @@ TEST(KeptInputs, NoOutputOfAnyCommandReplacesWhatItReads) {
     EXPECT_GE(tried, 4 * 25);
 }
 
-/// What an option writes has the word FILE or FOLDER for its type; nothing else may be called so. A new option that
-/// writes has to be declared so, for its file to be compared with what is read.
-TEST(KeptInputs, OptionsThatWriteAreDeclaredSo) {
+/// Exactly the options that write files have the type FILE or FOLDER. A new option that writes must have one too, so
+/// that its file is compared with the inputs.
+TEST(KeptInputs, OptionsThatWriteAreDeclaredAsFileOrFolder) {
     const std::vector<std::string> writing{"output",  "plot",   "data",    "plot-data",  "write",
                                            "graph",   "save",   "live",    "parameters", "recipe",
                                            "picture", "folder", "markers", "verilog-a"};
@@ -87,17 +87,17 @@ TEST(KeptInputs, OptionsThatWriteAreDeclaredSo) {
 
 namespace {
 
-/// An input that lies in the folder of the outputs, under the name of one of them.
+/// An input in the output folder that has the name of an output.
 struct InputInFolder {
     std::string name, text;
-    std::vector<std::string> after{}; ///< words behind its path
+    std::vector<std::string> after{}; ///< further words of the command line
 };
 
 const char* const small_study = "name = \"s\"\nmodel = \"bouncing-ball\"\n[runs.r]\nkind = \"simulate\"\ntime = 1\n"
                                 "sample = { a = { maxima = \"x\" } }\n[pictures.p]\nkind = \"history\"\nrun = \"r\"\n"
                                 "format = \"svg\"\n[tables.t]\nrun = \"r\"\ncolumns = [\"time\"]\n";
 
-/// For each command that writes into a folder; none where it reads nothing.
+/// Such inputs for each command that writes into a folder; none if the command reads nothing.
 std::map<std::string, std::vector<InputInFolder>> inputs_in_folders() {
     const std::string source = source_folder;
     const std::string design = contents(source + "/designs/mems-switch-device.toml"),
@@ -115,8 +115,8 @@ std::map<std::string, std::vector<InputInFolder>> inputs_in_folders() {
 
 } // namespace
 
-/// A command that begins to write into a folder has to be added to the list.
-TEST(KeptInputs, NoOutputInAFolderReplacesWhatIsRead) {
+/// A new command that writes into a folder must be added to inputs_in_folders.
+TEST(KeptInputs, NoOutputInAFolderReplacesAnInput) {
     const auto listed = inputs_in_folders();
     for_each_option([&](const CLI::App& command, const CLI::Option& option) {
         if (option.get_type_name() != "FOLDER")
@@ -137,7 +137,7 @@ TEST(KeptInputs, NoOutputInAFolderReplacesWhatIsRead) {
     });
 }
 
-/// A folder of exports is named by an option for files.
+/// `graze export --output` may name a folder.
 TEST(KeptInputs, ExportsOfRunsReplaceNoResults) {
     const Folder folder;
     const std::string study = folder.write("s.toml", small_study), results = folder / "r.csv";
@@ -148,7 +148,7 @@ TEST(KeptInputs, ExportsOfRunsReplaceNoResults) {
     EXPECT_EQ(contents(results), before);
 }
 
-TEST(KeptInputs, TwoOutputsAreTwoFiles) {
+TEST(KeptInputs, TwoOutputsMustBeDifferentFiles) {
     const Folder folder;
     const std::string path = folder / "one.svg";
     const Printed printed = run_graze({"simulate", "bouncing-ball", "--time", "1", "--plot", path, "--data", path});
@@ -157,7 +157,7 @@ TEST(KeptInputs, TwoOutputsAreTwoFiles) {
     EXPECT_EQ(folder.files(), 0U);
 }
 
-TEST(KeptInputs, FilesBehindOptionsAreInputs) {
+TEST(KeptInputs, FilesInOptionValuesAreInputs) {
     const Folder folder;
     const std::string values = folder / "values.toml";
     write_file(values, "[set]\ne = 0.5\n");
@@ -170,7 +170,7 @@ TEST(KeptInputs, FilesBehindOptionsAreInputs) {
     EXPECT_EQ(contents(values), "[set]\ne = 0.5\n");
 }
 
-TEST(KeptInputs, ThePictureForLatexHasAFileOfLines) {
+TEST(KeptInputs, PicturesForLatexHaveASecondFile) {
     const Folder folder;
     const std::string input = folder / "picture.pdf";
     write_file(input, "x");
@@ -178,7 +178,7 @@ TEST(KeptInputs, ThePictureForLatexHasAFileOfLines) {
                 HasSubstr("is the file of the model too"));
 }
 
-TEST(KeptInputs, LastsAsLongAsTheList) {
+TEST(KeptInputs, ProtectionEndsWithTheList) {
     const Folder folder;
     const std::string path = folder / "input.csv";
     write_file(path, "1");

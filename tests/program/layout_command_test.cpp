@@ -39,7 +39,7 @@ TEST_F(LayoutCommand, WritesTheSameBytesAndPrintsATable) {
     EXPECT_EQ(folder.files(), 2U) << "without --output there is only the table";
 }
 
-TEST_F(LayoutCommand, TakesOtherDimensions) {
+TEST_F(LayoutCommand, SetReplacesDimensions) {
     const std::string file = design("[device]\ngap = 12\nstop_gap = 7\n");
     const Printed printed =
         run_graze({"layout", file, "--set", "stop_gap=8.5", "--set", "folds=2", "--format", "csv", "--digits", "10"});
@@ -101,7 +101,7 @@ TEST_F(LayoutCommand, DrawsPictures) {
     EXPECT_EQ(folder.files(), 3U) << "and nothing besides";
 }
 
-TEST_F(LayoutCommand, WritesTheDeviceForCircuits) {
+TEST_F(LayoutCommand, WritesTheDeviceAsVerilogA) {
     const std::string path = folder / "device.va";
     ASSERT_EQ(run_graze({"layout", "mems-switch-device", "--verilog-a", path}).code, 0);
     EXPECT_THAT(contents(path), HasSubstr("module mems_switch_device_va(fixed, moving);"));
@@ -116,8 +116,9 @@ TEST_F(LayoutCommand, WritesTheDeviceForCircuits) {
     EXPECT_THAT(other.err, HasSubstr("has no parameter 'm'"));
 }
 
-/// The shipped design with few points and devices, in a folder: from the design to the drawing and back.
-TEST_F(LayoutCommand, DrawsWhatADesignHasFoundAndGivesItBackSlow) {
+/// The shipped design with few points and devices: designs a device, draws it, and computes where the drawn device
+/// trips.
+TEST_F(LayoutCommand, DrawsADesignedDeviceAndComparesItSlow) {
     std::string text = run_graze("design mems-switch-device --show").out;
     const auto change = [&](const std::string& from, const std::string& to) {
         ASSERT_NE(text.find(from), std::string::npos) << from;
@@ -149,26 +150,26 @@ TEST_F(LayoutCommand, DrawsWhatADesignHasFoundAndGivesItBackSlow) {
         ADD_FAILURE() << "no " << row << " in\n" << drawn.out;
         return 0.0;
     };
-    EXPECT_NEAR(cell("trip_value", 1), 28, 28e-8); // as is wanted
-    // The grid of 1 nm allows for 5e-5 of gaps, of which the voltage changes by up to twice as much each; the
-    // frequency's 5e-7 count 23 times.
+    EXPECT_NEAR(cell("trip_value", 1), 28, 28e-8); // the wanted value
+    // The grid of 1 nm changes gaps by up to 5e-5 of their size, and each of them the voltage by up to twice as much;
+    // relative errors of 5e-7 of the frequency count 23 times.
     EXPECT_NEAR(cell("trip_value", 2), 28, 28 * 3e-4);
     for (const char* quantity : {"d", "stop", "f0", "zeta", "m", "area"})
         EXPECT_NEAR(cell(quantity, 2), cell(quantity, 1), 1e-4 * cell(quantity, 1)) << quantity;
-    // What is left in the folder is the same device for further commands.
+    // Further commands find the same device in the folder.
     const Printed again = run_graze({"layout", mine, "--set", "@" + found + "/drawing.toml", "--parameters",
                                      folder / "again.toml", "--output", folder / "b.gds"});
     ASSERT_EQ(again.code, 0) << again.err;
     EXPECT_EQ(contents(folder / "a.gds"), contents(folder / "b.gds"));
     const auto numbers = [](const std::string& parameters) { return parameters.substr(parameters.find("[set]")); };
     EXPECT_EQ(numbers(contents(folder / "again.toml")), numbers(contents(found + "/drawn.toml")));
-    // What is given stays, and what that keeps from being met is told.
+    // A given number is kept, and the wish that it prevents is reported.
     const Printed given =
         run_graze({"layout", mine, "--from-design", found, "--set", "pressure=4000", "--format", "csv"});
     EXPECT_EQ(given.code, 3);
     EXPECT_THAT(given.out, HasSubstr("not as designed: pressure is given by --set"));
     EXPECT_EQ(run_graze({"layout", mine, "--from-design", found, "--yield", "2"}).code, 2);
-    // A device by hand, of which nobody can tell for which design it was made: what is wanted is missed by far.
+    // A device file without a heading does not tell its design: the wish of another design is missed by far.
     const std::string device = contents(found + "/device.toml");
     std::ofstream(found + "/device.toml") << device.substr(device.find('\n') + 1);
     change("value = 28", "value = 26");
@@ -181,7 +182,7 @@ TEST_F(LayoutCommand, DrawsWhatADesignHasFoundAndGivesItBackSlow) {
         HasSubstr("let the name end in"));
 }
 
-TEST_F(LayoutCommand, WritesNothingOfWhatIsWrong) {
+TEST_F(LayoutCommand, WritesNoFilesOfAWrongDesign) {
     const std::vector<std::pair<std::string, std::string>> mistakes{
         {"[device]\ngap = -1\n", "mine.toml:3:7: device.gap is -1 um, not positive; give a positive length"},
         {"[device]\nflexure_length = 6000\n", "mine.toml:3:18: flexures of 6000 um make a mass"},

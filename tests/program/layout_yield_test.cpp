@@ -25,7 +25,7 @@ TEST(LayoutModel, WritesParametersThatOtherCommandsTake) {
     EXPECT_EQ(contents(again), contents(file));
 }
 
-TEST(LayoutModel, WritesNothingWhereARuleIsBrokenUnlessAsked) {
+TEST(LayoutModel, WritesNothingIfARuleIsBrokenUnlessAsked) {
     const Folder folder;
     const std::string file = folder / "device.gds";
     const Printed refused = run_graze({"layout", "mems-switch-device", "--set", "flexure_width=4.5", "--output", file});
@@ -39,11 +39,11 @@ TEST(LayoutModel, WritesNothingWhereARuleIsBrokenUnlessAsked) {
     EXPECT_EQ(folder.files(), 1U);
 }
 
-TEST(LayoutModel, RefusesWhatTheEtchTakesAway) {
+TEST(LayoutModel, RefusesADeviceThatTheEtchRemoves) {
     const Printed gone = run_graze({"layout", "mems-switch-device", "--set", "bias=4"});
     EXPECT_EQ(gone.code, 2);
     const Printed despite = run_graze({"layout", "mems-switch-device", "--set", "bias=4", "--despite-rules"});
-    EXPECT_EQ(despite.code, 2) << "of nothing there is no model";
+    EXPECT_EQ(despite.code, 2) << "a device without beams has no model";
     EXPECT_THAT(despite.err, HasSubstr("--set bias: "));
     EXPECT_THAT(gone.err, HasSubstr("--set bias: rule smallest_etched_line is -1.43633 um"));
     for (const char* set : {"taper=1", "wafer_thickness=40", "chamber_depth=300", "gap=1e-6"}) {
@@ -54,7 +54,7 @@ TEST(LayoutModel, RefusesWhatTheEtchTakesAway) {
     }
 }
 
-TEST(LayoutModel, SaysWhichFilesThereAre) {
+TEST(LayoutModel, RefusesUnknownEndingsAndNames) {
     const Printed text = run_graze({"layout", "mems-switch-device", "--output", "x.txt"});
     EXPECT_EQ(text.code, 2);
     EXPECT_THAT(text.err, HasSubstr("what kind of file to write; let the name end in .gds"));
@@ -71,7 +71,7 @@ TEST(LayoutModel, WritesTheRecipe) {
     EXPECT_THAT(contents(folder / "recipe.svg"), HasSubstr("9  silicon is etched through, to the epoxy"));
 }
 
-TEST(LayoutModel, PrintsCommandsForTheMasksThatRun) {
+TEST(LayoutModel, RecipeHasCommandsThatDrawTheMasks) {
     const Folder folder;
     const std::string design = folder / "z o.toml", recipe = folder / "recipe.md";
     std::ofstream(design) << run_graze({"design", "mems-switch-device", "--show"}).out;
@@ -119,7 +119,7 @@ TEST(LayoutYield, MakesAFolderOfTablesAndMaps) {
     EXPECT_EQ(contents(place + "/devices.csv"), devices);
 }
 
-TEST(LayoutYield, SaysWhatItLacks) {
+TEST(LayoutYield, RefusesDesignsWithoutADevice) {
     const Folder folder;
     const Printed alike = run_graze({"layout", "mems-switch", "--yield", "2", "--folder", folder / "none"});
     EXPECT_EQ(alike.code, 2);

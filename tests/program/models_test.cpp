@@ -6,7 +6,7 @@ namespace graze::testing {
 
 using ::testing::HasSubstr;
 
-TEST(Models, ListsTellsShowsAndWrites) {
+TEST(Models, ListsDescribesShowsAndWrites) {
     const Printed list = run_graze("models");
     EXPECT_EQ(list.code, 0);
     EXPECT_THAT(list.out, HasSubstr("mems-switch"));

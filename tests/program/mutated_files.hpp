@@ -17,21 +17,21 @@
 
 namespace graze::testing {
 
-/// A command on a file that may stand for anything.
+/// A command that reads a mutated file.
 struct UseOfFile {
-    std::vector<std::string> words; ///< with `FILE` for the file, `OUT` for a folder that is empty
-    bool may_be_long = false;       ///< the file says how long: it is ended by a signal
+    std::vector<std::string> words; ///< with `FILE` for the file, and `OUT` for an empty folder
+    bool may_be_long = false;       ///< the command may run long and is ended by a signal
 };
 
-/// Files some of whose bytes, words or cells are changed: each is used or refused, by a program that ends in time and
-/// in bounded memory. GRAZE_MUTATIONS asks for so many of each kind, GRAZE_MUTATION_SEED for others than the last time;
-/// GRAZE_KEEP names a folder for those of which something else has become.
+/// Files in which some bytes, words or cells are changed: the program must use or refuse each of them, in bounded time
+/// and memory. The environment variable GRAZE_MUTATIONS is the number of files of each kind, GRAZE_MUTATION_SEED the
+/// seed; GRAZE_KEEP is a folder for files with which the program fails.
 class MutatedFiles : public ::testing::Test {
 protected:
     using Words = std::vector<std::string>;
 
     static const char* asked() { return std::getenv("GRAZE_MUTATIONS"); }
-    /// How many files of a kind are tried. @param usual as long as nobody asks for more
+    /// Number of files of a kind that are tried. @param usual the number without GRAZE_MUTATIONS
     static int count(std::size_t usual) { return asked() != nullptr ? std::atoi(asked()) : static_cast<int>(usual); }
     static std::mt19937 random_numbers() {
         const char* seed = std::getenv("GRAZE_MUTATION_SEED");
@@ -59,7 +59,7 @@ protected:
             tell(problem, words, file, run);
     }
 
-    /// Texts changed word by word, and byte by byte.
+    /// Tries texts with changed words or, one in four, changed bytes.
     void try_texts(const std::string& name, const std::vector<std::string>& texts, const std::vector<UseOfFile>& uses,
                    std::size_t usual) {
         std::mt19937 random = random_numbers();

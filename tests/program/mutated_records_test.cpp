@@ -1,4 +1,4 @@
-// Records that somebody has changed, by chance or on purpose.
+// Records with random or malicious changes.
 
 #include "graze/record/record_writer.hpp"
 #include "mutated_files.hpp"
@@ -48,11 +48,11 @@ const std::vector<UseOfFile> uses{
 
 } // namespace
 
-TEST_F(MutatedFiles, RecordsOfText) {
+TEST_F(MutatedFiles, TextRecordsAreUsedOrRefused) {
     try_texts("r.csv", {record_of(folder / "whole.csv", 200)}, uses, 2 * uses.size());
 }
 
-TEST_F(MutatedFiles, RecordsOfHdf5) {
+TEST_F(MutatedFiles, Hdf5RecordsAreUsedOrRefused) {
     try_bytes("r.h5", record_of(folder / "whole.h5", 100), uses, 2 * uses.size());
 }
 

@@ -1,4 +1,4 @@
-// Result files that somebody has changed, by chance or on purpose.
+// Result files with random or malicious changes.
 
 #include "mutated_files.hpp"
 
@@ -59,7 +59,7 @@ const std::vector<UseOfFile> uses{
     {{"run", "FILE", "--output", "OUT/r", "--no-pictures", "--jobs", "1"}, true},
 };
 
-/// What may stand in a cell instead.
+/// New values of cells, as SQL.
 const std::vector<std::string> strange_cells{"NULL",
                                              "0",
                                              "-1",
@@ -78,7 +78,7 @@ const std::vector<std::string> strange_cells{"NULL",
                                              "1000000",
                                              "0.5"};
 
-/// Changes a cell, or all cells of a column, of a result file.
+/// Changes one cell, or all cells of a column, of a result file.
 void change_cells(const std::string& path, std::mt19937& random) {
     sqlite3* opened = nullptr;
     ASSERT_EQ(sqlite3_open(path.c_str(), &opened), SQLITE_OK);
@@ -96,16 +96,16 @@ void change_cells(const std::string& path, std::mt19937& random) {
     const std::string some = below(random, 2) == 0 ? "" : fmt::format(" WHERE rowid = {}", 1 + below(random, 5));
     const std::string change =
         columns[below(random, columns.size())] + strange_cells[below(random, strange_cells.size())] + some;
-    sqlite3_exec(opened, change.c_str(), nullptr, nullptr, nullptr); // what constraints forbid is not there
+    sqlite3_exec(opened, change.c_str(), nullptr, nullptr, nullptr); // changes that constraints forbid are not made
 }
 
 } // namespace
 
-TEST_F(MutatedFiles, ResultsByBytes) {
+TEST_F(MutatedFiles, ResultsWithChangedBytesAreUsedOrRefused) {
     try_bytes("r.sqlite", whole_file(), uses, 2 * uses.size());
 }
 
-TEST_F(MutatedFiles, ResultsByCells) {
+TEST_F(MutatedFiles, ResultsWithChangedCellsAreUsedOrRefused) {
     std::mt19937 random = random_numbers();
     for (int i = 0; i < count(3 * uses.size()); ++i) {
         const std::string path = folder.write("r.sqlite", whole_file());

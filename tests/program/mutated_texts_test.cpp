@@ -1,10 +1,10 @@
-// Models, studies, designs and the like that somebody has changed, by chance or on purpose.
+// Models, studies, designs and other text files with random or malicious changes.
 
 #include "mutated_files.hpp"
 
 namespace graze::testing {
 
-TEST_F(MutatedFiles, Models) {
+TEST_F(MutatedFiles, ModelsAreUsedOrRefused) {
     const Words texts{source("models/bouncing-ball.toml"), source("models/impact-oscillator.toml"),
                       source("models/dry-friction-oscillator.toml"), source("models/mems-switch.toml"),
                       source("fuzz/corpus/fuzz_model/every_feature")};
@@ -16,7 +16,7 @@ TEST_F(MutatedFiles, Models) {
               60);
 }
 
-TEST_F(MutatedFiles, Studies) {
+TEST_F(MutatedFiles, StudiesAreUsedOrRefused) {
     const Words texts{source("fuzz/corpus/fuzz_study/every_kind"), source("studies/mems-switch.toml"),
                       source("studies/testbed-experiment.toml"), R"(name = "s"
 model = "impact-oscillator"
@@ -45,7 +45,7 @@ columns = ["omega"]
               45);
 }
 
-TEST_F(MutatedFiles, Designs) {
+TEST_F(MutatedFiles, DesignsAreUsedOrRefused) {
     try_texts("d.toml", {source("designs/mems-switch-device.toml"), source("designs/mems-switch.toml")},
               {{{"layout", "FILE"}},
                {{"layout", "FILE", "--wafer", "--output", "OUT/w.gds", "--despite-rules"}},
@@ -55,18 +55,18 @@ TEST_F(MutatedFiles, Designs) {
               25);
 }
 
-TEST_F(MutatedFiles, Experiments) {
+TEST_F(MutatedFiles, ExperimentsAreUsedOrRefused) {
     try_texts("e.toml", {source("fuzz/corpus/fuzz_experiment/sweep.toml")}, {{{"acquire", "FILE", "--dry-run"}}}, 40);
 }
 
-TEST_F(MutatedFiles, ParametersInFiles) {
+TEST_F(MutatedFiles, ParameterFilesAreUsedOrRefused) {
     try_texts("p.toml", {"model = \"bouncing-ball\"\n[set]\ne = 0.5\ngamma = 1\n[from]\nx = 1\nv = 0.5\n"},
               {{{"simulate", "bouncing-ball", "--set", "@FILE", "--time", "1", "--steps", "500"}},
                {{"simulate", "bouncing-ball", "--from", "@FILE", "--time", "1", "--steps", "500"}}},
               20);
 }
 
-TEST_F(MutatedFiles, TablesOfOrbits) {
+TEST_F(MutatedFiles, OrbitTablesAreUsedOrRefused) {
     const std::string table = "segment,t,x,v,theta\n1,0,-0.07,0,0\n1,0.5,-0.07,0,1\n1,1.57,-0.07,0,6.28\n";
     const std::string study = folder.write("s.toml", "name = \"s\"\nmodel = \"impact-oscillator\"\n[runs.r]\nkind = "
                                                      "\"orbit\"\nset = { omega = 4 }\ntable = \"o.csv\"\n");

@@ -16,7 +16,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// What stands for the value of an option in the help, and values that every such option refuses.
+/// Types of options, as the help shows them, and values that every option of the type refuses.
 const std::map<std::string, Words>& refused_values() {
     const Words counts{"nan", "inf", "1.5", "1e3", "x", "", "99999999999999999999999"};
     const Words numbers{"nan", "-nan", "inf", "-inf", "1e999", "x", "1x", "", " "};
@@ -46,7 +46,7 @@ const std::map<std::string, Words>& refused_values() {
     return all;
 }
 
-/// Words for values that only a command itself can judge, for it has to know the model or the file.
+/// Types whose values only the command itself can check, since it needs the model or the file.
 const std::set<std::string>& judged_by_commands() {
     static const std::set<std::string> all{
         "FILE",  "FOLDER", "PATH",  "NAME",   "EXPR",    "RUN",     "WAY",        "LABEL",      "QUERY",    "POINT",
@@ -58,8 +58,8 @@ const std::set<std::string>& judged_by_commands() {
 
 } // namespace
 
-/// Every option that has a number or one of some words for a value refuses all else, before anything is read or made.
-TEST(OptionValues, ClosedSetsAndNumbersRefuseEverythingElse) {
+/// Every option whose value is a number or one of a list of words refuses other values before files are read or made.
+TEST(OptionValues, NumbersAndWordsAreCheckedBeforeAnyWork) {
     Arguments declared;
     CLI::App app("", "graze");
     declare_arguments(app, declared);
@@ -94,8 +94,8 @@ TEST(OptionValues, ClosedSetsAndNumbersRefuseEverythingElse) {
     EXPECT_GT(tried, 400);
 }
 
-/// Of all commands alike.
-TEST(OptionValues, NoFileIsCalledByADash) {
+/// For all commands.
+TEST(OptionValues, ADashIsNoFileName) {
     for (const Words& words : {Words{"models", "impact-oscillator", "--write", "-"},
                                Words{"info", "x", "--output", "-"}, Words{"simulate", "bouncing-ball", "--output=-"},
                                Words{"run", "x", "--output", "-"}, Words{"completion", "bash", "--output", "-"}}) {
@@ -106,8 +106,8 @@ TEST(OptionValues, NoFileIsCalledByADash) {
     }
 }
 
-/// Values that a command judges itself.
-TEST(OptionValues, CommandsRefuseWhatIsNoValue) {
+/// Values that a command checks itself.
+TEST(OptionValues, CommandsRefuseWrongValues) {
     const std::vector<std::pair<std::string, Words>> cases{
         {"simulate bouncing-ball --time", {"nan", "inf", "0", "-1", "x", "1/0"}},
         {"simulate bouncing-ball --time 1 --after", {"nan", "inf", "0", "-1"}},

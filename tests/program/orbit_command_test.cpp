@@ -15,8 +15,8 @@ namespace {
 constexpr double eps = std::numeric_limits<double>::epsilon();
 using OrbitCommand = BranchResults;
 
-/// A ball that flies between two walls at unit distance from the middle; of its orbit only the way to the right is
-/// kept.
+/// A ball that flies between two walls at unit distance from the centre. Its orbit is symmetric, and only the half in
+/// which it flies to the right is stored.
 constexpr const char* box = R"(
 name = "box"
 [parameters]
@@ -69,7 +69,7 @@ TEST_F(OrbitCommand, PrintsTheMotionOverOnePeriod) {
     EXPECT_EQ(csv.number(8, "t"), 1);
 }
 
-TEST_F(OrbitCommand, CsvIsWhereAnotherRunCanStart) {
+TEST_F(OrbitCommand, AnotherRunCanStartFromTheCsv) {
     write_branches();
     const Printed printed = run_graze({"orbit", path, "PD1", "--format", "csv"});
     const Orbit orbit = parse_orbit_table(model, printed.out, "", "orbit.csv");
@@ -78,7 +78,7 @@ TEST_F(OrbitCommand, CsvIsWhereAnotherRunCanStart) {
     EXPECT_EQ(orbit.durations, std::vector<double>{2 / 0.9});
 }
 
-TEST_F(OrbitCommand, ShowsTheWholeOfAnOrbitThatIsKeptByItsHalf) {
+TEST_F(OrbitCommand, ShowsBothHalvesOfASymmetricOrbit) {
     OrbitRecord record = orbit_of("up", PointType::end, 1, true, true);
     record.point.monitors = {};
     model = parse_model(box, "box.toml");
@@ -101,7 +101,7 @@ TEST_F(OrbitCommand, ShowsTheWholeOfAnOrbitThatIsKeptByItsHalf) {
     EXPECT_THAT(run_graze({"points", path}).out, HasSubstr("mirror"));
 }
 
-TEST_F(OrbitCommand, ShowsSegmentsThatGoBackInTime) {
+TEST_F(OrbitCommand, ShowsSegmentsOfNegativeDuration) {
     OrbitRecord record = orbit_of("up", PointType::vanishing, 1, true, false);
     record.point.solution.orbit.durations = {-0.5};
     {
@@ -115,7 +115,7 @@ TEST_F(OrbitCommand, ShowsSegmentsThatGoBackInTime) {
     EXPECT_NEAR(csv.number(2, "v"), 1.5, 4 * eps);
 }
 
-TEST_F(OrbitCommand, JsonSaysWhichOrbitItIs) {
+TEST_F(OrbitCommand, JsonIdentifiesTheOrbit) {
     write_branches();
     const Printed printed = run_graze({"orbit", path, "second:GR1", "--format", "json"});
     EXPECT_TRUE(JsonCheck(printed.out).valid());
@@ -155,9 +155,9 @@ TEST_F(OrbitCommand, FindsPointsByLabelAndNumber) {
     EXPECT_THAT(said({"orbit", path, "SN1", "--x", "v"}), HasSubstr("--plot FILE"));
 }
 
-TEST_F(OrbitCommand, WarnsOfWhatTheModelWouldNotDo) {
+TEST_F(OrbitCommand, WarnsOfInadmissibleOrbits) {
     write_branches();
-    EXPECT_THAT(run_graze({"orbit", path, "first:EP2"}).err, HasSubstr("event 'floor' comes within segment 1"));
+    EXPECT_THAT(run_graze({"orbit", path, "first:EP2"}).err, HasSubstr("event 'floor' happens within segment 1"));
     EXPECT_EQ(run_graze({"orbit", path, "first:EP1"}).err, "");
 }
 

@@ -32,7 +32,7 @@ TEST(OutputFile, ReplacesTheWholeFileOrNothing) {
     EXPECT_EQ(folder.files(), 1U);
 }
 
-TEST(OutputFile, KeepsWhoMayReadIt) {
+TEST(OutputFile, KeepsPermissions) {
     const Folder folder;
     const std::string path = folder / "private.csv";
     write_file(path, "old");
@@ -53,8 +53,8 @@ TEST(OutputFile, FollowsLinks) {
     EXPECT_EQ(contents(path), "new");
 }
 
-/// In a folder that others write to, too.
-TEST(OutputFile, NobodyKnowsWhereItIsWritten) {
+/// Other users may write to the same folder.
+TEST(OutputFile, TemporaryNamesAreNotForeseeable) {
     const Folder folder;
     const std::string path = folder / "table.csv";
     const FileReplacement one(path), other(path);
@@ -64,7 +64,7 @@ TEST(OutputFile, NobodyKnowsWhereItIsWritten) {
         EXPECT_TRUE(std::filesystem::is_regular_file(std::filesystem::symlink_status(file->temporary_path())));
 }
 
-TEST(OutputFile, WhatAnotherProgramPutsInItsPlaceIsNotUsed) {
+TEST(OutputFile, AReplacedTemporaryFileIsNotUsed) {
     const Folder folder;
     const std::string path = folder / "table.csv", precious = folder.write("precious", "precious");
     write_file(path, "old");
@@ -86,7 +86,7 @@ TEST(OutputFile, NamesMayBeAsLongAsTheSystemTakes) {
     EXPECT_EQ(folder.files(), 1U);
 }
 
-TEST(OutputFile, SaysWhatIsWrong) {
+TEST(OutputFile, RefusesUnwritablePaths) {
     const Folder folder;
     EXPECT_THROW(require_writable(""), InputError);
     EXPECT_THROW(require_writable(folder / "."), InputError);

@@ -20,7 +20,7 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr const char* model_text = "[parameters]\na = 1\nb = 0\n[states]\nx = 1\ny = 0\n[modes.only.rates]\nx = \"y\"\n"
                                    "y = \"-a^2*x\"\n";
 
-/// Results that are written by hand, so that what a picture must show is known.
+/// Results written by hand, so that the contents of pictures are known.
 class PlotResults : public ::testing::Test {
 protected:
     PlotResults() : path(folder / "results.sqlite") {}
@@ -63,7 +63,7 @@ protected:
         picture.runs = {run};
         return picture;
     }
-    /// Period 1 up to a = 49, then 2; the same in both directions, but three farther down.
+    /// Writes a sweep with period 1 up to a = 49 and period 2 above; on the way down period 2 lasts to a = 47.
     void write_sweep() const {
         ResultFile file(path, ResultFile::Access::write);
         const RunRecord run = run_of("sweep", {{"a", "V"}});
@@ -90,7 +90,7 @@ protected:
 
 } // namespace
 
-TEST_F(PlotResults, ShowsBothWaysOfASweepWithItsChanges) {
+TEST_F(PlotResults, ShowsBothDirectionsOfASweepWithChangesOfPeriod) {
     write_sweep();
     const ResultFile file(path, ResultFile::Access::read);
     const Figure figure = make_picture(picture_of("bifurcation", "sweep"), file).figure;
@@ -108,7 +108,7 @@ TEST_F(PlotResults, ShowsBothWaysOfASweepWithItsChanges) {
     EXPECT_EQ(figure.panels[2].marks, std::vector<double>{46.5});
 }
 
-TEST_F(PlotResults, ShowsOnlyWhatIsChosen) {
+TEST_F(PlotResults, ShowsOnlyChosenValuesAndDirections) {
     write_sweep();
     const ResultFile file(path, ResultFile::Access::read);
     StudyPicture picture = picture_of("bifurcation", "sweep");
@@ -124,7 +124,7 @@ TEST_F(PlotResults, ShowsOnlyWhatIsChosen) {
     EXPECT_THROW(make_picture(picture, file), InputError);
 }
 
-TEST_F(PlotResults, TellsTheAttractorsOfABasinApart) {
+TEST_F(PlotResults, DistinguishesTheAttractorsOfABasin) {
     {
         ResultFile file(path, ResultFile::Access::write);
         const RunRecord run = run_of("basin", {{"a", ""}, {"b", ""}});
@@ -134,7 +134,7 @@ TEST_F(PlotResults, TellsTheAttractorsOfABasinApart) {
             PointRecord point = point_of(number, {static_cast<double>(number % 6), static_cast<double>(number / 6)},
                                          kind == 2 ? Label::escaped : Label::periodic);
             point.result.period = kind == 2 ? 0 : 2;
-            // One orbit of period 2, which begins now here, now there; and another one of period 2.
+            // Two orbits of period 2; the samples of each begin at either of its two points.
             const bool swapped = number % 2 == 0;
             if (kind < 2)
                 for (std::size_t i = 0; i < 2; ++i)
@@ -149,7 +149,7 @@ TEST_F(PlotResults, TellsTheAttractorsOfABasinApart) {
     ASSERT_EQ(made.figure.panels.size(), 1U);
     ASSERT_EQ(made.figure.panels[0].series.size(), 3U);
     for (const FigureSeries& series : made.figure.panels[0].series)
-        EXPECT_EQ(series.cells.size(), 10U) << series.title; // no two beside one another
+        EXPECT_EQ(series.cells.size(), 10U) << series.title; // no two adjacent cells are equal
     EXPECT_EQ(made.table.rows(), 3U);
     const auto named = [&](const std::string& name) {
         return run_graze({"plot", path, "--kind", "basin", "--output", folder / "basin.svg", "--name", name});
@@ -158,7 +158,7 @@ TEST_F(PlotResults, TellsTheAttractorsOfABasinApart) {
     EXPECT_THAT(named("period 3=thrice").err, HasSubstr("'period 3': the picture shows nothing of that name; did you"));
 }
 
-TEST_F(PlotResults, MapsWhatIsReachedInTwoParametersBothWays) {
+TEST_F(PlotResults, MapsAttractorsOverTwoParametersInBothDirections) {
     {
         ResultFile file(path, ResultFile::Access::write);
         const RunRecord run = run_of("sweep", {{"a", "V"}, {"b", "Hz"}});
@@ -170,7 +170,7 @@ TEST_F(PlotResults, MapsWhatIsReachedInTwoParametersBothWays) {
                                          lost ? Label::escaped : Label::periodic);
             point.direction = direction;
             point.result.period = lost ? 0 : a < 2 ? 1 : 2;
-            if (!lost) // each is an orbit of its own, of which a map shows nothing
+            if (!lost) // all orbits differ, which a map does not show
                 add(point, 0, 0, static_cast<double>(number), 0);
             file.add_point(run.name, point);
         }
@@ -187,7 +187,7 @@ TEST_F(PlotResults, MapsWhatIsReachedInTwoParametersBothWays) {
     ASSERT_EQ(up.series.size(), 2U);
     EXPECT_EQ(up.series[0].title, "period 1 (6)");
     EXPECT_EQ(up.series[1].title, "period 2 (6)");
-    ASSERT_EQ(up.series[0].cells.size(), 3U); // neighbours in a row are one
+    ASSERT_EQ(up.series[0].cells.size(), 3U); // adjacent cells in a row are joined
     EXPECT_EQ(up.series[0].cells[0].left, -0.5);
     EXPECT_EQ(up.series[0].cells[0].right, 1.5);
     EXPECT_EQ(up.series[0].cells[0].low, 9.5);
@@ -204,7 +204,7 @@ TEST_F(PlotResults, MapsWhatIsReachedInTwoParametersBothWays) {
     EXPECT_TRUE(up.labels.empty());
 }
 
-TEST_F(PlotResults, MarksAttractorsAmongTheStatesThatReachThem) {
+TEST_F(PlotResults, MarksAttractorsInTheirBasins) {
     {
         ResultFile file(path, ResultFile::Access::write);
         const RunRecord run = run_of("basin", {{"x", "m"}, {"y", "m/s"}});
@@ -219,7 +219,7 @@ TEST_F(PlotResults, MarksAttractorsAmongTheStatesThatReachThem) {
             if (kind == 0) {
                 add(point, 0, 0, 1, 0.25);
                 add(point, 0, 1, 2, 0.5);
-                add(point, 1, 1, 4, 4); // of the other sampling, which is not drawn
+                add(point, 1, 1, 4, 4); // belongs to the other sampling, which is not drawn
             } else {
                 add(point, 0, 0, 3, 0.75);
             }
@@ -235,7 +235,7 @@ TEST_F(PlotResults, MarksAttractorsAmongTheStatesThatReachThem) {
     for (const FigureLabel& label : panel.labels)
         labels.emplace_back(label.at.x, label.at.y, label.text);
     EXPECT_THAT(labels, ::testing::ElementsAre(std::tuple(1, 0.25, "1"), std::tuple(2, 0.5, "1"),
-                                               std::tuple(3, 0.75, "2"))); // what escapes has no place
+                                               std::tuple(3, 0.75, "2"))); // escaped motions have no mark
     std::size_t marks = 0;
     for (const FigureSeries& series : panel.series)
         if (series.style == FigureSeries::Style::symbols)
@@ -301,8 +301,8 @@ TEST_F(PlotResults, FitsPowersToSuccessiveValues) {
     }
 }
 
-// An orbit that is computed again from its state: x = cos t, y = -sin t.
-TEST_F(PlotResults, DrawsAnOrbitBetweenItsSamples) {
+// The orbit is computed again from its state: x = cos t, y = -sin t.
+TEST_F(PlotResults, RecomputesAnOrbitBetweenItsSamples) {
     write_sweep();
     const ResultFile file(path, ResultFile::Access::read);
     StudyPicture picture = picture_of("portrait", "sweep");
@@ -320,7 +320,7 @@ TEST_F(PlotResults, DrawsAnOrbitBetweenItsSamples) {
     EXPECT_NEAR(curve.points.back().y, 0, 1e-10);
 }
 
-TEST_F(PlotResults, TakesOutOfPointsWhatIsNamed) {
+TEST_F(PlotResults, ScatterDrawsExpressionsOfPoints) {
     write_sweep();
     const ResultFile file(path, ResultFile::Access::read);
     StudyPicture picture = picture_of("scatter", "sweep");
@@ -349,8 +349,8 @@ TEST_F(PlotResults, WritesEveryFormat) {
     EXPECT_THAT(contents(folder / "picture.gp"), HasSubstr("multiplot"));
 }
 
-// What LaTeX reads, without LaTeX: words and symbols as its commands, lines in a file beside it.
-TEST_F(PlotResults, WritesTextForLatexAndTheLinesBesideIt) {
+// The output for LaTeX, checked without LaTeX: texts as its commands, and the lines in a PDF beside it.
+TEST_F(PlotResults, WritesTextForLatexAndItsLinesAsPdf) {
     if (!find_program("gnuplot"))
         GTEST_SKIP() << "no gnuplot";
     write_sweep();
@@ -360,18 +360,18 @@ TEST_F(PlotResults, WritesTextForLatexAndTheLinesBesideIt) {
     const std::string text = contents(folder / "picture.tex"), commands = contents(folder / "picture.gp");
     EXPECT_THAT(commands, HasSubstr("set terminal cairolatex pdf input size"));
     EXPECT_THAT(commands, HasSubstr("50\\\\% of \\\\$V\\\\_0\\\\$"));
-    EXPECT_THAT(text, HasSubstr("\\fontsize{9}{10.8}\\selectfont")); // of the page: 170 mm
+    EXPECT_THAT(text, HasSubstr("\\fontsize{9}{10.8}\\selectfont")); // the font size for a picture of 170 mm
     EXPECT_THAT(text, HasSubstr("50\\% of \\$V\\_0\\$"));
     EXPECT_THAT(text, HasSubstr("\\fontsize{9.9}{11.88}\\selectfont{}where \\textit{a} = 1")); // its title
     EXPECT_THAT(text, HasSubstr("\\fontsize{8.28}{9.936}\\selectfont{}first"));                // its legend
     EXPECT_THAT(text, HasSubstr("\\includegraphics"));
     EXPECT_THAT(text, HasSubstr("{picture}"));
-    EXPECT_EQ(text.find(folder / ""), std::string::npos); // no place of this machine
+    EXPECT_EQ(text.find(folder / ""), std::string::npos); // no path of this machine
     EXPECT_TRUE(contents(folder / "picture.pdf").starts_with("%PDF"));
     EXPECT_EQ(folder.files(), 4U + (std::filesystem::exists(path + ".lock") ? 1U : 0U));
 }
 
-TEST_F(PlotResults, NamesWhatIsNotThere) {
+TEST_F(PlotResults, ReportsUnknownNames) {
     write_sweep();
     const auto said = [this](const std::vector<std::string>& options) {
         std::vector<std::string> words{"plot", path, "--output", folder / "no.png"};

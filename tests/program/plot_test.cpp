@@ -20,7 +20,7 @@ protected:
 
 } // namespace
 
-TEST_F(Plot, DrawsEveryShippedModelInSilence) {
+TEST_F(Plot, DrawsEveryShippedModelWithoutATable) {
     for (const std::string model :
          {"ball-and-shaker", "bouncing-ball", "dry-friction-oscillator", "electromagnetic-testbed",
           "impact-microactuator", "impact-oscillator", "impact-oscillator-two-stops", "mems-switch", "microbeam"}) {
@@ -35,7 +35,7 @@ TEST_F(Plot, DrawsEveryShippedModelInSilence) {
     EXPECT_EQ(folder.files(), 9U);
 }
 
-TEST_F(Plot, KnowsOtherKindsAndComesWithATable) {
+TEST_F(Plot, OtherFormatsComeWithATableIfAsked) {
     for (const std::string ending : {"png", "pdf"}) {
         const Printed run =
             run_graze("simulate mems-switch --section phase0 --format csv --portrait q,v theta,energy --plot " +
@@ -46,7 +46,7 @@ TEST_F(Plot, KnowsOtherKindsAndComesWithATable) {
     }
 }
 
-TEST_F(Plot, TakesNoTextOfAModelForACommand) {
+TEST_F(Plot, NeverRunsTextOfAModel) {
     const std::string trace = folder / "trace", model = folder / "model.toml";
     const std::string text = "`echo>" + trace + "` #1 \\\" a_b^c{d}@e&f~g\\\\";
     std::ofstream(model) << ("[states]\nx = { initial = 1, unit = \"" + text + "\", text = \"" + text +
@@ -59,7 +59,7 @@ TEST_F(Plot, TakesNoTextOfAModelForACommand) {
     EXPECT_THAT(contents(picture), HasSubstr("#1"));
 }
 
-TEST_F(Plot, KeepsItsCommandsToBeDrawnAgain) {
+TEST_F(Plot, KeptCommandsDrawTheSamePicture) {
     const std::string picture = folder / "it's_mine.svg", commands = folder / "mine.gp";
     EXPECT_EQ(run_graze("simulate mems-switch --quantity q gap --plot " + picture + " --data " + commands).code, 0);
     const std::string first = contents(picture);
@@ -70,7 +70,7 @@ TEST_F(Plot, KeepsItsCommandsToBeDrawnAgain) {
     EXPECT_EQ(contents(picture), first);
 }
 
-TEST_F(Plot, IsRefusedBeforeTheRunWhereItCannotBeWritten) {
+TEST_F(Plot, IsRefusedBeforeTheRunIfItCannotBeWritten) {
     const Printed run = run_graze("simulate mems-switch --plot " + (folder / "no/such/folder.svg"));
     EXPECT_EQ(run.code, exit_bad_input);
     EXPECT_THAT(run.err, HasSubstr("cannot be written"));

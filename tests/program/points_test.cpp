@@ -12,7 +12,7 @@ namespace {
 
 using Points = BranchResults;
 
-/// Cells of CSV without those between quotation marks, which may contain commas.
+/// CSV without the contents of quoted cells, which may contain commas.
 std::string unquoted(const std::string& csv) {
     std::string text;
     bool quoted = false;
@@ -25,7 +25,7 @@ std::string unquoted(const std::string& csv) {
 
 } // namespace
 
-TEST_F(Points, ListsWhatHappensAlongABranch) {
+TEST_F(Points, ListsSpecialPointsOfABranch) {
     write_branches();
     const Printed printed = run_graze({"points", path, "--run", "first", "--format", "csv"});
     EXPECT_EQ(printed.code, 0) << printed.err;
@@ -41,11 +41,11 @@ TEST_F(Points, ListsWhatHappensAlongABranch) {
     EXPECT_EQ(csv.number(0, "stable"), 1);
     EXPECT_EQ(csv.number(2, "multiplier"), 1.5);
     EXPECT_EQ(csv.number(3, "admissible"), 0);
-    EXPECT_EQ(csv.text(3, "reason"), "event 'floor' comes within segment 1");
+    EXPECT_EQ(csv.text(3, "reason"), "event 'floor' happens within segment 1");
     EXPECT_EQ(csv.number(1, "low"), 1.9);
     EXPECT_EQ(csv.number(1, "residual"), 1e-14);
     EXPECT_EQ(csv.text(4, "label"), "EP3");
-    // One number a cell: no CSV reader has to take texts apart.
+    // Each cell has one number, so that a CSV reader need not parse texts.
     EXPECT_EQ(csv.number(0, "multiplier_1_real"), 0.5);
     EXPECT_EQ(csv.number(0, "multiplier_1_imaginary"), 0);
     EXPECT_EQ(csv.number(0, "multiplier_3_real"), 0.25);
@@ -55,7 +55,7 @@ TEST_F(Points, ListsWhatHappensAlongABranch) {
     EXPECT_EQ(csv.number(1, "period_2"), 1);
 }
 
-TEST_F(Points, ShowsMonitorsAndOnlyWhatFits) {
+TEST_F(Points, ShowsMonitorsAndColumnsThatFit) {
     write_branches();
     const Printed people = run_graze({"points", path, "--run", "first"});
     EXPECT_THAT(people.out, HasSubstr("height"));
@@ -63,12 +63,12 @@ TEST_F(Points, ShowsMonitorsAndOnlyWhatFits) {
     EXPECT_THAT(people.out, Not(HasSubstr("period_2")));
     const std::string csv = run_graze({"points", path, "--run", "first", "--format", "csv"}).out;
     EXPECT_EQ(run_graze({"points", path, "--run", "first", "--format", "csv", "--type", "SN,PD,GR,EP"}).out, csv);
-    // Of digits that nobody reads there are eight.
+    // Tables show eight digits.
     EXPECT_THAT(people.out, HasSubstr("1.4285714 "));
     EXPECT_THAT(run_graze({"points", path, "--run", "first", "--digits", "17"}).out, HasSubstr("1.4285714285714286"));
     EXPECT_THAT(people.out, HasSubstr("event 'floor' come ..."));
     const std::string all = run_graze({"points", path, "--run", "first", "--all"}).out;
-    EXPECT_THAT(all, HasSubstr("event 'floor' comes within segment 1"));
+    EXPECT_THAT(all, HasSubstr("event 'floor' happens within segment 1"));
     EXPECT_THAT(header(all), StartsWith("run "));
 }
 
@@ -109,7 +109,7 @@ TEST_F(Points, ShowsOtherParametersWhereTheyDiffer) {
     const Csv csv_of_both(unquoted(mixed.out));
     EXPECT_EQ(csv_of_both.text(9, "parameter"), "w");
     EXPECT_EQ(csv_of_both.number(9, "value"), 1);
-    // Where there is no room for all, what is said twice goes: of a curve both parameters tell where it is.
+    // If the table is too wide, the redundant column `value` goes; both parameters of a curve stay.
     {
         ResultFile file(path, ResultFile::Access::write);
         write_run(file, run_of("one_whose_name_takes_much_of_the_line", "orbit"),
@@ -121,7 +121,7 @@ TEST_F(Points, ShowsOtherParametersWhereTheyDiffer) {
     EXPECT_THAT(narrow, Not(HasSubstr(" value ")));
 }
 
-TEST_F(Points, TellsPeopleWhatTheyLookAt) {
+TEST_F(Points, TableHasTheImportantColumns) {
     write_branches();
     const Printed printed = run_graze({"points", path, "--run", "first"});
     EXPECT_EQ(printed.code, 0) << printed.err;
@@ -137,7 +137,7 @@ TEST_F(Points, TellsPeopleWhatTheyLookAt) {
     EXPECT_THAT(contents(folder / "points.csv"), StartsWith("run,label,"));
 }
 
-TEST_F(Points, WrongInputsAreToldWithARemedy) {
+TEST_F(Points, MistakesAreReportedWithARemedy) {
     const auto said = [](const std::vector<std::string>& words) {
         const Printed run = run_graze(words);
         EXPECT_EQ(run.code, 2);
@@ -188,7 +188,7 @@ TEST_F(Points, ExportsBranchesBesideOtherRuns) {
     EXPECT_EQ(Csv(run_graze({"export", path, "--what", "multipliers", "--format", "csv"}).out).rows.size(), 40U);
 }
 
-TEST_F(Points, ExportRefusesLabelsAndDirectionsThatNothingHas) {
+TEST_F(Points, ExportRefusesUnknownLabelsAndDirections) {
     write_branches();
     write_sweep();
     for (const std::string words :
@@ -199,13 +199,13 @@ TEST_F(Points, ExportRefusesLabelsAndDirectionsThatNothingHas) {
         EXPECT_THAT(printed.err, HasSubstr("no point has the")) << words;
         EXPECT_EQ(std::count(printed.err.begin(), printed.err.end(), '\n'), 1) << printed.err;
     }
-    // What might be there, and is not, chooses nothing.
+    // Valid labels and directions that no point has select no points.
     for (const std::string words : {"--run first --label NS", "--run first --label GR1", "--run swept --label chaotic",
                                     "--run swept --direction down", "--run first --direction down"})
         EXPECT_EQ(run_graze("export " + path + " " + words).code, 0) << words;
 }
 
-TEST_F(Points, ExportTellsWhichTablesARunHas) {
+TEST_F(Points, ExportNamesTheTablesOfARun) {
     write_sweep();
     write_branches();
     const auto said = [&](const std::vector<std::string>& options) {

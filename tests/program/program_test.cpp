@@ -1,4 +1,4 @@
-// What holds for all commands: help, exit codes, and one message for each mistake.
+// Properties of all commands: help, exit codes, and one message for each mistake.
 
 #include "run_graze.hpp"
 
@@ -9,7 +9,7 @@ namespace graze::testing {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-TEST(Program, HelpTeaches) {
+TEST(Program, HelpHasUsageAndExamples) {
     for (const std::string line :
          {"--help", "check --help", "models --help", "simulate --help", "simulate -h", "run --help", "export --help",
           "plot --help", "points --help", "orbit --help", "info --help", "help --help", "completion --help"}) {
@@ -29,7 +29,7 @@ struct Mistake {
     std::string line, message;
 };
 
-TEST(Program, EmptyValuesAreNoneOfTheDefaults) {
+TEST(Program, EmptyValuesAreRefused) {
     for (const std::string option : {"--time", "--mode", "--set", "--section", "--output", "--plot", "--every"}) {
         const Printed run = run_graze(std::vector<std::string>{"simulate", "mems-switch", option, ""});
         EXPECT_EQ(run.code, exit_bad_input) << option;
@@ -37,7 +37,7 @@ TEST(Program, EmptyValuesAreNoneOfTheDefaults) {
     }
 }
 
-TEST(Program, NoFileIsAskedForTwice) {
+TEST(Program, NoFileIsWrittenTwiceOrReplacesTheModel) {
     const Folder folder;
     const std::string model = folder / "model.toml", text = "states.x = 1\nmodes.m.rates.x = \"-x\"\n";
     std::ofstream(model) << text;

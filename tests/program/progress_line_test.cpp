@@ -5,7 +5,7 @@
 namespace graze {
 namespace {
 
-TEST(ProgressLine, counts_the_run_under_its_name_and_the_study_besides) {
+TEST(ProgressLine, CountsPointsOfTheRunAndOfTheStudy) {
     StudyProgress progress;
     progress.run = "down";
     progress.done = 30;

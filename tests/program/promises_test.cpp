@@ -1,4 +1,4 @@
-// What docs/security.md promises and no other test shows; tests/documentation/promises.txt has all of it.
+// Promises of docs/security.md that no other test checks; tests/documentation/promises.txt lists all.
 
 #include "graze/record/record_writer.hpp"
 #include "run_graze.hpp"
@@ -9,7 +9,7 @@ namespace graze::testing {
 
 using ::testing::HasSubstr;
 
-TEST(Promises, ResultFilesAreNoLinks) {
+TEST(Promises, ResultFilesAreNotWrittenThroughLinks) {
     const Folder folder;
     const std::string study = folder.write("s.toml", "name = \"s\"\nmodel = \"bouncing-ball\"\n[runs.r]\nkind = "
                                                      "\"simulate\"\ntime = 1\n");
@@ -29,8 +29,8 @@ TEST(Promises, ResultFilesAreNoLinks) {
     }
 }
 
-/// Files with holes, which take no room.
-TEST(Promises, FilesOfTextHaveTheirBounds) {
+/// Sparse files, which take no space on the disk.
+TEST(Promises, TextFilesHaveASizeLimit) {
     const Folder folder;
     const std::string model = folder / "m.toml", table = folder / "o.csv";
     for (const std::string& path : {model, table})
@@ -49,7 +49,7 @@ TEST(Promises, FilesOfTextHaveTheirBounds) {
                 HasSubstr("268435456 bytes"));
 }
 
-TEST(Promises, TablesOfRecordsAreBounded) {
+TEST(Promises, TablesOfRecordsHaveASizeLimit) {
     const Folder folder;
     const std::string path = folder / "r.h5";
     {
@@ -58,7 +58,7 @@ TEST(Promises, TablesOfRecordsAreBounded) {
         samples.values.resize(1);
         for (int i = 0; i < 4'200'000; ++i) {
             samples.times.push_back(i);
-            samples.values[0].push_back(i < 10 ? 0 : 1); // rises once, and its period has no end
+            samples.values[0].push_back(i < 10 ? 0 : 1); // rises only once, so that its period does not end
         }
         writer.write(samples);
         writer.close();
@@ -67,9 +67,9 @@ TEST(Promises, TablesOfRecordsAreBounded) {
         {{"--what", "samples"}, "more than 2000000 rows"},
         {{"--what", "spectrum", "--channel", "x"}, "more than 4000000 samples"},
         {{"--what", "periods", "--reference", "x", "--level", "0.5"}, "for more than 4000000 samples"}};
-    for (const auto& [rest, problem] : cases) {
+    for (const auto& [options, problem] : cases) {
         std::vector<std::string> words{"record", path};
-        words.insert(words.end(), rest.begin(), rest.end());
+        words.insert(words.end(), options.begin(), options.end());
         const Printed printed = run_graze(words);
         EXPECT_EQ(printed.code, 2) << printed.err;
         EXPECT_THAT(printed.err, HasSubstr(problem));

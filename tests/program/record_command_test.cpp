@@ -15,7 +15,8 @@ namespace {
 
 const double turn = 2 * std::acos(-1.0);
 
-/// Sine of amplitude `size`, and a velocity that jumps from 1 to -0.8 once in each of its periods of a second.
+/// A record of a sine with amplitude `size` and a period of 1 s, and of a velocity that jumps from 1 to -0.8 in each
+/// period.
 std::string record_text(double size) {
     std::string text = "t [s], V [V], v [mm/s]\n";
     for (int i = 0; i < 6000; ++i) {
@@ -37,7 +38,7 @@ protected:
 
 } // namespace
 
-TEST_F(RecordCommand, TellsChannels) {
+TEST_F(RecordCommand, DescribesChannels) {
     const Printed printed = run_graze("record " + file("run.csv") + " --format csv");
     ASSERT_EQ(printed.code, 0) << printed.err;
     const Csv table(printed.out);
@@ -50,7 +51,7 @@ TEST_F(RecordCommand, TellsChannels) {
     EXPECT_NEAR(table.number(0, "longest_step"), 0.001, 1e-9);
 }
 
-TEST_F(RecordCommand, SectionsOfSeveralRecordsLieOverTheirAmplitudes) {
+TEST_F(RecordCommand, SectionsOfSeveralRecordsHaveTheirAmplitudes) {
     const Printed printed = run_graze("record " + file("one.csv", 2) + " " + file("two.csv", 3) +
                                       " --what sections --reference V --phase 0.25 --negate V --format csv");
     ASSERT_EQ(printed.code, 0) << printed.err;
@@ -65,7 +66,7 @@ TEST_F(RecordCommand, SectionsOfSeveralRecordsLieOverTheirAmplitudes) {
     EXPECT_NEAR(table.number(1, "time") - table.number(0, "time"), 0.5, 1e-5);
 }
 
-TEST_F(RecordCommand, OtherTables) {
+TEST_F(RecordCommand, TablesFollowTheClosedForm) {
     const std::string run = file("run.csv");
     const Csv periods(run_graze("record " + run + " --what periods --reference V --format csv").out);
     ASSERT_EQ(periods.rows.size(), 5U);
@@ -88,7 +89,7 @@ TEST_F(RecordCommand, OtherTables) {
     EXPECT_EQ(json.code, 0);
 }
 
-TEST_F(RecordCommand, WhatIsWrittenIsARecord) {
+TEST_F(RecordCommand, WritesAProcessedRecord) {
     const std::string run = file("run.csv"), to = folder / "slow.h5";
     const Printed printed = run_graze("record " + run + " --scale V=1e3-5:mV --every 5 --derivative V --write " + to);
     ASSERT_EQ(printed.code, 0) << printed.err;
@@ -152,7 +153,7 @@ hits = { impacts = "v", window = 20 }
     EXPECT_EQ(column(0, 0).size(), 5U);
 }
 
-TEST_F(RecordCommand, DrawsWhatItTells) {
+TEST_F(RecordCommand, DrawsTables) {
     if (std::system("command -v gnuplot > /dev/null") != 0)
         GTEST_SKIP() << "no gnuplot";
     const std::string run = file("run.csv"), picture = folder / "picture.svg";
@@ -164,8 +165,8 @@ TEST_F(RecordCommand, DrawsWhatItTells) {
     }
 }
 
-// Differences of such values overflow, and their ratios vanish: what cannot be drawn is said, at once.
-TEST_F(RecordCommand, SaysWhichNumbersCannotBeDrawn) {
+// Differences of such values overflow, and their ratios underflow: they are refused before drawing.
+TEST_F(RecordCommand, RefusesToDrawExtremeNumbers) {
     if (std::system("command -v gnuplot > /dev/null") != 0)
         GTEST_SKIP() << "no gnuplot";
     const std::string picture = folder / "picture.svg";

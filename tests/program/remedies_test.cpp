@@ -12,7 +12,7 @@
 namespace graze::testing {
 namespace {
 
-/// What is written between quotes in a source, one text a literal, and raw ones with all their lines.
+/// The string literals of a source file; raw ones have all their lines.
 std::vector<std::string> literals(const std::string& source) {
     std::vector<std::string> found;
     for (std::size_t i = 0; i < source.size(); ++i) {
@@ -34,7 +34,7 @@ std::vector<std::string> literals(const std::string& source) {
     return found;
 }
 
-/// What is set as code in a page of the documentation: blocks that a shell runs, and spans between backticks.
+/// The code in a page of the documentation: lines of blocks that a shell runs, and texts between backticks.
 std::vector<std::string> code_of(const std::string& page) {
     std::vector<std::string> found;
     std::istringstream lines(page);
@@ -63,7 +63,7 @@ struct Text {
     std::string file, text;
 };
 
-/// All texts that may name commands: messages and help, documentation.
+/// All texts that may name commands: messages, help and documentation.
 std::vector<Text> texts() {
     std::vector<Text> all;
     const std::filesystem::path root = source_folder;
@@ -82,7 +82,7 @@ std::vector<Text> texts() {
     return all;
 }
 
-/// Commands with the help of each.
+/// The help of each command, by its name.
 std::map<std::string, std::string> commands() {
     std::map<std::string, std::string> result;
     for (const char* name : {"models", "check",   "simulate",  "run",    "points", "orbit",  "grazing",
@@ -99,7 +99,7 @@ bool has_option(const std::string& help, const std::string& option) {
     return std::regex_search(help, std::regex(option + "([^a-z-]|$)"));
 }
 
-TEST(Remedies, name_commands_that_exist) {
+TEST(Remedies, NameCommandsThatExist) {
     const auto known = commands();
     const std::regex use("(^|[^a-z/.'_-])(\\w*) ?graze ([a-z]+)");
     const std::set<std::string> nouns{"of", "with", "another", "by", "to", "this"};
@@ -114,7 +114,7 @@ TEST(Remedies, name_commands_that_exist) {
     EXPECT_GT(found, 60u);
 }
 
-TEST(Remedies, name_options_that_exist) {
+TEST(Remedies, NameOptionsThatExist) {
     const auto known = commands();
     const std::regex option("--[a-z][a-z-]*");
     const std::regex command("graze ([a-z]+)");
@@ -132,15 +132,15 @@ TEST(Remedies, name_options_that_exist) {
             EXPECT_TRUE(
                 std::any_of(known.begin(), known.end(), [&](const auto& one) { return has_option(one.second, name); }))
                 << text.file << ": " << name << " in: " << text.text;
-            // That which it belongs to, if one is named before it.
+            // The command that the text names before the option, if any, must have the option.
             const std::string before = text.text.substr(0, static_cast<std::size_t>(it->position()));
             std::smatch last;
-            std::string rest = before, owner;
-            while (std::regex_search(rest, last, command)) {
+            std::string remaining = before, owner;
+            while (std::regex_search(remaining, last, command)) {
                 owner = last[1];
-                rest = last.suffix();
+                remaining = last.suffix();
             }
-            if (!known.contains(owner) || rest.find_first_of(";\n|,") != std::string::npos)
+            if (!known.contains(owner) || remaining.find_first_of(";\n|,") != std::string::npos)
                 continue;
             ++of_commands;
             EXPECT_TRUE(has_option(known.at(owner), name)) << text.file << ": " << text.text;

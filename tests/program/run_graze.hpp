@@ -14,19 +14,20 @@
 
 namespace graze::testing {
 
+/// Exit code, standard output and standard error of a command.
 struct Printed {
     int code;
     std::string out, err;
 };
 
-/// The program in this process.
+/// Runs the program in this process. @param arguments without the program's name
 inline Printed run_graze(const std::vector<std::string>& arguments) {
     std::ostringstream out, err;
     const int code = run_program(arguments, {out, err, false});
     return {code, out.str(), err.str()};
 }
 
-/// The same from a line in which no argument contains blanks.
+/// Runs the program with the words of a line; no argument contains blanks.
 inline Printed run_graze(const std::string& line) {
     std::istringstream stream(line);
     std::vector<std::string> words;
@@ -76,7 +77,7 @@ inline std::string header(const std::string& out) {
 
 using Folder = TemporaryFolder;
 
-/// Whether a text is one JSON value (RFC 8259).
+/// Checks whether a text is one JSON value (RFC 8259).
 class JsonCheck {
 public:
     explicit JsonCheck(std::string_view text) : rest_(text) {}

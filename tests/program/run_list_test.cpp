@@ -1,4 +1,4 @@
-// The list that closes a study: what became of its runs, and what to do about it.
+// The list of runs at the end of `graze run`: their status, and remedies for failures.
 
 #include "run_graze.hpp"
 
@@ -13,7 +13,7 @@ namespace {
 class RunList : public ::testing::Test {
 protected:
     RunList() {
-        // A ball that comes to rest by ever smaller bounces, of which the model does not say what follows.
+        // A ball whose bounces accumulate; the model does not tell what follows.
         std::ofstream(folder / "ball.toml") << R"(
 name = "ball"
 [parameters]
@@ -56,7 +56,7 @@ sample = { top = { maxima = "h" } }
 
 } // namespace
 
-TEST_F(RunList, SaysWhatToDoAboutChattering) {
+TEST_F(RunList, HasARemedyForChattering) {
     const Printed printed = list("table");
     EXPECT_EQ(printed.code, 0) << printed.err;
     EXPECT_THAT(printed.out, HasSubstr("chattering 1"));

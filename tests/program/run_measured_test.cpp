@@ -1,4 +1,4 @@
-// Records and what is found from them, by the program: what it prints, draws and exports, and with which exit codes.
+// Studies with runs of the kinds record and identify: output, exported tables and exit codes.
 
 #include "../base/temporary_folder.hpp"
 #include "run_graze.hpp"
@@ -33,13 +33,13 @@ records = "releases"
 gives = { natural_frequency = "w0", damping_ratio = "zeta" }
 )";
 
-TEST(RunMeasured, what_is_found_is_printed_kept_and_exported) {
+TEST(RunMeasured, EstimatesArePrintedStoredAndExported) {
     const testing::TemporaryFolder folder;
     const std::string file = folder.write("s.toml", study);
     const testing::Printed run = run_graze({"run", file, "--output", folder / "out", "--no-pictures"});
     EXPECT_EQ(run.code, 0) << run.err;
     EXPECT_THAT(run.out, HasSubstr("ended 3"));
-    EXPECT_THAT(run.out, HasSubstr("w0 = 90.0")); // the bench's, to its error of some 0.01
+    EXPECT_THAT(run.out, HasSubstr("w0 = 90.0")); // the value of the bench, with an error of about 0.01
     EXPECT_THAT(run_graze({"export", folder / "out", "--sql",
                            "SELECT name FROM estimates WHERE low < 90 AND high > 90 AND name = 'w0'"})
                     .out,
@@ -50,13 +50,13 @@ TEST(RunMeasured, what_is_found_is_printed_kept_and_exported) {
     const testing::Printed info = run_graze({"info", folder / "out"});
     EXPECT_EQ(info.code, 0) << info.err;
     EXPECT_THAT(info.out, HasSubstr("identify"));
-    // From the file alone all of it is done again.
+    // The result file alone is enough to repeat everything.
     const testing::Printed again = run_graze({"run", folder / "out", "--output", folder / "again", "--no-pictures"});
     EXPECT_EQ(again.code, 0) << again.err;
     EXPECT_THAT(again.out, HasSubstr("w0 = 90.0"));
 }
 
-TEST(RunMeasured, records_that_are_none_end_with_two) {
+TEST(RunMeasured, UnreadableRecordsAreRefused) {
     const testing::TemporaryFolder folder;
     folder.write("a.csv", "t,V\n0,1\n1,one\n");
     const std::string head = "name = \"s\"\n[runs.a]\nkind = \"record\"\n";

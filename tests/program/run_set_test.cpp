@@ -12,7 +12,7 @@ using ::testing::HasSubstr;
 
 namespace {
 
-/// x' = -k x from 1: at time 1 it is exp(-k).
+/// A study of x' = -k x from x(0) = 1, with x(1) = exp(-k).
 class RunSet : public ::testing::Test {
 protected:
     RunSet() {
@@ -37,22 +37,22 @@ protected:
 
 } // namespace
 
-TEST_F(RunSet, TakesOtherValuesAndKeepsThem) {
+TEST_F(RunSet, UsesAndStoresTheValues) {
     ASSERT_EQ(run({"--output", folder / "own"}).code, 0);
     const Printed other = run({"--output", folder / "other", "--set", "k=2*3"});
     ASSERT_EQ(other.code, 0) << other.err;
-    // The tolerance is 1e-12 a step.
+    // The tolerance of a step is 1e-12.
     EXPECT_NEAR(end_of("own"), std::exp(-1.0), 1e-12);
     EXPECT_NEAR(end_of("other"), std::exp(-6.0), 1e-12);
     EXPECT_THAT(run_graze({"info", folder / "other"}).out, HasSubstr("with k = 6\n"));
     EXPECT_THAT(run_graze({"info", folder / "other", "--format", "csv"}).out, HasSubstr("study,study,set.k,6,\n"));
-    // Gone on with from the results alone.
+    // The results alone are enough to repeat the run.
     EXPECT_EQ(run_graze({"run", folder / "other", "--output", folder / "again", "--quiet", "--no-pictures"}).code, 0);
     EXPECT_EQ(end_of("again"), end_of("other"));
     EXPECT_EQ(run({"--output", folder / "again", "--set", "k=6"}).code, 0);
 }
 
-TEST_F(RunSet, ResultsOfDifferingValuesDoNotMix) {
+TEST_F(RunSet, ResultsOfDifferentValuesDoNotMix) {
     ASSERT_EQ(run({"--output", folder / "a", "--set", "k=6"}).code, 0);
     const double before = end_of("a");
     for (const std::vector<std::string>& options :
@@ -67,7 +67,7 @@ TEST_F(RunSet, ResultsOfDifferingValuesDoNotMix) {
     EXPECT_THAT(run({"--output", folder / "own", "--set", "k=6"}).err, HasSubstr("the study's own values"));
 }
 
-TEST_F(RunSet, ByItselfGoesToAFolderOfItsOwn) {
+TEST_F(RunSet, DefaultFolderIsNamedAfterTheValues) {
     const std::filesystem::path here = std::filesystem::current_path();
     std::filesystem::current_path(folder / ".");
     const Printed printed = run({"--set", "k=0.5"});
@@ -76,7 +76,7 @@ TEST_F(RunSet, ByItselfGoesToAFolderOfItsOwn) {
     EXPECT_NEAR(end_of("study-k=0.5"), std::exp(-0.5), 1e-12);
 }
 
-TEST_F(RunSet, RefusesWhatHasNoEffect) {
+TEST_F(RunSet, RefusesUnknownNamesAndValues) {
     ASSERT_EQ(run({"--output", folder / "a"}).code, 0);
     const std::vector<std::pair<std::vector<std::string>, std::string>> mistakes{
         {{"--set", "c=1"}, "--set: no model of the study has a parameter 'c'; known are: k"},

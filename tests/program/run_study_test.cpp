@@ -67,7 +67,7 @@ protected:
     std::filesystem::path folder_;
 };
 
-TEST_F(RunStudyTest, a_study_is_run_once_and_exported) {
+TEST_F(RunStudyTest, IsComputedOnceAndExported) {
     const testing::Printed first = study_run("a");
     EXPECT_EQ(first.code, 0) << first.err;
     EXPECT_THAT(first.out, HasSubstr("sweep,sweep,82,82,"));
@@ -85,7 +85,7 @@ TEST_F(RunStudyTest, a_study_is_run_once_and_exported) {
     EXPECT_THAT(run_graze({"export", path("a"), "--what", "runs"}).out, HasSubstr("complete"));
 }
 
-TEST_F(RunStudyTest, wrong_inputs_are_told_and_change_nothing) {
+TEST_F(RunStudyTest, MistakesAreReportedAndChangeNothing) {
     EXPECT_EQ(run_graze(std::vector<std::string>{"run"}).code, 2);
     EXPECT_THAT(run_graze("run mems-swich").err, HasSubstr("did you mean 'mems-switch'?"));
     EXPECT_THAT(run_graze("run " + path("none.toml")).err, HasSubstr("the study cannot be read"));
@@ -103,7 +103,7 @@ TEST_F(RunStudyTest, wrong_inputs_are_told_and_change_nothing) {
     EXPECT_FALSE(std::filesystem::exists(path("x.png")));
 }
 
-TEST_F(RunStudyTest, pictures_of_every_kind_are_drawn) {
+TEST_F(RunStudyTest, DrawsPicturesOfEveryKind) {
     ASSERT_EQ(study_run("a").code, 0);
     const auto drawn = [&](std::vector<std::string> options) {
         std::vector<std::string> words{"plot", path("a"), "--output", path("p.svg")};
@@ -122,7 +122,7 @@ TEST_F(RunStudyTest, pictures_of_every_kind_are_drawn) {
     EXPECT_GT(drawn({"--run", "sweep", "--kind", "regression", "--y", "I"}), 2'000u);
 }
 
-/// Starts the program and kills it after a while. @return whether it had ended by itself
+/// Starts the program and kills it after a time. @return true if it had finished before
 bool run_and_kill(const std::vector<std::string>& words, std::chrono::microseconds after) {
     const pid_t child = fork();
     if (child == 0) {
@@ -148,7 +148,7 @@ bool run_and_kill(const std::vector<std::string>& words, std::chrono::microsecon
 
 using RunStudySlow = RunStudyTest;
 
-TEST_F(RunStudyTest, of_some_runs_alone_what_shows_no_others_is_drawn) {
+TEST_F(RunStudyTest, OnlyDrawsPicturesOfTheChosenRuns) {
     const testing::Printed some = run_graze({"run", path("study.toml"), "--output", path("some"), "--only", "basin"});
     EXPECT_EQ(some.code, 0) << some.err;
     EXPECT_TRUE(std::filesystem::exists(path("some/basin.png")));
@@ -156,12 +156,12 @@ TEST_F(RunStudyTest, of_some_runs_alone_what_shows_no_others_is_drawn) {
     EXPECT_THAT(some.err, Not(HasSubstr("picture")));
 }
 
-TEST_F(RunStudySlow, killed_at_a_hundred_moments_it_ends_with_the_same_results) {
+TEST_F(RunStudySlow, HasTheSameResultsAfterAHundredKills) {
     ASSERT_EQ(study_run("whole").code, 0);
     const std::string whole = everything("whole");
     std::mt19937 random(7);
     int kills = 0;
-    // Each round starts anew once it is complete, so that all moments of a run are met.
+    // When a study is complete, the next round begins in a new folder, so that kills hit all stages of a study.
     for (int round = 0; kills < 100; ++round) {
         const std::string output = "killed" + std::to_string(round);
         const std::vector<std::string> words{"graze",  "run", path("study.toml"), "--output", path(output),
@@ -174,7 +174,7 @@ TEST_F(RunStudySlow, killed_at_a_hundred_moments_it_ends_with_the_same_results) 
     }
 }
 
-TEST_F(RunStudyTest, results_are_gone_on_with_and_done_again_from_their_file_alone) {
+TEST_F(RunStudyTest, ResultsAreContinuedAndRepeatedFromTheirFileAlone) {
     ASSERT_EQ(study_run("a").code, 0);
     const std::string before = everything("a");
     std::filesystem::remove(path("study.toml"));
@@ -192,7 +192,7 @@ TEST_F(RunStudyTest, results_are_gone_on_with_and_done_again_from_their_file_alo
     EXPECT_TRUE(std::filesystem::exists(path("a/sweep.png")));
 }
 
-/// Asks the program to end, as Ctrl-C does, once it has written so many lines.
+/// A stream buffer that interrupts the program, as Ctrl-C does, after a number of lines.
 class Interrupting : public std::stringbuf {
 public:
     explicit Interrupting(int lines) : left_(lines) {}
@@ -216,7 +216,7 @@ private:
     int left_;
 };
 
-TEST_F(RunStudyTest, a_branch_that_was_interrupted_says_so_and_how_to_go_on) {
+TEST_F(RunStudyTest, AnInterruptedBranchTellsHowToContinue) {
     std::ofstream(path("branch.toml")) << R"(
 name = "b"
 model = "impact-oscillator"
@@ -240,7 +240,7 @@ direction = "both"
     EXPECT_THAT(again.out, ::testing::Not(HasSubstr("interrupted")));
 }
 
-TEST_F(RunStudyTest, a_motion_that_waits_in_vain_says_so) {
+TEST_F(RunStudyTest, AMotionWithoutContactsFailsWithARemedy) {
     std::ofstream(path("wait.toml")) << R"(
 name = "w"
 model = "impact-oscillator"
@@ -257,12 +257,12 @@ contacts = 3
     EXPECT_THAT(run.out, HasSubstr("give a time too"));
 }
 
-/// Whoever may do everything is not kept out by permissions.
+/// False for a user such as root, to whom permissions do not apply.
 bool is_kept_out(const std::string& folder) {
     return access(folder.c_str(), W_OK) != 0;
 }
 
-TEST_F(RunStudyTest, what_cannot_be_written_is_told_in_one_line) {
+TEST_F(RunStudyTest, UnwritableFoldersAreReportedInOneLine) {
     ASSERT_EQ(study_run("a").code, 0);
     using std::filesystem::perms;
     std::filesystem::create_directories(path("closed"));
@@ -277,7 +277,7 @@ TEST_F(RunStudyTest, what_cannot_be_written_is_told_in_one_line) {
             EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
             EXPECT_THAT(run.err, HasSubstr(path(output))) << run.err;
         }
-    // What is only read, is read.
+    // Reading needs no permission to write.
     EXPECT_EQ(run_graze({"export", path("a"), "--run", "sweep", "--format", "csv"}).code, 0);
     for (const char* folder : {"closed", "a"})
         std::filesystem::permissions(path(folder), perms::owner_all);
@@ -285,7 +285,7 @@ TEST_F(RunStudyTest, what_cannot_be_written_is_told_in_one_line) {
         GTEST_SKIP() << "permissions do not keep this user out";
 }
 
-TEST_F(RunStudyTest, names_that_are_those_of_columns_stay_apart) {
+TEST_F(RunStudyTest, NamesOfColumnsAreUsableAsNamesOfStates) {
     std::ofstream(path("names.toml")) << R"toml(
 name = "names"
 [parameters]
@@ -353,14 +353,14 @@ monitors = { a = { maximum = "start" }, A = { minimum = "start" }, type = "perio
         EXPECT_EQ(run_graze({"plot", path("n"), "--run", name, "--output", path(name + ".svg")}).code, 0) << name;
 }
 
-TEST_F(RunStudyTest, what_is_neither_study_nor_results_is_refused) {
+TEST_F(RunStudyTest, OtherFilesAreRefused) {
     EXPECT_THAT(run_graze({"run", path("none.sqlite")}).err, HasSubstr("there is no such result file"));
     std::ofstream(path("no.sqlite")) << "this is something else, however long it may be";
     EXPECT_THAT(run_graze({"run", path("no.sqlite")}).err, HasSubstr("no result file of graze"));
     EXPECT_NE(run_graze({"run", folder_.string()}).code, 0);
 }
 
-TEST_F(RunStudyTest, files_without_their_ending_are_told_by_name) {
+TEST_F(RunStudyTest, NamesWithoutEndingSuggestTheFile) {
     std::ofstream(path("mine.toml")) << "name = \"mine\"\n[states]\nx = 1\n[modes.m]\nrates = { x = \"-x\" }\n";
     std::ofstream(path("own.toml")) << "name = \"own\"\nmodel = \"mine\"\n[runs.a]\nkind = \"simulate\"\ntime = 1\n";
     EXPECT_THAT(run_graze({"run", path("own.toml")}).err,

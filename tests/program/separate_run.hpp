@@ -19,24 +19,27 @@
 
 namespace graze::testing {
 
+/// Limits of the process of run_separately.
 struct SeparateRunLimits {
-    std::size_t memory = std::size_t{3} << 30; ///< bytes of address space, where no sanitizer takes all of it
-    double time = 60;                          ///< seconds, of a machine that does other things too
-    double end_after = 0;                      ///< seconds until it is asked to end (SIGTERM); 0: never
-    std::size_t file_size = 0;                 ///< bytes of a file that can be written, as on a full disk; 0: all
+    std::size_t memory = std::size_t{3} << 30; ///< bytes of address space; not applied under sanitizers, which use all
+    double time = 60;                          ///< seconds until it is killed; generous, for a busy machine
+    double end_after = 0;                      ///< seconds until it gets SIGTERM; 0: never
+    std::size_t file_size = 0;                 ///< largest size of a file in bytes, as on a full disk; 0: no limit
 };
 
+/// Result of run_separately.
 struct SeparateRun {
-    int code = -1, signal = 0; ///< how it has ended
+    int code = -1, signal = 0; ///< exit code (-1: a signal ended it) and signal (0: none)
     bool timed_out = false, was_ended = false;
-    double seconds = 0;     ///< of the processor
-    std::size_t memory = 0; ///< bytes, at most at one time
+    double seconds = 0;     ///< processor time
+    std::size_t memory = 0; ///< largest resident size in bytes
     std::string out, err;
 };
 
 namespace separate_run {
 
-/// What the other process does. Its output goes into files, which need no reader, and which no limit of sizes is for.
+/// The work of the other process. Its output goes into files, which need no reader; the size limit does not apply to
+/// them.
 [[noreturn]] inline void act(const std::vector<std::string>& words, const SeparateRunLimits& limits, std::FILE* out,
                              std::FILE* err) {
     const rlimit memory{limits.memory, limits.memory};
@@ -75,7 +78,7 @@ inline std::string contents_of(std::FILE* file) {
 
 } // namespace separate_run
 
-/// The program in a process of its own, which may crash, hang or take too much.
+/// Runs the program in another process, which may crash, hang or use too much memory.
 inline SeparateRun run_separately(const std::vector<std::string>& words, const SeparateRunLimits& limits = {}) {
     std::FILE *out = std::tmpfile(), *err = std::tmpfile();
     SeparateRun run;

@@ -14,7 +14,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// A harmonic oscillator, whose motion is known: x = cos(w t), v = -w sin(w t) from the standard state.
+/// A harmonic oscillator with the closed form x = cos(w t), v = -w sin(w t) from the initial state of the model.
 const std::string oscillator = R"(
 name = "oscillator"
 [parameters]
@@ -35,7 +35,7 @@ direction = "falling"
 energy = { value = "(v^2 + w^2*x^2)/2", unit = "J" }
 )";
 
-/// A ball on a floor that it reaches without an end of impacts, and nothing said about what then.
+/// A ball whose impacts on the floor accumulate; the model does not tell what follows.
 const std::string endless = R"(
 name = "endless"
 [states]
@@ -92,7 +92,7 @@ TEST_F(Simulate, SamplesFollowTheClosedForm) {
     }
 }
 
-TEST_F(Simulate, LengthsCountWhatTheySay) {
+TEST_F(Simulate, LengthOptionsEndTheTrajectory) {
     EXPECT_EQ(csv("oscillator.toml", "--section start").rows.size(), 20U) << "20 periods unless told";
     EXPECT_EQ(csv("oscillator.toml", "--section start --periods 3").rows.size(), 3U);
     const Csv skipped = csv("oscillator.toml", "--section start --skip 5 --periods 2");
@@ -109,7 +109,7 @@ TEST_F(Simulate, LengthsCountWhatTheySay) {
     EXPECT_EQ(csv("mems-switch", "", 2).rows.size(), 0U) << "a path is no shipped model";
 }
 
-TEST_F(Simulate, SectionsAndExtrema) {
+TEST_F(Simulate, SectionsAndExtremaFollowTheClosedForm) {
     const Csv sections = csv("oscillator.toml", "--section middle --periods 3 --from x=2 --set w=3,");
     EXPECT_THAT(sections.columns, ::testing::ElementsAre("section", "time", "direction", "mode", "x", "v", "phase"));
     ASSERT_EQ(sections.rows.size(), 3U);
@@ -138,7 +138,7 @@ TEST_F(Simulate, DerivativesMatchTheClosedForm) {
                 ::testing::ElementsAre("state", "value", "d_w", "d_x"));
 }
 
-TEST_F(Simulate, ContactsOfTheSwitchArePublished) {
+TEST_F(Simulate, ContactsOfTheSwitchHavePublishedTimes) {
     const Printed run = run_graze("simulate mems-switch --contacts --event stop --format csv");
     EXPECT_EQ(run.code, 0);
     const Csv table(run.out);
@@ -156,7 +156,7 @@ TEST_F(Simulate, ContactsOfTheSwitchArePublished) {
     EXPECT_THAT(run.err, HasSubstr("snap-through/singularity at time 27.317735701"));
 }
 
-TEST_F(Simulate, CountsContacts) {
+TEST_F(Simulate, EndsAfterANumberOfContacts) {
     const Csv table(run_graze("simulate mems-switch --contacts 2 --event stop --format csv").out);
     EXPECT_EQ(table.rows.size(), 2U);
     const Printed sections = run_graze("simulate mems-switch --contacts 2 --event stop --section phase0 --format csv");
@@ -170,7 +170,7 @@ TEST_F(Simulate, CountsContacts) {
     EXPECT_EQ(run_graze("simulate --contacts mems-switch").code, 0) << "needs no number before the model";
 }
 
-TEST_F(Simulate, MinimaAreGuaranteed) {
+TEST_F(Simulate, MinimaLieAboveTheirLowerBounds) {
     const Csv table(run_graze("simulate mems-switch --minima --event stop --format csv").out);
     EXPECT_THAT(table.columns,
                 ::testing::ElementsAre("arc", "mode", "start", "end", "event", "time", "value", "lower_bound"));
@@ -198,7 +198,7 @@ TEST_F(Simulate, IrregularEndingKeepsTheTable) {
     EXPECT_EQ(csv("endless.toml", "--time 10 --steps 3", exit_irregular).rows.size() > 0, true);
 }
 
-TEST_F(Simulate, JsonSaysEverything) {
+TEST_F(Simulate, JsonHasModelSettingsAndUnits) {
     const Printed run = run_graze("simulate electromagnetic-testbed --set V0=4.8 --from I=V0/48 theta=pi/2 --periods 2 "
                                   "--section phase0 --format json");
     EXPECT_EQ(run.code, 0) << run.err;
@@ -219,7 +219,7 @@ TEST_F(Simulate, QuantitiesWithoutAValueAreEmptyAndReported) {
     EXPECT_THAT(run.err, HasSubstr("log(x) has no finite value"));
 }
 
-TEST_F(Simulate, OutputIsWholeOrNotThere) {
+TEST_F(Simulate, OutputIsCompleteOrMissing) {
     const std::string file = folder / "run.csv";
     const std::size_t before = folder.files();
     const Printed run = simulate("oscillator.toml", "--format csv --output " + file);

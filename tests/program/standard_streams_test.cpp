@@ -1,4 +1,4 @@
-// The program as a shell starts it: with streams closed, with a limit of the size of files, in a stranger's folder.
+// The program started by a shell: with closed streams, with a size limit of files, in a folder of another user.
 
 #include "program/standard_streams.hpp"
 
@@ -16,7 +16,7 @@ namespace graze::testing {
 
 namespace {
 
-/// Ends as a shell that begins with `before` ends, after the program with these words. Quotes are the caller's.
+/// The exit code of a shell command: `before`, the program with `words`, `after`. The caller quotes them.
 int exit_code_of(const std::string& before, const std::string& words, const std::string& after) {
     const int status = std::system(fmt::format("{} '{}' {} {}", before, program_file, words, after).c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
@@ -24,7 +24,7 @@ int exit_code_of(const std::string& before, const std::string& words, const std:
 
 class StandardStreams : public ::testing::Test {
 protected:
-    /// A record of which one row is left out, which is told.
+    /// A record with one incomplete row, which is left out with a message.
     std::string record() const {
         return folder.write("missing.csv", "t,V\n0,1\n1,2\n2,nan\n3,4\n4,2\n5,1\n6,2\n7,1\n8,8\n");
     }
@@ -33,7 +33,7 @@ protected:
 
 } // namespace
 
-TEST_F(StandardStreams, messages_that_nobody_takes_get_into_no_file) {
+TEST_F(StandardStreams, MessagesToAClosedStreamReachNoFile) {
     const std::string words = fmt::format("record '{}' --write '{}'", record(), folder / "out.csv");
     EXPECT_EQ(exit_code_of("", words, "2>'" + (folder / "messages") + "'"), 0);
     const std::string told = contents(folder / "out.csv");
@@ -46,7 +46,7 @@ TEST_F(StandardStreams, messages_that_nobody_takes_get_into_no_file) {
     EXPECT_EQ(contents(folder / "out.csv"), told);
 }
 
-TEST_F(StandardStreams, a_table_that_nobody_takes_is_told_and_gets_into_no_file) {
+TEST_F(StandardStreams, ATableToAClosedStreamIsReportedAndReachesNoFile) {
     const std::string study = folder.write("s.toml", "name = \"s\"\nmodel = \"bouncing-ball\"\n[runs.r]\nkind = "
                                                      "\"simulate\"\ntime = 1\n");
     const std::string words = fmt::format("run '{}' --output '{}' --no-pictures", study, folder / "results");
@@ -59,7 +59,7 @@ TEST_F(StandardStreams, a_table_that_nobody_takes_is_told_and_gets_into_no_file)
     }
 }
 
-TEST_F(StandardStreams, files_longer_than_allowed_are_told_and_leave_nothing) {
+TEST_F(StandardStreams, FilesBeyondTheSizeLimitAreReportedAndRemoved) {
     const std::string words =
         fmt::format("simulate bouncing-ball --time 100 --samples 3000 --format csv --output '{}'", folder / "out.csv");
     EXPECT_EQ(exit_code_of("ulimit -f 8;", words, "2>'" + (folder / "messages") + "'"), 2);
@@ -67,9 +67,9 @@ TEST_F(StandardStreams, files_longer_than_allowed_are_told_and_leave_nothing) {
     EXPECT_EQ(folder.files(), 1U) << "the messages alone";
 }
 
-/// Libraries are looked for where the system has them, never in the folder where one is: an archive that has been
-/// unpacked there may have some of these names.
-TEST_F(StandardStreams, no_library_is_taken_from_the_current_folder) {
+/// Libraries must be loaded from folders of the system, never from the current one: an unpacked archive may contain
+/// files with their names.
+TEST_F(StandardStreams, NoLibraryIsLoadedFromTheCurrentFolder) {
     if (std::system("command -v readelf >/dev/null") != 0)
         GTEST_SKIP() << "readelf is missing";
     const std::string dynamic = folder / "dynamic";

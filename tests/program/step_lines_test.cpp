@@ -11,7 +11,7 @@ using ::testing::StartsWith;
 
 namespace {
 
-/// An oscillator before its stop, whose force grows until it grazes.
+/// An oscillator whose force grows until it grazes its stop.
 constexpr const char* study = R"(
 name = "onset"
 model = "impact-oscillator"
@@ -30,7 +30,7 @@ top = { maximum = "x" }
 
 } // namespace
 
-TEST(StepLines, TellAboutABranchWhileItIsFollowed) {
+TEST(StepLines, HaveOneLineForEachOrbit) {
     const Folder folder;
     std::ofstream(folder / "onset.toml") << study;
     const std::vector<std::string> words{"run", folder / "onset.toml", "--output", folder / "onset", "--no-pictures"};
@@ -48,7 +48,7 @@ TEST(StepLines, TellAboutABranchWhileItIsFollowed) {
     EXPECT_THAT(run.err, HasSubstr(" GR   GR1 "));
     for (std::size_t i = 6; i < lines.size(); ++i)
         EXPECT_EQ(lines[i].size(), lines[5].size()) << lines[i];
-    // The table at the end says what has happened on the way.
+    // The table at the end counts the special points.
     EXPECT_THAT(run.out, HasSubstr("GR 1"));
     EXPECT_THAT(run_graze(words).out, HasSubstr("was there"));
     EXPECT_EQ(run_graze(words).err, "");

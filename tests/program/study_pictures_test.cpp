@@ -1,4 +1,4 @@
-// Pictures of a study are drawn again only when that could change them.
+// Pictures of a study are drawn again only if their inputs or files have changed.
 
 #include "graze/picture/result_picture.hpp"
 #include "run_graze.hpp"
@@ -33,7 +33,7 @@ protected:
         return contents(picture());
     }
     std::filesystem::path picture() const { return folder / "out/p.svg"; }
-    /// Makes the picture look old. @return whether a run of the study leaves it so
+    /// Gives the picture an old time and runs the study. @return true if the study does not write the picture again
     bool is_kept() const {
         const auto old = std::filesystem::last_write_time(picture()) - std::chrono::hours(1);
         std::filesystem::last_write_time(picture(), old);
@@ -45,14 +45,14 @@ protected:
 
 } // namespace
 
-TEST_F(KeptPictures, NothingIsDrawnTwice) {
+TEST_F(KeptPictures, UnchangedPicturesAreNotDrawnAgain) {
     const std::string first = run();
     EXPECT_THAT(first, HasSubstr("<svg"));
     EXPECT_TRUE(is_kept());
     EXPECT_EQ(contents(picture()), first);
 }
 
-TEST_F(KeptPictures, WhatHasChangedIsDrawn) {
+TEST_F(KeptPictures, ChangedPicturesAndResultsAreDrawnAgain) {
     const std::string first = run();
     write("title = \"two\"");
     EXPECT_FALSE(is_kept());
@@ -62,7 +62,7 @@ TEST_F(KeptPictures, WhatHasChangedIsDrawn) {
     EXPECT_TRUE(is_kept());
 }
 
-TEST_F(KeptPictures, APictureThatIsMissingOrDiffersIsDrawn) {
+TEST_F(KeptPictures, MissingAndModifiedPicturesAreDrawnAgain) {
     const std::string first = run();
     std::filesystem::remove(picture());
     EXPECT_EQ(run(), first);
@@ -73,8 +73,8 @@ TEST_F(KeptPictures, APictureThatIsMissingOrDiffersIsDrawn) {
     EXPECT_TRUE(is_kept());
 }
 
-// What a study calls a value of its own is no name of the model, from which the motion is computed again.
-TEST_F(KeptPictures, ValuesOfTheStudyHaveAHistory) {
+// Histories compute the motion again from the model, which does not know the values that a study defines.
+TEST_F(KeptPictures, ValuesOfTheStudyCanBeDrawnOverTime) {
     std::ofstream(folder / "study.toml") << "name = \"s\"\nmodel = \"model.toml\"\n[runs.r]\nkind = \"simulate\"\n"
                                             "time = 3\nvalues = [\"x\", \"balance = (x^2 - v^2)/2\"]\n"
                                             "sample = { a = { maxima = \"x\" } }\n";

@@ -1,4 +1,4 @@
-// Tables of a study, as files beside its pictures.
+// Tables of a study: files beside its pictures.
 
 #include "run_graze.hpp"
 
@@ -36,7 +36,7 @@ TEST_F(StudyTables, AreWrittenBesideTheResults) {
     const Printed printed = run(folder / "study.toml");
     EXPECT_EQ(printed.code, 0) << printed.err;
     EXPECT_THAT(printed.out, HasSubstr("out/lows.csv\n"));
-    // A study that asks for tables only is not given pictures.
+    // A study with tables and no pictures gets no default pictures.
     EXPECT_THAT(printed.out, Not(HasSubstr(".png")));
     std::ifstream stream(table());
     std::string heading, x, t;
@@ -47,7 +47,7 @@ TEST_F(StudyTables, AreWrittenBesideTheResults) {
     EXPECT_NEAR(std::stod(t), 3.141592653589793, 1e-11);
 }
 
-TEST_F(StudyTables, AreWrittenAnewOnlyWhereTheyDiffer) {
+TEST_F(StudyTables, AreWrittenAgainOnlyIfTheyDiffer) {
     run(folder / "study.toml");
     const std::string first = contents(table());
     const auto old = std::filesystem::last_write_time(table()) - std::chrono::hours(1);
@@ -59,7 +59,7 @@ TEST_F(StudyTables, AreWrittenAnewOnlyWhereTheyDiffer) {
     EXPECT_EQ(contents(table()), first);
 }
 
-TEST_F(StudyTables, ThatCannotBeMadeAreWarnedOf) {
+TEST_F(StudyTables, ThatCannotBeMadeGiveAWarning) {
     write("columns = [\"y\"]");
     const Printed printed = run(folder / "study.toml");
     EXPECT_EQ(printed.code, 2);
@@ -68,7 +68,7 @@ TEST_F(StudyTables, ThatCannotBeMadeAreWarnedOf) {
     EXPECT_FALSE(std::filesystem::exists(table()));
 }
 
-TEST_F(StudyTables, ReplaceNothingThatTheStudyReads) {
+TEST_F(StudyTables, NeverReplaceInputsOfTheStudy) {
     std::filesystem::create_directory(folder / "out");
     std::filesystem::create_hard_link(folder / "study.toml", table());
     const std::string before = contents(folder / "study.toml");

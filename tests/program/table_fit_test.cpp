@@ -34,8 +34,8 @@ std::vector<std::string> names(const Table& table) {
 
 } // namespace
 
-TEST(TableFit, KeepsWhatFits) {
-    // Three columns of four letters and two gaps of two.
+TEST(TableFit, KeepsColumnsThatFit) {
+    // Three columns of four characters and two gaps of two.
     const Table table = table_with({"aaaa", "bbbb", "cccc"}, "x");
     const FittedTable whole = fitted(table, 8, 16, {});
     EXPECT_THAT(names(whole.table), ElementsAre("aaaa", "bbbb", "cccc"));
@@ -48,7 +48,7 @@ TEST(TableFit, KeepsWhatFits) {
     EXPECT_EQ(narrow.table.text(0, 1), "x");
 }
 
-TEST(TableFit, LeavesOutFirstWhatIsEmptyOrOfLittleInterest) {
+TEST(TableFit, LeavesOutEmptyAndUnimportantColumnsFirst) {
     Table table({{"number", ""}, {"chain", ""}, {"nothing", ""}, {"x", ""}, {"missing", ""}});
     table.add(1);
     table.add(2);
@@ -61,7 +61,7 @@ TEST(TableFit, LeavesOutFirstWhatIsEmptyOrOfLittleInterest) {
     EXPECT_THAT(narrow.left_out, ElementsAre("chain"));
 }
 
-TEST(TableFit, LinesOfCommandsFitATerminalUnlessAllIsAskedFor) {
+TEST(TableFit, TablesOfCommandsFitATerminalUnlessAllIsGiven) {
     for (const std::string line : {"simulate microbeam --set V=10 --time 1 --samples 5",
                                    "simulate impact-microactuator --periods 2 --contacts"}) {
         const Printed brief = run_graze(line), all = run_graze(line + " --all"),
@@ -84,7 +84,7 @@ TEST(TableFit, LinesOfCommandsFitATerminalUnlessAllIsAskedFor) {
     EXPECT_THAT(header(asked.out), HasSubstr("1+1"));
 }
 
-TEST(TableFit, ShortensLongTexts) {
+TEST(TableFit, ShortensLongSignatures) {
     std::string many, mixed;
     for (int i = 0; i < 24; ++i)
         many += i == 0 ? "impact" : " impact";

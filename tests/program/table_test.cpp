@@ -69,10 +69,10 @@ TEST(Table, TextsInTheLastColumnAreBrokenToFitLines) {
     EXPECT_EQ(lines(40), "name  what it does\n"
                          "one   some words that are longer than a\n"
                          "      line of so few letters\n");
-    EXPECT_EQ(lines(20), lines(0)) << "there is no room for words";
+    EXPECT_EQ(lines(20), lines(0)) << "the line is too short for breaking";
 }
 
-TEST(Table, JsonIsJson) {
+TEST(Table, JsonIsValid) {
     const std::string text = written(small_table(), TableFormat::json, 3);
     EXPECT_TRUE(JsonCheck(text).valid()) << text;
     EXPECT_NE(text.find("\"columns\":[\"time\",\"mode\",\"x\"]"), std::string::npos);

@@ -1,4 +1,4 @@
-// How far the voltage at which the MEMS switch trips depends on its dimensions, as the program says it.
+// `graze tolerance`: how the voltage at which the MEMS switch trips depends on its dimensions.
 
 #include "run_graze.hpp"
 
@@ -44,23 +44,23 @@ struct ToleranceCommand : public ::testing::Test {
 
 } // namespace
 
-TEST_F(ToleranceCommand, TellsDerivativesAtAnyPointThatTouches) {
+TEST_F(ToleranceCommand, FindsDerivativesAtAnyTouch) {
     const Csv csv = table({"no_impact:GR1"});
     ASSERT_EQ(csv.rows.size(), 4U);
-    // The touch of a motion without impact does not depend on the restitution.
+    // The grazing of a motion without impact does not depend on the restitution.
     EXPECT_EQ(number(csv, "parameter", "e", "dV"), 0);
     const double by_gap = number(csv, "parameter", "delta", "dV");
     EXPECT_NEAR(number(csv, "parameter", "delta", "relative"), by_gap * 0.6 / 0.2013662121541341, 1e-10);
-    // A curve of touches begins there.
+    // A curve of touches begins at the same grazing.
     EXPECT_NEAR(number(table({"touches_gap:EP1", "--parameter", "V"}), "parameter", "delta", "dV"), by_gap, 1e-9);
-    // The other way round: the gap at which it touches, by the voltage.
+    // The inverse derivative: of the gap at the grazing by the voltage.
     const Csv inverse = table({"no_impact:GR1", "--parameter", "delta"});
     EXPECT_NEAR(number(inverse, "parameter", "V", "ddelta") * by_gap, 1, 1e-10);
     const Printed people = tolerance({"no_impact:GR1"});
     EXPECT_THAT(people.out, HasSubstr("V = 0.20136621\n"));
 }
 
-TEST_F(ToleranceCommand, MakesDevices) {
+TEST_F(ToleranceCommand, StatisticsOfDevicesMatchTheDerivatives) {
     const std::vector<std::string> words{
         "no_impact:GR1", "--vary", "delta=1%,zeta=0.001:uniform", "--within", "0.199:0.204", "--devices", "400"};
     const Csv csv = table(words);
@@ -84,7 +84,7 @@ TEST_F(ToleranceCommand, MakesDevices) {
     alone[alone.size() - 3] = "3";
     const Printed again = tolerance(alone);
     EXPECT_EQ(once.code, 0);
-    EXPECT_EQ(once.out, again.out); // whatever the number of threads
+    EXPECT_EQ(once.out, again.out); // independent of the number of threads
     EXPECT_THAT(once.out, HasSubstr("\"statistics\":{\"nominal\":0.2013662"));
     EXPECT_THAT(once.out, HasSubstr("\"share\""));
     alone.insert(alone.end(), {"--seed", "7"});
@@ -98,7 +98,7 @@ TEST_F(ToleranceCommand, MakesDevices) {
     EXPECT_EQ(contents(folder / "yield.txt"), people.out);
 }
 
-TEST_F(ToleranceCommand, DrawsThem) {
+TEST_F(ToleranceCommand, DrawsTheDistributionOfDevices) {
     const Printed printed = tolerance({"no_impact:GR1", "--vary", "delta=1%", "--devices", "300", "--within",
                                        "0.2:", "--plot", folder / "yield.svg", "--data", folder / "yield.gnuplot"});
     EXPECT_EQ(printed.code, 0) << printed.err;
@@ -110,8 +110,8 @@ TEST_F(ToleranceCommand, DrawsThem) {
     EXPECT_THAT(alike.err, HasSubstr("the devices do not differ"));
 }
 
-TEST_F(ToleranceCommand, TellsWhichDevicesHaveNoValue) {
-    // Some stops lie where the electrode is at rest, or beyond.
+TEST_F(ToleranceCommand, CountsDevicesWithoutASolution) {
+    // Some stops lie at or beyond the rest position of the electrode.
     const Printed printed = tolerance({"no_impact:GR1", "--vary", "delta=0.3", "--devices", "200", "--format", "csv"});
     const Csv csv(printed.out);
     const double failed = number(csv, "quantity", "failed", "value");
@@ -121,7 +121,7 @@ TEST_F(ToleranceCommand, TellsWhichDevicesHaveNoValue) {
     EXPECT_THAT(printed.err, HasSubstr(" of 200 devices: "));
 }
 
-TEST_F(ToleranceCommand, RefusesWhatItCannotDo) {
+TEST_F(ToleranceCommand, RefusesWrongPointsAndOptions) {
     const auto refused = [&](std::vector<std::string> words, const std::string& why) {
         const Printed printed = tolerance(words);
         EXPECT_EQ(printed.code, 2) << why;

@@ -1,4 +1,4 @@
-// How long motions that touch take until they are lost, as the program tells it.
+// `graze trip`: times until motions beyond a grazing or a fold are lost.
 
 #include "run_graze.hpp"
 
@@ -49,7 +49,7 @@ double number(const Csv& csv, std::size_t row, const char* column) {
 
 } // namespace
 
-TEST_F(TripCommand, TellsTheTimesOfTheSwitch) {
+TEST_F(TripCommand, TimesOfTheSwitchMatchPublishedOnes) {
     const std::string results = run_only("mems-switch", {"free", "no_impact"});
     const Csv csv = table({results, "GR1"});
     ASSERT_EQ(csv.rows.size(), 10U);
@@ -57,11 +57,11 @@ TEST_F(TripCommand, TellsTheTimesOfTheSwitch) {
         // The shipped parameter is 0.2: 1e-2 to 1e-20 of its decade.
         EXPECT_NEAR(std::log10(number(csv, row, "overshoot")), -3 - 2 * static_cast<double>(row), 1e-12);
         EXPECT_EQ(csv.text(row, "ending"), "speed");
-        // One turn of the phase moves as far as contacts change it: a few hundredths of a cycle at the last.
+        // Contacts shift the phase: the simulated cycle ends some hundredths of a cycle earlier or later.
         EXPECT_NEAR(number(csv, row, "end_cycles"), number(csv, row, "cycles"), 0.06);
         EXPECT_EQ(csv.text(row, "simulated_time").empty(), row > 4) << row;
     }
-    // The published motion begins 1e-4 beyond a touch of all digits; that of the branch has some less.
+    // The published motion begins 1e-4 beyond a grazing known to all digits; that of the branch has fewer.
     const Csv published = table({results, "no_impact:GR1", "--overshoot", "1e-4", "--until", "end"});
     ASSERT_EQ(published.rows.size(), 1U);
     EXPECT_NEAR(number(published, 0, "simulated_time"), 27.31773570163, 1e-6);
@@ -71,7 +71,7 @@ TEST_F(TripCommand, TellsTheTimesOfTheSwitch) {
     EXPECT_LT(number(level, 0, "end_time"), 27.31773570163);
     const Csv speed = table({results, "GR1", "--overshoot", "1e-4", "--greatest-speed", "0.001"});
     EXPECT_NEAR(number(speed, 0, "end_time"), 6.267394614702, 1e-6);
-    // Pushed towards the stop, without overshoot: the first contact is at once and has the speed of the push.
+    // Disturbed towards the stop, without overshoot: the first contact is immediate and has the disturbance's speed.
     const Csv pushed = table({results, "GR1", "--overshoot", "0", "--disturbance", "v=-1e-4"});
     EXPECT_NEAR(number(pushed, 0, "first_speed"), 1e-4, 1e-8);
     EXPECT_NEAR(number(pushed, 0, "end_time"), number(pushed, 0, "simulated_time"), 1e-3);
@@ -80,7 +80,7 @@ TEST_F(TripCommand, TellsTheTimesOfTheSwitch) {
     EXPECT_EQ(table({results, "GR1", "--overshoot", "1e-3:1e-6"}).rows.size(), 4U);
 }
 
-TEST_F(TripCommand, SaysWhereTheEndHasNotCome) {
+TEST_F(TripCommand, ReportsTripsThatDoNotEnd) {
     const std::string results = run_only("mems-switch", {"free", "no_impact"});
     const Csv csv = table({results, "GR1", "--overshoot", "1e-6", "--until", "end", "--cycles", "2"}, 3);
     EXPECT_EQ(csv.text(0, "ending"), "end-time");
@@ -92,7 +92,7 @@ TEST_F(TripCommand, SaysWhereTheEndHasNotCome) {
     EXPECT_THAT(printed.err, HasSubstr("give more --cycles"));
 }
 
-TEST_F(TripCommand, RefusesWhereThereIsNoTrip) {
+TEST_F(TripCommand, RefusesPointsAndOptionsWithoutATrip) {
     const std::string results = run_only("mems-switch", {"free", "no_impact"});
     expect_refusal({results, "no_impact:EP1"}, "touches nothing");
     expect_refusal({results, "GR1", "--overshoot", "-1e-4"}, "contacts begin above: give a positive overshoot");
@@ -113,7 +113,7 @@ TEST_F(TripCommand, RefusesWhereThereIsNoTrip) {
     expect_refusal({beam, "no_contact:GR1"}, "POINT: the verdict is folds: there is no trip");
 }
 
-TEST_F(TripCommand, DrawsTimes) {
+TEST_F(TripCommand, DrawsTripTimes) {
     const std::string results = run_only("mems-switch", {"free", "no_impact"});
     const Printed printed = run_graze(
         {"trip", results, "GR1", "--until", "end", "--plot", folder / "trip.svg", "--data", folder / "trip.gp"});
@@ -124,7 +124,7 @@ TEST_F(TripCommand, DrawsTimes) {
 
 namespace {
 
-/// The switch at a frequency at which its branch folds before it touches, beside that of the publication.
+/// The switch at the published frequency, and at another one, at which its branch has a fold before the grazing.
 const char* const two_ends = R"toml(
 name = "two-ends"
 model = "mems-switch"
@@ -154,7 +154,7 @@ along = { V = [0.01, 0.4] }
 
 } // namespace
 
-TEST_F(TripCommand, TellsThePassageThroughAFoldBesideATouch) {
+TEST_F(TripCommand, ComparesAFoldWithATouch) {
     const std::string study = folder / "two-ends.toml";
     std::ofstream(study) << two_ends;
     const std::string results = run_only(study, {});
@@ -162,7 +162,7 @@ TEST_F(TripCommand, TellsThePassageThroughAFoldBesideATouch) {
     ASSERT_EQ(fold.rows.size(), 9U);
     for (std::size_t row = 0; row < fold.rows.size(); ++row) {
         SCOPED_TRACE(row);
-        // The exponent is that of a root, and time that of whole cycles.
+        // Cycles grow with the inverse root of the overshoot; the time is a multiple of the period.
         EXPECT_NEAR(number(fold, row, "cycles"),
                     number(fold, 0, "cycles") * std::pow(10, 0.5 * static_cast<double>(row)),
                     1e-9 * number(fold, row, "cycles"));
@@ -170,8 +170,8 @@ TEST_F(TripCommand, TellsThePassageThroughAFoldBesideATouch) {
         EXPECT_EQ(fold.text(row, "simulated_cycles").empty(), row > 5);
         if (row > 5)
             continue;
-        // What is missing is of the next order: a cycle or so by the step of a cycle, and by the logarithm of the
-        // overshoot where the cubic term is not symmetric: 5 cycles at most of up to 11000.
+        // Errors of the normal form are of the next order: about one cycle from rounding to whole cycles, and a term
+        // with the logarithm of the overshoot from the cubic term: at most 5 of up to 11000 cycles.
         EXPECT_NEAR(number(fold, row, "simulated_cycles"), number(fold, row, "gate_cycles"), 5);
         EXPECT_NEAR(number(fold, row, "simulated_time"),
                     number(fold, row, "simulated_cycles") * 2 * std::numbers::pi / 0.95,
@@ -192,11 +192,11 @@ TEST_F(TripCommand, TellsThePassageThroughAFoldBesideATouch) {
     expect_refusal({results, "folding:SN1", "--overshoot", "-1e-3"}, "there are two orbits, and no trip");
     expect_refusal({results, "folding:SN1", "--overshoot", "0"}, "at the fold itself nothing passes");
     expect_refusal({results, "folding:SN1", "--disturbance", "v=1"}, "a passage through a fold begins before it");
-    // The other branch that ends there is no motion either, and the touch on it is of an unstable orbit.
+    // The grazing on the other branch beyond the fold is that of an unstable orbit.
     expect_refusal({results, "folding:GR1"}, "POINT: the verdict is undecided");
 }
 
-TEST_F(TripCommand, TellsWhereARampTrips) {
+TEST_F(TripCommand, FindsTheDelayOfARamp) {
     const std::string study = folder / "two-ends.toml";
     std::ofstream(study) << two_ends;
     const std::string results = run_only(study, {});
@@ -211,7 +211,7 @@ TEST_F(TripCommand, TellsWhereARampTrips) {
         EXPECT_LT(number(touch, row, "delay_cycles"), 10);
     }
     const Csv fold = table({results, "folding:SN1", "--ramp", "1e-6,1e-8", "--until", "q+delta=0"});
-    for (std::size_t row = 0; row < 2; ++row) // the stop is before infinity by some 20 cycles of the ramp
+    for (std::size_t row = 0; row < 2; ++row) // the stop is reached about 20 cycles before the normal form diverges
         EXPECT_NEAR(number(fold, row, "delay"), number(fold, row, "predicted_delay"),
                     30 * number(fold, row, "rate") * 2 * std::numbers::pi / 0.95);
     const Csv late = table({results, "folding:SN1", "--ramp", "1e-8", "--until", "q+delta=0", "--cycles", "10"}, 3);
@@ -230,7 +230,7 @@ TEST_F(TripCommand, TellsWhereARampTrips) {
     expect_refusal({results, "folding:SN1", "--ramp", "1e-6", "--greatest-speed", "1"}, "a fold has no contact");
 }
 
-TEST_F(TripCommand, TellsHowSurelyAWaveOrNoiseTrips) {
+TEST_F(TripCommand, FindsTripsUnderWavesAndNoise) {
     const std::string results = run_only("mems-switch", {"free", "no_impact"});
     const Csv wave = table({results, "GR1", "--wave", "1e-3,3e-3", "--at", "0.199"});
     EXPECT_EQ(wave.text(0, "trips"), "no");

@@ -8,7 +8,7 @@
 namespace graze::testing {
 namespace {
 
-/// The texts of a list in JSON.
+/// The texts of a named list in JSON.
 std::vector<std::string> list_of(const std::string& json, const std::string& name) {
     const std::size_t begin = json.find('"' + name + "\":["), end = json.find(']', begin);
     std::vector<std::string> items;
@@ -24,7 +24,7 @@ std::vector<std::string> list_of(const std::string& json, const std::string& nam
     return items;
 }
 
-/// Units of what has a unit in the testbed, wherever it turns up as a column.
+/// Units of columns of the testbed, in all tables.
 const std::map<std::string, std::string> units{
     {"time", "s"},          {"t", "s"},       {"start", "s"},     {"end_time", "s"},
     {"ending_time", "s"},   {"q", "m"},       {"v", "m/s"},       {"I", "A"},
@@ -35,7 +35,7 @@ const std::map<std::string, std::string> units{
     {"lyapunov", "1/s"},    {"f", "Hz"},      {"R", "ohm"},       {"durations", "s"},
 };
 
-/// How many columns with a unit there are.
+/// Checks the units of the columns that a command prints. @return number of columns with a known unit
 std::size_t expect_units(const std::string& command) {
     const Printed run = run_graze(command);
     EXPECT_EQ(run.code, 0) << command << ": " << run.err;
@@ -51,7 +51,7 @@ std::size_t expect_units(const std::string& command) {
     return found;
 }
 
-TEST(Units, come_with_json_of_every_command) {
+TEST(Units, JsonOfEveryCommandHasUnits) {
     const std::string simulate = "simulate electromagnetic-testbed --set V0=5 --time 0.5 --format json";
     for (const std::string table : {"samples", "contacts", "sections", "summary", "minima"})
         EXPECT_GT(expect_units(simulate + " --table " + table), table == "minima" ? 1u : 4u) << table;

@@ -1,4 +1,4 @@
-// What was found from measurements comes out of a result file as it was written.
+// Estimates are read from a result file as they were written.
 
 #include "graze/results/result_table.hpp"
 
@@ -17,7 +17,7 @@ RunRecord identified(const std::string& name) {
     return run;
 }
 
-TEST(EstimateRows, come_out_as_they_were_written) {
+TEST(EstimateRows, AreReadAsWritten) {
     testing::TemporaryFolder folder;
     ResultFile file(folder / "r.sqlite", ResultFile::Access::write);
     file.begin_run(identified("a"));
@@ -25,7 +25,7 @@ TEST(EstimateRows, come_out_as_they_were_written) {
     const EstimateRecords found{{{"w0", "rad/s", {95.94, 0.01, 57}, ""}, {"zeta", "", {0.016, 0, 0}, "not determined"}},
                                 {1e-4, -2e-9, -2e-9, 0}};
     file.set_estimates("a", found);
-    file.set_estimates("a", found); // in the place of what it had found
+    file.set_estimates("a", found); // replaces the earlier estimates
     file.set_estimates("b", {{{"e", "", {0.8, 0.1, 3}, ""}}, {}});
     const EstimateRecords read = file.estimates("a");
     ASSERT_EQ(read.numbers.size(), 2);

@@ -48,7 +48,7 @@ public:
         H5Dread(set_, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
         return values;
     }
-    /// Bytes of each text where all have the same, else 0.
+    /// Number of bytes of each text; 0 if texts have variable length.
     std::size_t width() const {
         const hid_t type = H5Dget_type(set_);
         const std::size_t width = H5Tis_variable_str(type) > 0 ? 0 : H5Tget_size(type);
@@ -82,7 +82,7 @@ public:
         H5Tclose(type);
         return texts;
     }
-    /// Rows of a chunk, 0 of a column that is not in chunks.
+    /// Number of rows of a chunk; 0 if the column is not chunked.
     std::size_t chunk() const {
         const hid_t properties = H5Dget_create_plist(set_);
         hsize_t chunk = 0;
@@ -109,7 +109,7 @@ private:
     hid_t file_, set_;
 };
 
-/// A folder of its own for each test.
+/// Makes a separate folder for each test.
 class Hdf5 : public ::testing::Test {
 protected:
     void SetUp() override { std::filesystem::create_directories(folder_); }
@@ -119,7 +119,7 @@ protected:
     std::filesystem::path folder_ = std::filesystem::temp_directory_path() / ("graze-hdf5-" + std::to_string(getpid()));
 };
 
-/// A run of a model, of which nothing is known yet.
+/// A run of a model without any results.
 RunRecord run_of(const Model& model, const char* name, const char* kind) {
     RunRecord run;
     run.name = name;
@@ -133,7 +133,7 @@ RunRecord run_of(const Model& model, const char* name, const char* kind) {
     return run;
 }
 
-/// A run of the linear impact oscillator, with its orbits as one orbit is changed by a function of its number.
+/// Writes a run of the linear impact oscillator with copies of one orbit, each changed by a function of its number.
 void write_branch(
     const std::string& path, std::size_t orbits = 1,
     const std::function<void(OrbitRecord&, std::size_t)>& change = [](OrbitRecord&, std::size_t) {}) {
@@ -166,7 +166,7 @@ void write_branch(
     file.complete_run("b");
 }
 
-TEST_F(Hdf5, branches_have_orbits_segments_and_multipliers) {
+TEST_F(Hdf5, BranchesHaveOrbitsSegmentsAndMultipliers) {
     const std::string exported = path("all.h5");
     write_branch(path("results.sqlite"));
     export_hdf5(ResultFile(path("results.sqlite"), ResultFile::Access::read), {"b"}, exported);
@@ -174,7 +174,7 @@ TEST_F(Hdf5, branches_have_orbits_segments_and_multipliers) {
     EXPECT_EQ(Column(exported, "b/orbits/signature").type(), H5T_STRING);
     EXPECT_EQ(Column(exported, "b/orbits/step").type(), H5T_INTEGER);
     EXPECT_EQ(Column(exported, "b/orbits/stable").type(), H5T_INTEGER);
-    // A monitor whose name is taken gets another, and stays a real number.
+    // A monitor whose name is taken gets another name, and still has real numbers.
     EXPECT_EQ(Column(exported, "b/orbits/period_2").numbers(), std::vector<double>{2.5});
     EXPECT_EQ(Column(exported, "b/orbits/period_2").type(), H5T_FLOAT);
     EXPECT_EQ(Column(exported, "b/orbits/speed").numbers(), std::vector<double>{0.25});
@@ -191,7 +191,7 @@ TEST_F(Hdf5, branches_have_orbits_segments_and_multipliers) {
     EXPECT_EQ(Column(exported, "b/end_values/segment").type(), H5T_INTEGER);
 }
 
-TEST_F(Hdf5, estimates_have_their_units_and_covariances) {
+TEST_F(Hdf5, EstimatesHaveUnitsAndCovariances) {
     {
         const Model model = load_model("impact-oscillator");
         RunRecord run = run_of(model, "found", "identify");
@@ -224,16 +224,16 @@ TEST_F(Hdf5, estimates_have_their_units_and_covariances) {
     EXPECT_EQ(numbers("covariances/covariance"), (std::vector<double>{1e-4, -2e-9, -2e-9, 4e-8}));
 }
 
-TEST_F(Hdf5, columns_tell_their_units) {
+TEST_F(Hdf5, ColumnsHaveUnits) {
     const std::string exported = path("all.h5");
     write_branch(path("results.sqlite"));
     export_hdf5(ResultFile(path("results.sqlite"), ResultFile::Access::read), {"b"}, exported);
     EXPECT_EQ(Column(exported, "b/orbits/speed").units(), "m/s");
-    EXPECT_EQ(Column(exported, "b/orbits/omega").units(), "none"); // of a model without units
+    EXPECT_EQ(Column(exported, "b/orbits/omega").units(), "none"); // the model has no units
     EXPECT_EQ(Column(exported, "b/orbits/label").units(), "none");
 }
 
-TEST_F(Hdf5, texts_have_the_length_of_the_longest_unless_that_is_huge) {
+TEST_F(Hdf5, TextsArePaddedUnlessOneIsHuge) {
     const std::string exported = path("all.h5"), huge(100'000, 'x');
     const std::vector<std::string> labels{"GR1", "", "SN12", "a"}, parts{"up", "über", "", "up"};
     write_branch(path("results.sqlite"), labels.size(), [&](OrbitRecord& record, std::size_t number) {
@@ -248,16 +248,16 @@ TEST_F(Hdf5, texts_have_the_length_of_the_longest_unless_that_is_huge) {
     EXPECT_EQ(label.width(), 4U);
     EXPECT_EQ(label.letters(), H5T_CSET_ASCII);
     EXPECT_EQ(part.texts(), parts);
-    EXPECT_EQ(part.width(), 5U); // in UTF-8
+    EXPECT_EQ(part.width(), 5U); // bytes of UTF-8
     EXPECT_EQ(part.letters(), H5T_CSET_UTF8);
     EXPECT_TRUE(detail.texts() == (std::vector<std::string>{"short", "short", huge, "short"}));
     EXPECT_EQ(detail.width(), 0U);
-    EXPECT_EQ(symmetry.texts(), std::vector<std::string>(4)); // nothing at all
+    EXPECT_EQ(symmetry.texts(), std::vector<std::string>(4)); // all empty
     EXPECT_EQ(symmetry.width(), 1U);
 }
 
-/// The library would note in each dataset when it was made, in seconds.
-TEST_F(Hdf5, equal_results_are_equal_files) {
+/// By default, the library stores in each dataset the second in which it was created.
+TEST_F(Hdf5, EqualResultsGiveEqualFiles) {
     write_branch(path("results.sqlite"));
     const ResultFile file(path("results.sqlite"), ResultFile::Access::read);
     const auto bytes = [&](const char* name) {
@@ -270,14 +270,14 @@ TEST_F(Hdf5, equal_results_are_equal_files) {
     EXPECT_TRUE(bytes("second.h5") == first);
 }
 
-TEST_F(Hdf5, files_have_the_size_of_the_data) {
+TEST_F(Hdf5, FilesAreChunkedAndCompressed) {
     const std::string one = path("one.h5"), many = path("many.h5");
     write_branch(path("one.sqlite"));
     export_hdf5(ResultFile(path("one.sqlite"), ResultFile::Access::read), {"b"}, one);
     EXPECT_EQ(Column(one, "b/orbits/omega").chunk(), 0U);
-    EXPECT_LT(std::filesystem::file_size(one), 60'000U); // of which names and headers are nearly all
+    EXPECT_LT(std::filesystem::file_size(one), 60'000U); // mostly names and headers
 
-    const std::size_t orbits = 9001; // more numbers than a chunk has
+    const std::size_t orbits = 9001; // more than fit in one chunk
     write_branch(path("many.sqlite"), orbits, [](OrbitRecord& record, std::size_t number) {
         record.point.monitors = {std::sqrt(static_cast<double>(number)), 0.25};
         record.label = "L" + std::to_string(number);
@@ -285,7 +285,7 @@ TEST_F(Hdf5, files_have_the_size_of_the_data) {
     });
     export_hdf5(ResultFile(path("many.sqlite"), ResultFile::Access::read), {"b"}, many);
     const Column root(many, "b/orbits/period_2"), speed(many, "b/orbits/speed"), label(many, "b/orbits/label");
-    EXPECT_EQ(root.chunk(), 4501U); // two, of nearly the same size
+    EXPECT_EQ(root.chunk(), 4501U); // two chunks of nearly the same size
     ASSERT_EQ(root.rows(), orbits);
     const std::vector<double> roots = root.numbers();
     const std::vector<std::string> labels = label.texts();
@@ -294,7 +294,7 @@ TEST_F(Hdf5, files_have_the_size_of_the_data) {
         ASSERT_EQ(labels[number], "L" + std::to_string(number));
     }
     EXPECT_EQ(speed.numbers(), std::vector<double>(orbits, 0.25));
-    EXPECT_LT(speed.stored_bytes(), orbits); // one number again and again
+    EXPECT_LT(speed.stored_bytes(), orbits); // all numbers are equal
     EXPECT_LT(label.stored_bytes(), orbits * label.width());
     EXPECT_EQ(Column(many, "b/half_multipliers/real").rows(), 0U);
     EXPECT_EQ(Column(many, "b/half_multipliers/real").type(), H5T_FLOAT);

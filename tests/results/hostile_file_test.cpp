@@ -1,4 +1,4 @@
-// Result files as a stranger may make them, and queries as he may write them.
+// Result files and queries from untrusted sources.
 
 #include "graze/base/input_error.hpp"
 #include "graze/results/result_file.hpp"
@@ -76,7 +76,7 @@ protected:
             file.add_point("r", point_numbered(number));
         file.complete_run("r");
     }
-    /// The file anew, changed by somebody else's program.
+    /// Creates the file again, and changes it by SQL statements of another program.
     void tamper(const std::string& sql) const {
         restore(image);
         sqlite3* database = nullptr;
@@ -87,7 +87,7 @@ protected:
     }
     void restore(const std::string& bytes) const { std::ofstream(path, std::ios::binary) << bytes; }
 
-    /// All that the program reads of a file. @return what refused it; anything but an InputError gets out
+    /// Reads everything that the program reads of a file. @return the message if it is refused by an InputError
     std::string refusal() const {
         std::string message;
         const auto attempt = [&](auto read) {
@@ -122,7 +122,7 @@ protected:
     std::string path, image;
 };
 
-TEST_F(HostileFile, QueriesReadAndDoNothingElse) {
+TEST_F(HostileFile, QueriesOnlyRead) {
     for (const auto access : {ResultFile::Access::read, ResultFile::Access::write}) {
         const ResultFile file(path, access);
         for (const std::string sql : {"DELETE FROM points_r",
@@ -176,7 +176,7 @@ TEST_F(HostileFile, QueriesReadAndDoNothingElse) {
     }
 }
 
-TEST_F(HostileFile, QueriesEnd) {
+TEST_F(HostileFile, EndlessQueriesAreInterrupted) {
     ResultFile file(path, ResultFile::Access::read);
     file.set_patience(100ms);
     for (const std::string sql :
@@ -193,7 +193,7 @@ TEST_F(HostileFile, QueriesEnd) {
             },
             InputError)
             << sql;
-        EXPECT_LT(std::chrono::steady_clock::now() - begun, 20s) << sql; // of a loaded machine
+        EXPECT_LT(std::chrono::steady_clock::now() - begun, 20s) << sql; // also on a loaded machine
     }
     EXPECT_EQ(file.point_count("r"), 20u);
 }
@@ -236,7 +236,7 @@ TEST_F(HostileFile, ContradictionsAreRefused) {
     EXPECT_EQ(refusal(), "");
 }
 
-TEST_F(HostileFile, TriggersDoNothing) {
+TEST_F(HostileFile, TriggersAreDisabled) {
     tamper("CREATE TRIGGER t AFTER INSERT ON points_r BEGIN DELETE FROM runs; DELETE FROM samples_r; END");
     {
         ResultFile file(path, ResultFile::Access::write);
@@ -255,8 +255,8 @@ TEST_F(HostileFile, DamagedBytesAreReadOrRefused) {
     int refused = 0;
     for (int i = 0; i < 250; ++i) {
         std::string bytes = image;
-        // Headers of pages are where it hurts; of the file's first, only what is after the text that SQLite knows it
-        // by.
+        // About half of the changes are in headers of pages. The first 16 bytes, by which SQLite recognises its files,
+        // are left unchanged.
         for (std::size_t change = 0; change < 1 + number(8); ++change) {
             const std::size_t page = number(bytes.size() / 8192) * 8192;
             const std::size_t at = page + (number(2) == 0 ? number(128) : number(8192));
@@ -283,7 +283,7 @@ TEST_F(HostileFile, OnlyPlainFilesAreOpened) {
     EXPECT_FALSE(std::filesystem::exists(folder / "elsewhere"));
 }
 
-TEST_F(HostileFile, WhoeverRemovesItMeanwhileIsNoticed) {
+TEST_F(HostileFile, RemovalWhileWritingIsDetected) {
     for (const bool replaced : {false, true}) {
         ResultFile file(path, ResultFile::Access::write);
         file.begin_run(run_named("r"));

@@ -44,10 +44,10 @@ RunRecord run_of(const Model& model) {
     return run;
 }
 
-/// What can be known of orbits, drawn: each number finite, infinite or unknown where it may be.
-class Draw {
+/// Draws orbit records at random, in which each number is finite, infinite or unknown if it can be.
+class RandomOrbits {
 public:
-    explicit Draw(const Model& model) : model_(&model) {}
+    explicit RandomOrbits(const Model& model) : model_(&model) {}
 
     OrbitRecord record(std::size_t number) {
         OrbitRecord record;
@@ -91,15 +91,15 @@ private:
     std::mt19937 random_{3};
 };
 
-TEST_F(OrbitRows, what_is_infinite_or_undefined_comes_back_as_such) {
+TEST_F(OrbitRows, KeepInfiniteAndUndefinedNumbers) {
     const Model model = load_model("impact-oscillator");
-    Draw draw(model);
+    RandomOrbits random_orbits(model);
     std::vector<OrbitRecord> written;
     {
         ResultFile file(path_, ResultFile::Access::write);
         file.begin_run(run_of(model));
         for (std::size_t i = 0; i < 100; ++i) {
-            written.push_back(draw.record(i));
+            written.push_back(random_orbits.record(i));
             file.add_orbit("b", written.back());
         }
     }
@@ -134,9 +134,9 @@ TEST_F(OrbitRows, what_is_infinite_or_undefined_comes_back_as_such) {
     EXPECT_GT(infinite.integer(0), 10);
 }
 
-TEST_F(OrbitRows, the_slowest_approach_is_that_of_an_event) {
+TEST_F(OrbitRows, SlowestApproachIsThatOfAnEvent) {
     const Model model = load_model("impact-oscillator");
-    OrbitRecord record = Draw(model).record(0), none = record;
+    OrbitRecord record = RandomOrbits(model).record(0), none = record;
     record.point.solution.certificate.approach_speeds = {0.5, 0.25};
     none.number = 1;
     none.point.solution.certificate.approach_speeds.clear();
@@ -151,15 +151,15 @@ TEST_F(OrbitRows, the_slowest_approach_is_that_of_an_event) {
     ASSERT_TRUE(rows.next());
     EXPECT_TRUE(rows.is_null(0));
     const auto names = run.number_columns();
-    EXPECT_NE(std::find(names.begin(), names.end(), "slowest_approach"), names.end()); // it can be drawn
+    EXPECT_NE(std::find(names.begin(), names.end(), "slowest_approach"), names.end()); // so that pictures can show it
     auto view = file.query("SELECT slowest_approach FROM branch_points WHERE number = 0");
     ASSERT_TRUE(view.next());
     EXPECT_EQ(view.number(0), 0.25);
 }
 
-TEST_F(OrbitRows, findings_at_touches_are_those_that_were_written) {
+TEST_F(OrbitRows, FindingsAtTouchesAreReadAsWritten) {
     const Model model = load_model("impact-oscillator");
-    OrbitRecord lost = Draw(model).record(0), persists = lost, none = lost;
+    OrbitRecord lost = RandomOrbits(model).record(0), persists = lost, none = lost;
     lost.touch = TouchFindings{"square-root", "lost", "", 2, -0.3, 8.25, 10.5, 68, -1, 42.5, std::nullopt};
     persists.number = 1;
     persists.touch = TouchFindings{"none", "undecided", "it sticks", 0, {}, {}, {}, {}, {}, {}, {}};
@@ -177,10 +177,10 @@ TEST_F(OrbitRows, findings_at_touches_are_those_that_were_written) {
     EXPECT_FALSE(view.next());
 }
 
-// In format 6 a column had another name.
-TEST_F(OrbitRows, earlier_files_are_read_and_gone_on_with) {
+// In format 6 one column had a different name.
+TEST_F(OrbitRows, EarlierFilesAreReadAndContinued) {
     const Model model = load_model("impact-oscillator");
-    OrbitRecord lost = Draw(model).record(0);
+    OrbitRecord lost = RandomOrbits(model).record(0);
     lost.touch = TouchFindings{"square-root", "lost", "", 2, -0.3, 8.25, 10.5, 68, -1, 42.5, std::nullopt};
     {
         ResultFile file(path_, ResultFile::Access::write);
@@ -206,9 +206,9 @@ TEST_F(OrbitRows, earlier_files_are_read_and_gone_on_with) {
     EXPECT_EQ(file.orbit("b", std::size_t{1})->touch, lost.touch);
 }
 
-TEST_F(OrbitRows, what_earlier_files_have_as_missing_was_infinite) {
+TEST_F(OrbitRows, MissingMultipliersOfEarlierFilesAreInfinite) {
     const Model model = load_model("impact-oscillator");
-    OrbitRecord record = Draw(model).record(0);
+    OrbitRecord record = RandomOrbits(model).record(0);
     record.point.solution.multipliers = {{std::numeric_limits<double>::quiet_NaN(), 0.0}, {0.5, 0.0}};
     ResultFile file(path_, ResultFile::Access::write);
     file.begin_run(run_of(model));

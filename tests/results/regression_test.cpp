@@ -28,7 +28,7 @@ TEST(RegressionTest, FindsALineThroughPointsOnIt) {
 }
 
 // Sums by hand: mean x 2, mean y 7/3; xx = 2, xy = 2, squares of the residuals 2/3 with one degree of freedom.
-TEST(RegressionTest, GivesTheStandardErrorsOfAnExampleByHand) {
+TEST(RegressionTest, StandardErrorsEqualAHandCalculation) {
     const std::array x{1.0, 2.0, 3.0}, y{1.0, 3.0, 3.0};
     const Regression line = regression(x, y);
     EXPECT_NEAR(line.slope, 1, 8 * eps);
@@ -37,8 +37,8 @@ TEST(RegressionTest, GivesTheStandardErrorsOfAnExampleByHand) {
     EXPECT_NEAR(line.intercept_error, std::sqrt(2.0 / 3 * (1.0 / 3 + 4.0 / 2)), 32 * eps);
 }
 
-// The normal equations hold: residuals are perpendicular to 1 and to x.
-TEST(RegressionTest, LeavesResidualsThatNoLineCanLessen) {
+// The normal equations: residuals are orthogonal to 1 and to x.
+TEST(RegressionTest, ResidualsSatisfyTheNormalEquations) {
     std::vector<double> x, y;
     for (int i = 0; i < 500; ++i) {
         x.push_back(1000 + 0.01 * i);
@@ -51,13 +51,13 @@ TEST(RegressionTest, LeavesResidualsThatNoLineCanLessen) {
         sum += residual;
         moment += residual * (x[i] - 1000);
     }
-    // Each mean is a sum of 500 values of about 3000, rounded 500 times; its error enters all 500 residuals.
+    // Each mean is a sum of 500 values near 3000, rounded 500 times; its error enters all 500 residuals.
     const double bound = 4.0 * 500 * 500 * 3000 * eps;
     EXPECT_NEAR(sum, 0, bound);
     EXPECT_NEAR(moment, 0, 5 * bound);
 }
 
-TEST(RegressionTest, DrawsTwoPointsTogetherWithoutAnError) {
+TEST(RegressionTest, TwoPointsGiveALineWithoutErrors) {
     const std::array x{1.0, 3.0}, y{2.0, 6.0};
     const Regression line = regression(x, y);
     EXPECT_NEAR(line.slope, 2, 8 * eps);
@@ -66,7 +66,7 @@ TEST(RegressionTest, DrawsTwoPointsTogetherWithoutAnError) {
     EXPECT_EQ(line.points, 2U);
 }
 
-TEST(RegressionTest, HasNoLineWithoutTwoPlaces) {
+TEST(RegressionTest, NeedsTwoDifferentX) {
     const std::array same{2.0, 2.0, 2.0}, y{1.0, 2.0, 3.0}, shorter{1.0, 2.0, 3.0};
     EXPECT_EQ(regression(same, y).points, 0U);
     EXPECT_EQ(regression({}, {}).points, 0U);

@@ -117,7 +117,7 @@ void expect_equal(const PointRecord& a, const PointRecord& b) {
     EXPECT_EQ(a.result.samples.values, b.result.samples.values);
 }
 
-TEST_F(ResultFileTest, runs_are_ordered_as_they_are_named) {
+TEST_F(ResultFileTest, OrdersRunsAsNamed) {
     ResultFile file(path(), ResultFile::Access::write);
     const auto names = [&] {
         std::string text;
@@ -137,10 +137,10 @@ TEST_F(ResultFileTest, runs_are_ordered_as_they_are_named) {
     while (views.next())
         order += views.text(0);
     EXPECT_EQ(order, "abcd");
-    file.begin_run(run_named("d")); // anew
+    file.begin_run(run_named("d")); // again
     file.order_runs({"a", "b", "c", "d"});
     EXPECT_EQ(names(), "1a 2b 3c 4d ");
-    // Two runs may be written to in turns.
+    // Two runs can be written alternately.
     for (std::size_t n = 1; n < 4; ++n)
         for (const char* name : {"a", "b"})
             file.add_point(name, point_numbered(n));
@@ -148,7 +148,7 @@ TEST_F(ResultFileTest, runs_are_ordered_as_they_are_named) {
     EXPECT_EQ(file.point_count("b"), 4u);
 }
 
-TEST_F(ResultFileTest, gives_back_what_it_was_given) {
+TEST_F(ResultFileTest, ReadsRunsAndPointsAsWritten) {
     {
         ResultFile file(path(), ResultFile::Access::write);
         file.begin_run(run_named("sweep_6.25-Hz"));
@@ -173,11 +173,11 @@ TEST_F(ResultFileTest, gives_back_what_it_was_given) {
     for (const std::size_t number : {0, 1, 7, 12})
         expect_equal(*file.point(run->name, number), point_numbered(number));
     EXPECT_FALSE(file.point(run->name, 2));
-    // Nothing is left beside the file but its lock.
+    // The folder contains only the file and its lock.
     EXPECT_FALSE(std::filesystem::exists(path() + "-wal"));
 }
 
-TEST_F(ResultFileTest, writes_no_numbers_that_are_none) {
+TEST_F(ResultFileTest, WritesNonFiniteNumbersAsNull) {
     ResultFile file(path(), ResultFile::Access::write);
     file.begin_run(run_named("r"));
     PointRecord point = point_numbered(0);
@@ -193,7 +193,7 @@ TEST_F(ResultFileTest, writes_no_numbers_that_are_none) {
     EXPECT_TRUE(std::isnan(file.point("r", 0)->result.state[0]));
 }
 
-TEST_F(ResultFileTest, finds_nearest_and_last_points) {
+TEST_F(ResultFileTest, FindsNearestAndLastPoints) {
     ResultFile file(path(), ResultFile::Access::write);
     file.begin_run(run_named("r"));
     for (const std::size_t number : {0, 1, 2, 3, 4, 5, 6, 10, 11})
@@ -209,7 +209,7 @@ TEST_F(ResultFileTest, finds_nearest_and_last_points) {
     EXPECT_EQ(last[1].result.state, point_numbered(11).result.state);
 }
 
-TEST_F(ResultFileTest, a_run_begun_anew_replaces_the_old_one) {
+TEST_F(ResultFileTest, ARunBegunAgainReplacesTheOldOne) {
     ResultFile file(path(), ResultFile::Access::write);
     for (const char* name : {"a", "b"}) {
         file.begin_run(run_named(name));
@@ -227,7 +227,7 @@ TEST_F(ResultFileTest, a_run_begun_anew_replaces_the_old_one) {
     EXPECT_EQ(file.runs().size(), 1u);
 }
 
-TEST_F(ResultFileTest, views_tell_where_labels_change) {
+TEST_F(ResultFileTest, ViewsListChangesOfLabels) {
     ResultFile file(path(), ResultFile::Access::write);
     file.begin_run(run_named("r"));
     for (std::size_t number = 0; number < 5; ++number) {
@@ -254,12 +254,12 @@ std::string refusal(const std::string& path, ResultFile::Access access) {
     return "";
 }
 
-TEST_F(ResultFileTest, refuses_what_it_cannot_read) {
+TEST_F(ResultFileTest, RefusesUnreadableFiles) {
     EXPECT_THAT(refusal(path(), ResultFile::Access::read), HasSubstr("there is no such result file"));
     std::ofstream(path("text")) << std::string(5000, 'x');
     EXPECT_THAT(refusal(path("text"), ResultFile::Access::read), HasSubstr("no result file of graze"));
     EXPECT_THAT(refusal(path("text"), ResultFile::Access::write), HasSubstr("no result file of graze"));
-    // Results are kept in files only.
+    // Results are stored in files only.
     std::filesystem::remove(":memory:.lock");
     for (const auto access : {ResultFile::Access::read, ResultFile::Access::write})
         for (const char* name : {"", ":memory:"})
@@ -277,7 +277,7 @@ TEST_F(ResultFileTest, refuses_what_it_cannot_read) {
                                           oldest_result_format, result_format)));
 }
 
-TEST_F(ResultFileTest, only_one_process_writes_and_others_read) {
+TEST_F(ResultFileTest, OneProcessWritesAndOthersRead) {
     ResultFile file(path(), ResultFile::Access::write);
     file.begin_run(run_named("r"));
     file.add_point("r", point_numbered(0));
@@ -287,7 +287,7 @@ TEST_F(ResultFileTest, only_one_process_writes_and_others_read) {
     EXPECT_EQ(reader.point_count("r"), 1u);
 }
 
-TEST_F(ResultFileTest, a_full_disk_is_said_and_loses_nothing) {
+TEST_F(ResultFileTest, AFullDiskIsReportedAndLosesNothing) {
     {
         ResultFile file(path(), ResultFile::Access::write);
         file.begin_run(run_named("r"));
@@ -298,7 +298,7 @@ TEST_F(ResultFileTest, a_full_disk_is_said_and_loses_nothing) {
     const pid_t child = fork();
     ASSERT_GE(child, 0);
     if (child == 0) {
-        // A bound on the size of files is met as a full disk is.
+        // A limit on the size of files has the same effect as a full disk.
         std::signal(SIGXFSZ, SIG_IGN);
         const rlimit limit{300'000, 300'000};
         setrlimit(RLIMIT_FSIZE, &limit);
@@ -322,10 +322,10 @@ TEST_F(ResultFileTest, a_full_disk_is_said_and_loses_nothing) {
         expect_equal(*file.point("r", number), point_numbered(number));
 }
 
-TEST_F(ResultFileTest, whoever_is_killed_leaves_whole_points) {
+TEST_F(ResultFileTest, KilledWritersLeaveCompletePoints) {
     std::mt19937 random(1);
     std::size_t before = 0;
-    int longest = 12'000; // microseconds; where disks are slow, more are needed to get anywhere
+    int longest = 12'000; // microseconds; increased on slow disks until points have been written
     {
         ResultFile file(path(), ResultFile::Access::write);
         file.begin_run(run_named("r"));

@@ -5,20 +5,20 @@
 namespace graze {
 namespace {
 
-TEST(RunKind, each_has_a_name_that_leads_back_to_it) {
+TEST(RunKind, NamesMapBackToKinds) {
     for (std::size_t kind = 0; kind < kinds_of_runs().size(); ++kind) {
         const auto one = static_cast<RunKind>(kind);
         EXPECT_EQ(name_of(one), kinds_of_runs()[kind]);
         EXPECT_EQ(run_kind(name_of(one)), one);
         EXPECT_EQ(has_motions(one) + is_branch(one) + is_measured(one), 1) << name_of(one);
     }
-    EXPECT_EQ(name_of(RunKind::identify), "identify"); // the last one
+    EXPECT_EQ(name_of(RunKind::identify), "identify"); // the last kind
     EXPECT_EQ(run_kind("continue"), RunKind::follow);
     EXPECT_EQ(run_kind("follow"), std::nullopt);
     EXPECT_EQ(name_of(static_cast<RunKind>(99)), "unknown");
 }
 
-TEST(RunKind, one_orbit_is_not_followed) {
+TEST(RunKind, AnOrbitIsNotFollowed) {
     EXPECT_TRUE(is_branch(RunKind::orbit));
     EXPECT_FALSE(is_followed(RunKind::orbit));
     EXPECT_TRUE(is_followed(RunKind::ladder));

@@ -17,7 +17,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::Pair;
 
-/// A sweep over omega, whose values are called like columns and coordinates, in both directions.
+/// A sweep over omega in both directions, whose values have the same names as columns and coordinates.
 class StoredRunTest : public ::testing::Test {
 protected:
     void SetUp() override {
@@ -63,7 +63,7 @@ protected:
         point.result.label = number == 3 ? Label::chaotic : Label::periodic;
         point.result.state = {n, 0, 0};
         point.result.samples.width = 3;
-        for (std::size_t s = 0; s < number; ++s) { // none of the first
+        for (std::size_t s = 0; s < number; ++s) { // the first point has no samples
             point.result.samples.samplings.push_back(s % 2);
             point.result.samples.times.push_back(0.25 * static_cast<double>(s));
             for (const double value : {10 * n + static_cast<double>(s), -n, 7.0})
@@ -83,7 +83,7 @@ protected:
     std::unique_ptr<ResultFile> file_;
 };
 
-TEST_F(StoredRunTest, columns_have_names_units_and_types) {
+TEST_F(StoredRunTest, ColumnsHaveNamesUnitsAndTypes) {
     const std::vector<StoredColumn> points = run().columns(false), samples = run().columns(true);
     EXPECT_EQ(points.front().name, "number");
     EXPECT_EQ(points.front().type, ColumnType::whole);
@@ -93,22 +93,22 @@ TEST_F(StoredRunTest, columns_have_names_units_and_types) {
     EXPECT_EQ(points.back().unit, "m");
     ASSERT_EQ(samples.size(), 6u);
     EXPECT_EQ(samples[1].type, ColumnType::text);
-    EXPECT_EQ(samples[5].name, "time_2"); // the table has a time already
+    EXPECT_EQ(samples[5].name, "time_2"); // since the table has a column of this name
     EXPECT_EQ(samples[5].unit, "s");
     EXPECT_EQ(run().unit("v"), "m/s");
     EXPECT_EQ(run().unit("label"), "");
 }
 
-TEST_F(StoredRunTest, points_are_read_by_direction) {
+TEST_F(StoredRunTest, ReadsPointsByDirection) {
     EXPECT_THAT(column(run().rows({.quantities = {"omega"}}), 0), ElementsAre(1, 2, 2, 1));
     EXPECT_THAT(column(run().rows({.columns = {"number"}, .directions = {"down"}}), 0), ElementsAre(2, 3));
     EXPECT_THAT(column(run().rows({.quantities = {"omega * 2 + e"}}), 0), ElementsAre(2.5, 4.5, 4.5, 2.5));
 }
 
-TEST_F(StoredRunTest, samples_are_read_with_what_their_points_have) {
+TEST_F(StoredRunTest, ReadsSamplesWithColumnsOfTheirPoints) {
     EXPECT_THAT(column(run().rows({.samples = true, .quantities = {"omega"}, .values = {"v"}}), 1),
                 ElementsAre(10, 20, 21, 30, 31, 32));
-    // A value may be called as what is varied: then it has to be said which is meant.
+    // A value can have the same name as a coordinate; `values` then selects the value.
     EXPECT_THAT(column(run().rows({.samples = true, .values = {"omega"}}), 0), ElementsAre(-1, -2, -2, -3, -3, -3));
     EXPECT_THAT(column(run().rows({.samples = true, .values = {"v"}, .samplings = {"it's"}}), 0), ElementsAre(21, 31));
     EXPECT_THAT(column(run().rows({.samples = true, .columns = {"time"}, .directions = {"up"}}), 0), ElementsAre(0));
@@ -116,10 +116,10 @@ TEST_F(StoredRunTest, samples_are_read_with_what_their_points_have) {
                 ElementsAre(30, 31, 32, 10, 20, 21));
 }
 
-TEST_F(StoredRunTest, samples_are_summed_up_by_point) {
+TEST_F(StoredRunTest, SummarisesSamplesByPoint) {
     auto rows = run().rows({.columns = {"number"}, .statistics = {"v"}});
     ASSERT_TRUE(rows.next());
-    EXPECT_TRUE(rows.is_null(1)); // a point without samples is there too
+    EXPECT_TRUE(rows.is_null(1)); // a point without samples has a row too
     ASSERT_TRUE(rows.next());
     ASSERT_TRUE(rows.next());
     EXPECT_EQ(rows.number(1), 20.5);
@@ -128,7 +128,7 @@ TEST_F(StoredRunTest, samples_are_summed_up_by_point) {
     EXPECT_THAT(run().value_spreads(), ElementsAre(22, 2, 0));
 }
 
-TEST_F(StoredRunTest, points_are_counted_and_found) {
+TEST_F(StoredRunTest, CountsAndFindsPoints) {
     EXPECT_EQ(run().points(), 4u);
     EXPECT_THAT(run().label_counts(), ElementsAre(Pair("periodic", 3u), Pair("chaotic", 1u)));
     EXPECT_EQ(run().extent("omega"), std::pair(1.0, 2.0));
@@ -141,7 +141,7 @@ TEST_F(StoredRunTest, points_are_counted_and_found) {
     EXPECT_TRUE(run().parts().empty());
 }
 
-TEST_F(StoredRunTest, tables_come_with_units) {
+TEST_F(StoredRunTest, TablesHaveUnits) {
     ResultTable table = result_table(*file_, {.what = "samples", .direction = "down"});
     ASSERT_EQ(table.rows.columns(), 9u);
     EXPECT_EQ(table.rows.column_name(2), "omega");
@@ -151,7 +151,7 @@ TEST_F(StoredRunTest, tables_come_with_units) {
     while (table.rows.next())
         ++rows;
     EXPECT_EQ(rows, 5u);
-    // A value that is called like what varies, or like a column of all samples, does not hide it.
+    // A value with the name of a coordinate or of a column of samples does not hide it.
     std::vector<std::string> names;
     for (std::size_t c = 0; c < table.rows.columns(); ++c)
         names.push_back(table.rows.column_name(c));
@@ -164,7 +164,7 @@ TEST_F(StoredRunTest, tables_come_with_units) {
     EXPECT_THROW(result_table(*file_, {.what = "segments"}), InputError);
 }
 
-TEST_F(StoredRunTest, nothing_but_one_query_is_run) {
+TEST_F(StoredRunTest, RunsOnlyOneQuery) {
     for (const char* expression : {"1; DROP TABLE runs", "(DELETE FROM runs)", "none_such", "load_extension('x')"})
         EXPECT_THROW(run().rows({.quantities = {expression}}), InputError) << expression;
     EXPECT_EQ(file_->runs().size(), 1u);

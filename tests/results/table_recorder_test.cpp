@@ -8,7 +8,7 @@
 namespace graze {
 namespace {
 
-TEST(TableRecorder, TheRunEndsWhenTheTableIsFull) {
+TEST(TableRecorder, RunEndsWhenTheTableIsFull) {
     const Model model = testing::ball_between_walls(0);
     for (const TableKind kind : {TableKind::contacts, TableKind::minima}) {
         SimulationOptions options;

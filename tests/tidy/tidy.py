@@ -7,6 +7,7 @@ BUILD has compile_commands.json; what is put together goes to OUTPUT. Sources wh
 together; where that was not seen, a batch is looked at in halves. Options go to clang-tidy.
 """
 import concurrent.futures
+import itertools
 import json
 import pathlib
 import re
@@ -17,7 +18,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "cmake"))
 from batches import batches_of  # noqa: E402
 
-MOST = 16  # sources in a batch: of more some collide, and are looked at again in halves
+MOST = 24  # sources in a batch
 
 
 def batch_text(sources):
@@ -81,7 +82,9 @@ def main(build, output, jobs, options):
         else:
             own[command["file"]] = command
     batches = [[command] for command in alone]
-    batches += [[own[file] for file in batch] for batch in batches_of(own, MOST)]
+    # Sources of a folder include the same headers.
+    for _, files in itertools.groupby(own, lambda file: pathlib.Path(file).parent):
+        batches += [[own[file] for file in batch] for batch in batches_of(list(files), MOST)]
     clean = True
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         for text, good in pool.map(lambda batch: look_at(batch, build, output, options), batches):

@@ -1,4 +1,4 @@
-// Trips under ramps, waves and noise, against closed forms and plain recursions.
+// Trips under ramps, waves and noise, against closed forms and simple recursions.
 
 #include "graze/trip/disturbed_trip.hpp"
 #include "graze/trip/noisy_trip.hpp"
@@ -18,7 +18,7 @@ namespace {
 using namespace graze::testing;
 using std::numbers::pi;
 
-/// x relaxes to p at a rate of c. @param value of p, at which it begins at rest
+/// x relaxes to p at the rate c. @param value of p, at which the motion starts at rest
 struct Relaxing {
     explicit Relaxing(double c, double value, double point, double unit = 1)
         : model(model_from(fmt::format("[parameters]\np = {:.17g}\nc = {:.17g}\n[states]\nx = 0\n"
@@ -42,7 +42,7 @@ double normal(double x) {
     return 0.5 * std::erfc(-x / std::numbers::sqrt2);
 }
 
-TEST(DisturbedTrip, RampOfALinearLag) {
+TEST(DisturbedTrip, RampOfALinearLagHasItsClosedForm) {
     // x = v0 + r (t - (1 - exp(-c t))/c) passes the level 1: the value is late by the lag.
     for (const double c : {0.5, 20.0})
         for (const double rate : {1e-3, 1.0}) {
@@ -60,13 +60,13 @@ TEST(DisturbedTrip, RampOfALinearLag) {
     EXPECT_THROW(ramped_trip(falling.model, falling.origin, 0, falling.end), InputError);
 }
 
-TEST(DisturbedTrip, RampThroughAFoldIsAiryDelayed) {
+TEST(DisturbedTrip, RampThroughAFoldHasTheAiryDelay) {
     // x' = p + x^2 with p = r t: x = -u'/u for u'' = -r t u, the Airy function of -r^(1/3) t, and infinite at its zero.
     const Model model = model_from("[parameters]\np = 0\n[states]\nx = 0\n[modes.only]\nrates = { x = \"p + x^2\" }\n");
     for (const double rate : {1e-2, 1e-5, 1e-8}) {
         TripOrigin origin;
         const double scale = std::cbrt(rate * rate);
-        origin.value = -30 * scale; // beginning there is forgotten by exp(-4/3 30^(3/2))
+        origin.value = -30 * scale; // the initial transient has decayed by exp(-4/3 30^(3/2))
         origin.cycle = 1;
         origin.state = {-std::sqrt(30 * scale)};
         origin.parameters = {origin.value};
@@ -81,20 +81,20 @@ TEST(DisturbedTrip, RampThroughAFoldIsAiryDelayed) {
     }
 }
 
-TEST(DisturbedTrip, RampOfAFoldOfAMap) {
-    // Once in each cycle x -> x + p + x^2: until x = 1, which is passed by a state that follows x within a cycle.
+TEST(DisturbedTrip, RampThroughAFoldOfAMapFollowsItsRecursion) {
+    // Once per cycle x -> x + p + x^2, until a state that follows x within a cycle crosses 1.
     const Model model = map_model("p = -0.04", {"x + p + x^2", "0.1*y", "0"});
     BranchSettings settings = in_parameter(model, "p", -0.1, 0.1);
     const Branch branch = follow_branch(model, fixed_point(model, {-0.2, 0, 0}), settings);
     ASSERT_FALSE(of_type(branch, PointType::fold).empty());
     const FoldPassage fold = fold_passage(model, of_type(branch, PointType::fold)[0], settings.parameter);
-    // Begins in the middle of a cycle.
+    // Starts in the middle of a cycle.
     const TripOrigin origin = trip_origin(model, fold, -0.01);
     EXPECT_NEAR(origin.state[0], -0.1, 1e-9);
     EXPECT_NEAR(origin.state[3], 0.5, 1e-12);
-    // Further from the fold than its normal form goes.
+    // Beyond the validity of the normal form.
     EXPECT_NEAR(trip_origin(model, fold, -0.09).state[0], -0.3, 1e-9);
-    // The plainest recursion, with p as it is at the end of each cycle.
+    // Direct recursion with the value of p at the end of each cycle.
     TripEnd end;
     end.quantity = named_value(model, "x*clock", {}).value;
     end.level = 1;
@@ -104,7 +104,7 @@ TEST(DisturbedTrip, RampOfAFoldOfAMap) {
     int ticks = 0;
     for (; x <= 1; ++ticks, p += rate)
         x += p + x * x;
-    // In the cycle after the last tick x*clock passes 1.
+    // In the cycle after the last tick x*clock crosses 1.
     EXPECT_NEAR(ramped.trip.time, ticks - 0.5 + 1 / x, 1e-7);
     EXPECT_NEAR(ramped.value, -0.01 + rate * ramped.trip.time, 1e-12);
     EXPECT_NEAR(ramped.value, delay_of_ramp(fold, rate), 5 * rate); // some cycles
@@ -112,7 +112,7 @@ TEST(DisturbedTrip, RampOfAFoldOfAMap) {
     EXPECT_THROW(trip_origin(model, fold, 0), InputError);
 }
 
-TEST(DisturbedTrip, WaveOfALinearLag) {
+TEST(DisturbedTrip, WaveOfALinearLagHasItsClosedForm) {
     // x = A c/(c^2 + w^2)^(1/2) (sin(w t - phi) + sin(phi) exp(-c t)), whose first crest is the highest.
     const double c = 2, period = 3, w = 2 * pi / period, phi = std::atan2(w, c);
     double crest = 0;
@@ -120,7 +120,7 @@ TEST(DisturbedTrip, WaveOfALinearLag) {
         const double t = 1e-5 * period * i;
         crest = std::max(crest, std::sin(w * t - phi) + std::sin(phi) * std::exp(-c * t));
     }
-    const double gain = crest * c / std::hypot(c, w); // to 1e-9, by the steps of t
+    const double gain = crest * c / std::hypot(c, w); // accurate to 1e-9, due to the steps of t
     const Relaxing one(c, 0, 1);
     TripOptions options;
     options.cycles = 200;
@@ -132,12 +132,12 @@ TEST(DisturbedTrip, WaveOfALinearLag) {
 }
 
 TEST(DisturbedTrip, NoiseOfAFastLagTripsWithTheProbabilityOfItsValues) {
-    // x follows p within each cycle (c = 40, but for exp(-40)): no trip while all values are below the margin.
+    // x follows p within each cycle (c = 40, up to exp(-40)): no trip while all values are below the margin.
     const Relaxing one(40, 0, 1);
     NoiseSettings settings;
     settings.motions = 4000;
     settings.jobs = 2;
-    settings.confidence = 0.9999; // four limits, and a test that is run for years
+    settings.confidence = 0.9999; // four limits in a test that is run for years
     settings.cycles = 20;
     double before = 0;
     for (const double level : {0.3, 0.4, 0.6}) {
@@ -155,8 +155,8 @@ TEST(DisturbedTrip, NoiseOfAFastLagTripsWithTheProbabilityOfItsValues) {
 }
 
 TEST(DisturbedTrip, NoiseWithAMemoryHasTheCorrelationOfItsProcess) {
-    // Without margin the chance of no trip in two cycles is that of an orthant: 1/4 + asin(rho)/(2 pi), and in three
-    // 1/8 + (2 asin(rho) + asin(rho^2))/(4 pi) (Sheppard 1899).
+    // Without margin the probability of no trip in two cycles is that of an orthant: 1/4 + asin(rho)/(2 pi), and in
+    // three 1/8 + (2 asin(rho) + asin(rho^2))/(4 pi) (Sheppard 1899).
     const Relaxing one(40, 0, 1e-9);
     NoiseSettings settings;
     settings.motions = 4000;
@@ -177,8 +177,8 @@ TEST(DisturbedTrip, NoiseWithAMemoryHasTheCorrelationOfItsProcess) {
     }
 }
 
-TEST(DisturbedTrip, NoiseOfASlowLagIsThatOfItsRecursion) {
-    // x_{k+1} = p_k + (x_k - p_k) exp(-c), whose greatest values are at the ends of cycles.
+TEST(DisturbedTrip, NoiseOfASlowLagFollowsItsRecursion) {
+    // x_{k+1} = p_k + (x_k - p_k) exp(-c), with its largest values at the ends of cycles.
     const double c = 0.3, memory = 4, level = 1.2, keeps = std::exp(-c), rho = std::exp(-1 / memory);
     const Relaxing one(c, 0, 1);
     NoiseSettings settings;
@@ -189,7 +189,7 @@ TEST(DisturbedTrip, NoiseOfASlowLagIsThatOfItsRecursion) {
     const NoisyTrips trips = noisy_trips(one.model, one.origin, level, one.end, settings);
     std::mt19937_64 engine(7); // an independent generator
     std::normal_distribution<double> unit;
-    constexpr int many = 400'000; // a tenth of the simulation's uncertainty
+    constexpr int many = 400'000; // a tenth of the uncertainty of the simulation
     int tripped = 0;
     for (int i = 0; i < many; ++i) {
         double x = 0, y = unit(engine);
@@ -203,7 +203,7 @@ TEST(DisturbedTrip, NoiseOfASlowLagIsThatOfItsRecursion) {
     }
     EXPECT_GT(static_cast<double>(tripped) / many, trips.probability.low);
     EXPECT_LT(static_cast<double>(tripped) / many, trips.probability.high);
-    EXPECT_LT(trips.trips, trips.beyond); // the lag does not follow all of it
+    EXPECT_LT(trips.trips, trips.beyond); // the lag smooths the noise
 }
 
 TEST(DisturbedTrip, NoiseIsTheSameOnAnyNumberOfThreads) {
@@ -246,7 +246,7 @@ struct Switch {
     ParameterId parameter;
 };
 
-TEST(DisturbedTrip, OfTheSwitchAtItsTouchComesAtOnce) {
+TEST(DisturbedTrip, RampOfTheSwitchTripsAtItsTouch) {
     const Switch one(1);
     const System system(one.model);
     const SpecialPoint touch = of_type(one.branch, PointType::grazing).at(0);
@@ -261,8 +261,8 @@ TEST(DisturbedTrip, OfTheSwitchAtItsTouchComesAtOnce) {
         const TripOrigin origin = trip_origin(system, touch.solution.orbit, map, one.parameter, point - 700 * rate);
         const RampedTrip ramped = ramped_trip(system, origin, rate, {});
         ASSERT_TRUE(ramped.trip.ended) << ramped.trip.ending;
-        // The resting motion lags by some cycles of the ramp; from the first contact on it takes as long as after a
-        // step of the parameter as large as what the ramp makes in a cycle.
+        // The motion lags by some cycles of the ramp; from the first contact on the trip takes as long as after a
+        // parameter step of the ramp's change per cycle.
         const double cycles = (ramped.value - point) / (rate * cycle);
         EXPECT_GT(cycles, 3) << rate;
         EXPECT_LT(cycles, 16) << rate;
@@ -276,7 +276,7 @@ TEST(DisturbedTrip, OfTheSwitchAtItsTouchComesAtOnce) {
     options.cycles = 800;
     EXPECT_FALSE(swung_trip(system, origin, 0.0095 * point, 400 * cycle, {}, options).ended);
     EXPECT_TRUE(swung_trip(system, origin, 0.0105 * point, 400 * cycle, {}, options).ended);
-    // Noise trips never without level, and nearly always when it is as large as the margin.
+    // Noise of level zero never trips, and noise as large as the margin nearly always.
     NoiseSettings settings;
     settings.motions = 40;
     settings.cycles = 50;
@@ -284,11 +284,11 @@ TEST(DisturbedTrip, OfTheSwitchAtItsTouchComesAtOnce) {
     EXPECT_GT(noisy_trips(system, origin, 0.03 * point, {}, settings).trips, 30U);
 }
 
-TEST(DisturbedTrip, OfTheSwitchAtItsFoldIsLateByThePowerTwoThirds) {
+TEST(DisturbedTrip, RampOfTheSwitchThroughItsFoldHasTheTwoThirdsDelay) {
     const Switch one(0.95);
     const System system(one.model);
     const FoldPassage fold = fold_passage(system, of_type(one.branch, PointType::fold).at(0), one.parameter);
-    TripEnd end; // beyond the fold the motion goes to the stop
+    TripEnd end; // beyond the fold the motion reaches the stop
     end.quantity = named_value(one.model, "q + delta", {}).value;
     TripOptions options;
     options.cycles = 20'000;
@@ -297,7 +297,7 @@ TEST(DisturbedTrip, OfTheSwitchAtItsFoldIsLateByThePowerTwoThirds) {
         const TripOrigin origin = trip_origin(system, fold, fold.value - 4 * predicted);
         const RampedTrip ramped = ramped_trip(system, origin, rate, end, options);
         ASSERT_EQ(ramped.trip.ending, "level");
-        // The stop is at a finite distance: some 20 cycles before infinity, and the next order about as many.
+        // The stop is reached about 20 cycles before infinity, and the next order is of the same size.
         EXPECT_NEAR(ramped.value - fold.value, predicted, 40 * rate * fold.cycle) << rate;
         EXPECT_LT(40 * rate * fold.cycle, predicted);
     }

@@ -1,4 +1,4 @@
-// How long motions linger where a fold has taken their orbits away: normal form, simulation, closed forms.
+// Passages of folds: normal form, simulation, closed forms.
 
 #include "graze/trip/fold_passage.hpp"
 
@@ -15,14 +15,14 @@ namespace {
 using namespace graze::testing;
 using std::numbers::pi;
 
-/// The first fold of a branch that is followed in a parameter.
+/// Returns the first fold of a branch.
 SpecialPoint fold_of(const Model& model, const Orbit& orbit, const BranchSettings& settings) {
     const std::vector<SpecialPoint> folds = of_type(follow_branch(model, orbit, settings), PointType::fold);
     EXPECT_FALSE(folds.empty());
     return folds.at(0);
 }
 
-/// u -> u + b p + a u^2 with u = x - 1 measured in a unit of length, and a state that it drives.
+/// u -> u + b p + a u^2 with u = x - 1 in a unit of length, and a driven state.
 Model normal_form(double a, double b, double p, double length) {
     return map_model(fmt::format("p = {:.17g}\na = {}\nb = {}\nL = {:.17g}", p, a, b, length),
                      {"x + L*(b*p + a*(x/L - 1)^2)", "2*L + 0.1*(y - 2*L) + 0.3*(x - L)"});
@@ -43,7 +43,7 @@ Passing passing(double a, double b, double length) {
     return {std::move(model), std::move(fold)};
 }
 
-TEST(FoldPassage, has_the_coefficients_of_its_map_in_any_units) {
+TEST(FoldPassage, HasTheCoefficientsOfItsMapInAnyUnits) {
     // The critical vector is (1, 1/3) in x and y, of length hypot(1, 1/3): w is u times that.
     const double stretch = std::hypot(1, 0.3 / 0.9);
     for (const double length : {1e-9, 1.0, 1e6})
@@ -52,7 +52,7 @@ TEST(FoldPassage, has_the_coefficients_of_its_map_in_any_units) {
                 SCOPED_TRACE(fmt::format("{} {} {}", length, a, b));
                 const FoldPassage fold = passing(a, b, length).fold;
                 EXPECT_NEAR(fold.value, 0, 1e-10);
-                // The fold's orbit is known to the root of round-off.
+                // The orbit of the fold is known to the square root of round-off.
                 EXPECT_NEAR(fold.coefficient * stretch * length / std::abs(a), 1, 1e-6);
                 EXPECT_NEAR(fold.rate / (stretch * length * b) * std::copysign(1, a), 1, 1e-6);
                 EXPECT_EQ(fold.side, a * b > 0 ? 1 : -1);
@@ -63,7 +63,7 @@ TEST(FoldPassage, has_the_coefficients_of_its_map_in_any_units) {
             }
 }
 
-TEST(FoldPassage, takes_as_long_as_simulation_and_as_the_map_by_itself) {
+TEST(FoldPassage, CyclesAgreeWithSimulationAndTheIteratedMap) {
     for (const double length : {1e-6, 1.0}) {
         const Passing one = passing(-0.7, 2, length);
         double before = 0;
@@ -74,7 +74,7 @@ TEST(FoldPassage, takes_as_long_as_simulation_and_as_the_map_by_itself) {
             options.cycles = 100'000;
             const SimulatedPassage simulated = simulated_passage(one.model, one.fold, overshoot, {}, true, options);
             ASSERT_TRUE(simulated.passed);
-            // The map iterated in the plainest way, for w = |a| u up to the same gate, from the value of the fold.
+            // Direct iteration of the map for w = |a| u up to the same gate.
             double w = -0.05, last = w;
             int cycles = 0;
             for (; w < 0.05; ++cycles) {
@@ -84,9 +84,9 @@ TEST(FoldPassage, takes_as_long_as_simulation_and_as_the_map_by_itself) {
             EXPECT_NEAR(simulated.cycles, cycles - 1 + (0.05 - last) / (w - last), 1e-3 * simulated.cycles + 1e-6);
             EXPECT_NEAR(simulated.time, simulated.cycles, 1e-9 * simulated.cycles);
             const double gated = cycles_of_passage(one.fold, overshoot, -one.fold.gate, one.fold.gate);
-            // The step of a cycle instead of a rate: about one cycle.
+            // Discrete cycles instead of a continuous rate: about one cycle.
             EXPECT_NEAR(simulated.cycles, gated, 1);
-            // The whole passage is longer by what is beyond the gate, 2/(a gate) = 40 cycles.
+            // The whole passage is longer by the parts beyond the gates, 2/(a gate) = 40 cycles.
             const double whole = cycles_of_passage(one.fold, overshoot);
             EXPECT_NEAR(whole, pi / std::sqrt(1.4 * std::abs(overshoot)), 1e-6 * whole);
             EXPECT_NEAR(whole - simulated.cycles, 40, decade > 3 ? 1.5 : 36);
@@ -98,9 +98,9 @@ TEST(FoldPassage, takes_as_long_as_simulation_and_as_the_map_by_itself) {
     }
 }
 
-TEST(FoldPassage, of_henons_map_and_of_the_logistic_one) {
-    // x -> y, y -> a - b x - y^2 has fixed points y^2 + (1 + b) y = a, so that they fold at y = -(1 + b)/2; with v
-    // along (1, 1) from there and the other multiplier b, the adjoint (-b, 1)/(1 - b): v' = v + (da - v^2)/(1 - b).
+TEST(FoldPassage, HenonAndLogisticMapsHaveTheirCoefficients) {
+    // x -> y, y -> a - b x - y^2 has fixed points y^2 + (1 + b) y = a, with a fold at y = -(1 + b)/2; with v along (1,
+    // 1) from there and the other multiplier b, the adjoint (-b, 1)/(1 - b): v' = v + (da - v^2)/(1 - b).
     const double b = 0.3, y = 0.2;
     const Model henon =
         map_model(fmt::format("a = {:.17g}\nb = {:.17g}", y * y + (1 + b) * y, b), {"y", "a - b*x - y^2"});
@@ -143,14 +143,15 @@ TEST(FoldPassage, of_henons_map_and_of_the_logistic_one) {
     const double at = third.orbit.starts.front()[0], h = 1e-4;
     const double second = (thrice(r, at + h) - 2 * thrice(r, at) + thrice(r, at - h)) / (2 * h * h),
                  by_r = (thrice(r + h, at) - thrice(r - h, at)) / (2 * h);
-    EXPECT_NEAR(third.coefficient, std::abs(second), 1e-4 * third.coefficient); // h^2, and its round-off
+    EXPECT_NEAR(third.coefficient, std::abs(second),
+                1e-4 * third.coefficient); // differences of order h^2, and their round-off
     EXPECT_NEAR(third.coefficient * third.rate, second * by_r, 1e-4 * third.coefficient * std::abs(third.rate));
     const SimulatedPassage simulated = simulated_passage(logistic, third, -1e-7, {}, true, options);
     ASSERT_TRUE(simulated.passed);
     EXPECT_NEAR(simulated.cycles, cycles_of_passage(third, -1e-7, -third.gate, third.gate), 3);
 }
 
-TEST(FoldPassage, refuses_what_does_not_pass) {
+TEST(FoldPassage, PointsWithoutPassageAreRefused) {
     const Passing one = passing(1, 1, 1);
     const auto expect_refusal = [](const auto& call, const std::string& what) {
         try {

@@ -1,4 +1,4 @@
-// Points at which motions are lost, and what trips from there are known by.
+// Points at which motions are lost, and the trips that start there.
 
 #include "graze/trip/loss_point.hpp"
 
@@ -16,7 +16,7 @@ namespace {
 
 using namespace graze::testing;
 
-/// An oscillator that just reaches its stop with a force of 1, as a point of a branch.
+/// An oscillator that just touches its stop with a force of 1, as a point of a branch.
 struct Touching {
     explicit Touching(const LinearOscillator& one) : model(one.model()) { point.solution.orbit = one.orbit(model); }
     LossPoint lost_by(const std::vector<const char*>& names) const {
@@ -42,7 +42,7 @@ std::string problem_of(const Touching& one, const std::vector<const char*>& name
     return "";
 }
 
-TEST(LossPoint, OfATouchIsMovedByTheFirstParameterThatDoes) {
+TEST(LossPoint, TouchUsesTheFirstParameterThatMovesTheOrbit) {
     const Touching one(oscillator());
     const LossPoint lost = one.lost_by({"force"});
     EXPECT_STREQ(lost.kind(), "touch");
@@ -55,16 +55,16 @@ TEST(LossPoint, OfATouchIsMovedByTheFirstParameterThatDoes) {
     TripEnd soft;
     soft.speed = 0.5 * lost.level;
     EXPECT_EQ(level_until(lost, soft), soft.speed);
-    EXPECT_EQ(problem_of(one, {}), "nothing is said to move the orbit from its touch");
+    EXPECT_EQ(problem_of(one, {}), "no parameter is given that moves the orbit from its touch");
 }
 
-TEST(LossPoint, OfNoTouchIsRefusedByTheNameOfItsOrbit) {
+TEST(LossPoint, OrbitWithoutTouchIsRefusedByItsName) {
     Touching one(oscillator());
     one.point.solution.orbit.parameters[one.model.independent_parameter("sigma").place()] *= 2;
     EXPECT_EQ(problem_of(one, {"force"}), "the orbit at GR1 touches nothing");
 }
 
-TEST(LossPoint, OfATouchBeginsTripsOfAllKinds) {
+TEST(LossPoint, TouchStartsTripsOfAllKinds) {
     const LossPoint lost = Touching(oscillator()).lost_by({"force"});
     constexpr double overshoot = 1e-4;
     TripEnd end;

@@ -1,4 +1,4 @@
-// Times until motions are lost: by the map, by simulation, and by closed forms.
+// Durations of trips: by the map, by simulation, and by closed forms.
 
 #include "graze/trip/simulated_trip.hpp"
 
@@ -44,7 +44,7 @@ Touching touching(const LinearOscillator& one) {
     return {model, one.orbit(model), "force"};
 }
 
-/// The switch of chapter 6, at the voltage at which its free motion just reaches the stop.
+/// The switch of chapter 6, at the voltage at which its free motion just touches the stop.
 Touching mems_switch() {
     constexpr double voltage = 0.2013662121541341, phase = 0.7306205700512591, pi = std::numbers::pi;
     Model model = load_model("mems-switch");
@@ -66,7 +66,7 @@ Touching mems_switch() {
     return {model, solution.orbit, "V"};
 }
 
-/// What a prediction and a simulation say of the time until the same approach speed.
+/// Compares prediction and simulation of the time until the same approach speed.
 void expect_agreement(const Touching& one, double overshoot, double speeds_alike, double cycles_alike) {
     SCOPED_TRACE(overshoot);
     const PredictedTrip predicted = predicted_trip(one.map, one.verdict, overshoot);
@@ -81,10 +81,10 @@ void expect_agreement(const Touching& one, double overshoot, double speeds_alike
     EXPECT_NEAR(simulated.time, predicted.time, cycles_alike * one.map.time);
 }
 
-TEST(TripTime, of_the_switch_is_that_of_simulation_and_of_the_published_motion) {
+TEST(TripTime, SwitchAgreesWithSimulationAndThePublishedMotion) {
     const Touching mems = mems_switch();
-    // The map's error is of the order of the last speed but one, over its reach, and the phase of the motion at a
-    // contact moves by about as much.
+    // The relative error of the map is of the order of the last speed but one over its reach, and so is the phase shift
+    // at a contact.
     for (const double overshoot : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10})
         expect_agreement(mems, overshoot, 0.03, 0.02);
     PredictionOptions options;
@@ -92,7 +92,7 @@ TEST(TripTime, of_the_switch_is_that_of_simulation_and_of_the_published_motion) 
     const PredictedTrip first = predicted_trip(mems.map, mems.verdict, 1e-4, options);
     EXPECT_EQ(first.cycles, 1);
     EXPECT_NEAR(first.time, 6.267394614702, 1e-4); // to leading order
-    // The motion begins at a touch that is known to 1e-13 or so.
+    // The touch is known to about 1e-13.
     const TripTime published = simulated_trip(mems.system, mems.map, mems.parameter, 1e-4, {});
     EXPECT_TRUE(published.ended);
     EXPECT_EQ(published.ending, "singular");
@@ -103,9 +103,9 @@ TEST(TripTime, of_the_switch_is_that_of_simulation_and_of_the_published_motion) 
     EXPECT_NEAR(simulated_trip(mems.system, mems.map, mems.parameter, 1e-4, end).time, 6.267394614702, 1e-9);
 }
 
-TEST(TripTime, goes_on_by_simulation_after_an_overshoot_that_none_could_see) {
+TEST(TripTime, ContinuesBySimulationAfterUnresolvableOvershoots) {
     const Touching mems = mems_switch();
-    // Where both are possible; the last is at the limit of what the digits of the voltage tell.
+    // Where both are possible; the last overshoot is at the resolution of the voltage.
     for (const double overshoot : {1e-9, 1e-10, 1e-11}) {
         const PredictedTrip predicted = predicted_trip(mems.map, mems.verdict, overshoot);
         const TripTime whole = simulated_trip(mems.system, mems.map, mems.parameter, overshoot, {});
@@ -123,7 +123,7 @@ TEST(TripTime, goes_on_by_simulation_after_an_overshoot_that_none_could_see) {
         const TripTime trip = continued_trip(mems.system, mems.map, mems.parameter, overshoot, predicted, {});
         ASSERT_TRUE(trip.ended) << overshoot;
         EXPECT_TRUE(trip.ending == "singular" || trip.ending == "terminal");
-        // The root of a speed again and again: each doubling of the decades costs one cycle of 2 pi.
+        // Speeds grow by repeated square roots: each doubling of the decades costs one cycle of 2 pi.
         if (before > 0) {
             EXPECT_NEAR(trip.time - before, 2 * std::numbers::pi, 1.0);
         }
@@ -131,7 +131,7 @@ TEST(TripTime, goes_on_by_simulation_after_an_overshoot_that_none_could_see) {
     }
 }
 
-TEST(TripTime, is_not_told_by_the_map_far_from_the_touch) {
+TEST(TripTime, MapDoesNotPredictFarFromTheTouch) {
     const Touching mems = mems_switch();
     const PredictedTrip far = predicted_trip(mems.map, mems.verdict, 1);
     EXPECT_FALSE(far.ended);
@@ -140,14 +140,14 @@ TEST(TripTime, is_not_told_by_the_map_far_from_the_touch) {
     EXPECT_TRUE(continued_trip(mems.system, mems.map, mems.parameter, 1, far, {}).ended); // all by simulation
 }
 
-TEST(TripTime, ends_at_a_level_of_a_quantity) {
+TEST(TripTime, EndsAtALevelOfAQuantity) {
     const Touching mems = mems_switch();
     TripEnd end;
     end.quantity = named_value(mems.system.model(), "q", {}).value;
     end.level = 0.9;
     const TripTime level = simulated_trip(mems.system, mems.map, mems.parameter, 1e-4, end);
     EXPECT_EQ(level.ending, "level");
-    // From there to the end of the gap it is short.
+    // The remaining time to the end of the gap is short.
     EXPECT_LT(level.time, 27.31773570163);
     EXPECT_GT(level.time, 27.0);
     TripOptions options;
@@ -157,14 +157,14 @@ TEST(TripTime, ends_at_a_level_of_a_quantity) {
     EXPECT_EQ(cut.ending, "end-time");
 }
 
-/// Passes of an oscillator by its matrix, which owes nothing to the map: from the touch, the force moved by a share.
+/// Passes of an oscillator by its matrix, independently of the map, from the touch with the force changed by a share.
 struct ClosedForm {
     std::vector<double> cycles, speeds;
 };
 ClosedForm closed_form(const LinearOscillator& one, double overshoot, double level) {
     const Eigen::MatrixXd once = one.return_map();
     const Eigen::Index n = one.force.size();
-    // The steady motion without stop, where q_1 is greatest, is in proportion to the force. All in units of overshoot.
+    // The steady motion without stop, at its maximum of q_1, is proportional to the force. In units of the overshoot.
     const Eigen::VectorXcd amplitude = one.amplitude();
     Eigen::VectorXd free(2 * n), impacts = Eigen::VectorXd::Zero(2 * n);
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -188,7 +188,7 @@ ClosedForm closed_form(const LinearOscillator& one, double overshoot, double lev
     return result;
 }
 
-TEST(TripTime, of_linear_oscillators_is_that_of_their_closed_form_in_all_units) {
+TEST(TripTime, LinearOscillatorsHaveTheirClosedFormInAllUnits) {
     int several = 0;
     for (const double length : {1.0, 1e-9, 1e6})
         for (const double clock : {1.0, 1e-9, 1e6})
@@ -201,7 +201,7 @@ TEST(TripTime, of_linear_oscillators_is_that_of_their_closed_form_in_all_units) 
                 const Touching one = touching(linear);
                 ASSERT_EQ(one.verdict.outcome, GrazingOutcome::lost) << one.verdict.reason;
                 const double level = level_of_map(one.map, one.verdict);
-                // Clearances of the last ones, in these units, are hardly numbers any more.
+                // The last clearances are near the underflow limit in these units.
                 for (const double overshoot : {1e-2, 1e-6, 1e-13, 1e-20, 1e-100, 1e-250}) {
                     SCOPED_TRACE(fmt::format("length {} clock {} omega {} overshoot {}", length, clock, linear.omega,
                                              overshoot));
@@ -211,7 +211,7 @@ TEST(TripTime, of_linear_oscillators_is_that_of_their_closed_form_in_all_units) 
                     ASSERT_EQ(trip.contacts, closed.cycles.size());
                     EXPECT_EQ(trip.cycles, closed.cycles.back());
                     EXPECT_EQ(trip.first_cycles, closed.cycles.front());
-                    // The return map is integrated to 1e-13, of which a gap may be a small part.
+                    // The return map is accurate to 1e-13; cancellation amplifies its error in the gap.
                     EXPECT_NEAR(trip.first_speed * clock / length, closed.speeds.front(), 1e-8 * closed.speeds.front());
                     EXPECT_NEAR(trip.speed * clock / length, closed.speeds.back(), 1e-7 * closed.speeds.back());
                     several += trip.contacts > 4 ? 1 : 0;
@@ -220,14 +220,14 @@ TEST(TripTime, of_linear_oscillators_is_that_of_their_closed_form_in_all_units) 
     EXPECT_GT(several, 50);
 }
 
-TEST(TripTime, of_oscillators_and_of_the_shaker_is_that_of_simulation) {
+TEST(TripTime, OscillatorsAndTheShakerAgreeWithSimulation) {
     for (const LinearOscillator& linear :
          {testing::one_degree(0.05, 1.3, 0.8), testing::two_degrees(0.3, 0.04, 1.1, 0.8, 0.4)}) {
         const Touching one = touching(linear);
         for (const double overshoot : {1e-4, 1e-6, 1e-8})
             expect_agreement(one, overshoot, 0.1, 0.1);
     }
-    // The head itself is moved: the motion would begin beyond it.
+    // The head itself moves, so that the motion would start beyond it.
     for (const double f : {6.0, 10.0, 14.0, 18.0, 22.0}) {
         Model model = load_model("ball-and-shaker");
         model.set_parameter("a", 0.65);
@@ -246,7 +246,7 @@ TEST(TripTime, of_oscillators_and_of_the_shaker_is_that_of_simulation) {
     }
 }
 
-/// A map of two states that do not act on each other, of which contacts change the second.
+/// A map of two independent states; contacts change the second.
 CycleMap two_states(double slow) {
     CycleMap map;
     map.contact.order = MapOrder::square_root;
@@ -268,7 +268,7 @@ CycleMap two_states(double slow) {
     return map;
 }
 
-TEST(TripTime, counts_free_cycles_as_their_closed_form_however_many) {
+TEST(TripTime, FreeCyclesHaveTheirClosedFormHoweverMany) {
     for (const double slow : {0.9, 1 - 1e-3, 1 - 1e-6, 1 - 1e-8})
         for (const double overshoot : {1e-2, 1e-6, 1e-20, 1e-300}) {
             SCOPED_TRACE(fmt::format("multiplier 1 - {} overshoot {}", 1 - slow, overshoot));
@@ -277,22 +277,21 @@ TEST(TripTime, counts_free_cycles_as_their_closed_form_however_many) {
             options.disturbance = {1, 0};
             const PredictedTrip trip = predicted_trip(map, verdict_of(map), overshoot, options);
             ASSERT_TRUE(trip.ended);
-            // slow^k falls below the overshoot. Squares of the multiplier lose as many digits as they count.
+            // Free cycles end when slow^k falls below the overshoot. Squaring loses as many digits as the count has.
             const double free = std::log(overshoot) / std::log(slow);
             EXPECT_NEAR(trip.first_cycles, free, 1 + 1e-6 * free);
         }
 }
 
-TEST(TripTime, grows_by_the_root_of_the_speed) {
+TEST(TripTime, SpeedsGrowByTheSquareRoot) {
     const CycleMap map = two_states(0.1);
     const Verdict verdict = verdict_of(map);
     ASSERT_EQ(verdict.next_contact, 1U);
     EXPECT_NEAR(*verdict.reach, 0.5, 1e-15); // -2 a g P B
     for (const double overshoot : {1e-8, 1e-20, 1e-100, 1e-300}) {
         const PredictedTrip trip = predicted_trip(map, verdict, overshoot);
-        // Logarithms of speed over reach halve from one contact to the next. The first contact is at 1/2 of the
-        // overshoot, since half of the touch's own state is left; then the earlier contacts add to the later ones a
-        // little.
+        // The logarithm of speed over reach halves from contact to contact. The first contact is at half the overshoot,
+        // since half of the initial state remains; earlier contacts add a little to later ones.
         EXPECT_NEAR(trip.first_speed, std::sqrt(0.5 * overshoot), 1e-12 * trip.first_speed);
         const double first = std::log(trip.first_speed / *verdict.reach), level = std::log(trip.level / *verdict.reach);
         const double contacts = std::ceil(std::log2(first / level)) + 1;
@@ -303,7 +302,7 @@ TEST(TripTime, grows_by_the_root_of_the_speed) {
     }
 }
 
-TEST(TripTime, counts_halves_of_an_orbit_that_is_given_by_its_half) {
+TEST(TripTime, CyclesOfAHalfOrbitAreHalfPeriods) {
     constexpr double zeta = 0.02, omega = 1.2, pi = std::numbers::pi;
     constexpr double in_phase = 1 - omega * omega, out_of_phase = 2 * zeta * omega,
                      square = in_phase * in_phase + out_of_phase * out_of_phase;
@@ -338,7 +337,7 @@ TEST(TripTime, counts_halves_of_an_orbit_that_is_given_by_its_half) {
                 0.1 * one.map.time);
 }
 
-TEST(TripTime, agrees_with_simulation_on_random_oscillators) {
+TEST(TripTime, AgreesWithSimulationOnRandomOscillators) {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> uniform(0, 1);
     int compared = 0, alike = 0, continued_alike = 0;
@@ -366,12 +365,12 @@ TEST(TripTime, agrees_with_simulation_on_random_oscillators) {
     std::cout << compared << " compared, " << alike << " by the map and " << continued_alike
               << " from there on alike\n";
     EXPECT_GE(compared, 200);
-    // A contact that is within some percent of the level, or of being none, counts here and not there.
+    // A contact within some percent of the level, or of missing, may count in one and not in the other.
     EXPECT_GE(alike, 0.97 * compared);
     EXPECT_EQ(continued_alike, compared);
 }
 
-TEST(TripTime, begins_with_a_disturbance_alone) {
+TEST(TripTime, DisturbanceAloneMayStartATrip) {
     const Touching one = touching(testing::one_degree(0.05, 1.3, 0.8));
     PredictionOptions predicted;
     predicted.disturbance = {0, 1e-5, 0}; // towards the stop
@@ -388,7 +387,7 @@ TEST(TripTime, begins_with_a_disturbance_alone) {
     EXPECT_NEAR(motion.time, map.time, 0.1 * one.map.time);
 }
 
-TEST(TripTime, is_refused_where_there_is_none) {
+TEST(TripTime, ImpossibleTripsAreRefused) {
     const Touching one = touching(testing::one_degree(0.05, 1.3, 0.8));
     EXPECT_THROW(predicted_trip(one.map, one.verdict, -1e-6), InputError);
     EXPECT_THROW(predicted_trip(one.map, one.verdict, 0), InputError);
@@ -413,7 +412,7 @@ TEST(TripTime, is_refused_where_there_is_none) {
     EXPECT_THROW(predicted_trip(without, one.verdict, 1e-6), InputError);
 }
 
-/// The level of a stop is reached where the motion turns round at it, whichever way round-off leaves it there.
+/// The level of a stop is reached at the contact, whatever round-off does.
 TEST(TripTime, TheLevelOfAStopIsReachedAtTheFirstContact) {
     struct FirstContact : Observer {
         double time = -1;
@@ -452,9 +451,9 @@ TEST(TripTime, TheLevelOfAStopIsReachedAtTheFirstContact) {
     EXPECT_GT(contacts, 100);
 }
 
-/// From one time to the next it slides deeper by a factor, which counts cycles by logarithms. Contacts that the orbit
-/// has anyway are far harder, and do not count.
-TEST(TripTime, OfSlidingOnABeltGoesByLogarithms) {
+/// The depth of sliding grows by a factor from one time to the next, so the number of cycles grows logarithmically. The
+/// orbit's other, much harder contacts do not count.
+TEST(TripTime, SlidingOnABeltGrowsLogarithmically) {
     Model model = testing::belt();
     model.set_parameter("nu", 2.2);
     const BranchSettings settings = testing::along(model, "nu", -1, 2, 2.4);

@@ -11,32 +11,33 @@
 
 namespace graze {
 
-/// From one grazing to the next: the branch that leaves with one more contact is followed until it grazes the same
-/// event again, and so on (W. Chin, E. Ott, H. E. Nusse and
-/// C. Grebogi, "Grazing bifurcations in impact oscillators", Phys. Rev. E 50, 1994).
+/// A ladder of grazings: from a grazing the branch with one more contact is followed until it grazes the same event
+/// again, and so on (W. Chin, E. Ott, H. E. Nusse and C. Grebogi, "Grazing bifurcations in impact oscillators", Phys.
+/// Rev. E 50, 1994).
 ///
 /// The caller follows the branches: `next` gives the start of one, `take` is told where it has ended; `climb` does both
 /// in turn.
 class Ladder {
 public:
-    /// @param grazing at which an arc touches; of a curve of touches any point will do
-    /// @param settings of the branches: their parameter and bounds; they stop at grazings whatever is said there
-    /// @throws InputError for other points, and for one outside of the bounds
+    /// @param grazing a grazing inside an arc, or any point of a curve of grazings
+    /// @param settings of the branches: their parameter and bounds; `stop_at` is replaced by grazing
+    /// @throws InputError for other points, and for a point outside the bounds
     Ladder(const System& system, const SpecialPoint& grazing, const BranchSettings& settings);
 
     const BranchSettings& settings() const { return settings_; }
-    /// The branch that leaves the last grazing. @return none where there is none, or none has been reached
+    /// Returns the start of the branch that leaves the last grazing; empty when no branch leaves it or the ladder has
+    /// ended.
     std::optional<BranchStart> next();
-    /// @param end the special point in which it has ended, if it has ended in one, not after one; @param outcome how it
-    /// has ended
-    /// @return whether that is the next grazing
+    /// @param end the special point in which the branch ended, if it ended in one; @param outcome how it ended, in
+    /// words
+    /// @return true if that point is the next grazing
     bool take(const std::optional<SpecialPoint>& end, const std::string& outcome);
 
-    /// The first one, and all that have been reached.
+    /// The first grazing and all that have been reached.
     const std::vector<SpecialPoint>& grazings() const { return grazings_; }
-    /// Why the ladder ends; empty as long as it does not.
+    /// Why the ladder has ended; empty while it continues.
     const std::string& why() const { return why_; }
-    /// Where it leads.
+    /// Computes the onset of chatter to which the ladder leads.
     ChatterLimit limit() const;
 
 private:
@@ -61,9 +62,10 @@ using RungFollower = std::function<std::optional<RungEnd>(std::size_t number, co
 /// @return false when a branch was interrupted
 bool climb(Ladder& ladder, std::size_t grazings, const RungFollower& follow);
 
-/// Climbs a ladder. @param grazings at most, the first one included
-/// @param visit called with the number of each rung (2 for the first branch) and its branch; returning false ends it
-/// @param interrupted asked after each step; what has been reached by then is returned
+/// Climbs a ladder. @param grazings largest number of grazings, including the first
+/// @param visit called with the number of each grazing reached (2 for the first branch) and its branch; returns false
+/// to stop
+/// @param interrupted called after each step, returns true to stop; the ladder up to then is returned
 Ladder climb(const System& system, const SpecialPoint& grazing, const BranchSettings& settings, std::size_t grazings,
              const std::function<bool(std::size_t rung, const Branch& branch)>& visit = {},
              const std::function<bool()>& interrupted = {});

@@ -11,40 +11,39 @@
 
 namespace graze {
 
-/// A number of an orbit that is watched along a branch, or held.
+/// A quantity of an orbit that is recorded along a branch, or held constant.
 struct Monitor {
     enum class Kind {
-        value,    ///< of the expression at the end of a segment, before the jump
-        start,    ///< of the expression at the start of a segment
-        duration, ///< of a segment, or the period
-        maximum,  ///< of the expression
+        value,    ///< the expression at the end of a segment, before the jump
+        start,    ///< the expression at the start of a segment
+        duration, ///< duration of a segment, or the period
+        maximum,  ///< maximum of the expression
         minimum,
-        mean,       ///< of the expression over time
-        norm,       ///< root of its mean square
-        multiplier, ///< modulus of a multiplier of the whole orbit; may be infinite
+        mean,       ///< time average of the expression
+        norm,       ///< root mean square of the expression
+        multiplier, ///< magnitude of a multiplier of the whole orbit; may be infinite
     };
     std::string name, unit;
     Kind kind = Kind::duration;
-    Expression expression; ///< in states and independent parameters; not of durations
-    /// Which segment: its number (from 1), or the name of what ends it, as "J1" or its event, with "#2" for the second
-    /// of that name.
-    /// Empty: the whole orbit; of values at ends and starts the first segment.
+    Expression expression; ///< in states and independent parameters; unused for durations and multipliers
+    /// The segment: its number (from 1), or the name of its end, such as "J1" or the event, with "#2" for the second of
+    /// that name. Empty: the whole orbit; for values at starts and ends, the first segment.
     std::string segment;
 
-    bool fixed = false;                    ///< held along the branch, which frees another parameter
-    std::optional<double> held;            ///< at this value; none: the one of the candidate
-    std::vector<double> crossings;         ///< values to be reported when they are taken
+    bool fixed = false;                    ///< hold the quantity along the branch, which needs another free parameter
+    std::optional<double> held;            ///< value at which it is held; empty: its value at the candidate
+    std::vector<double> crossings;         ///< values whose crossings are reported as points (UZ)
     std::optional<double> least, greatest; ///< bounds at which a branch ends
-    std::size_t place = 1;                 ///< of multipliers: 1 for the largest
+    std::size_t place = 1;                 ///< for multipliers: rank by magnitude, 1 for the largest
 };
 
-/// Sets the values of those monitors that are multipliers, which an orbit alone does not tell.
-/// @param multipliers largest first; where there are fewer, the value is NaN: not defined
+/// Sets the values of monitors that are multipliers, which OrbitMonitors cannot evaluate.
+/// @param multipliers largest first; the value of a monitor beyond their number is NaN
 void measure_multipliers(const std::vector<Monitor>& monitors, const std::vector<std::complex<double>>& multipliers,
                          std::vector<double>& values);
 
-/// Evaluates monitors of orbits of one signature. Extrema and means are those of the Taylor polynomials of the motion:
-/// as accurate as the orbit itself.
+/// Evaluates monitors for orbits of one signature. Extrema and means are computed from the Taylor polynomials of the
+/// motion and are as accurate as the orbit.
 class OrbitMonitors {
 public:
     /// @throws InputError for a segment that the signature does not have
@@ -53,13 +52,13 @@ public:
     ~OrbitMonitors();
     OrbitMonitors(OrbitMonitors&&) noexcept;
 
-    /// From now on of orbits of another signature. Compiles nothing. @throws InputError as above; then all is as before
+    /// Changes the signature without compiling anew. @throws InputError as above; then nothing changes
     void set_signature(const Signature& signature);
 
     const std::vector<Monitor>& monitors() const;
-    /// Index of a monitor's segment; none: the whole orbit.
+    /// Index of a monitor's segment; empty: the whole orbit.
     std::optional<std::size_t> segment(std::size_t monitor) const;
-    /// One value for each, NaN where it is not defined, and for multipliers.
+    /// Returns one value per monitor; NaN where it is not defined, and for multipliers.
     std::vector<double> operator()(const Orbit& orbit);
 
 private:

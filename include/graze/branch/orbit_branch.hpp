@@ -14,73 +14,76 @@
 
 namespace graze {
 
-/// Where a branch ends in a further parameter that is free.
+/// Bounds of an additional free parameter, at which a branch ends.
 struct FreeBounds {
     ParameterId parameter;
     std::optional<double> least, greatest;
 };
 
+/// What a branch follows, and where it ends.
 struct BranchSettings {
-    ParameterId parameter;    ///< that varies
-    int direction = 1;        ///< in which it goes at first: up (1) or down (-1)
-    std::size_t steps = 1000; ///< at most
-    /// Steps of integration for one point, beyond which the branch ends: hundreds or thousands are usual.
+    ParameterId parameter;    ///< the parameter that varies along the branch
+    int direction = 1;        ///< initial direction of the parameter: up (1) or down (-1)
+    std::size_t steps = 1000; ///< largest number of steps
+    /// Largest number of integration steps per point, beyond which the branch ends; hundreds or thousands are usual.
+    /// Raise it for orbits of very long period.
     std::size_t work = 1'000'000;
-    std::optional<double> least, greatest; ///< of the parameter, where the branch ends
-    ContinuationOptions continuation;
-    OrbitOptions orbit;
-    std::vector<Monitor> monitors;
-    /// A point whose own condition is held all along, so that the branch is the curve of such points in one parameter
-    /// more: of the folds, flips or grazings of what was found as one. Its kind says whether it can be kept.
+    std::optional<double> least, greatest; ///< bounds of the parameter, at which the branch ends; empty: none
+    ContinuationOptions continuation;      ///< step lengths and accuracy
+    OrbitOptions orbit;                    ///< tolerance of the integration
+    std::vector<Monitor> monitors;         ///< quantities that are recorded, held or bounded
+    /// A special point whose condition is held, so that the branch is the curve of such points (folds, flips, grazings)
+    /// with one more free parameter. PointKind::may_be_kept says which types allow it.
     std::optional<SpecialPoint> kept;
-    /// What is held besides the touch that is kept, so that the branch is a curve of points of codimension two in three
-    /// parameters: `sensitivity`, the boundary between touches beyond which an attractor may persist and such beyond
-    /// which it is lost.
+    /// A second condition besides a kept touch, for a curve of codimension two in three parameters. Only `sensitivity`
+    /// is allowed: the boundary between touches at which an attractor may persist and touches at which it is lost.
     std::optional<PointType> kept_too;
-    /// Further parameters that vary: one for each monitor that is fixed, one for the point that is kept, and one for
-    /// what is held besides.
+    /// Additional free parameters: one for each fixed monitor, one for the kept point, and one for the second
+    /// condition.
     std::vector<ParameterId> free;
-    std::vector<FreeBounds> free_bounds; ///< of some of those, or of all
-    std::vector<PointType> stop_at;      ///< types at which the branch ends
-    bool stop_when_unphysical = true;    ///< ends where orbits cease to be admissible
-    /// Goes on with another signature where events change their order, a segment vanishes or a guard chooses another
-    /// mode, as the model's motion does. What is grazed ends a branch in any case.
+    std::vector<FreeBounds> free_bounds; ///< bounds of some or all additional parameters
+    std::vector<PointType> stop_at;      ///< types of points at which the branch ends
+    bool stop_when_unphysical = true;    ///< end the branch where orbits cease to be admissible
+    /// Continue with the new signature where events change their order, a segment vanishes or a guard chooses another
+    /// mode. A grazing ends the branch in any case.
     bool reorder = true;
-    /// @throws InputError naming what is out of range
+    /// @throws InputError naming the setting that is out of range
     void validate(const Model& model) const;
-    /// The same of what one orbit needs alone, of a model that may have no parameters: `orbit` and `monitors`.
+    /// Validates only the settings that a single orbit needs: `orbit` and `monitors`. The model may have no parameters.
     void validate_orbit(const Model& model) const;
 };
 
+/// A computed point of a branch.
 struct BranchPoint {
     OrbitSolution solution;
     double parameter = 0, arclength = 0;
-    bool stable = false; ///< all multipliers within the unit circle
-    std::size_t step = 0;
-    std::size_t iterations = 0;
-    OrbitDirection tangent;       ///< of the branch
-    std::vector<double> monitors; ///< values of those asked for
+    bool stable = false;          ///< all multipliers within the unit circle
+    std::size_t step = 0;         ///< number of the step
+    std::size_t iterations = 0;   ///< iterations of Newton's method
+    OrbitDirection tangent;       ///< tangent of the branch
+    std::vector<double> monitors; ///< values of the monitors
 };
 
+/// Why a branch has ended.
 enum class BranchOutcome {
-    steps,          ///< all that were allowed have been made
-    bound,          ///< of a parameter or monitor is reached
-    stopped,        ///< at a point of a type that was to stop it
-    unphysical,     ///< beyond the last special point orbits are not admissible
-    closed,         ///< it has come back to its first point
-    returned,       ///< it has come back to a branch of more regular orbits: of half the period, or symmetric
-    shrunk,         ///< its orbits shrink to an equilibrium: it ends there
-    no_convergence, ///< steps have become too small
-    undefined,      ///< the model is not defined beyond
-    too_long,       ///< orbits take more and more steps of integration, as where a period grows without end
-    no_start,       ///< no orbit was found to start from
+    steps,          ///< the largest number of steps has been made
+    bound,          ///< a bound of a parameter or monitor has been reached
+    stopped,        ///< the branch has reached a point of a type in `stop_at`
+    unphysical,     ///< orbits beyond the last special point are not admissible
+    closed,         ///< the branch has returned to its first point
+    returned,       ///< the branch has met a branch of simpler orbits: of half the period, or symmetric
+    shrunk,         ///< the orbits shrink to an equilibrium
+    no_convergence, ///< the step has become too small
+    undefined,      ///< the model is not defined beyond the last point
+    too_long,       ///< orbits take too many integration steps, as where the period diverges
+    no_start,       ///< no first orbit was found
 };
 std::string_view name_of(BranchOutcome outcome);
-/// Whether the branch then ends at a special point, if there is one with its last point.
+/// True when a branch with this outcome ends in a special point, if one was found with its last point.
 bool ends_at_point(BranchOutcome outcome);
 
-/// Follows a branch of periodic orbits of one signature in one parameter, and finds what happens on the way: an
-/// iterator that one can stop and resume after any step.
+/// Follows a branch of periodic orbits of one signature in one parameter and locates its special points: an iterator
+/// that can be stopped and resumed after any step.
 class OrbitBranch {
 public:
     /// @throws InputError when candidate or settings do not fit the model
@@ -88,17 +91,18 @@ public:
     ~OrbitBranch();
     OrbitBranch(OrbitBranch&&) noexcept;
 
-    /// Finds the first point. @return false when there is none: outcome() and detail() say why
+    /// Computes the first point. @return false when it is not found; outcome() and detail() say why
     bool start();
-    /// The same at a solution, onto the branch through it that has this direction, such as SpecialPoint::tangent.
-    /// @param distance of the first point, in units of the unknowns' sizes; 0 for the solution itself
+    /// Starts from the candidate, a solution, along the branch through it that has this direction, such as
+    /// SpecialPoint::tangent.
+    /// @param distance of the first point, in scaled unknowns; 0 for the solution itself
     /// @throws InputError when the direction does not fit the orbit
     bool start_along(const OrbitDirection& direction, double distance);
 
-    /// @return false when the branch has ended. If a special point has ended it, its last point is that one.
+    /// @return false when the branch has ended. If a special point ended it, that is its last point.
     bool step();
     const BranchPoint& point() const;
-    /// What was found between the last point and the one before, in the order of the branch.
+    /// The special points between the previous point and the last one, in the order of the branch.
     const std::vector<SpecialPoint>& found() const;
     BranchOutcome outcome() const;
     const std::string& detail() const;
@@ -109,7 +113,7 @@ private:
     bool begun_ = false;
 };
 
-/// Whether it has ended in the last point found, rather than after it.
+/// True when the branch has ended in the last special point found, not after it.
 bool ends_in_found(const OrbitBranch& branch);
 
 struct Branch {
@@ -119,9 +123,9 @@ struct Branch {
     std::string detail;
 };
 
-/// Follows a whole branch. @param visit called after each point with it and what was found just before; returning false
-///        ends the branch
+/// Called after each point with the special points found just before it; returns false to end the branch.
 using BranchVisitor = std::function<bool(const BranchPoint&, const std::vector<SpecialPoint>&)>;
+/// Follows a whole branch.
 Branch follow_branch(const System& system, const Orbit& candidate, const BranchSettings& settings,
                      const BranchVisitor& visit = {});
 

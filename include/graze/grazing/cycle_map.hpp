@@ -12,80 +12,82 @@
 
 namespace graze {
 
-/// Where an orbit meets an event's surface without speed.
+/// A point at which an orbit touches the surface of an event with zero speed.
 struct OrbitTouch {
     std::size_t segment = 0, event = 0;
-    double time = 0;     ///< since the segment's start
-    bool at_end = false; ///< it is the contact that ends the segment which has lost its speed
+    double time = 0;     ///< since the start of the segment
+    bool at_end = false; ///< the touch is the contact that ends the segment, at zero approach speed
 };
 
 struct CycleMapOptions {
-    double tolerance = 1e-13; ///< of the integration; 1e-16 .. 1e-2
-    /// By which the orbit is moved from grazing; none: the map is that of the grazing orbit alone.
+    double tolerance = 1e-13; ///< relative tolerance of the integration, 1e-16 .. 1e-2
+    /// Parameter that moves the orbit through grazing. It is needed for the clearance rate and the checks by
+    /// simulation; without one the map is that of the grazing orbit alone.
     std::optional<ParameterId> parameter;
-    bool next_order = false; ///< also that, which takes second derivatives of the motion around the orbit
+    bool next_order = false; ///< compute the next order too; this costs second derivatives of the flow around the orbit
 };
 
-/// All places at which an orbit touches a surface, to within some 1e-7 of the size of the event's function; each once.
+/// Returns all points at which an orbit touches a surface, to within 1e-7 of the size of the event function, each once.
 /// @throws InputError when the orbit does not fit the system
 std::vector<OrbitTouch> touches_of(const System& system, const Orbit& orbit, const CycleMapOptions& options = {});
 
-/// The map of one cycle of an orbit that touches, from touch to touch, to leading order: the discontinuity map followed
-/// by the linear map of the orbit (A. B. Nordmark, Phys. Rev. E 55, 1997). Of states in which cycles matter, on the
-/// surface where the rate of the event's function is zero, as differences from the orbit without contact,
+/// The return map of a grazing orbit from touch to touch, to leading order: the discontinuity map followed by the
+/// linear map of the orbit (A. B. Nordmark, Phys. Rev. E 55, 1997). With x the active states on the surface of zero
+/// event rate, as differences from the orbit without contact,
 ///
 ///     x -> P (x + B s),   s = sqrt(-2 a h) where h = C + g x is negative, and 0 elsewhere
 ///
-/// (or B (-h)^(3/2) or B (-h) in place of B s), where C is the clearance of that orbit. The orbit may have contacts of
-/// its own; the cycle of a half orbit ends at its image.
+/// (or B (-h)^(3/2) or B (-h) in place of B s), where C is the clearance of that orbit: the minimum of the event
+/// function. The orbit may have other contacts; the cycle of a half orbit ends at its image.
 ///
-/// States that are as small as h are off by s^2 (h^2 of a compliant contact, h^(3/2) of sliding). With the next order,
-/// of an impact `second` s^2 more, they are off by s^3 only; of sliding it is `second` (-h)^(3/2), with an error of
-/// h^2.
+/// For states of the order of h the error is of order s^2 (h^2 for a compliant contact, h^(3/2) for sliding). The next
+/// order adds `second` s^2 for an impact, which leaves an error of order s^3, and `second` (-h)^(3/2) for sliding, with
+/// an error of order h^2.
 struct CycleMap {
-    std::string reason; ///< why there is none, in one line; empty if there is one
+    std::string reason; ///< why the map does not exist, in one line; empty if it does
     OrbitTouch touch;
-    std::size_t touches = 1; ///< places in which the orbit touches, this one included
+    std::size_t touches = 1; ///< number of points at which the orbit touches, including this one
     DiscontinuityMap contact;
-    bool half = false; ///< the orbit is given by its half, after which the cycle ends
-    double time = 0;   ///< of a cycle
-    /// When the touched event is met in one period of the whole orbit, since the touch: where it touches, at first, and
-    /// where the orbit has contacts of its own.
+    bool half = false; ///< the orbit is a half orbit, and the cycle is its half period
+    double time = 0;   ///< duration of a cycle
+    /// Times since the touch, in one period of the whole orbit, at which the orbit touches the event's surface
+    /// (0 first), and at which it has other contacts there.
     std::vector<double> touch_times, contact_times;
-    double period = 0;               ///< of the whole orbit
-    std::vector<std::size_t> active; ///< states that are neither drifting nor unchanged by everything
-    std::vector<double> scales;      ///< of those, and the following too
-    std::vector<double> matrix;      ///< P, row by row
+    double period = 0;               ///< period of the whole orbit
+    std::vector<std::size_t> active; ///< indices of the states that are neither drifting nor neutral
+    std::vector<double> scales;      ///< scales of the active states
+    std::vector<double> matrix;      ///< P of the active states, row by row
     std::vector<double> impact;      ///< B
     std::vector<double> gradient;    ///< g
-    /// The next order, one cycle later: what the active states have gained besides P B s. Empty: not known, or not
-    /// asked for.
+    /// Next-order change of the active states after one cycle, in addition to P B s. Empty: unknown or not requested.
     std::vector<double> second;
-    double second_clearance = 0; ///< the same of h, whose own curvature counts, too
-    /// Eigenvalues of P but the one that belongs to the projection onto the surface: multipliers, largest first.
+    double second_clearance = 0; ///< next-order change of h, including its curvature
+    /// Multipliers, largest first: eigenvalues of P without the zero eigenvalue of the projection onto the surface.
     std::vector<std::complex<double>> multipliers;
-    /// With respect to the parameter, if one was given and no multiplier is 1.
-    std::optional<double> clearance_rate; ///< of C
-    std::vector<double> steady;           ///< of the state in which the orbit without contact is at its least value
+    /// Derivatives with respect to the parameter, if one was given and no multiplier is 1.
+    std::optional<double> clearance_rate; ///< derivative of C
+    /// Derivative of the state at which the event function of the orbit without contact is least.
+    std::vector<double> steady;
 
     bool exists() const { return reason.empty() && contact.exists(); }
-    /// g P^k B for k = 1, 2, ...: what a contact does to the clearance k cycles later, by its approach speed (or by the
-    /// power 3/2 of its depth). Negative where it leads to another contact.
+    /// Returns g P^k B for k = 1, 2, ..., count: the change of the clearance k cycles after a contact, per unit of its
+    /// approach speed (per unit of depth^(3/2) or of depth for compliant contacts or sliding). A negative one leads to
+    /// another contact.
     std::vector<double> projections(std::size_t count) const;
-    /// What impacts in all cycles before do to the clearance of one, by their approach speed, if all are alike (sign 1)
-    /// or each is as much harder as the next is softer (sign -1): the sum of sign^(k-1) g P^k B over all k, times the
-    /// determinant of 1 - sign P. So it is g adj(1 - sign P) P B, which is smooth where a multiplier is 1 or -1 as
-    /// well, and is there without any limit. Folds (sign 1) and flips (sign -1) of orbits with an impact in each cycle
-    /// begin on those that graze where it vanishes; with two multipliers it is the first projection, for both signs.
+    /// Returns the effect of impacts in all previous cycles on the clearance, per unit of approach speed, if all
+    /// impacts are equal (sign 1) or alternate in strength (sign -1): the sum of sign^(k-1) g P^k B over k, times det(1
+    /// - sign P). This equals g adj(1 - sign P) P B, which is smooth also where a multiplier is 1 or -1. Where it
+    /// vanishes along a curve of grazing, a curve of folds (sign 1) or flips (sign -1) of orbits with one impact per
+    /// cycle begins. With two multipliers it equals the first projection for both signs.
     double sum_of_projections(int sign) const;
-    /// One cycle: the active states after it. With the next order where it is known.
-    /// @param state of as many, before; @param clearance of the orbit without contact (C)
-    /// @throws InputError for a map that does not exist, and numbers that do not fit it
+    /// Returns the active states after one cycle, with the next order where it is known.
+    /// @param state active states before the cycle; @param clearance of the orbit without contact (C)
+    /// @throws InputError if the map does not exist or the numbers do not fit it
     std::vector<double> image(std::span<const double> state, double clearance) const;
 };
 
-/// The map of the cycle at one touch.
-/// @return one with a reason where there is none
+/// Computes the map of the cycle at one touch.
+/// @return a map whose `reason` is set where it does not exist
 /// @throws InputError when orbit, touch or options do not fit the system
 CycleMap cycle_map(const System& system, const Orbit& orbit, const OrbitTouch& touch,
                    const CycleMapOptions& options = {});

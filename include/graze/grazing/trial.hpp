@@ -11,43 +11,46 @@
 namespace graze {
 
 struct TrialOptions {
-    std::size_t cycles = 400; ///< that are simulated at each distance
-    double tolerance = 1e-14; ///< of the integration; 1e-16 .. 1e-2
-    std::function<bool()> interrupted;
+    std::size_t cycles = 400; ///< cycles that are simulated at each distance from the touch; raise it where contacts
+                              ///< follow one another rarely
+    double tolerance = 1e-14; ///< relative tolerance of the integration, 1e-16 .. 1e-2
+    std::function<bool()> interrupted; ///< called at each step; returns true to stop
     /// @throws InputError naming the option that is out of range
     void validate() const;
 };
 
 enum class TrialOutcome {
-    agreed,       ///< what is simulated is what the verdict says
-    contradicted, ///< it is something else
-    undecided, ///< numbers do not come near enough to the touch for the difference to be seen, or there is no verdict
+    agreed,       ///< the simulation agrees with the verdict
+    contradicted, ///< the simulation contradicts the verdict
+    undecided,    ///< double precision does not allow motions near enough to the touch to tell, or the verdict is
+                  ///< undecided
 };
-/// Stable name for tables and files, such as "agreed".
+/// Returns the stable name for tables and files, such as "agreed".
 std::string_view name_of(TrialOutcome outcome);
 
-/// One motion just beyond a touch, begun on the orbit that would be there without contact.
+/// One simulated motion just beyond a touch, started on the orbit that would exist without contact.
 struct TrialMotion {
-    double parameter = 0; ///< its value
-    double clearance = 0; ///< of the orbit without contact: negative
-    double predicted = 0; ///< greatest approach speed (depth, of a compliant contact) of the map's motion
-    double largest = 0;   ///< greatest one that was simulated
+    double parameter = 0; ///< value of the parameter
+    double clearance = 0; ///< clearance of the orbit without contact: negative
+    double predicted = 0; ///< largest approach speed (depth, for a compliant contact) of the motion of the map
+    double largest = 0;   ///< largest simulated approach speed or depth
     std::size_t contacts = 0;
-    bool ended = false;    ///< the motion came to an end of its own, as by snap-through
-    bool followed = false; ///< to that end, or for all cycles
+    bool ended = false;    ///< the motion ended before the end time, as by snap-through
+    bool followed = false; ///< the motion was followed to that end, or for all cycles
 };
 
 struct Trial {
     TrialOutcome outcome = TrialOutcome::undecided;
-    std::string reason; ///< in one line
+    std::string reason; ///< explanation of the outcome, in one line
     std::vector<TrialMotion> motions;
 };
 
-/// Checks a verdict by simulation beside the touch, at several distances. Where an attractor persists, speeds shrink
-/// with the root of the distance as those of the map do; where it is lost they grow, however near the touch is.
-/// @param map with respect to the parameter that moves the orbit
-/// @return undecided without a verdict, or a parameter
-/// @throws InputError for a map that does not fit the system
+/// Checks a verdict by simulation at several distances beyond the touch. Where an attractor persists, approach speeds
+/// must shrink with the square root of the distance, as those of the map do; where it is lost, they must grow at any
+/// distance.
+/// @param map of the cycle, computed with the parameter that moves the orbit
+/// @return undecided if the verdict is, or if the map has no clearance rate
+/// @throws InputError if the map does not belong to the system
 Trial try_verdict(const System& system, const CycleMap& map, const Verdict& verdict, ParameterId parameter,
                   const TrialOptions& options = {});
 

@@ -10,81 +10,84 @@
 
 namespace graze {
 
-/// What becomes of a stable orbit beyond the parameter at which it touches.
+/// The fate of a stable orbit beyond the parameter at which it touches a surface.
 enum class GrazingOutcome {
-    persists,  ///< an attractor remains next to it, which shrinks to it at the touch
-    lost,      ///< none does: contacts grow until the motion is elsewhere (the device trips)
-    folds,     ///< a compliant contact: the orbit remains, up to a fold at a distance that is predicted
-    undecided, ///< leading order does not tell: `reason` says why
+    persists,  ///< an attractor persists near the orbit and shrinks to it at the touch
+    lost,      ///< no attractor remains nearby: contacts grow until the motion leaves (the device trips)
+    folds,     ///< compliant contact: the orbit persists up to a fold at a predicted distance
+    undecided, ///< the leading order does not decide: `reason` says why
 };
-/// Stable name for tables and files, such as "persists".
+/// Returns the stable name for tables and files, such as "persists".
 std::string_view name_of(GrazingOutcome outcome);
 
-/// Attractors that remain next to a touch: of a rigid stop as the leading multiplier has them, of sliding as the map.
+/// Attractors that persist near a touch: for a rigid stop classified by the leading multiplier, for sliding by
+/// iterating the map.
 enum class AttractorKind {
-    none,             ///< nothing is known of them
-    period_adding,    ///< below 1/4: one contact in ever more cycles, nearer and nearer to the touch
-    periodic_windows, ///< below 2/3: the same, with chaos between
-    chaotic,          ///< chaos that begins at the touch; of sliding, any motion that does not repeat
-    periodic,         ///< of sliding: one that repeats
+    none,             ///< unknown
+    period_adding,    ///< multiplier below 1/4: one contact per period; the period increases towards the touch
+    periodic_windows, ///< multiplier below 2/3: the same, with chaos between the periodic windows
+    chaotic,          ///< chaos that begins at the touch; for sliding, any motion that does not repeat
+    periodic,         ///< sliding only: a periodic attractor
 };
 std::string_view name_of(AttractorKind kind);
 
-/// How the orbit that touches a surface on which motions slide meets the one that slides for a moment.
+/// How an orbit that touches a sliding surface is related to the orbit with a short sliding segment.
 enum class BorderCollision {
-    none,        ///< nothing is known of it
-    persistence, ///< the one becomes the other: it goes on beyond the touch
-    fold,        ///< both are there before the touch, and neither beyond it
+    none,        ///< unknown
+    persistence, ///< one becomes the other: the orbit continues beyond the touch
+    fold,        ///< both exist before the touch, neither beyond it
 };
 std::string_view name_of(BorderCollision collision);
 
-/// What follows from the map of a cycle.
+/// The prediction that follows from the map of a cycle.
 ///
-/// A contact of speed s changes the clearance k cycles later by s times the projection k, against which all else is
-/// small beside the touch. If all are positive, the next contact comes when its effect has died away, and an attractor
-/// remains (A. B. Nordmark, Phys. Rev. E 55, 1997; M. H. Fredriksson and A. B. Nordmark, Proc. R. Soc. A 453, 1997; of
-/// which kind: W. Chin, E. Ott, H. E. Nusse and C. Grebogi, Phys. Rev. E 50, 1994). If one is negative, the first of
-/// these leads to a contact of the speed growth s^(1/2), which is far harder: the attractor is lost.
+/// A contact of speed s changes the clearance k cycles later by s times the k-th projection, which dominates near the
+/// touch. If all projections are positive, the next contact occurs only when the effect has decayed, and an attractor
+/// persists (A. B. Nordmark, Phys. Rev. E 55, 1997; M. H. Fredriksson and A. B. Nordmark, Proc. R. Soc. A 453, 1997;
+/// for its kind: W. Chin, E. Ott, H. E. Nusse and C. Grebogi, Phys. Rev. E 50, 1994). If one is negative, the first
+/// negative one leads to a contact of speed growth s^(1/2), which is much harder: the attractor is lost.
 ///
-/// Of a compliant contact the orbit goes on; with d its depth and C the clearance without contact, C + d + chi d^(3/2)
-/// = 0, which for chi < 0 turns at C = -4 / (27 chi^2): the cubic alpha tau^3 + tau^2 + beta of Eq. (3.29) in the work
-/// that this project follows, with tau = -d^(1/2), alpha = -chi, beta = C.
+/// With a compliant contact the orbit continues. Its depth d and the clearance C without contact satisfy C + d + chi
+/// d^(3/2) = 0, which for chi < 0 has a fold at C = -4 / (27 chi^2): the cubic alpha tau^3 + tau^2 + beta = 0 with tau
+/// = -d^(1/2), alpha = -chi, beta = C (Eq. (3.29) of the work that this project follows).
 ///
-/// With sliding the map is continuous and linear on both sides: P without, P (1 - B g) with it. An odd number of real
-/// multipliers above 1 of both together makes a fold of the two orbits, an even number lets the one become the other,
-/// and an odd number below -1 sets off an orbit of twice the period (M. I. Feigin, J. Appl. Math. Mech. 42, 1978; M. di
-/// Bernardo, M. I. Feigin, S. J. Hogan and M. E. Homer, Chaos, Solitons & Fractals 10, 1999). Where the orbit that
-/// slides is not stable the map is iterated, which needs to be done once: it is the same at all distances.
+/// With sliding the map is continuous and piecewise linear: P without sliding, P (1 - B g) with it. An odd number of
+/// real multipliers above 1 of both together gives a fold of the two orbits, an even number persistence; an odd number
+/// below -1 gives rise to an orbit of twice the period (M. I. Feigin, J. Appl. Math. Mech. 42, 1978; M. di Bernardo, M.
+/// I. Feigin, S. J. Hogan and M. E. Homer, Chaos, Solitons & Fractals 10, 1999). Where the sliding orbit is not stable
+/// the map is iterated, at one distance only because the map is the same at all.
 struct Verdict {
     GrazingOutcome outcome = GrazingOutcome::undecided;
-    std::string reason;              ///< why undecided; empty if it is not
-    int side = 0;                    ///< of the parameter on which contacts begin: 1 above, -1 below; 0: not known
-    std::vector<double> projections; ///< the first ones
+    std::string reason; ///< why the outcome is undecided; empty otherwise
+    int side = 0;       ///< side of the touch, in the parameter, on which contacts occur: 1 above, -1 below; 0: unknown
+    std::vector<double> projections; ///< the first projections
 
-    // Of a rigid contact.
-    std::size_t next_contact = 0;       ///< cycles after which the next one comes, where it is lost; 0: not
-    std::optional<double> growth;       ///< from one approach speed to the next: speed' = growth speed^(1/2)
-    std::optional<double> jump_growth;  ///< the same of what contacts change of the rate: jumps are (1 + e) speed
-    std::optional<double> reach;        ///< speed at which that growth would end: up to there the map must hold
-    std::optional<double> speed_factor; ///< of the first contact: speed = speed_factor |parameter - touch|^(1/2)
+    // For a rigid contact:
+    std::size_t next_contact = 0; ///< cycles until the next contact, where the attractor is lost; 0 otherwise
+    /// Growth of approach speeds from contact to contact: next speed = growth speed^(1/2).
+    std::optional<double> growth;
+    std::optional<double> jump_growth;  ///< the same for the jumps of the rate, (1 + e) speed
+    std::optional<double> reach;        ///< speed at which the growth would end; the map must be valid up to it
+    std::optional<double> speed_factor; ///< first contact: speed = speed_factor |parameter - touch|^(1/2)
     AttractorKind attractor = AttractorKind::none;
-    std::optional<double> leading; ///< multiplier that decides
+    std::optional<double> leading; ///< the multiplier that decides
 
-    // Of sliding; speed_factor, attractor and leading, too: here that of the orbit that slides, its largest in modulus.
+    // For sliding; speed_factor, attractor and leading apply too, where leading is the largest modulus of the
+    // multipliers of the sliding orbit:
     BorderCollision border = BorderCollision::none;
-    bool doubles = false;           ///< an orbit of twice the period begins at the touch, stable or not
-    std::size_t slides = 0, in = 0; ///< times it slides in so many cycles, where an attractor repeats
+    bool doubles = false;           ///< an orbit of twice the period, stable or not, begins at the touch
+    std::size_t slides = 0, in = 0; ///< a periodic attractor slides `slides` times in `in` cycles
 
-    // Of a compliant contact.
-    std::optional<double> alpha;      ///< of the cubic
-    std::optional<double> fold_depth; ///< depth and clearance at which it turns
-    std::optional<double> fold_clearance;
-    std::optional<double> fold_distance; ///< of the parameter from the touch, with its sign
-    std::optional<double>
-        unstable_depth; ///< depth at which a multiplier leaves the unit circle otherwise, if that comes first
+    // For a compliant contact:
+    std::optional<double> alpha;          ///< coefficient of the cubic
+    std::optional<double> fold_depth;     ///< depth at the fold
+    std::optional<double> fold_clearance; ///< clearance at the fold
+    std::optional<double> fold_distance;  ///< signed distance of the fold from the touch in the parameter
+    /// Depth at which a multiplier leaves the unit circle, if that happens before the fold.
+    std::optional<double> unstable_depth;
 };
 
-/// @param shown how many projections are listed
+/// @param shown number of projections that are listed
 Verdict verdict_of(const CycleMap& map, std::size_t shown = 8);
 
 } // namespace graze

@@ -12,39 +12,40 @@ namespace graze {
 
 /// What ends a segment of an orbit.
 enum class SegmentEnd {
-    event,   ///< the segment's transition is made: its event, its jump
-    section, ///< a section of the model is passed, which changes nothing
-    cut,     ///< nothing: a plane across the motion is passed, through where the next segment was found to begin
+    event,   ///< a transition: its event happens and its jump is applied
+    section, ///< the motion passes a section of the model; state and mode do not change
+    cut,     ///< the motion passes a plane laid across it by the program; state and mode do not change
 };
 
 /// One smooth piece of an orbit: the motion in a mode, up to an event or section.
 struct Segment {
     std::size_t mode = 0;
     SegmentEnd end = SegmentEnd::event;
-    std::size_t index = 0; ///< in Model::transitions or Model::sections; of cuts 0
+    std::size_t index = 0; ///< in Model::transitions or Model::sections; 0 for cuts
     bool operator==(const Segment&) const = default;
 };
 
 /// The cyclic list of an orbit's segments.
 using Signature = std::vector<Segment>;
 
-/// Whether a transition may lead to a mode: by one of its alternatives.
+/// True when one of a transition's alternatives leads to the mode.
 bool can_lead_to(const Transition& transition, std::size_t mode);
-/// How signatures call a cut: "~".
+/// The name of a cut in signatures: "~".
 const std::string& cut_name();
-/// The name of a segment's end in signatures: the transition's label, the section's name, or "~" for a cut.
+/// Returns the name of a segment's end in signatures: the label of the transition, the name of the section, or "~" for
+/// a cut.
 const std::string& end_name(const Model& model, const Segment& segment);
 
 /// Reads signatures such as "J1 J8", "{J1,J8}^2", "impact^4" or "(impact release)^2 impact": labels of transitions and
-/// names of sections, repeated by ^; braces, parentheses and commas only group and part. "~" is a cut. Modes follow
-/// from the model's graph; where they do not, write "mode:label".
-/// @throws InputError for names that the model does not have, and lists that its graph does not allow
+/// names of sections, repeated by ^; braces and parentheses group, commas separate. "~" is a cut. Modes are deduced
+/// from the model's graph; where they are ambiguous, write "mode:label".
+/// @throws InputError for names that the model does not have and sequences that its graph does not allow
 Signature parse_signature(const Model& model, std::string_view text, const Place& place = {});
-/// Text that parse_signature reads back, as short as repetition makes it: "(J1 J8)^2".
+/// Returns text that parse_signature reads back, with repetitions abbreviated: "(J1 J8)^2".
 std::string to_string(const Model& model, const Signature& signature);
 
-/// @param symmetry when these are the first half of an orbit's segments, whose images under it are the second
-/// @throws InputError when a segment does not exist or cannot follow the one before
+/// @param symmetry of the model, when the signature is the first half of an orbit and the second half is its image
+/// @throws InputError when a segment does not exist in the model or cannot follow the one before
 void validate_signature(const Model& model, const Signature& signature, const Place& place = {},
                         std::optional<std::size_t> symmetry = std::nullopt);
 

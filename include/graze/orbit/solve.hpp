@@ -14,91 +14,103 @@
 
 namespace graze {
 
+/// Settings of the solution of orbits.
 struct OrbitOptions {
-    double tolerance = 1e-13; ///< of the integration; 1e-16 .. 1e-2
-    double accuracy = 1e-10;  ///< last correction of Newton's method, relative to the size of each unknown
-    std::size_t iterations = 25;
-    bool error_estimate = true; ///< by a further correction at a tolerance a hundred times smaller
+    /// Relative tolerance of the integration, 1e-16 .. 1e-2; raise it only where integration is too slow.
+    double tolerance = 1e-13;
+    /// Newton's method stops when its last correction, relative to the scale of each unknown, is below this;
+    /// 1e-15 .. 1e-2. Raise it for models that are known only to a few digits.
+    double accuracy = 1e-10;
+    std::size_t iterations = 25; ///< largest number of Newton iterations
+    bool error_estimate = true;  ///< estimate the error by one more Newton step at a hundredth of the tolerance
     /// @throws InputError naming the option that is out of range
     void validate() const;
 };
 
+/// How the solution of an orbit ended.
 enum class OrbitOutcome {
-    converged,
+    converged,     ///< an orbit was found
     not_converged, ///< Newton's method did not find an orbit within the iterations
     singular,      ///< the equations do not determine an orbit here, as at a fold
-    undefined,     ///< a segment leaves the domain of the model, or its solution ceases to exist
+    undefined,     ///< a segment leaves the domain of the model, or its solution becomes singular
 };
 std::string_view name_of(OrbitOutcome outcome);
 
-/// A periodic orbit with what is known of it.
+/// A periodic orbit with its multipliers, error estimate and certificate.
 struct OrbitSolution {
     Orbit orbit; ///< the last iterate when not converged
     OrbitOutcome outcome = OrbitOutcome::not_converged;
-    std::string detail; ///< why not converged; of one that has, that it is one of a family
+    std::string detail; ///< why it has not converged; for a converged orbit, empty or a note that it belongs to a
+                        ///< family of orbits
     std::size_t iterations = 0;
-    double residual = 0;         ///< of the equations, relative to the size of each unknown
-    std::optional<double> error; ///< estimate, relative in the same sense
-    /// Floquet multipliers of the whole orbit's section map, largest first; empty where an event is met without speed.
+    double residual = 0;         ///< largest residual of the equations, relative to the scale of each unknown
+    std::optional<double> error; ///< estimated error of the unknowns, relative to their scales
+    /// Floquet multipliers of the section map of the whole orbit, largest first; empty where an event is reached with
+    /// zero speed.
     std::vector<std::complex<double>> multipliers;
-    std::vector<std::complex<double>>
-        half_multipliers; ///< of an orbit that is given by its half: their squares are those
+    std::vector<std::complex<double>> half_multipliers; ///< multipliers of the half map of a symmetric orbit given by
+                                                        ///< its half; `multipliers` are their squares
     Certificate certificate;
 };
 
-/// Whether all multipliers lie within the unit circle, by more than round-off at a bifurcation could decide. Not known,
-/// and false, without multipliers.
+/// True when all multipliers have magnitudes below 1 - 1e-8, the margin of round-off at a bifurcation. False where
+/// multipliers are not known.
 bool is_stable(const OrbitSolution& solution);
-/// How many lie outside, by as much.
+/// Returns the number of multipliers outside the unit circle, by the same margin.
 std::size_t unstable_directions(const OrbitSolution& solution);
 
-/// A periodic orbit near a candidate, by Newton's method on multiple shooting with exact derivatives, damped where it
-/// would overshoot. Of a family of orbits at the same parameters, as conservative models have, the nearest one.
+/// Finds a periodic orbit near a candidate by damped Newton's method on multiple shooting with exact derivatives. Where
+/// a family of orbits exists at the same parameters, as in conservative models, the nearest member is found.
 /// @throws InputError when the candidate does not fit the model or the options are out of range
 OrbitSolution solve_orbit(const System& system, const Orbit& candidate, const OrbitOptions& options = {});
 
-/// The orbit that simulation settles on at the model's parameters and initial state: its signature, starts and
-/// durations, polished. Given by its half if it is its own image under the model's (first) symmetry.
-/// @throws InputError when the motion does not settle on a periodic orbit, or contacts accumulate within it: says what
-///         it does instead
+/// Finds the periodic orbit on which simulation settles at the model's parameters and initial state, and refines it by
+/// solve_orbit. The result is a half orbit if the orbit is its own image under the model's (first) symmetry.
+/// @throws InputError when the motion does not settle on a periodic orbit, or contacts accumulate within it; the
+/// message says what
+/// the motion does instead
 OrbitSolution find_orbit(const System& system, const AttractorOptions& settle, const OrbitOptions& options = {},
                          const SimulationOptions& simulation = {});
-/// The same, unless it is interrupted. @param interrupted asked after each return to the section
+/// The same, but can be interrupted. @param interrupted called after each return to the section; returns true to stop
 /// @return none when interrupted
 std::optional<OrbitSolution> find_orbit(const System& system, const AttractorOptions& settle,
                                         const OrbitOptions& options, const SimulationOptions& simulation,
                                         const std::function<bool()>& interrupted);
 
+/// Limits of the search for an orbit with a given signature.
 struct SignatureSearchOptions {
-    std::size_t steps = 1'000'000; ///< of the motion that is followed
-    std::size_t segments = 2000;   ///< of it that are looked at
-    std::size_t trials = 20;       ///< pieces of it from which Newton's method is begun
-    bool unphysical = false;       ///< an orbit that is not admissible will do
-    std::function<bool()> interrupted;
+    std::size_t steps = 1'000'000;     ///< integration steps for which the motion is followed at most
+    std::size_t segments = 2000;       ///< segments of the motion that are examined at most
+    std::size_t trials = 20;           ///< matching pieces of the motion that are tried as first guesses at most
+    bool unphysical = false;           ///< accept an orbit that is not admissible
+    std::function<bool()> interrupted; ///< called now and then; returns true to stop
 };
 
-/// An orbit with a signature: the motion from the model's initial state is followed, and each piece of it with these
-/// segments is a first guess, until one leads to an admissible orbit. Transitions that change nothing, and sections,
-/// count if the signature names them. Given by its half if it is its own image under a symmetry of the model.
-/// @return not converged when no piece has led to an orbit: then its orbit is the first guess; none when interrupted
-/// @throws InputError when the motion has no such piece, or all that was found is not admissible
+/// Finds an orbit with a given signature. The motion from the model's initial state is followed, and each piece of it
+/// that has these segments serves as a first guess until one leads to an admissible orbit. Transitions that change
+/// neither state nor mode, and sections, count only if the signature names them. The result is a half orbit if the
+/// orbit is its own image under a symmetry of the model.
+/// @return a solution that is not converged, whose orbit is the first guess, when no piece led to an orbit; empty when
+/// interrupted
+/// @throws InputError when the motion has no such piece, or all orbits found are inadmissible
 std::optional<OrbitSolution> orbit_with_signature(const System& system, const Signature& signature,
                                                   const OrbitOptions& options = {},
                                                   const SimulationOptions& simulation = {},
                                                   const SignatureSearchOptions& search = {});
 
-/// The half of an orbit that is its own image under a symmetry of the model, or none if it is not.
+/// Returns the first half of an orbit that is its own image under a symmetry of the model; empty if it is not. @param
+/// tolerance largest difference between the halves, relative to the extent of each state
 std::optional<Orbit> half_orbit(const System& system, const Orbit& orbit, double tolerance = 1e-6);
 
-/// Follows the model's motion from a state for a time and lists the segments that it has, without transitions that
-/// change nothing; the last one, cut off by the end, is left out. What a signature is made of.
+/// The segments of a motion, without transitions that change neither state nor mode. The last segment, which the end of
+/// the time interrupts, is left out.
 struct FollowedMotion {
     Signature segments;
-    std::vector<std::vector<double>> starts; ///< of each segment, and of the one that was cut off
+    std::vector<std::vector<double>> starts; ///< of each segment, and of the interrupted one
     std::vector<double> durations;
     std::vector<double> final_state; ///< at the end of the time
     std::size_t final_mode = 0;
-    std::string problem; ///< why the motion could not be followed (chatter, singular end); empty when all is well
+    std::string problem; ///< why the motion could not be followed (chatter, singular end); empty otherwise
 };
 FollowedMotion follow_motion(const Simulation& simulation, std::span<const double> parameters,
                              std::span<const double> state, std::size_t mode, double time);

@@ -5,9 +5,9 @@
 
 namespace graze {
 
-/// One page for a review: the trip value against each dimension and in planes of two, with the class coloured; trip
-/// times; the tuning curve; how devices are distributed.
-/// Every curve, plane and dimension of the report has its panel; the page has as many columns as that takes.
+/// A page for a design review: panels of the trip value over each dimension and over planes of two dimensions, coloured
+/// by class; of trip times; of the tuning curve; and of the distribution of devices. Every curve and plane of the
+/// report has a panel; the number of columns grows with the number of panels.
 Figure design_page(const Design& design, const TripPoint& trip, const DesignReport& report);
 
 } // namespace graze

@@ -7,8 +7,8 @@
 
 namespace graze {
 
-/// Cross-sections after each step in which a device is made, in gnuplot's language.
-/// @param ending svg, png or pdf
+/// Commands for gnuplot that draw cross-sections of a device after each step of the process.
+/// @param ending svg, png or pdf; @param output the file that the commands write
 std::string fabrication_picture_script(const std::vector<ProcessStep>& steps, const std::string& ending,
                                        const std::string& output);
 

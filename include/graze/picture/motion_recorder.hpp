@@ -14,21 +14,23 @@
 
 namespace graze {
 
-/// What is drawn of a motion. Panels refer to columns.
+/// The contents of a picture of a motion. Panels refer to columns by their indices.
 struct MotionPanelChoice {
     std::vector<NamedValue> columns;
-    std::vector<std::size_t> histories;                         ///< drawn over time
-    std::vector<std::pair<std::size_t, std::size_t>> portraits; ///< one over the other
-    std::vector<bool> marked;                                   ///< events whose contacts are marked
-    std::size_t sections = 0;                                   ///< the probes before this one are marked
-    bool chosen = false; ///< the histories were asked for, and are drawn even where nothing changes
+    std::vector<std::size_t> histories;                         ///< columns drawn over time
+    std::vector<std::pair<std::size_t, std::size_t>> portraits; ///< pairs of columns, x and y
+    std::vector<bool> marked;                                   ///< for each event: its contacts are marked
+    std::size_t sections = 0;                                   ///< the first `sections` probes are marked
+    bool chosen = false; ///< the user chose the histories: constant ones are drawn too
 };
 
-/// Keeps what a picture needs: points close enough on every arc, contacts before and after, passages of sections.
+/// Observer that records what a picture of a trajectory needs: dense points on every arc, the points before and after
+/// each contact, and passages of sections.
 class MotionRecorder : public Observer {
 public:
-    /// The time, then each column.
+    /// The time, then the value of each column.
     using Row = std::vector<double>;
+    /// The rows just before and after a contact.
     struct Jump {
         Row before, after;
         bool marked;
@@ -43,13 +45,15 @@ public:
 
     const MotionPanelChoice& contents() const { return contents_; }
     const Model& model() const { return simulation_.model(); }
-    /// Its values are the time and the columns.
+    /// The recorded motion; its values are the time and the columns.
     const DenseMotion& motion() const { return motion_; }
     const std::vector<Jump>& jumps() const { return jumps_; }
     const std::vector<Row>& passages() const { return passages_; }
+    /// Names of the marked sections, separated by commas.
     std::string section_names() const;
+    /// Time of the singularity at which the motion ended; none if it ended otherwise.
     std::optional<double> singularity() const { return singularity_; }
-    /// False when the run was too long for a picture, which then shows its beginning.
+    /// False when the motion was too long: only its beginning is recorded.
     bool is_complete() const { return complete_; }
 
 private:

@@ -5,7 +5,7 @@
 
 namespace graze {
 
-/// What was measured and what was fitted, and in a panel below what is left.
+/// A panel of measured and fitted values, and a panel of the residuals below.
 Figure residual_figure(const Identification& found);
 
 } // namespace graze

@@ -7,15 +7,15 @@
 
 namespace graze {
 
-/// A picture made from results, with the table of what was computed for it, if anything.
+/// A picture made from results, and a table of the numbers that were computed for it; the table may be empty.
 struct ResultPicture {
     Figure figure;
     Table table;
 };
 
-/// @throws InputError when the picture asks for something that the results do not have
+/// Makes a picture from results. @throws InputError when the results lack something that the picture asks for
 ResultPicture make_picture(const StudyPicture& picture, const ResultFile& file);
-/// What a run is shown as when nothing is said: by its kind.
+/// The picture of a run when the study describes none; it depends on the kind of the run.
 StudyPicture default_picture(const RunRecord& run);
 
 } // namespace graze

@@ -5,9 +5,9 @@
 
 namespace graze {
 
-/// A motion that has been recorded: histories in the left column, portraits beside them, with contacts and passages of
-/// sections marked. Of histories that nobody asked for only those in which something changes are shown. Where the
-/// motion ends in a singularity, that time is marked, and what grows without bounds runs out of the picture.
+/// The figure of a recorded motion: histories in the left column, portraits beside them, with marks at contacts and
+/// passages of sections. Constant histories are left out unless the user chose them. If the motion ends in a
+/// singularity, its time is marked, and unbounded values leave the frame.
 /// @throws InputError when there is nothing to draw
 Figure trajectory_figure(const MotionRecorder& recorder);
 

@@ -9,11 +9,11 @@
 
 namespace graze {
 
-/// Times until trips at overshoots. Each contact more adds a cycle or so: times are steps, and where steps end between
-/// two overshoots nobody has computed. So there is a symbol for each trip, and a line only through those with as many
-/// contacts. At a fold a line goes through all, for there the time is smooth.
-/// @param trips overshoots, from the least or the greatest on, with trips that have come to their end
-/// @param symbol as FigureSeries has it
+/// Adds series of trip times over overshoots: a symbol for each trip, and lines through trips with the same number of
+/// contacts. Each further contact adds about one cycle, so that the time is a step function whose steps lie at unknown
+/// overshoots. At a fold the time is smooth, and a line joins all trips.
+/// @param trips overshoots in rising or falling order, with trips that have ended
+/// @param symbol see FigureSeries::symbol
 void add_trips(FigurePanel& panel, const std::vector<std::pair<double, TripTime>>& trips, const std::string& title,
                std::size_t colour, int symbol, bool at_fold = false);
 

@@ -8,8 +8,9 @@
 
 namespace graze {
 
-/// How the values of devices are distributed, as bars, and a normal distribution by the derivatives alone.
-/// @param parameter whose values they are; @param least, greatest values that are wanted, marked
+/// A histogram of the values of devices, and the normal distribution that follows from the derivatives.
+/// @param parameter name of the value; @param least, greatest limits of acceptable values, which are marked
+/// @throws InputError when no value was found, or all are equal
 Figure yield_picture(const Yield& yield, const std::string& parameter, const std::string& unit,
                      std::optional<double> least, std::optional<double> greatest);
 

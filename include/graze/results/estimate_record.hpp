@@ -7,18 +7,18 @@
 
 namespace graze {
 
-/// A number that was found from measurements, as results keep it.
+/// A number estimated from measurements, as a result file stores it.
 struct EstimateRecord {
-    std::string name; ///< the parameter's, where it is one
+    std::string name; ///< the name of the parameter, if the number is one
     std::string unit;
-    Estimate estimate{}; ///< without freedom: its error is not known
-    std::string note{};  ///< such as "at its bound"
+    Estimate estimate{}; ///< the error is unknown if there are no degrees of freedom
+    std::string note{};  ///< for example "at its bound"; empty: none
 };
 
-/// What one run has found.
+/// The estimates of one run of kind `identify`.
 struct EstimateRecords {
     std::vector<EstimateRecord> numbers{};
-    /// Of the numbers, row by row; 0 where nothing is known. Empty: nothing is known of any two of them.
+    /// Covariance matrix of the numbers, row by row; 0 where a covariance is unknown. Empty: all are unknown.
     std::vector<double> covariance{};
 };
 

@@ -6,14 +6,14 @@
 
 namespace graze {
 
-/// Members of a JSON object, in their order.
+/// Text of a JSON object, written member by member in the order of the calls.
 class JsonObject {
 public:
     void add(std::string_view name, std::string_view text);
     void add(std::string_view name, double number);
     void add(std::string_view name, const JsonObject& object);
     void add(std::string_view name, const std::vector<JsonObject>& objects);
-    /// The members, without the braces.
+    /// Text of the members, without the braces around them.
     const std::string& members() const { return members_; }
 
 private:

@@ -7,10 +7,10 @@
 
 namespace graze {
 
-/// Everything in a model that has a name, one row each: item, name, value, unit, text.
+/// A table with one row for every named item of a model: item, name, value, unit, text.
 Table model_table(const Model& model);
 
-/// Values of all parameters, the dependent ones too, in the order of the model.
+/// Values of all parameters, including dependent ones, in the order of the model.
 std::vector<double> all_parameter_values(const Model& model);
 
 } // namespace graze

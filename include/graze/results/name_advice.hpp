@@ -6,11 +6,11 @@
 
 namespace graze {
 
-/// What to say to somebody who has named something that is not there: "did you mean 'x'?", or all that there is.
-/// @param none what to say when there is nothing at all
+/// Remedy for an unknown name: "did you mean 'x'?" if a known name is similar, otherwise the list of known names.
+/// @param none returned if there are no known names
 std::string name_advice(std::string_view name, const std::vector<std::string>& known, std::string_view none);
 
-/// Names of what has some.
+/// The member `name` of each item.
 template <class Item>
 std::vector<std::string> names_of(const std::vector<Item>& items) {
     std::vector<std::string> names;

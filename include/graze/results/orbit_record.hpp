@@ -9,24 +9,24 @@
 
 namespace graze {
 
-/// What the map of the cycle says of an orbit that touches; names as of `graze grazing`.
+/// Result of the map near a touching orbit; the numbers are named as in the output of `graze grazing`.
 struct TouchFindings {
-    std::string map;              ///< MapOrder
-    std::string verdict;          ///< GrazingOutcome
+    std::string map;              ///< name of a MapOrder
+    std::string verdict;          ///< name of a GrazingOutcome
     std::string reason;           ///< why there is no map, or why the verdict is undecided
-    std::size_t next_contact = 0; ///< 0: none
+    std::size_t next_contact = 0; ///< number of cycles to the next contact; 0: none was found
     std::optional<double> projection, growth, jump_growth, reach, clearance_rate, speed_factor, fold_distance;
     friend bool operator==(const TouchFindings&, const TouchFindings&) = default;
 };
 
-/// One orbit that a run of kind `orbit` or `continue` has computed: a point of a branch, special or not.
+/// One orbit computed by a run of kind `orbit` or `continue`: a regular or special point of a branch.
 struct OrbitRecord {
-    std::size_t number = 0; ///< in the run
-    std::string part;       ///< of the run: the way in which the branch was followed, such as "up"
-    std::string label;      ///< type and count within the run, such as "GR1"; empty for regular points
+    std::size_t number = 0; ///< number of the point in the run
+    std::string part;       ///< direction in which the branch was followed, for example "up"
+    std::string label;      ///< type and count within the run, for example "GR1"; empty for regular points
     bool stable = false;
-    SpecialPoint point; ///< its type says whether it is special; its solution has the orbit
-    /// Where the run asks for it and the orbit touches.
+    SpecialPoint point; ///< type of the point, and its orbit as the solution
+    /// Set if the orbit touches and the run asks for the map there.
     std::optional<TouchFindings> touch = std::nullopt;
 };
 

@@ -9,41 +9,41 @@
 
 namespace graze {
 
-/// Which points of a file's branches are listed.
+/// Which points of the branches in a result file are listed.
 struct PointListRequest {
-    std::vector<std::string> runs = {}; ///< only of these; empty: of all
-    std::vector<PointType> types = {};  ///< only these; empty: all special ones
-    bool regular = false;               ///< those too that are not special
-    bool twins = true;                  ///< those too that are images of others under the model's symmetry
-    Place place = {};                   ///< where runs were named, for messages
+    std::vector<std::string> runs = {}; ///< only points of these runs; empty: of all branches
+    std::vector<PointType> types = {};  ///< only points of these types; empty: of all special types
+    bool regular = false;               ///< whether regular points are included
+    bool images = true;                 ///< whether images of other points under the model's symmetry are included
+    Place place = {};                   ///< where the user named the runs, for messages
 };
 
 struct ListedPoint {
     std::size_t run = 0; ///< index in PointList::runs
     OrbitRecord record;
-    std::vector<double> parameters; ///< of the run's columns
-    std::vector<double> stored;     ///< what the file has besides, as it stands there
+    std::vector<double> parameters; ///< values for the coordinate columns of the run
+    std::vector<double> stored;     ///< further numbers of the file, copied as they are
 };
 
-/// Points with the parameters by which they differ.
+/// Listed points, with the names of the parameters in which they differ.
 struct PointList {
     std::vector<StoredRun> runs;
     std::vector<ListedPoint> points;
-    std::string followed; ///< the parameter that all follow; empty: each run its own
-    std::vector<std::string> others;
-    std::size_t twins = 0; ///< points left out, since they are images of others
+    std::string followed;               ///< the parameter that all runs follow; empty: the runs follow different ones
+    std::vector<std::string> differing; ///< the other parameters that do not have the same value at all points
+    std::size_t images_left_out = 0;    ///< number of points left out because they are images of other points
 
     const StoredRun& run_of(const ListedPoint& point) const { return runs[point.run]; }
 };
 
-/// @throws InputError as branch_runs does
+/// Lists points of a file. @throws InputError as branch_runs does
 PointList listed_points(const ResultFile& file, const PointListRequest& request);
 
-/// How a list of points is shown.
+/// How a list of points is shown as a table.
 struct PointTableStyle {
-    bool for_people = false; ///< what they look at, in words; otherwise all that is known, in numbers
-    bool brief = false;      ///< of people's: long words are cut short, for numbers to have room
-    int digits = 17;         ///< of people's numbers
+    bool for_people = false; ///< true: the main columns, with words; false: every column, with full numbers
+    bool brief = false;      ///< with for_people: long words are shortened so that the table is narrower
+    int digits = 17;         ///< with for_people: significant digits of numbers
 };
 Table point_table(const PointList& list, const PointTableStyle& style = {});
 

@@ -9,11 +9,11 @@
 
 namespace graze {
 
-/// Evaluates quantities at states, for the model's present parameters.
+/// Evaluates quantities at states, with the parameter values that the model has at construction.
 class QuantityEvaluator {
 public:
     QuantityEvaluator(const Model& model, const std::vector<NamedValue>& quantities);
-    /// Valid until the next call.
+    /// Values of the quantities at a state; valid until the next call.
     std::span<const double> operator()(std::span<const double> state);
 
 private:

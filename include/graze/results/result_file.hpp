@@ -16,7 +16,7 @@
 
 namespace graze {
 
-/// What the cells of a column are, where they are not missing.
+/// Type of the cells of a column; a cell of any type may also be missing.
 enum class ColumnType { whole, real, text };
 
 /// A named column of numbers.
@@ -27,129 +27,130 @@ struct ResultColumn {
 enum class RunStatus {
     unfinished,
     complete,
-    failed, ///< it will not become complete unless the study changes, or what it reads
+    failed, ///< stays incomplete until the study or a file that it reads is changed
 };
 
-/// As in the file: "unfinished", "complete" or "failed".
+/// The status as the file stores it: "unfinished", "complete" or "failed".
 std::string_view name_of(RunStatus status);
 
-/// What a study calls a special point of a run besides its label.
+/// A name that a study gives to a special point of a run in addition to its label.
 struct PointName {
     std::string label, name;
 };
 
-/// What is known of a run besides its points.
+/// Description of a run, without its points.
 struct RunRecord {
     std::string name; ///< letters, digits, '.', '_' and '-'
     std::string kind; ///< simulate, sweep, basin, orbit, continue, curve, ladder, record, identify
     std::string model_name;
-    std::string model;       ///< text of the model file, whole, as run
+    std::string model;       ///< complete text of the model file
     std::string settings;    ///< JSON object
-    std::string fingerprint; ///< changes when anything does that the numbers depend on
-    std::string version;     ///< of graze
-    /// What varies from point to point: parameters, initial states. Of orbits all parameters, first the one that is
-    /// followed.
+    std::string fingerprint; ///< hash of everything that the numbers depend on
+    std::string version;     ///< version of graze that made the run
+    /// Quantities that vary from point to point: parameters and initial states. Runs with orbits have all parameters
+    /// here, beginning with the one that is followed.
     std::vector<ResultColumn> coordinates;
     std::vector<ResultColumn> states;
-    std::vector<ResultColumn> values; ///< of samples; of orbits the monitors
+    std::vector<ResultColumn> values; ///< quantities of samples, or monitors of orbits
     std::vector<std::string> samplings, modes, directions;
-    std::size_t points = 0; ///< planned
+    std::size_t points = 0; ///< planned number of points
     RunStatus status = RunStatus::unfinished;
-    std::string file = {};    ///< from which it was read
-    std::string failure = {}; ///< why it failed, and what to do; on one line, without what controls a terminal
-    std::vector<PointName> point_names = {}; ///< of its special points, as the study calls them
+    std::string file = {};                   ///< path of the file from which the record was read
+    std::string failure = {};                ///< why the run failed and what to do, as one line of printable characters
+    std::vector<PointName> point_names = {}; ///< names that the study gives to special points
 
-    /// As of the kind of this name.
+    /// See is_branch and is_followed of RunKind.
     bool is_branch() const;
     bool is_followed() const;
-    /// What people are shown in the place of a label: the point's name, if it has one.
+    /// The name of the point with this label, shown in place of the label; the label itself if the point has no name.
     const std::string& point_name(const std::string& label) const;
-    /// The label of the point with this name; empty: none has it.
+    /// The label of the point with this name; empty if there is none.
     std::string label_named(const std::string& shown) const;
 };
 
-/// The result file of a study's folder, or the file itself.
+/// Path of the result file in the folder of a study; a path of a file is returned unchanged.
 std::string result_path(const std::string& file_or_folder);
 
-/// The place of a text that a result file keeps, for messages: "file: what".
+/// Place of a text stored in a result file, for messages: "file: what".
 Place stored_place(const std::string& file, const std::string& what);
 
-/// The model with which a run was made. @throws InputError when it cannot be read, or is not that of the run's columns
+/// The model of a run. @throws InputError if it cannot be read, or does not fit the columns of the run
 Model stored_model(const RunRecord& run);
 
-/// One point with what was found there.
+/// One point of a run and its result.
 struct PointRecord {
     std::size_t number = 0, chain = 0, direction = 0; ///< direction: index in RunRecord::directions
     std::vector<double> coordinates;
     PointResult result;
 };
 
-/// The results of a study in one SQLite file (docs/result-file.md). One process writes, any number read meanwhile.
-/// Points are written in transactions: after a kill, those of the last moments are missing, and no point is there in
-/// part.
+/// The results of a study in one SQLite file (docs/result-file.md). One process can write while others read. Points are
+/// written in transactions: if the process is killed, the points of the last fraction of a second are lost, and every
+/// stored point is complete.
 class ResultFile {
 public:
     enum class Access { read, write };
-    /// Opens the file; to write, makes it if there is none.
-    /// @throws InputError when it is no such file, comes from another version, cannot be opened, or another process
-    ///         writes to it. Results are kept in a file only: an empty name and ":memory:" are none
+    /// Opens a file; with Access::write a missing file is created.
+    /// @throws InputError if it is no result file, has the format of another version, cannot be opened, or another
+    ///         process writes to it, and for the paths "" and ":memory:", which SQLite would not keep as files
     ResultFile(const std::string& path, Access access);
     ~ResultFile();
     ResultFile(const ResultFile&) = delete;
     ResultFile& operator=(const ResultFile&) = delete;
 
-    /// All runs, in the order in which they were begun. @throws InputError when the file contradicts itself
+    /// All runs, in the order of their numbers. @throws InputError if the contents of the file contradict each other
     std::vector<RunRecord> runs() const;
     std::optional<RunRecord> find_run(const std::string& name) const;
-    /// Begins a run: replaces the one of that name. @throws InputError when it cannot be written
+    /// Begins a run, and removes an earlier one with the same name. @throws InputError if it cannot be written
     void begin_run(const RunRecord& run);
-    /// Orders runs as these names are; others come behind them, in the order in which they are.
+    /// Puts the named runs first, in the order of the names; the other runs keep their order.
     void order_runs(const std::vector<std::string>& names);
-    /// Gives special points of a run other names, which change none of its numbers.
+    /// Replaces the names of the special points of a run.
     void name_points(const std::string& run, const std::vector<PointName>& names);
-    /// Removes a run with all that belongs to it.
+    /// Removes a run with its points and all other rows.
     void remove_run(const std::string& name);
-    /// Adds a point to a run. Written for good within a second, or by `flush`.
+    /// Adds a point to a run. It is committed when a later point is added, after 50 ms at the earliest, or by `flush`.
     void add_point(const std::string& run, const PointRecord& point);
-    /// Gives points of a run another label, with the reason, once more is known than each tells by itself.
+    /// Changes the label of points of a run, and the detail that gives the reason of the label.
     void set_label(const std::string& run, const std::vector<std::size_t>& points, Label label,
                    const std::string& detail);
     /// Adds an orbit to a run of kind orbit or continue.
     void add_orbit(const std::string& run, const OrbitRecord& orbit);
-    /// Keeps what a run of kind identify has found, in the place of what it had found.
+    /// Stores the estimates of a run of kind identify, in place of earlier ones.
     void set_estimates(const std::string& run, const EstimateRecords& found);
-    /// What it has found; nothing of other runs.
+    /// The estimates of a run; empty for runs of other kinds.
     EstimateRecords estimates(const std::string& run) const;
+    /// Commits all points that have been added.
     void flush();
     /// Marks a run as complete.
     void complete_run(const std::string& run);
-    /// Marks a run as failed, with what it has. @param failure why, and what to do
+    /// Marks a run as failed; its points stay. @param failure why it failed and what to do
     void fail_run(const std::string& run, const std::string& failure);
-    /// Marks a run as unfinished, for it to be gone on with.
+    /// Marks a run as unfinished, so that it can be continued.
     void reopen_run(const std::string& run);
 
-    /// Keeps a text that belongs to no run, in place of one with the same key.
+    /// Stores a text that belongs to no run under a key, in place of an earlier one.
     void set_note(const std::string& key, const std::string& text);
     std::optional<std::string> note(const std::string& key) const;
 
-    /// How many points of a run are there.
+    /// Number of points that a run has so far.
     std::size_t point_count(const std::string& run) const;
-    /// The last point of each chain (by number / chain_length), without samples; those without any are left out.
+    /// The last point of each chain (number / chain_length) that has points, without samples.
     std::vector<PointRecord> last_points(const std::string& run, std::size_t chain_length) const;
     /// One point with its samples.
     std::optional<PointRecord> point(const std::string& run, std::size_t number) const;
-    /// The point of a run whose coordinate is nearest to a value, among those of one direction (or all).
+    /// The point of a run whose coordinate is nearest to a value, among points of one direction or of all.
     std::optional<PointRecord> nearest_point(const std::string& run, const std::string& coordinate, double value,
                                              std::optional<std::size_t> direction) const;
 
-    /// The orbits of a run of kind orbit or continue, in their order. @param special only those where something happens
+    /// The orbits of a run of kind orbit or continue, by number. @param special whether regular points are left out
     std::vector<OrbitRecord> orbits(const std::string& run, bool special) const;
-    /// One of them, by its number.
+    /// The orbit with this number.
     std::optional<OrbitRecord> orbit(const std::string& run, std::size_t number) const;
-    /// One of them, by its label, such as "GR1".
+    /// The orbit with this label, for example "GR1".
     std::optional<OrbitRecord> orbit(const std::string& run, const std::string& label) const;
 
-    /// Rows of a query, for pictures, exports and tables: numbers, texts, or nothing.
+    /// Rows of a query, read one after the other. Each cell is a number, a text, or missing.
     class Rows {
     public:
         bool next();
@@ -170,17 +171,17 @@ public:
         explicit Rows(std::unique_ptr<State> state);
         std::unique_ptr<State> state_;
     };
-    /// Safe for queries and files of strangers: it reads and nothing else, and is broken off after half a minute (and a
-    /// second more for each MB of the file).
+    /// Runs a query. Safe for queries and files from untrusted sources: a query can only read, and is interrupted after
+    /// 30 s (and one more second for each MB of the file).
     /// @param sql one SELECT; @param values bound to its parameters ?1, ?2, ...
-    /// @throws InputError when it is no such thing
+    /// @throws InputError if it is no valid SELECT
     Rows query(const std::string& sql, const std::vector<double>& values = {}) const;
 
-    /// How long one query may take, instead of that.
+    /// Sets the time that one query may take.
     void set_patience(std::chrono::milliseconds patience);
 
     const std::string& path() const;
-    /// Number of the format in which it is written.
+    /// Number of the format of the file.
     int format() const;
 
 private:

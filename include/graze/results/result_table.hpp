@@ -8,33 +8,33 @@
 
 namespace graze {
 
-/// What is taken out of a result file as one table.
+/// Which table of a result file is read, and which of its rows.
 struct ResultTableRequest {
-    /// one of `result_table_names()`
+    /// Name of the table, one of `result_table_names()`.
     std::string what = "points";
-    std::vector<std::string> runs = {}; ///< empty: all that have such a table
-    std::string label = {};             ///< only points with this label (or, of a branch, of this type); empty: all
-    std::string direction = {};         ///< only points of this direction (part, of a branch); empty: all
-    Place place_of_runs = {}, place_of_what = {}; ///< for messages
+    std::vector<std::string> runs = {}; ///< only rows of these runs; empty: of all that have such a table
+    std::string label = {};     ///< only points with this label, or on a branch also of this type; empty: all points
+    std::string direction = {}; ///< only points of this direction, or part of a branch; empty: of all
+    Place place_of_runs = {}, place_of_what = {}; ///< where the user named runs and table, for messages
 };
 
-/// Rows with what is known of their columns. The file must outlive it.
+/// Rows of a table and the units of its columns. The file must outlive it.
 struct ResultTable {
     ResultFile::Rows rows;
-    std::vector<std::string> units;    ///< of the columns, in their order; empty: none, or several
-    std::vector<std::string> left_out; ///< runs that were not named, and have other columns
+    std::vector<std::string> units;    ///< unit of each column; empty: none, or not the same in all rows
+    std::vector<std::string> left_out; ///< runs left out because their columns differ and the user did not name them
 };
 
-/// points, samples and segments; details of orbits: multipliers, half_multipliers, minima, end_values; what was found
-/// from measurements: estimates, covariances; and runs.
+/// Names of all tables: points, samples and segments; the details of orbits multipliers, half_multipliers, minima and
+/// end_values; the results of fits estimates and covariances; and runs.
 std::vector<std::string> result_table_names();
-/// @throws InputError for a table or run that is not there, and for runs that do not fit into one table
+/// Reads a table. @throws InputError for an unknown table or run, and for runs that do not fit into one table
 ResultTable result_table(const ResultFile& file, const ResultTableRequest& request);
-/// The rows of a query of somebody's own. @param sql see ResultFile::query
-/// @param runs from whose columns units are taken; empty: all
+/// The rows of a query written by the user. @param sql see ResultFile::query
+/// @param runs runs whose columns give the units of columns of the same name; empty: all runs
 ResultTable queried_table(const ResultFile& file, const std::string& sql, const std::vector<std::string>& runs,
                           const Place& place_of_runs);
-/// Names of the runs asked for, or of all. @throws InputError for one that is not there
+/// The requested names of runs, or the names of all runs if none are requested. @throws InputError for an unknown name
 std::vector<std::string> chosen_runs(const ResultFile& file, const std::vector<std::string>& wanted,
                                      const Place& place);
 

@@ -9,33 +9,33 @@ namespace graze {
 
 /// What a run of a study computes.
 enum class RunKind {
-    simulate, ///< motions for a time
-    sweep,    ///< what motions settle on as a parameter changes
-    basin,    ///< what they settle on from many states
+    simulate, ///< one motion of given duration
+    sweep,    ///< the attractors of motions as a parameter changes step by step
+    basin,    ///< the attractors of motions from many initial states
     orbit,    ///< one periodic orbit
-    follow,   ///< a branch of them; called "continue" in studies and results
-    curve,    ///< special points in two parameters
-    ladder,   ///< from one grazing to the next
+    follow,   ///< a branch of periodic orbits; called "continue" in studies and results
+    curve,    ///< a curve of special points in two parameters
+    ladder,   ///< a sequence of grazing orbits, each found from the one before
     record,   ///< measured records
-    identify  ///< parameters from records
+    identify  ///< parameters fitted to measured records
 };
 
 /// The names of all kinds, in the order of RunKind.
 const std::vector<std::string>& kinds_of_runs();
-/// The name of a kind; "unknown" for what is none.
+/// The name of a kind; "unknown" for a number outside the enumeration.
 std::string_view name_of(RunKind kind);
-/// The kind of this name.
+/// The kind with this name; nothing if there is none.
 std::optional<RunKind> run_kind(std::string_view name);
 
-/// True when the points of runs of a kind are motions that are simulated from a state.
+/// Whether the points of runs of this kind are simulated motions.
 bool has_motions(RunKind kind);
-/// True when each of these motions is followed until it has settled on an attractor, rather than for a given time.
+/// Whether each of these motions is followed until it has settled on an attractor, rather than for a given time.
 bool seeks_attractors(RunKind kind);
-/// True when orbits are followed along a branch, a curve or a ladder.
+/// Whether runs of this kind follow orbits along a branch, a curve or a ladder.
 bool is_followed(RunKind kind);
-/// True when the points are periodic orbits.
+/// Whether the points of runs of this kind are periodic orbits.
 bool is_branch(RunKind kind);
-/// True when the points are records, or estimates from records: such runs simulate nothing themselves.
+/// Whether the points of runs of this kind are measured records or results of fits to them.
 bool is_measured(RunKind kind);
 
 } // namespace graze

@@ -9,11 +9,11 @@
 
 namespace graze {
 
-/// The columns in which tables show a state: all states, then the quantities asked for.
+/// The columns of a table that show a state: one for each component, then one for each requested quantity.
 class StateColumns {
 public:
     StateColumns(const Model& model, const std::vector<NamedValue>& quantities);
-    /// @param suffix behind every name
+    /// Adds the columns to a list of them. @param suffix appended to every name
     void declare(std::vector<Table::Column>& columns, const std::string& suffix = {}) const;
     void add(Table& table, std::span<const double> state);
 

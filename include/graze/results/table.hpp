@@ -9,8 +9,8 @@
 
 namespace graze {
 
-/// Rows of numbers and words under named columns, as they go to a user. What asks for a cell throws InputError where
-/// there is none.
+/// A table with named columns of numbers and texts, to be shown or written. Functions that take a row and a column
+/// throw InputError if there is no such cell.
 class Table {
 public:
     struct Column {
@@ -20,10 +20,10 @@ public:
     Table() = default;
     explicit Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
 
-    /// Adds one cell; cells fill row after row. A number that is not finite counts as missing.
+    /// Adds one cell; cells are added row by row. A number that is not finite counts as missing.
     void add(double value);
     void add(std::string_view text);
-    /// Adds a number; one that is infinite as the text "inf" or "-inf".
+    /// Adds a number; an infinite one becomes the text "inf" or "-inf".
     void add_extended(double value);
 
     const std::vector<Column>& columns() const { return columns_; }
@@ -32,7 +32,7 @@ public:
     /// Whether a number is missing.
     bool is_missing(std::size_t row, std::size_t column) const;
     double number(std::size_t row, std::size_t column) const { return cell(row, column).number; }
-    /// @throws InputError when the cell has a number
+    /// @throws InputError if the cell has a number
     const std::string& text(std::size_t row, std::size_t column) const;
     /// Names of the columns in which a number is missing.
     std::vector<std::string> incomplete_columns() const;
@@ -49,7 +49,7 @@ private:
 
     std::vector<Column> columns_;
     std::vector<Cell> cells_;
-    std::map<std::string, std::uint32_t, std::less<>> text_indices_; ///< texts repeat; each is kept once
+    std::map<std::string, std::uint32_t, std::less<>> text_indices_; ///< equal texts are stored only once
     std::vector<std::string> texts_;
 };
 

@@ -11,9 +11,9 @@
 
 namespace graze {
 
-/// Of the table of samples; more would fill the memory.
+/// Greatest number of rows in the table of samples; limits the memory it takes.
 inline constexpr std::size_t most_samples = 10'000'000;
-/// Of any table: some 800 MB.
+/// Greatest number of cells in any table, about 800 MB.
 inline constexpr std::size_t most_cells = 50'000'000;
 
 enum class TableKind { samples, contacts, sections, extrema, minima, derivatives, summary };
@@ -21,17 +21,16 @@ enum class TableKind { samples, contacts, sections, extrema, minima, derivatives
 std::optional<TableKind> table_kind(std::string_view name);
 std::vector<std::string> table_kind_names();
 
-/// Fills one table while a trajectory runs.
+/// Fills one table while a trajectory is computed.
 class TableRecorder : public Observer {
 public:
-    /// The leg to be shown begins.
-    /// @param duration of it, if known
+    /// To be called when the shown part of the trajectory begins, with its duration if that is known.
     virtual void begin(const Trajectory&, std::optional<double>) {}
-    /// The trajectory has ended.
+    /// To be called when the trajectory has ended.
     virtual void finish(const Trajectory&) {}
-    /// False when there was more to show than fits.
+    /// False if rows had to be left out because the table was full.
     virtual bool is_complete() const { return true; }
-    /// No more fits into memory: the run is to end.
+    /// Whether the table has its greatest number of cells, so that the trajectory should end.
     bool is_full() const { return table_.rows() * table_.columns().size() >= most_cells_; }
     void hold_at_most(std::size_t cells) { most_cells_ = cells; }
     const Table& table() const { return table_; }
@@ -43,17 +42,17 @@ private:
     std::size_t most_cells_ = most_cells;
 };
 
-/// What tables are made from.
+/// Which table is filled, and its options.
 struct TableRequest {
     TableKind kind = TableKind::samples;
-    std::vector<NamedValue> quantities;
-    std::vector<NamedValue> extrema; ///< of the extremum probes
-    std::size_t first_extremum = 0;  ///< probes before it are sections
-    std::vector<bool> events;        ///< which ones' contacts are shown
-    std::size_t samples = 500;
-    std::optional<double> every; ///< distance of samples, instead of their number
-    std::size_t most_cells = graze::most_cells;
-    std::vector<std::string> directions; ///< of derivatives: names of states and independent parameters
+    std::vector<NamedValue> quantities;         ///< further columns after the states
+    std::vector<NamedValue> extrema;            ///< quantities whose extrema the probes detect
+    std::size_t first_extremum = 0;             ///< index of the first extremum probe; the probes before are sections
+    std::vector<bool> events;                   ///< for each event, whether its contacts are shown
+    std::size_t samples = 500;                  ///< table of samples: number of rows, unless `every` is given
+    std::optional<double> every;                ///< table of samples: time between rows
+    std::size_t most_cells = graze::most_cells; ///< see TableRecorder::is_full
+    std::vector<std::string> directions;        ///< derivatives: with respect to these states and parameters
 };
 
 std::unique_ptr<TableRecorder> make_table_recorder(const Simulation& simulation, const TableRequest& request);

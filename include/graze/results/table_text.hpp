@@ -10,17 +10,17 @@
 
 namespace graze {
 
-/// @param digits significant digits; 17 tell any two numbers apart
+/// Text of a cell; empty if a number is missing. @param digits significant digits; 17 represent every number exactly
 std::string cell_text(const Table& table, std::size_t row, std::size_t column, int digits);
 
-/// As CSV with a line of names. @param digits as above
+/// Writes a table as CSV, with a first line of column names. @param digits see cell_text
 void write_csv(std::ostream& out, const Table& table, int digits);
-/// The same as text with all digits.
+/// A table as CSV with 17 digits.
 std::string csv_text(const Table& table);
 
-/// As one JSON object: a heading, then columns, units and rows. What is not finite is null.
+/// Writes a table as one JSON object: members of a heading, then columns, units and rows. Missing numbers are null.
 void write_json(std::ostream& out, const Table& table, int digits, const JsonObject& heading);
-/// The rows as objects with the columns' names; a number that is missing is left out.
+/// The rows as objects whose members are named as the columns; missing numbers are left out.
 std::vector<JsonObject> json_rows(const Table& table);
 
 } // namespace graze

@@ -9,28 +9,29 @@
 
 namespace graze {
 
-/// Where a ramp begins so far before the point at which the motion is lost that its beginning is forgotten there.
-/// @param rate of the parameter by time
+/// Returns a parameter value at which a ramp may begin: so far before the loss point that the initial transient has
+/// decayed there.
+/// @param rate rate of change of the parameter
 double beginning_of_ramp(const LossPoint& point, double rate);
 
 struct RampedTrip {
-    TripTime trip;    ///< cycles and time since the ramp began
-    double value = 0; ///< of the parameter at its end
+    TripTime trip;    ///< cycles and time since the start of the ramp
+    double value = 0; ///< value of the parameter at the end of the trip
 };
 
-/// The parameter rises (or falls) steadily from that of the origin, as a state of constant rate, by simulation.
-/// @param rate of the parameter by time; @param options cycles are those beyond the point at most
-/// @throws InputError for a rate of zero or that leads away from the point, and as drive_parameter does
+/// Simulates a linear ramp of the parameter from its value at the origin until the end of a trip.
+/// @param rate rate of change of the parameter; @param options `cycles` limits the cycles beyond the loss point
+/// @throws InputError for a zero rate or one that leads away from the point, and as drive_parameter does
 RampedTrip ramped_trip(const System& system, const TripOrigin& origin, double rate, const TripEnd& end,
                        const TripOptions& options = {});
 
-/// By how much a slow ramp overshoots a fold until the motion is gone, with the ramp's sign: with the change r of the
-/// parameter in a cycle, 2.338 r^(2/3) (a b)^(-1/3), where -2.338 is the first zero of the Airy function (R. Haberman,
-/// SIAM J. Appl. Math. 37, 1979).
+/// Returns the overshoot of a slow ramp beyond a fold at the time of the trip, with the sign of the ramp: with the
+/// change r of the parameter per cycle, 2.338 r^(2/3) (a b)^(-1/3), where -2.338 is the first zero of the Airy function
+/// (R. Haberman, SIAM J. Appl. Math. 37, 1979).
 double delay_of_ramp(const FoldPassage& fold, double rate);
 
-/// The parameter swings about that of the origin, value + amplitude sin(2 pi t/period), by simulation.
-/// @throws InputError for a period that is not positive, and as drive_parameter does
+/// Simulates a sinusoidal parameter, value at the origin + amplitude sin(2 pi t/period), until the end of a trip.
+/// @throws InputError unless the period is positive, and as drive_parameter does
 TripTime swung_trip(const System& system, const TripOrigin& origin, double amplitude, double period, const TripEnd& end,
                     const TripOptions& options = {});
 

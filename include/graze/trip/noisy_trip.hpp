@@ -15,34 +15,36 @@
 namespace graze {
 
 struct NoiseSettings {
-    /// Cycles after which the noise has forgotten all but 1/e of itself; 0: it is independent from cycle to cycle.
+    /// Correlation time of the noise in cycles; 0: independent from cycle to cycle.
     double memory = 0;
-    std::size_t motions = 1000, cycles = 100; ///< cycles of each, at most
+    std::size_t motions = 1000, cycles = 100; ///< number of motions, and largest number of cycles of each
     std::uint64_t seed = 1;
-    double confidence = 0.95;
-    int jobs = 1;                                      ///< threads, on which nothing depends
-    double tolerance = 1e-12;                          ///< of the integration
-    std::function<bool()> interrupted;                 ///< asked from any thread
-    std::function<void(std::size_t motions)> progress; ///< how many are done; called from the calling thread
-    /// @throws InputError naming what is out of range
+    double confidence = 0.95;          ///< confidence level of the probability's interval
+    int jobs = 1;                      ///< number of threads; results do not depend on it
+    double tolerance = 1e-12;          ///< relative tolerance of the integration
+    std::function<bool()> interrupted; ///< called from any thread; returns true to stop
+    /// Called with the number of finished motions, from the calling thread.
+    std::function<void(std::size_t motions)> progress;
+    /// @throws InputError naming the setting that is out of range
     void validate() const;
 };
 
 struct NoisyTrips {
     std::size_t motions = 0, trips = 0;
-    std::size_t failed = 0; ///< that ended otherwise: they are not counted in the share
-    std::vector<std::pair<std::string, std::size_t>> failures; ///< how these ended, and how many each way
-    std::size_t beyond = 0;                                    ///< whose parameter was beyond the point at any time
-    ConfidenceInterval probability; ///< of a trip within the cycles, with limits by E. B. Wilson (see yield.hpp), which
-                                    ///< are 0 and 1 where all failed
-    std::optional<double> half;     ///< cycles after which half of the motions had tripped
+    std::size_t failed = 0; ///< motions that failed otherwise; they do not count in the probability
+    std::vector<std::pair<std::string, std::size_t>> failures; ///< kinds of failure, with their counts
+    std::size_t beyond = 0;         ///< motions whose parameter was beyond the loss point at any time
+    ConfidenceInterval probability; ///< probability of a trip within the cycles, with Wilson limits (see yield.hpp);
+                                    ///< limits are 0 and 1 if all motions failed
+    std::optional<double> half;     ///< number of cycles after which half of the motions had tripped
     bool interrupted = false;
 };
 
-/// The parameter is that of the origin plus noise, constant in each cycle: the k-th value of an Ornstein-Uhlenbeck
-/// process that is sampled once a cycle, y_{k+1} = rho y_k + (1 - rho^2)^(1/2) n_k with rho = exp(-1/memory), begun
-/// with its stationary distribution and multiplied by the level. What is drawn depends on the seed, the motion's number
-/// and the cycle's, not on the level: results are the same bit for bit on any number of threads.
+/// Simulates motions with a noisy parameter: its value at the origin plus noise that is constant in each cycle. The
+/// noise is the k-th value of an Ornstein-Uhlenbeck process sampled once per cycle, y_{k+1} = rho y_k + (1 -
+/// rho^2)^(1/2) n_k with rho = exp(-1/memory), started in its stationary distribution and multiplied by the level.
+/// Random numbers depend only on the seed and the numbers of motion and cycle, so results are bit for bit the same on
+/// any number of threads.
 /// @param level standard deviation of the parameter
 NoisyTrips noisy_trips(const System& system, const TripOrigin& origin, double level, const TripEnd& end,
                        const NoiseSettings& settings = {});

@@ -10,15 +10,15 @@
 
 namespace graze {
 
-/// How long a motion lasts with the parameter moved beyond the point at which it is lost.
+/// The duration of a trip with the parameter moved beyond a touch, by several methods.
 struct OvershootTrip {
-    double overshoot = 0; ///< with its sign
-    /// By the map alone, until contacts are hard; of a fold by its normal form.
+    double overshoot = 0; ///< signed overshoot of the parameter
+    /// By the map alone, until contacts reach the level.
     std::optional<PredictedTrip> predicted;
-    std::optional<TripTime> continued; ///< by the map, then by simulation until the end that was asked for
-    std::optional<TripTime> simulated; ///< by simulation alone, where numbers tell the overshoot from none
+    std::optional<TripTime> continued; ///< by the map, then by simulation until the requested end
+    std::optional<TripTime> simulated; ///< by simulation alone, where double precision resolves the overshoot
 
-    /// The best that is known: until the end that was asked for, if it has come.
+    /// Returns the most accurate trip that reached the requested end; null if none did.
     const TripTime* best() const;
 };
 
@@ -35,23 +35,25 @@ NamedEnd usual_end(const LossPoint& point);
 /// @throws InputError for a fold, which has no contact of its own
 NamedEnd end_at_speed(const LossPoint& point, double speed, const std::string& asked_as = "");
 
-/// Approach speed until which the map is asked of a trip: that of its end, as far as the map tells of contacts.
+/// Returns the approach speed until which the map predicts a trip: that of the requested end, bounded by the map's
+/// validity.
 double level_until(const LossPoint& point, const TripEnd& end);
 
-/// Of a touch: until the level by the map alone, until the end by the map and simulation, and by simulation alone.
-/// @param map with respect to the parameter; @param level approach speed until which the map is asked
+/// Computes a trip beyond a touch: until the level by the map alone, until the end by map and simulation, and by
+/// simulation alone.
+/// @param map with respect to the parameter; @param level approach speed until which the map predicts
 /// @throws InputError as predicted_trip and simulated_trip do
 OvershootTrip trip_of_touch(const System& system, const CycleMap& map, const Verdict& verdict, ParameterId parameter,
                             double overshoot, double level, const TripEnd& end, const TripOptions& options = {});
 
-/// Of a fold: from far on the one side of its orbit to far on the other, and from gate to gate (FoldPassage).
+/// The passage of a fold: over the whole line, and between the gates (FoldPassage).
 struct FoldTrip {
     double overshoot = 0;
-    double cycles = 0, gate_cycles = 0; ///< by the normal form
-    /// Where it would not take longer than the options allow, and numbers tell the overshoot from none.
+    double cycles = 0, gate_cycles = 0; ///< by the normal form, in total and between the gates
+    /// By simulation, if the options allow as many cycles and double precision resolves the overshoot.
     std::optional<SimulatedPassage> passage;
 };
-/// @throws InputError as cycles_of_passage and simulated_passage do
+/// Computes the passage of a fold. @throws InputError as cycles_of_passage and simulated_passage do
 FoldTrip trip_of_fold(const System& system, const FoldPassage& fold, double overshoot, const TripEnd& end,
                       bool until_passed, const TripOptions& options = {});
 

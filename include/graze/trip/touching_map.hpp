@@ -9,16 +9,17 @@
 
 namespace graze {
 
-/// The map of the cycle of an orbit that touches, with the parameter that moves it from its touch.
+/// The map of the cycle of a touching orbit, with the parameter that moves the orbit from its touch.
 struct TouchingMap {
-    std::optional<ParameterId> parameter; ///< none of the candidates: the last that was tried, or none at all
-    CycleMap map;                         ///< with respect to that
+    std::optional<ParameterId> parameter; ///< the first candidate that moves the orbit; otherwise the last candidate,
+                                          ///< or empty without candidates
+    CycleMap map;                         ///< map with respect to that parameter
 };
 
-/// @param point a grazing, or another orbit that touches
-/// @param candidates the first of them that moves the orbit is taken; if none does, the last
-/// @param orbit how messages name it
-/// @throws InputError where nothing is touched
+/// @param point Computes the map. @param point a grazing, or another point whose orbit touches
+/// @param candidates parameters; the first that moves the orbit is used, or the last if none does
+/// @param orbit name of the orbit in messages
+/// @throws InputError when the orbit touches nothing
 TouchingMap touching_map(const System& system, const SpecialPoint& point, const std::vector<ParameterId>& candidates,
                          std::string_view orbit = "the orbit");
 

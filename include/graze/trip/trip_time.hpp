@@ -8,21 +8,23 @@
 
 namespace graze {
 
-/// How long a motion takes that begins where the orbit touches, with the parameter moved beyond.
+/// The duration of a trip: a motion that starts where the orbit touches, with the parameter moved beyond.
 struct TripTime {
-    bool ended = false; ///< the end that was asked for has come, or one of the motion's own
+    bool ended = false; ///< the requested end was reached, or the motion ended itself
     std::string ending; ///< "speed", "level", or as trajectories end: "singular", "terminal", ...
-    double cycles = 0;  ///< until then: passes of the touch by the map, time over that of a cycle by simulation
+    /// Cycles until the end: passes of the touch for the map, time divided by that of a cycle for simulations.
+    double cycles = 0;
     double time = 0;
-    std::size_t contacts = 0; ///< with the touched surface until then, that at the end included
-    double speed = 0;         ///< approach speed of the last of these
-    std::string detail{};     ///< of a simulation that could not go on: what happened and what to do
+    std::size_t contacts = 0; ///< contacts with the touched surface, including one at the end
+    double speed = 0;         ///< approach speed of the last contact
+    std::string detail{};     ///< for a failed simulation: what happened and what to do
 };
 
-/// What ends a simulation, besides the motion's own end (a singular one, a transition to the end).
+/// The requested end of a simulation; a singular end or a terminal transition ends it too.
 struct TripEnd {
-    double speed = 0;                   ///< approach speed at the touched surface; 0: any
-    std::optional<Expression> quantity; ///< its level, passed in either direction
+    double speed = 0; ///< approach speed at the touched surface that ends the trip; 0: unused
+    /// Quantity whose level, crossed in either direction, ends the trip; empty: unused.
+    std::optional<Expression> quantity;
     double level = 0;
 };
 

@@ -5,11 +5,11 @@
 #include <ctime>
 #include <limits>
 
-/// Which time counts: the one on the wall, or the processor's, which others who use the machine lengthen little, but
-/// which sums over threads.
+/// The clock of a measurement: wall time, or CPU time, which other users of the machine affect little but which adds up
+/// over threads.
 enum class Clock { wall, processor };
 
-/// What it shows, in seconds.
+/// Returns the reading of a clock, in seconds.
 inline double read_clock(Clock clock) {
     if (clock == Clock::wall)
         return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -18,7 +18,7 @@ inline double read_clock(Clock clock) {
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// Seconds that something takes.
+/// Returns the seconds that a run takes.
 template <class Run>
 double seconds(Run&& run, Clock clock = Clock::wall) {
     const double start = read_clock(clock);
@@ -26,12 +26,13 @@ double seconds(Run&& run, Clock clock = Clock::wall) {
     return read_clock(clock) - start;
 }
 
-/// Least times of two rivals that take turns, so that whatever else the machine does meets both alike.
-class Duel {
+/// Measures the smallest times of two implementations that alternate, so that other load on the machine affects both
+/// equally.
+class PairedTiming {
 public:
-    explicit Duel(Clock clock = Clock::wall) : clock_(clock) {}
+    explicit PairedTiming(Clock clock = Clock::wall) : clock_(clock) {}
 
-    /// @return the time of the first, for Google Benchmark
+    /// @return the time of the first one, for Google Benchmark
     template <class Own, class Peer>
     double round(Own&& own, Peer&& peer) {
         const double time = seconds(own, clock_);

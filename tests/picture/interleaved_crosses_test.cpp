@@ -1,4 +1,4 @@
-#include "picture/mingled_crosses.hpp"
+#include "picture/interleaved_crosses.hpp"
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ FigurePanel panel_of(std::size_t series, std::size_t points) {
 
 } // namespace
 
-TEST(MingledCrosses, FollowOneAnother) {
+TEST(InterleavedCrosses, GroupsHaveConsecutiveSeries) {
     FigurePanel panel = panel_of(3, 1);
     EXPECT_EQ(last_of_crosses(panel, 0), 0U) << "dots";
     EXPECT_EQ(last_of_crosses(panel, 1), 3U);
@@ -31,14 +31,14 @@ TEST(MingledCrosses, FollowOneAnother) {
     EXPECT_EQ(last_of_crosses(panel, 1), 1U) << "a disc is between";
 }
 
-/// Of series that lie on one another each is seen at its share of the places, and no cross is lost.
-TEST(MingledCrosses, EachSeriesIsSeen) {
+/// Each of several coinciding series is on top at an equal share of the points, and no cross is lost.
+TEST(InterleavedCrosses, EachSeriesIsOnTopEquallyOften) {
     for (const std::size_t series : {2U, 3U}) {
         constexpr std::size_t points = 60;
         const FigurePanel panel = panel_of(series, points);
         std::map<double, std::size_t> seen;
         std::map<std::size_t, std::size_t> drawn, on_top;
-        for (const CrossLayer& layer : mingled_crosses(panel, 1, series))
+        for (const CrossLayer& layer : interleaved_crosses(panel, 1, series))
             for (const PlanePoint& point : layer.points) {
                 seen[point.x] = layer.series;
                 ++drawn[layer.series];

@@ -1,4 +1,4 @@
-#include "picture/mingled_crosses.hpp"
+#include "picture/interleaved_crosses.hpp"
 
 namespace graze {
 
@@ -18,8 +18,8 @@ std::size_t last_of_crosses(const FigurePanel& panel, std::size_t series) {
     return last;
 }
 
-std::vector<CrossLayer> mingled_crosses(const FigurePanel& panel, std::size_t first, std::size_t last) {
-    const std::size_t count = last - first + 1, layers = 3 * count; // each comes last three times
+std::vector<CrossLayer> interleaved_crosses(const FigurePanel& panel, std::size_t first, std::size_t last) {
+    const std::size_t count = last - first + 1, layers = 3 * count; // each series is drawn last in three layers
     std::vector<CrossLayer> result;
     for (std::size_t layer = 0; layer < layers; ++layer)
         for (std::size_t turn = 0; turn < count; ++turn) {

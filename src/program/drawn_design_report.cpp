@@ -1,4 +1,4 @@
-#include "program/tell_drawn_design.hpp"
+#include "program/drawn_design_report.hpp"
 
 #include "graze/base/input_error.hpp"
 #include "graze/design/design_folder.hpp"
@@ -40,8 +40,8 @@ DesignedDevice matched_device(const DeviceFile& file, const std::string& design,
     return result;
 }
 
-int tell_drawn_design(const DesignedDevice& designed, const std::string& folder, const LayoutArguments& arguments,
-                      const Console& console) {
+int report_drawn_design(const DesignedDevice& designed, const std::string& folder, const LayoutArguments& arguments,
+                        const Console& console) {
     const auto path = [&](const char* name) { return path_in(folder, name); };
     const InterruptGuard guard;
     StatusLine line(console, console.terminal);

@@ -1,4 +1,4 @@
-#include "picture/mingled_dots.hpp"
+#include "picture/interleaved_dots.hpp"
 
 #include "base/random_number.hpp"
 
@@ -14,23 +14,23 @@ namespace graze {
 
 namespace {
 
-/// Dots closer than this share of a panel are one.
+/// Dots of a series that are closer than this fraction of the panel are merged.
 constexpr double grain = 1.0 / 2000;
 constexpr double dot_size = 1.2; ///< points
 
 struct Dot {
-    std::uint64_t square = 0; ///< about as large as a dot
+    std::uint64_t square = 0; ///< square of about the size of a dot
     std::uint64_t order = 0;
     bool on_top = false;
-    MingledDot drawn;
+    InterleavedDot drawn;
 };
 
 std::uint64_t cell(double column, double row) {
     return static_cast<std::uint64_t>(column) << 32 | static_cast<std::uint64_t>(row);
 }
 
-/// Of each square the dots of one series come last: which one is as if by chance.
-void mingle(std::vector<Dot>& dots) {
+/// Sorts the dots so that in each square a pseudo-randomly chosen series is drawn last.
+void interleave(std::vector<Dot>& dots) {
     std::map<std::uint64_t, std::set<std::size_t>> present;
     for (const Dot& dot : dots)
         present[dot.square].insert(dot.drawn.series);
@@ -46,7 +46,7 @@ void mingle(std::vector<Dot>& dots) {
 
 } // namespace
 
-std::vector<MingledDot> mingled_dots(const FigurePanel& panel, const PanelLayout& layout) {
+std::vector<InterleavedDot> interleaved_dots(const FigurePanel& panel, const PanelLayout& layout) {
     std::vector<Dot> dots;
     for (std::size_t s = 0; s < panel.series.size(); ++s) {
         const FigureSeries& series = panel.series[s];
@@ -64,8 +64,8 @@ std::vector<MingledDot> mingled_dots(const FigurePanel& panel, const PanelLayout
                 dots.push_back({square, mixed(place * 31 + s), false, {point, s}});
         }
     }
-    mingle(dots);
-    std::vector<MingledDot> drawn;
+    interleave(dots);
+    std::vector<InterleavedDot> drawn;
     for (const Dot& dot : dots)
         drawn.push_back(dot.drawn);
     return drawn;

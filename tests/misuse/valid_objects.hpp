@@ -9,15 +9,15 @@
 
 namespace graze::testing {
 
-/// Three states, five parameters, two modes, events, transitions and sections, three jumps.
+/// A model with three states, five parameters, two modes, events, transitions and sections, and three jumps.
 inline Model oscillator() {
     return load_model("impact-oscillator");
 }
-/// The same with two stops and a symmetry.
+/// The same model with two stops and a symmetry.
 inline Model symmetric_oscillator() {
     return load_model("impact-oscillator-two-stops");
 }
-/// Where the oscillator moves periodically without an impact.
+/// The oscillator with parameters at which it moves periodically without impacts.
 inline Model calm_oscillator() {
     Model model = oscillator();
     model.set_parameter("sigma", 0.5);
@@ -44,13 +44,13 @@ inline BranchSettings by_amplitude() {
     settings.steps = 30;
     return settings;
 }
-/// Where the oscillator grazes the stop.
+/// The point at which the oscillator grazes the stop.
 inline SpecialPoint grazing_point() {
     static const SpecialPoint point = follow_branch(calm_oscillator(), calm_orbit(), by_amplitude()).special.back();
     return point;
 }
 
-/// A trajectory with all that it needs; not begun.
+/// A trajectory with all objects that it needs, not yet started.
 struct Motion {
     Model model = oscillator();
     Simulation simulation{model};

@@ -1,4 +1,4 @@
-#include "program/guardian.hpp"
+#include "program/watchdog.hpp"
 
 #include "graze/acquire/generator_client.hpp"
 #include "graze/acquire/serial_line.hpp"
@@ -44,11 +44,11 @@ void make_safe(const Experiment& experiment) {
                            problem, off ? "its output is switched off, as it tells itself" : "switch it off by hand"));
 }
 
-/// Reads what it is told until nobody can tell anything any more.
+/// Reads words from the pipe until its other end is closed, by disarming or because the process there has ended.
 [[noreturn]] void watch(int pipe, const Experiment& experiment, RecordFolder& folder) {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT})
-        std::signal(signal, SIG_IGN); // of a terminal they come to all its processes
-    setpgid(0, 0);                    // whoever kills a group kills the one at work
+        std::signal(signal, SIG_IGN); // a terminal sends them to all its processes
+    setpgid(0, 0);                    // survives when the process group of `graze acquire` is killed
     close(STDIN_FILENO);
     close(STDOUT_FILENO);
     bool armed = false;
@@ -73,7 +73,7 @@ void make_safe(const Experiment& experiment) {
 
 } // namespace
 
-Guardian::Guardian(const Experiment& experiment, RecordFolder& folder) {
+Watchdog::Watchdog(const Experiment& experiment, RecordFolder& folder) {
     int ends[2] = {-1, -1};
     if (pipe2(ends, O_CLOEXEC) != 0)
         throw std::system_error(errno, std::generic_category(), "no pipe can be made");
@@ -91,13 +91,13 @@ Guardian::Guardian(const Experiment& experiment, RecordFolder& folder) {
     }
 }
 
-Guardian::~Guardian() {
+Watchdog::~Watchdog() {
     close(pipe_);
     while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR)
         continue;
 }
 
-void Guardian::tell(char word) const {
+void Watchdog::tell(char word) const {
     while (write(pipe_, &word, 1) < 0 && errno == EINTR)
         continue;
 }
