@@ -17,7 +17,7 @@ namespace {
 
 /// Simulates a motion from the origin in a model whose parameter varies in time.
 TripTime follow_disturbed(const TripOrigin& origin, const DrivenParameter& driven, const std::vector<double>& further,
-                double longest, const TripEnd& end, const TripOptions& options) {
+                          double longest, const TripEnd& end, const TripOptions& options) {
     TripEnd here = end;
     if (end.quantity)
         here.quantity = driven.of(*end.quantity);
@@ -56,7 +56,8 @@ RampedTrip ramped_trip(const System& system, const TripOrigin& origin, double ra
                          distance > 0 ? "give a positive rate" : "give a negative rate");
     const DrivenParameter driven = drive_parameter(system.model(), name_of_origin(system, origin), DriveKind::shift);
     RampedTrip result;
-    result.trip = follow_disturbed(origin, driven, {rate}, distance / rate + options.cycles * origin.cycle, end, options);
+    result.trip =
+        follow_disturbed(origin, driven, {rate}, distance / rate + options.cycles * origin.cycle, end, options);
     result.value = origin.value + rate * result.trip.time;
     return result;
 }
@@ -76,8 +77,8 @@ TripTime swung_trip(const System& system, const TripOrigin& origin, double ampli
             fmt::format("a wave with the amplitude {} and the period {} is not possible", amplitude, period),
             "give finite numbers, and a positive period");
     const DrivenParameter driven = drive_parameter(system.model(), name_of_origin(system, origin), DriveKind::wave);
-    return follow_disturbed(origin, driven, {2 * std::numbers::pi / period, amplitude}, options.cycles * origin.cycle, end,
-                  options);
+    return follow_disturbed(origin, driven, {2 * std::numbers::pi / period, amplitude}, options.cycles * origin.cycle,
+                            end, options);
 }
 
 namespace {
