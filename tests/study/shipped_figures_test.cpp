@@ -201,9 +201,9 @@ TEST(ShippedFigures, MapsOfTheMicrobeamAreThePublishedOnes) {
 }
 
 /// The clamped beam's mode i in terms of its middle: even or odd functions, in which nothing cancels.
-class Mode {
+class BeamMode {
 public:
-    explicit Mode(int i) : even_(i % 2 == 1) {
+    explicit BeamMode(int i) : even_(i % 2 == 1) {
         // tan(k/2) = -tanh(k/2) or tanh(k/2), which together are cos(k) cosh(k) = 1; by bisection.
         const long double pi = std::numbers::pi_v<long double>;
         long double low = (static_cast<long double>(i) + 0.25L) * pi, high = low + 0.5L * pi;
@@ -252,10 +252,10 @@ TEST(ShippedFigures, ModalFrequenciesAndSlopesOfTheMicrobeamAreThePublishedOnes)
     const double computed[] = {22.37328544806, 61.67282286792, 120.9033917271, 199.8594481272, 298.5555352982,
                                416.9907858354, 555.1652475668, 713.0789179784, 890.7317971983};
     const double printed[] = {22.4, 61.7, 121, 200, 299, 417, 555, 713, 891};
-    std::vector<Mode> modes;
+    std::vector<BeamMode> modes;
     std::vector<long double> sizes;
     for (int i = 1; i <= 9; ++i) {
-        const Mode mode(i);
+        const BeamMode mode(i);
         modes.push_back(mode);
         sizes.push_back(std::sqrt(integral([&](long double s) { return mode.shape(s) * mode.shape(s); })));
     }
