@@ -23,11 +23,11 @@ using namespace graze;
 /// Returns the run of the shipped study, with every n-th voltage.
 StudyRun sweep_run(std::size_t lyapunov_cycles, std::size_t every) {
     StudyRun run = load_study("electromagnetic-testbed").runs.front();
-    run.attractor.lyapunov_cycles = lyapunov_cycles;
+    run.attractor().lyapunov_cycles = lyapunov_cycles;
     std::vector<double> values;
-    for (std::size_t i = 0; i < run.axes[0].values.size(); i += every)
-        values.push_back(run.axes[0].values[i]);
-    run.axes[0].values = values;
+    for (std::size_t i = 0; i < run.motion().axes[0].values.size(); i += every)
+        values.push_back(run.motion().axes[0].values[i]);
+    run.motion().axes[0].values = values;
     return run;
 }
 
@@ -39,12 +39,13 @@ StudyRun chains_run(std::size_t chains) {
     frequencies.parameter = run.model.independent_parameter("f");
     for (std::size_t i = 0; i < chains; ++i)
         frequencies.values.push_back(6.2 + 0.1 * static_cast<double>(i) / static_cast<double>(chains));
-    run.axes.push_back(frequencies);
+    run.motion().axes.push_back(frequencies);
     return run;
 }
 
 std::unique_ptr<SearchFactory> searches_of(const StudyRun& run) {
-    return attractor_searches(System(run.model), run.attractor, run.samplings, run.values, run.simulation);
+    return attractor_searches(System(run.model), run.attractor(), run.motion().samplings, run.values,
+                              run.motion().simulation);
 }
 
 struct Totals {

@@ -112,34 +112,44 @@ ChatterLimit Ladder::limit() const {
     return chatter_limit(system_, grazings_, settings_.parameter, settings_.orbit.tolerance);
 }
 
+bool climb(Ladder& ladder, std::size_t grazings, const RungFollower& follow) {
+    while (ladder.grazings().size() < grazings) {
+        const std::optional<BranchStart> start = ladder.next();
+        if (!start)
+            break;
+        const std::optional<RungEnd> end = follow(ladder.grazings().size() + 1, *start);
+        if (!end)
+            return false;
+        ladder.take(end->point, end->outcome);
+        if (!end->wanted)
+            break;
+    }
+    return true;
+}
+
 Ladder climb(const System& system, const SpecialPoint& grazing, const BranchSettings& settings, std::size_t grazings,
              const std::function<bool(std::size_t rung, const Branch& branch)>& visit,
              const std::function<bool()>& interrupted) {
     Ladder ladder(system, grazing, settings);
-    while (ladder.grazings().size() < grazings) {
-        const auto start = ladder.next();
-        if (!start)
-            break;
-        OrbitBranch follower(system, start->orbit, ladder.settings());
+    climb(ladder, grazings, [&](std::size_t rung, const BranchStart& start) -> std::optional<RungEnd> {
+        OrbitBranch follower(system, start.orbit, ladder.settings());
         Branch branch;
         std::optional<SpecialPoint> end;
-        for (bool going = follower.start_along(start->direction, start->distance); going; going = follower.step()) {
+        for (bool going = follower.start_along(start.direction, start.distance); going; going = follower.step()) {
             branch.points.push_back(follower.point());
             branch.special.insert(branch.special.end(), follower.found().begin(), follower.found().end());
             if (interrupted && interrupted())
-                return ladder;
+                return std::nullopt;
             end.reset();
             if (ends_in_found(follower))
                 end = follower.found().back();
         }
         branch.outcome = follower.outcome();
         branch.detail = follower.detail();
-        const std::size_t rung = ladder.grazings().size() + 1;
-        ladder.take(end,
-                    fmt::format("{}{}{}", name_of(branch.outcome), branch.detail.empty() ? "" : ": ", branch.detail));
-        if (visit && !visit(rung, branch))
-            break;
-    }
+        return RungEnd{end,
+                       fmt::format("{}{}{}", name_of(branch.outcome), branch.detail.empty() ? "" : ": ", branch.detail),
+                       !visit || visit(rung, branch)};
+    });
     return ladder;
 }
 

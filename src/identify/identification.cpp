@@ -180,23 +180,17 @@ Identification identify_restitution(const EachRecord& records, const Identificat
     std::vector<ImpactSpeeds> few;
     CommonUnits units;
     records([&](const std::string& name, SampleSource& record) {
-        ImpactSettings impact_settings;
-        impact_settings.velocity = record.header().channel(settings.channel, settings.asked_as + "channel");
-        if (!settings.displacement.empty())
-            impact_settings.displacement =
-                record.header().channel(settings.displacement, settings.asked_as + "displacement");
-        impact_settings.window = settings.window;
-        impact_settings.transition = settings.transition;
-        impact_settings.least_jump = settings.least_jump;
+        const ImpactSettings of_impacts = impact_settings(record.header(), settings.channel, settings.displacement,
+                                                          settings.impacts, settings.asked_as);
         std::vector<ImpactSpeeds> impacts;
-        std::vector used{impact_settings.velocity};
-        if (impact_settings.displacement)
-            used.push_back(*impact_settings.displacement);
+        std::vector used{of_impacts.velocity};
+        if (of_impacts.displacement)
+            used.push_back(*of_impacts.displacement);
         CommonUnitSource common(record, units, used, CommonUnitSource::Times::as_they_are);
-        velocity = common.header().channels[impact_settings.velocity];
+        velocity = common.header().channels[of_impacts.velocity];
         UsableSource usable(common, used);
-        VelocityWatch watched(usable, impact_settings.velocity);
-        const std::vector<RecordedImpact> recorded = find_impacts(watched, impact_settings);
+        VelocityWatch watched(usable, of_impacts.velocity);
+        const std::vector<RecordedImpact> recorded = find_impacts(watched, of_impacts);
         for (const RecordedImpact& impact : recorded)
             impacts.push_back({impact.before, impact.after, impact.before_error, impact.after_error});
         if (impacts.size() < 3) { // a sweep may start without impacts

@@ -43,6 +43,7 @@ public:
     /// @param path of the table with the entry. @throws InputError for a key that is not allowed
     void require_known(const TomlEntry& entry, const std::string& path,
                        std::initializer_list<std::string_view> allowed) const;
+    void require_one_of(const std::vector<std::string>& names, const TomlEntry& entry, const std::string& path) const;
 
     const toml::table& table(const TomlEntry& entry) const;
     /// Returns the elements of a list, with paths such as "modes.flight.watch.1".

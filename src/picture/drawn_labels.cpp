@@ -41,7 +41,8 @@ DrawnAs drawn_as(std::string_view label) {
 }
 
 bool seeks_attractors(const RunRecord& run) {
-    return run.kind == name_of(RunKind::sweep) || run.kind == name_of(RunKind::basin);
+    const auto kind = run_kind(run.kind);
+    return kind && seeks_attractors(*kind);
 }
 
 std::string note_of_left_out(const StoredRun& run, const std::vector<std::string>& directions) {

@@ -43,7 +43,7 @@ std::vector<std::string> shown_samplings(const StudyPicture& picture, const Stor
 std::vector<std::string> row_samplings(const StoredRun& run) {
     std::vector<std::string> names;
     if (run.record.kind == "record")
-        for (const RecordSampling& sampling : stored_run(run.record).record.samplings)
+        for (const RecordSampling& sampling : stored_run(run.record).record().samplings)
             if (sampling.kind == RecordSampling::Kind::record)
                 names.push_back(sampling.name);
     return names;

@@ -66,7 +66,8 @@ std::string words_of_extremum(const StoredRun& run, const std::string& name) {
             continue;
         const std::string words = words_of_model(run.model, name.substr(4));
         try {
-            for (const Monitor& monitor : stored_run(run.record).branch.settings.monitors)
+            const StudyRun branch = stored_run(run.record);
+            for (const Monitor& monitor : branch.branch().settings.monitors)
                 if (!words.empty() && monitor.name == name && monitor.kind == kind)
                     return fmt::format("{} {}", which, words);
         } catch (const InputError&) { // settings of another version: only the name is shown

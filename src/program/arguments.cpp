@@ -3,6 +3,7 @@
 #include "graze/base/name_list.hpp"
 #include "graze/symbolic/parser.hpp"
 #include "program/branch_arguments.hpp"
+#include "program/commands.hpp"
 #include "program/declared_option.hpp"
 #include "program/design_arguments.hpp"
 #include "program/experiment_arguments.hpp"
@@ -370,8 +371,11 @@ void declare_arguments(CLI::App& app, Arguments& arguments) {
     app.formatter(std::make_shared<BriefFormatter>());
     app.get_formatter()->column_width(26);
     declare_check(app, arguments.check);
+    arguments.add_command("check", check_command, arguments.check);
     declare_models(app, arguments.models);
+    arguments.add_command("models", models_command, arguments.models);
     declare_simulate(app, arguments.simulate);
+    arguments.add_command("simulate", simulate_command, arguments.simulate);
     declare_study_commands(app, arguments);
     declare_branch_commands(app, arguments);
     declare_design_command(app, arguments);

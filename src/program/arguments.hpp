@@ -1,10 +1,14 @@
 #pragma once
 
+#include "graze/record/impacts.hpp"
+#include "graze/record/processed_record.hpp"
 #include "program/table.hpp"
 
 #include <CLI/App.hpp>
 
 #include <cstddef>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -162,8 +166,9 @@ struct RecordArguments {
     std::size_t half_width = 0;
     std::string what = "channels", reference, displacement;
     std::vector<std::string> channels, negated, phases;
-    double level = 0, hysteresis = 0, least_jump = 0;
-    std::size_t window = 12, transition = 0, part = 0;
+    double level = 0, hysteresis = 0;
+    ImpactWindow impacts;
+    std::size_t part = 0;
     OutputArguments output;
     std::string write, plot, data;
 };
@@ -172,8 +177,8 @@ struct IdentifyArguments {
     std::string what;
     RecordArguments reading; ///< the files and how they are read; the output and the picture
     std::string channel, displacement, voltage, current;
-    std::size_t peaks = 10, window = 12, transition = 0;
-    double least_jump = 0;
+    std::size_t peaks = 10;
+    ImpactWindow impacts;
     std::optional<double> gap, stiffness, frequency;
     double gap_error = 0, stiffness_error = 0, clamped = 0;
     std::vector<double> noise; ///< standard deviations of displacement and current; empty: not given
@@ -227,6 +232,9 @@ struct CompletionArguments {
     std::string shell, file;
 };
 
+struct Console;
+
+/// The options of all commands, and what the commands do.
 struct Arguments {
     HelpArguments help;
     CompletionArguments completion;
@@ -249,6 +257,13 @@ struct Arguments {
     CheckArguments check;
     ModelsArguments models;
     SimulateArguments simulate;
+    std::map<std::string, std::function<int(const Console&)>> commands; ///< by name; each returns the exit code
+
+    /// Registers a command. @param run what it does with its own options, which must outlive this
+    template <class Own>
+    void add_command(const char* name, int (*run)(const Own&, const Console&), const Own& own) {
+        commands[name] = [run, &own](const Console& console) { return run(own, console); };
+    }
 };
 
 /// Accepts only whole numbers within these bounds.

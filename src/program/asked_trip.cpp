@@ -22,7 +22,7 @@ constexpr std::size_t most_numbers = 1000;
     throw InputError(Place{option + " " + text, 0, 0}, what, example);
 }
 
-/// A value for each decade from the first to the last.
+/// Adds a value for each decade from the first to the last.
 void add_decades(std::vector<double>& values, double first, double last, const std::string& option,
                  const std::string& text) {
     if (!(first * last > 0))
@@ -38,27 +38,18 @@ void add_decades(std::vector<double>& values, double first, double last, const s
     }
 }
 
-} // namespace
-
-namespace {
-
-AskedEnd end_of(const LossPoint& point, const TripArguments& arguments) {
-    if (arguments.greatest_speed && point.fold)
-        throw InputError(Place{"--greatest-speed", 0, 0}, "a fold has no contact of its own",
-                         "name a level, --until EXPR=LEVEL, or --until end");
+NamedEnd end_of(const LossPoint& point, const TripArguments& arguments) {
     if (arguments.greatest_speed)
-        return {{*arguments.greatest_speed, {}, 0}, fmt::format("speed {:.4g}", *arguments.greatest_speed), true};
+        return end_at_speed(point, *arguments.greatest_speed, "--");
     if (arguments.until == "end")
         return {{}, "the end", true};
-    if (arguments.until.empty() && point.fold)
-        return {{}, "the fold is passed", false};
     if (arguments.until.empty())
-        return {{point.level, {}, 0}, fmt::format("speed {:.4g}", point.level), false};
+        return usual_end(point);
     const std::size_t equals = arguments.until.rfind('=');
     if (equals == std::string::npos)
         throw InputError(Place{"--until " + arguments.until, 0, 0}, "it names no level",
                          "write EXPR=LEVEL, such as q=0.9, or end");
-    AskedEnd asked{{}, arguments.until, true};
+    NamedEnd asked{{}, arguments.until, true};
     asked.end.quantity = requested_quantity(point.model(), arguments.until.substr(0, equals), "--until").value;
     asked.end.level = value_of(point.model(), arguments.until.substr(equals + 1), "--until");
     return asked;
@@ -71,7 +62,7 @@ AskedTrip asked_trip(const ResultFile& file, const std::string& point, const Tri
     const Place place{option, 0, 0};
     StoredOrbit stored = find_stored_orbit(file, point, place);
     LossPoint loss = loss_point(stored, arguments.parameter, place, {"--parameter", 0, 0});
-    AskedEnd end = end_of(loss, arguments);
+    NamedEnd end = end_of(loss, arguments);
     return {std::move(stored), std::move(loss), std::move(end)};
 }
 

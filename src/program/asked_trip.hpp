@@ -11,35 +11,28 @@
 
 namespace graze {
 
-/// What ends a trip, for people too.
-struct AskedEnd {
-    TripEnd end;
-    std::string words;
-    bool given = false; ///< rather than what is usual at such a point
-};
-
-/// The point of a file of which trips are asked about.
+/// The point of a file at which trips begin, and their end.
 struct AskedTrip {
     StoredOrbit stored;
     LossPoint point;
-    AskedEnd end;
+    NamedEnd end;
 };
 /// @param option where the point was asked for, for messages
-/// @throws InputError as loss_point does, and for what names no level
+/// @throws InputError as loss_point does, and for an end that names no level
 AskedTrip asked_trip(const ResultFile& file, const std::string& point, const TripArguments& arguments,
                      const std::string& option);
 
-/// Numbers of a list, or of FIRST:LAST one for each decade. @param option in which they are written
-/// @throws InputError for what are none, or too many
+/// Reads numbers of a list; FIRST:LAST stands for one number in each decade. @param option in which they are written
+/// @throws InputError for texts that are no numbers, and for too many numbers
 std::vector<double> numbers_by_decades(const Model& model, const std::vector<std::string>& asked,
                                        const std::string& option);
 
-/// Why a trip has not come to its end, and what to do. @param longer what to do where more cycles may help
+/// Tells why a trip has not come to its end, and what to do. @param longer the remedy where more cycles may help
 std::string why_not(const TripTime& trip, const std::string& longer);
-/// The first of what has not come to its end, and how many more there are, each on a line.
+/// Prints the first of these messages about trips without an end, and how many more there are.
 void tell_lacks(const std::vector<std::string>& lacks, const Console& console);
 
-/// What a JSON table says of the point first.
+/// The heading of a table of trips in JSON: the point and the end.
 JsonObject heading_of(const ResultFile& file, const AskedTrip& asked);
 
 } // namespace graze

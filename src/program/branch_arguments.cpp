@@ -1,6 +1,7 @@
 #include "program/branch_arguments.hpp"
 
 #include "graze/branch/special_point.hpp"
+#include "program/commands.hpp"
 #include "program/declared_option.hpp"
 
 #include <fmt/format.h>
@@ -231,11 +232,17 @@ void declare_tolerance(CLI::App& app, ToleranceArguments& arguments) {
 
 void declare_branch_commands(CLI::App& app, Arguments& arguments) {
     declare_points(app, arguments.points);
+    arguments.add_command("points", points_command, arguments.points);
     declare_orbit(app, arguments.orbit);
+    arguments.add_command("orbit", orbit_command, arguments.orbit);
     declare_grazing(app, arguments.grazing);
+    arguments.add_command("grazing", grazing_command, arguments.grazing);
     declare_trip(app, arguments.trip);
+    arguments.add_command("trip", trip_command, arguments.trip);
     declare_ladder(app, arguments.ladder);
+    arguments.add_command("ladder", ladder_command, arguments.ladder);
     declare_tolerance(app, arguments.tolerance);
+    arguments.add_command("tolerance", tolerance_command, arguments.tolerance);
 }
 
 } // namespace graze

@@ -4,13 +4,13 @@
 #include "graze/branch/special_point.hpp"
 #include "graze/design/design.hpp"
 #include "graze/model/catalogue.hpp"
+#include "graze/picture/record_table.hpp"
 #include "graze/results/name_advice.hpp"
 #include "graze/results/result_table.hpp"
 #include "graze/results/run_kind.hpp"
 #include "graze/results/table_recorder.hpp"
 #include "graze/study/study_catalogue.hpp"
 #include "program/identify_arguments.hpp"
-#include "program/record_arguments.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

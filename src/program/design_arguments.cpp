@@ -1,5 +1,6 @@
 #include "program/design_arguments.hpp"
 
+#include "program/commands.hpp"
 #include "program/declared_option.hpp"
 
 namespace graze {
@@ -24,6 +25,7 @@ void declare_design_command(CLI::App& app, Arguments& arguments) {
     DesignArguments& design = arguments.design;
     CLI::App& command = *app.add_subcommand("design", design_text);
     command.footer(design_examples);
+    arguments.add_command("design", design_command, arguments.design);
     command.add_option("DESIGN", design.design, "Name of a shipped design, or a file")->type_name("");
     const auto flag = [&](const char* group, const char* name, bool& value, const char* text) {
         return command.add_flag(name, value, text)->group(group);

@@ -17,8 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,7 +26,7 @@ namespace graze {
 
 namespace {
 
-/// What a disturbance is asked about, and what has been found.
+/// The question about a disturbance, and its answer as a table and a figure.
 struct AskedTrips {
     const TripArguments& arguments;
     const Console& console;
@@ -35,7 +34,7 @@ struct AskedTrips {
     const LossPoint& point = trip.point;
     Table table{};
     Figure figure{};
-    std::vector<std::string> lacks{}; ///< what has not come to an end that says something
+    std::vector<std::string> lacks{}; ///< messages about trips without an end
     bool interrupted = false;
     std::size_t done = 0, wanted = 0;
 
@@ -46,25 +45,13 @@ struct AskedTrips {
     }
 };
 
-TripOrigin origin_at(const AskedTrips& asked, double value) {
-    const LossPoint& point = asked.point;
-    try {
-        return trip_origin(point, value);
-    } catch (const InputError& error) {
-        if (asked.arguments.at.empty()) // a ramp begins as far before the point as its rate says
-            throw InputError(Place{"--ramp", 0, 0},
-                             fmt::format("the ramp would begin at {} = {:.6g}: {}", point.name, value, error.problem()),
-                             "give a slower one, or say where it begins: --at VALUE");
-        throw InputError(Place{"--at", 0, 0}, error.problem(), error.remedy());
-    }
-}
-
-/// The value that is disturbed.
+/// The orbit at the value that is disturbed.
 TripOrigin resting_origin(const AskedTrips& asked, const char* option) {
     if (asked.arguments.at.empty())
         throw InputError(Place{asked.option(option), 0, 0}, "nothing says where the motion rests",
                          fmt::format("give the value of {} that is disturbed: --at VALUE", asked.point.name));
-    return origin_at(asked, asked.number(asked.arguments.at, "at"));
+    const double value = asked.number(asked.arguments.at, "at");
+    return with_place({"--at", 0, 0}, [&] { return trip_origin(asked.point, value); });
 }
 
 TripOptions options_of(const AskedTrips& asked) {
@@ -86,16 +73,15 @@ FigurePanel panel_of(const std::string& x, const std::string& x_unit, const std:
     return panel;
 }
 
-/// One row after another, until Ctrl-C. @param row is not added when interrupted: it then says false
-void for_each_of(AskedTrips& asked, const std::vector<double>& values, const char* option,
-                 const std::function<bool(double)>& row) {
-    asked.wanted = values.size();
-    for (const double value : values) {
-        asked.interrupted = !with_place({asked.option(option), 0, 0}, [&] { return row(value); });
-        if (asked.interrupted)
-            return;
-        ++asked.done;
-    }
+FigureSeries series_of(const std::string& title, FigureSeries::Style style, std::size_t colour) {
+    return {title, style, colour, {}};
+}
+
+/// Notes how many rows were asked for and how many are done.
+void note_rows(AskedTrips& asked, std::size_t wanted, std::size_t done) {
+    asked.wanted = wanted;
+    asked.done = done;
+    asked.interrupted = done < wanted;
 }
 
 void ramp(AskedTrips& asked) {
@@ -115,37 +101,33 @@ void ramp(AskedTrips& asked) {
     panel.logarithmic_y = true;
     FigureSeries simulated = series_of("simulation, until " + asked.trip.end.words, FigureSeries::Style::circles, 1),
                  predicted = series_of("normal form", FigureSeries::Style::dashed, 0);
-    for_each_of(asked, numbers_by_decades(point.model(), asked.arguments.ramps, "--ramp"), "ramp", [&](double rate) {
-        if (!(rate * point.side > 0))
-            throw InputError(fmt::format("with the rate {} the parameter does not come to the point from where the "
-                                         "motion is at rest",
-                                         rate),
-                             point.side > 0 ? "give a positive rate" : "give a negative rate");
-        const double from =
-            asked.arguments.at.empty() ? beginning_of_ramp(point, rate) : asked.number(asked.arguments.at, "at");
-        const RampedTrip ramped =
-            ramped_trip(point.system, origin_at(asked, from), rate, asked.trip.end.end, options_of(asked));
-        if (InterruptGuard::requested())
-            return false;
-        const double delay = ramped.trip.ended ? ramped.value - point.value : nothing;
-        if (!ramped.trip.ended)
-            asked.lacks.push_back(fmt::format("the ramp of {:g} has not come to its end: {}", rate,
-                                              why_not(ramped.trip, "give more --cycles, or another end by --until")));
-        asked.table.add(rate);
-        asked.table.add(from);
-        asked.table.add(ramped.trip.ended ? ramped.value : nothing);
-        asked.table.add(delay);
-        asked.table.add(delay / (rate * point.cycle));
-        asked.table.add(ramped.trip.ended ? ramped.trip.time : nothing);
-        asked.table.add(ramped.trip.ending);
-        if (delay / rate > 0)
-            simulated.points.push_back({std::abs(rate), std::abs(delay)});
-        if (point.fold) {
-            asked.table.add(delay_of_ramp(*point.fold, rate));
-            predicted.points.push_back({std::abs(rate), std::abs(delay_of_ramp(*point.fold, rate))});
-        }
-        return true;
+    const std::vector<double> rates = numbers_by_decades(point.model(), asked.arguments.ramps, "--ramp");
+    const std::vector<RampRow> rows = with_place({"--ramp", 0, 0}, [&] {
+        const auto from =
+            asked.arguments.at.empty() ? std::nullopt : std::optional(asked.number(asked.arguments.at, "at"));
+        return ramped_trips(point, rates, from, asked.trip.end.end, options_of(asked), "--");
     });
+    note_rows(asked, rates.size(), rows.size());
+    for (const RampRow& row : rows) {
+        const TripTime& trip = row.ramped.trip;
+        const double delay = row.delay.value_or(nothing);
+        if (!trip.ended)
+            asked.lacks.push_back(fmt::format("the ramp of {:g} has not come to its end: {}", row.rate,
+                                              why_not(trip, "give more --cycles, or another end by --until")));
+        asked.table.add(row.rate);
+        asked.table.add(row.from);
+        asked.table.add(trip.ended ? row.ramped.value : nothing);
+        asked.table.add(delay);
+        asked.table.add(delay / (row.rate * point.cycle));
+        asked.table.add(trip.ended ? trip.time : nothing);
+        asked.table.add(trip.ending);
+        if (delay / row.rate > 0)
+            simulated.points.push_back({std::abs(row.rate), std::abs(delay)});
+        if (row.predicted_delay) {
+            asked.table.add(*row.predicted_delay);
+            predicted.points.push_back({std::abs(row.rate), std::abs(*row.predicted_delay)});
+        }
+    }
     panel.series.push_back(simulated);
     if (point.fold)
         panel.series.push_back(predicted);
@@ -161,25 +143,25 @@ void wave(AskedTrips& asked) {
         {{"amplitude", point.unit}, {"trips", ""}, {"cycles", ""}, {"time", point.model().time_unit}, {"ending", ""}});
     FigurePanel panel = panel_of("amplitude of " + point.name, point.unit, "time", point.model().time_unit);
     FigureSeries times = series_of("until " + asked.trip.end.words, FigureSeries::Style::circles, 1);
-    for_each_of(
-        asked, numbers_by_decades(point.model(), asked.arguments.waves, "--wave"), "wave", [&](double amplitude) {
-            const TripTime trip =
-                swung_trip(point.system, origin, amplitude, period, asked.trip.end.end, options_of(asked));
-            if (InterruptGuard::requested())
-                return false;
-            if (!(trip.ended || trip.ending == "end-time"))
-                asked.lacks.push_back(
-                    fmt::format("the wave of {:g} has not been simulated to its end: {}", amplitude,
-                                why_not(trip, "look at whether the parameter has a meaning as far as it swings")));
-            asked.table.add(amplitude);
-            asked.table.add(trip.ended ? "yes" : "no");
-            asked.table.add(trip.ended ? trip.cycles : nothing);
-            asked.table.add(trip.ended ? trip.time : nothing);
-            asked.table.add(trip.ending);
-            if (trip.ended && amplitude != 0)
-                times.points.push_back({std::abs(amplitude), trip.time});
-            return true;
-        });
+    const std::vector<double> amplitudes = numbers_by_decades(point.model(), asked.arguments.waves, "--wave");
+    const std::vector<TripTime> trips = with_place({"--wave", 0, 0}, [&] {
+        return swung_trips(point, origin, amplitudes, period, asked.trip.end.end, options_of(asked));
+    });
+    note_rows(asked, amplitudes.size(), trips.size());
+    for (std::size_t i = 0; i < trips.size(); ++i) {
+        const TripTime& trip = trips[i];
+        if (!(trip.ended || trip.ending == "end-time"))
+            asked.lacks.push_back(
+                fmt::format("the wave of {:g} has not been simulated to its end: {}", amplitudes[i],
+                            why_not(trip, "look at whether the parameter has a meaning as far as it swings")));
+        asked.table.add(amplitudes[i]);
+        asked.table.add(trip.ended ? "yes" : "no");
+        asked.table.add(trip.ended ? trip.cycles : nothing);
+        asked.table.add(trip.ended ? trip.time : nothing);
+        asked.table.add(trip.ending);
+        if (trip.ended && amplitudes[i] != 0)
+            times.points.push_back({std::abs(amplitudes[i]), trip.time});
+    }
     panel.marks.push_back(std::abs(origin.point - origin.value));
     panel.series.push_back(times);
     asked.figure.panels.push_back(std::move(panel));
@@ -200,7 +182,7 @@ NoiseSettings settings_of(const AskedTrips& asked) {
 void noise(AskedTrips& asked) {
     const LossPoint& point = asked.point;
     const TripOrigin origin = resting_origin(asked, "noise");
-    NoiseSettings settings = settings_of(asked);
+    const NoiseSettings settings = settings_of(asked);
     asked.table = Table({{"level", point.unit},
                          {"motions", ""},
                          {"trips", ""},
@@ -219,16 +201,17 @@ void noise(AskedTrips& asked) {
                                     FigureSeries::Style::dotted, 2);
     const std::vector<double> levels = numbers_by_decades(point.model(), asked.arguments.noises, "--noise");
     StatusLine line(asked.console, asked.console.terminal);
-    settings.progress = [&](std::size_t motions) {
+    const auto progress = [&](std::size_t level, std::size_t motions) {
         if (line.is_due())
-            line.show(fmt::format("level {} of {}, motion {} of {}", asked.done + 1, levels.size(), motions,
-                                  settings.motions));
+            line.show(
+                fmt::format("level {} of {}, motion {} of {}", level + 1, levels.size(), motions, settings.motions));
     };
-    for_each_of(asked, levels, "noise", [&](double level) {
-        const NoisyTrips trips = noisy_trips(point.system, origin, level, asked.trip.end.end, settings);
-        if (trips.interrupted)
-            return false;
-        const double share = static_cast<double>(trips.beyond) / static_cast<double>(trips.motions);
+    const std::vector<NoisyTrips> all = with_place(
+        {"--noise", 0, 0}, [&] { return noisy_trips(point, origin, levels, asked.trip.end.end, settings, progress); });
+    note_rows(asked, levels.size(), all.size());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const NoisyTrips& trips = all[i];
+        const double level = levels[i], share = static_cast<double>(trips.beyond) / static_cast<double>(trips.motions);
         for (const auto& [ending, count] : trips.failures)
             asked.lacks.push_back(fmt::format("{} of {} motions under the noise {:g} are not counted: they ended by "
                                               "{}; look at whether the parameter "
@@ -241,13 +224,12 @@ void noise(AskedTrips& asked) {
                                  trips.half.value_or(nothing), static_cast<double>(trips.failed)})
             asked.table.add(one);
         if (level == 0) // has no place on the axis
-            return true;
+            continue;
         shares.points.push_back({level, trips.probability.value});
         low.points.push_back({level, trips.probability.low});
         high.points.push_back({level, trips.probability.high});
         beyond.points.push_back({level, share});
-        return true;
-    });
+    }
     panel.series = {shares, low, high, beyond};
     asked.figure.panels.push_back(std::move(panel));
 }
@@ -267,7 +249,7 @@ JsonObject heading_of(const ResultFile& file, const AskedTrips& asked) {
     return heading;
 }
 
-/// Options that say nothing, or something else, of a parameter that changes in time.
+/// Refuses options that have no effect where the parameter changes in time.
 void require_together(const TripArguments& arguments) {
     const auto refuse = [](bool given, const char* option, const char* problem, const char* remedy) {
         if (given)
@@ -286,14 +268,6 @@ void require_together(const TripArguments& arguments) {
 }
 
 } // namespace
-
-FigureSeries series_of(const std::string& title, FigureSeries::Style style, std::size_t colour) {
-    FigureSeries series;
-    series.title = title;
-    series.style = style;
-    series.colour = colour;
-    return series;
-}
 
 bool is_disturbed(const TripArguments& arguments) {
     return !(arguments.ramps.empty() && arguments.waves.empty() && arguments.noises.empty());

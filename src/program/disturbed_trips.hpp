@@ -1,20 +1,16 @@
 #pragma once
 
-#include "graze/picture/figure.hpp"
 #include "graze/results/result_file.hpp"
 #include "program/arguments.hpp"
 #include "program/program.hpp"
 
 namespace graze {
 
-/// Whether `graze trip` is asked about a parameter that changes in time.
+/// True when `graze trip` is asked about a parameter that changes in time.
 bool is_disturbed(const TripArguments& arguments);
 
-/// The tables and pictures of `graze trip` with --ramp, --wave or --noise. @return the exit code
+/// Prints the table or draws the picture of `graze trip` with --ramp, --wave or --noise. @return the exit code
 /// @throws InputError as loss_point does, and for options that do not go together
 int disturbed_trips(const ResultFile& file, const TripArguments& arguments, const Console& console);
-
-/// A series of a picture of trips, without points.
-FigureSeries series_of(const std::string& title, FigureSeries::Style style, std::size_t colour);
 
 } // namespace graze

@@ -1,5 +1,6 @@
 #include "program/experiment_arguments.hpp"
 
+#include "program/commands.hpp"
 #include "program/declared_option.hpp"
 
 #include <string>
@@ -140,7 +141,9 @@ void declare_acquire(CLI::App& app, AcquireArguments& arguments) {
 
 void declare_experiment_commands(CLI::App& app, Arguments& arguments) {
     declare_bench(app, arguments.bench);
+    arguments.add_command("bench", bench_command, arguments.bench);
     declare_acquire(app, arguments.acquire);
+    arguments.add_command("acquire", acquire_command, arguments.acquire);
 }
 
 } // namespace graze

@@ -5,7 +5,7 @@
 #include "graze/model/catalogue.hpp"
 #include "graze/model/named_value.hpp"
 #include "program/identify_request.hpp"
-#include "program/record_stages.hpp"
+#include "program/record_request.hpp"
 #include "program/values.hpp"
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t most_samples = 1'000'000;
 
-/// NAME, or NAME=REST
+/// NAME or NAME=REST, split at the sign.
 struct Named {
     std::string name;
     std::optional<std::string> rest;
@@ -37,7 +37,7 @@ double number_in(const Model& model, const std::string& text, const char* option
     return value_of_text(model, text, {fmt::format("{} {}", option, item), 0, 0});
 }
 
-/// NAME[=GUESS][:LEAST:GREATEST]
+/// Reads NAME[=GUESS][:LEAST:GREATEST].
 IdentifyRequest::Unknown unknown_of(const Model& model, const std::string& item) {
     std::vector<std::string> parts;
     for (std::size_t start = 0; start <= item.size();) {
@@ -107,7 +107,7 @@ private:
     using Reading = IdentifyRequest::Reading;
 
     const Model& model() const { return request_.run.model; }
-    IdentifyRequest& asked() { return request_.run.identify; }
+    IdentifyRequest& asked() { return request_.run.identify(); }
 
     /// @throws InputError, with the nearest name of a state, unless it is a state
     void require_state(const std::string& name, const char* option) const {
@@ -161,8 +161,8 @@ private:
     }
 
     void read_record(const std::string& file) {
-        RecordStages stages(file, arguments_->reading, *console_);
-        const RecordHeader header = stages.header();
+        ProcessedRecord record(file, record_processing(arguments_->reading, *console_));
+        const RecordHeader header = record.header();
         for (const auto& [name, text] : meanings_)
             header.channel(name, "--reading");
         std::vector<std::size_t> columns;
@@ -173,7 +173,7 @@ private:
             throw InputError(
                 fmt::format("no channel has the name of a state or quantity of '{}'", model().name),
                 fmt::format("say what is measured by --reading {}=EXPRESSION", header.channels.front().name));
-        Samples samples = read_all(stages.source(), most_samples);
+        Samples samples = read_all(record.source(), most_samples);
         KeptRecord& kept = request_.records.emplace_back();
         kept.name = file;
         kept.header.time = header.time;

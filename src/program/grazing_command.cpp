@@ -1,6 +1,5 @@
 #include "graze/base/input_error.hpp"
-#include "graze/grazing/map_motion.hpp"
-#include "graze/grazing/trial.hpp"
+#include "graze/grazing/touch_report.hpp"
 #include "graze/results/touching_orbit.hpp"
 #include "program/commands.hpp"
 
@@ -10,19 +9,17 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace graze {
 
 namespace {
 
-/// What has been found at a point.
-struct Findings : TouchingOrbit {
-    Verdict verdict;
-    std::optional<Trial> trial;
-};
+/// The orbit that touches, and what becomes of it.
+struct Findings : TouchingOrbit, TouchReport {};
 
-/// Rows of what is known: a name, a value, what it is.
+/// A table of facts: name, value, meaning.
 class GrazingFacts {
 public:
     GrazingFacts() : table_({{"quantity", ""}, {"value", ""}, {"meaning", ""}}) {}
@@ -43,7 +40,7 @@ public:
         values_.add(name, value);
     }
     const Table& table() const { return table_; }
-    /// The same by name, without meanings.
+    /// The same facts by name, without meanings.
     const JsonObject& values() const { return values_; }
 
 private:
@@ -74,7 +71,7 @@ OrderTexts texts_of(MapOrder order) {
     return {"a compliant contact", "what it gains by depth^(3/2)", ""};
 }
 
-/// Where and how the orbit touches.
+/// Adds where and how the orbit touches.
 void add_contact(GrazingFacts& facts, const Model& model, const CycleMap& map) {
     const DiscontinuityMap& contact = map.contact;
     facts.add("event", model.events[map.touch.event].name, "that is touched");
@@ -122,26 +119,15 @@ void add_cycle(GrazingFacts& facts, const Findings& found) {
         facts.add("contacts_when", found.verdict.side > 0 ? "above" : "below", "the side of it with contacts");
 }
 
-/// What the map settles on at some distances beyond the touch, where something remains.
+/// Adds what the map settles on at some distances beyond the touch, where an attractor remains.
 void add_attractors(GrazingFacts& facts, const Findings& found) {
-    const CycleMap& map = found.map;
-    if (found.verdict.outcome != GrazingOutcome::persists || map.contact.order != MapOrder::square_root ||
-        !map.clearance_rate || *map.clearance_rate == 0 || !found.parameter)
-        return;
-    double size = 0;
-    for (std::size_t i = 0; i < map.gradient.size(); ++i)
-        size += std::abs(map.gradient[i]) * map.scales[i];
-    const double value = map.contact.touch.parameters[found.parameter->place()];
-    for (const int digits : {3, 5, 7}) {
-        const double clearance = -size * std::pow(10.0, -digits);
-        const MapMotion motion = map_motion(map, clearance);
-        facts.add(fmt::format("beyond_1e-{}", digits),
-                  motion.period > 0 ? fmt::format("{} in {}", motion.contacts, motion.period) : "aperiodic",
-                  fmt::format("contacts in cycles at {:.9g}", value + clearance / *map.clearance_rate));
-    }
+    for (const MotionBeyond& one : found.beyond)
+        facts.add(fmt::format("beyond_1e-{}", one.digits),
+                  one.motion.period > 0 ? fmt::format("{} in {}", one.motion.contacts, one.motion.period) : "aperiodic",
+                  fmt::format("contacts in cycles at {:.9g}", one.parameter));
 }
 
-/// What becomes of an orbit that begins to slide.
+/// Adds what becomes of an orbit that begins to slide.
 void add_border(GrazingFacts& facts, const Verdict& verdict) {
     if (verdict.border == BorderCollision::none)
         return;
@@ -226,18 +212,10 @@ JsonObject heading_of(const ResultFile& file, const Findings& found, const Grazi
 
 int grazing_command(const GrazingArguments& arguments, const Console& console) {
     const ResultFile file(result_path(arguments.file), ResultFile::Access::read);
-    Findings found{
-        find_touching_orbit(file, arguments.point, arguments.parameter, {"POINT", 0, 0}, {"--parameter", 0, 0}),
-        {},
-        {}};
-    const System system(found.stored.run.model);
-    found.verdict = verdict_of(found.map);
-    if (arguments.verify) {
-        if (!found.parameter)
-            throw InputError("no parameter is given that moves the orbit from its touch",
-                             "name a parameter by --parameter NAME");
-        found.trial = try_verdict(system, found.map, found.verdict, *found.parameter);
-    }
+    TouchingOrbit orbit =
+        find_touching_orbit(file, arguments.point, arguments.parameter, {"POINT", 0, 0}, {"--parameter", 0, 0});
+    TouchReport report = touch_report(System(orbit.stored.run.model), orbit.map, orbit.parameter, arguments.verify);
+    const Findings found{std::move(orbit), std::move(report)};
     GrazingFacts facts;
     add_contact(facts, found.stored.run.model, found.map);
     add_cycle(facts, found);

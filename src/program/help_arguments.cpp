@@ -1,5 +1,7 @@
 #include "program/help_arguments.hpp"
 
+#include "program/commands.hpp"
+
 namespace graze {
 
 namespace {
@@ -26,12 +28,16 @@ constexpr const char* completion_examples = R"(Examples:
 void declare_help_commands(CLI::App& app, Arguments& arguments) {
     CLI::App& help = *app.add_subcommand("help", help_text);
     help.footer(help_examples);
+    arguments.commands["help"] = [&](const Console& console) { return help_command(app, arguments.help, console); };
     help.add_option("COMMAND", arguments.help.command, "The command to explain (the program)")->type_name("");
     help.add_flag("--man", arguments.help.man, "Print a manual page for man");
     help.add_option("--write", arguments.help.folder, "Write the manual pages of all commands into this folder")
         ->type_name("FOLDER");
     CLI::App& completion = *app.add_subcommand("completion", completion_text);
     completion.footer(completion_examples);
+    arguments.commands["completion"] = [&](const Console& console) {
+        return completion_command(app, arguments.completion, console);
+    };
     completion.add_option("SHELL", arguments.completion.shell, "bash, zsh or fish")->type_name("")->required();
     completion
         .add_option("--output", arguments.completion.file, "Write the script to FILE instead of to standard output")

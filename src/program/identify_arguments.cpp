@@ -1,6 +1,7 @@
 #include "program/identify_arguments.hpp"
 
 #include "graze/identify/fit.hpp"
+#include "program/commands.hpp"
 #include "program/declared_option.hpp"
 #include "program/record_arguments.hpp"
 
@@ -47,13 +48,13 @@ void declare_known(CLI::App& command, IdentifyArguments& arguments) {
     declare_option(command, group, "--peaks", arguments.peaks, "N",
                    "Decrement: number of peaks that are used, the first of each record (10)")
         ->check(whole_number(2, 100'000));
-    declare_option(command, group, "--window", arguments.window, "N",
+    declare_option(command, group, "--window", arguments.impacts.window, "N",
                    "Restitution: samples on each side of an impact to which velocities are fitted (12)")
-        ->check(whole_number(5, 100'000));
-    declare_option(command, group, "--transition", arguments.transition, "N",
+        ->check(whole_number(ImpactWindow::least_window, ImpactWindow::most_window));
+    declare_option(command, group, "--transition", arguments.impacts.transition, "N",
                    "Restitution: samples on each side left out since the impact itself disturbs them (0)")
-        ->check(whole_number(0, 100'000));
-    declare_option(command, group, "--least-jump", arguments.least_jump, "VALUE",
+        ->check(whole_number(0, ImpactWindow::most_window));
+    declare_option(command, group, "--least-jump", arguments.impacts.least_jump, "VALUE",
                    "Restitution: smallest jump of the velocity that is an impact, in its unit (0)")
         ->check(non_negative_number());
     declare_option(command, group, "--gap", arguments.gap, "D",
@@ -131,6 +132,7 @@ void declare_identify_command(CLI::App& app, Arguments& all) {
     IdentifyArguments& arguments = all.identify;
     CLI::App& command = *app.add_subcommand("identify", identify_text);
     command.footer(identify_examples);
+    all.add_command("identify", identify_command, all.identify);
     command
         .add_option("WHAT", arguments.what,
                     "decrement, restitution, coupling, impedance or fit; or a study, without FILE")

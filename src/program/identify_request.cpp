@@ -3,7 +3,7 @@
 #include "graze/base/input_error.hpp"
 #include "graze/base/with_place.hpp"
 #include "program/identify_arguments.hpp"
-#include "program/record_stages.hpp"
+#include "program/record_request.hpp"
 
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@ namespace graze {
 
 namespace {
 
-/// VALUE or VALUE+-ERROR
+/// Reads VALUE or VALUE+-ERROR.
 void read_known_value(const std::string& text, const char* option, std::string& known, double& known_error) {
     if (text.empty())
         return;
@@ -40,10 +40,8 @@ std::string text_of(const std::optional<double>& value) {
 } // namespace
 
 StudyRun identify_request(const IdentifyArguments& arguments) {
-    StudyRun run;
-    run.kind = RunKind::identify;
-    run.simulation = FitSettings().simulation;
-    IdentifyRequest& request = run.identify;
+    StudyRun run(RunKind::identify);
+    IdentifyRequest& request = run.identify();
     const std::vector<std::string>& kinds = kinds_of_estimates();
     request.what =
         static_cast<IdentifyRequest::What>(std::find(kinds.begin(), kinds.end(), arguments.what) - kinds.begin());
@@ -56,9 +54,7 @@ StudyRun identify_request(const IdentifyArguments& arguments) {
     if (!arguments.current.empty())
         request.current = arguments.current;
     request.peaks = arguments.peaks;
-    request.window = arguments.window;
-    request.transition = arguments.transition;
-    request.least_jump = arguments.least_jump;
+    request.impacts = arguments.impacts;
     request.gap = text_of(arguments.gap);
     request.gap_error = arguments.gap_error;
     request.stiffness = text_of(arguments.stiffness);
@@ -79,8 +75,8 @@ EachRecord identify_files(const IdentifyArguments& arguments, const Console& con
     return [&arguments, &console](const auto& work) {
         for (const std::string& file : arguments.reading.files)
             with_place({file, 0, 0}, [&] {
-                RecordStages stages(file, arguments.reading, console);
-                work(file, stages.source());
+                ProcessedRecord record(file, record_processing(arguments.reading, console));
+                work(file, record.source());
             });
     };
 }

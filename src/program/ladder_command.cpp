@@ -1,17 +1,11 @@
-#include "graze/base/input_error.hpp"
-#include "graze/base/with_place.hpp"
-#include "graze/branch/ladder.hpp"
-#include "graze/results/stored_orbit.hpp"
-#include "graze/study/stored_study.hpp"
+#include "graze/study/stored_ladder.hpp"
 #include "program/commands.hpp"
 #include "program/empty_cell.hpp"
 #include "program/interrupt.hpp"
 #include "program/status_line.hpp"
-#include "program/values.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -19,42 +13,10 @@ namespace graze {
 
 namespace {
 
-/// Settings of the run that the point belongs to, for branches in its parameter or in another one.
-BranchSettings settings_of(const StoredRun& run, const std::string& asked) {
-    const StudyRun stored = stored_run(run.record);
-    BranchSettings settings = stored.branch.settings;
-    settings.monitors.clear();
-    settings.free.clear();
-    settings.free_bounds.clear();
-    settings.kept.reset();
-    if (!asked.empty()) {
-        const ParameterId parameter = asked_parameter(run.model, asked);
-        if (parameter != settings.parameter)
-            settings.least = settings.greatest = std::nullopt;
-        settings.parameter = parameter;
-    } else if (!stored.is_followed()) {
-        throw InputError(Place{"POINT", 0, 0}, fmt::format("run '{}' follows no parameter", run.record.name),
-                         "say which one varies: --parameter NAME");
-    }
-    return settings;
-}
-
-/// Of a rung the parameter at the first point of a type; NaN where there is none.
-double first_of(const Branch& branch, PointType type) {
-    const auto found = std::find_if(branch.special.begin(), branch.special.end(),
-                                    [type](const SpecialPoint& point) { return point.type == type; });
-    return found == branch.special.end() ? nothing : found->parameter;
-}
-
-/// What is found on the branch that leaves a grazing.
-struct Leaving {
-    double fold = nothing, flip = nothing;
-};
-
-Table table_of(const Ladder& ladder, const std::vector<Leaving>& leaving, const std::string& parameter,
-               const std::string& unit) {
+Table table_of(const StoredLadder& found, const std::string& parameter, const std::string& unit) {
     Table table({{"grazing", ""}, {parameter, unit}, {"lambda", ""}, {"flip", unit}, {"fold", unit}});
-    const std::vector<SpecialPoint>& grazings = ladder.grazings();
+    const std::vector<SpecialPoint>& grazings = found.ladder.grazings();
+    const auto& leaving = found.leaving;
     for (std::size_t k = 0; k < grazings.size(); ++k) {
         table.add(static_cast<double>(k + 1));
         table.add(grazings[k].parameter);
@@ -62,14 +24,14 @@ Table table_of(const Ladder& ladder, const std::vector<Leaving>& leaving, const 
         table.add(has_ratio ? (grazings[k + 2].parameter - grazings[k + 1].parameter) /
                                   (grazings[k + 1].parameter - grazings[k].parameter)
                             : nothing);
-        table.add(k < leaving.size() ? leaving[k].flip : nothing);
-        table.add(k < leaving.size() ? leaving[k].fold : nothing);
+        table.add(k < leaving.size() ? leaving[k].flip.value_or(nothing) : nothing);
+        table.add(k < leaving.size() ? leaving[k].fold.value_or(nothing) : nothing);
     }
     return table;
 }
 
-JsonObject heading_of(const ResultFile& file, const StoredOrbit& stored, const Ladder& ladder,
-                      const ChatterLimit& limit) {
+JsonObject heading_of(const ResultFile& file, const StoredLadder& found) {
+    const auto& [stored, parameter, ladder, leaving, limit, interrupted] = found;
     JsonObject heading;
     heading.add("graze", GRAZE_VERSION);
     heading.add("file", file.path());
@@ -92,7 +54,7 @@ JsonObject heading_of(const ResultFile& file, const StoredOrbit& stored, const L
     return heading;
 }
 
-/// The limit, for people: beside the table, as messages are.
+/// Prints the end of the ladder and its limit for people, beside the table.
 void tell(const Ladder& ladder, const ChatterLimit& limit, const std::string& parameter, const Console& console) {
     if (!ladder.why().empty())
         console.err << fmt::format("graze: the ladder ends at grazing {}: {}\n", ladder.grazings().size(),
@@ -114,42 +76,32 @@ void tell(const Ladder& ladder, const ChatterLimit& limit, const std::string& pa
 
 int ladder_command(const LadderArguments& arguments, const Console& console) {
     const ResultFile file(result_path(arguments.file), ResultFile::Access::read);
-    const Place place{"POINT", 0, 0};
-    const StoredOrbit stored = find_stored_orbit(file, arguments.point, place);
-    const BranchSettings settings = settings_of(stored.run, arguments.parameter);
-    const std::size_t followed = settings.parameter.place();
-    const std::string parameter = stored.run.model.independent_parameters()[followed];
-    const std::string unit = stored.run.model.parameters[*stored.run.model.find_parameter(parameter)].unit;
-    const System system(stored.run.model);
+    LadderRequest request;
+    request.point = arguments.point;
+    request.point_place = {"POINT", 0, 0};
+    request.parameter = arguments.parameter;
+    request.parameter_place = {"--parameter", 0, 0};
+    request.grazings = static_cast<std::size_t>(arguments.rungs);
+    request.interrupted = [] { return InterruptGuard::requested(); };
     const InterruptGuard guard;
-    std::vector<Leaving> leaving;
     StatusLine line(console, console.terminal);
-    const Ladder ladder = with_place(place, [&] {
-        return climb(
-            system, stored.record.point, settings, static_cast<std::size_t>(arguments.rungs),
-            [&](std::size_t rung, const Branch& branch) {
-                leaving.push_back({first_of(branch, PointType::fold), first_of(branch, PointType::flip)});
-                if (line.is_due())
-                    line.show(fmt::format("grazing {} of {}", rung, arguments.rungs));
-                return true;
-            },
-            [] { return InterruptGuard::requested(); });
-    });
-    ChatterLimit limit;
-    if (InterruptGuard::requested())
-        limit.problem = "interrupted";
-    else
-        limit = with_place(place, [&] { return ladder.limit(); });
-    deliver(table_of(ladder, leaving, parameter, unit), arguments.output, heading_of(file, stored, ladder, limit),
-            console);
-    if (InterruptGuard::requested()) {
-        console.err << fmt::format("graze: interrupted after grazing {} of {}\n", ladder.grazings().size(),
-                                   arguments.rungs);
+    request.progress = [&](std::size_t grazing) {
+        if (line.is_due())
+            line.show(fmt::format("grazing {} of {}", grazing, arguments.rungs));
+    };
+    const StoredLadder found = stored_ladder(file, request);
+    const Model& model = found.first.run.model;
+    const std::string parameter = model.independent_parameters()[found.parameter.place()];
+    const std::string unit = model.parameters[*model.find_parameter(parameter)].unit;
+    deliver(table_of(found, parameter, unit), arguments.output, heading_of(file, found), console);
+    const std::size_t grazings = found.ladder.grazings().size();
+    if (found.interrupted) {
+        console.err << fmt::format("graze: interrupted after grazing {} of {}\n", grazings, arguments.rungs);
         return InterruptGuard::exit_code();
     }
     if (arguments.output.format == TableFormat::table)
-        tell(ladder, limit, parameter, console);
-    return ladder.grazings().size() > 1 ? exit_success : exit_irregular;
+        tell(found.ladder, found.limit, parameter, console);
+    return grazings > 1 ? exit_success : exit_irregular;
 }
 
 } // namespace graze

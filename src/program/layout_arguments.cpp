@@ -1,5 +1,6 @@
 #include "program/layout_arguments.hpp"
 
+#include "program/commands.hpp"
 #include "program/declared_option.hpp"
 
 namespace graze {
@@ -29,6 +30,7 @@ void declare_layout_command(CLI::App& app, Arguments& arguments) {
     LayoutArguments& layout = arguments.layout;
     CLI::App& command = *app.add_subcommand("layout", layout_text);
     command.footer(layout_examples);
+    arguments.add_command("layout", layout_command, arguments.layout);
     command.add_option("DESIGN", layout.design, "Name of a shipped design, or a file")->type_name("")->required();
     declare_option(command, "What is drawn", "--set", layout.set, "NAME=VALUE",
                    "Replace a number of [device], in micrometres, or of [process], in its unit; repeat for several");

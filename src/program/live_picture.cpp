@@ -1,11 +1,11 @@
 #include "program/live_picture.hpp"
 
 #include "graze/picture/figure_script.hpp"
+#include "graze/picture/record_table.hpp"
 #include "graze/record/record_file.hpp"
 #include "graze/record/section.hpp"
 #include "program/drawing.hpp"
 #include "program/process.hpp"
-#include "program/record_tables.hpp"
 
 namespace graze {
 

@@ -41,47 +41,7 @@ int dispatch(std::span<const std::string> words, const Console& console) {
     const KeptInputs kept;
     for (const CLI::App* command : app.get_subcommands())
         keep_inputs_of(*command);
-    if (app.got_subcommand("check"))
-        return check_command(arguments.check, console);
-    if (app.got_subcommand("models"))
-        return models_command(arguments.models, console);
-    if (app.got_subcommand("run"))
-        return run_command(arguments.run, console);
-    if (app.got_subcommand("help"))
-        return help_command(app, arguments.help, console);
-    if (app.got_subcommand("completion"))
-        return completion_command(app, arguments.completion, console);
-    if (app.got_subcommand("info"))
-        return info_command(arguments.info, console);
-    if (app.got_subcommand("export"))
-        return export_command(arguments.exports, console);
-    if (app.got_subcommand("plot"))
-        return plot_command(arguments.plot, console);
-    if (app.got_subcommand("points"))
-        return points_command(arguments.points, console);
-    if (app.got_subcommand("orbit"))
-        return orbit_command(arguments.orbit, console);
-    if (app.got_subcommand("ladder"))
-        return ladder_command(arguments.ladder, console);
-    if (app.got_subcommand("grazing"))
-        return grazing_command(arguments.grazing, console);
-    if (app.got_subcommand("trip"))
-        return trip_command(arguments.trip, console);
-    if (app.got_subcommand("tolerance"))
-        return tolerance_command(arguments.tolerance, console);
-    if (app.got_subcommand("design"))
-        return design_command(arguments.design, console);
-    if (app.got_subcommand("layout"))
-        return layout_command(arguments.layout, console);
-    if (app.got_subcommand("record"))
-        return record_command(arguments.record, console);
-    if (app.got_subcommand("identify"))
-        return identify_command(arguments.identify, console);
-    if (app.got_subcommand("bench"))
-        return bench_command(arguments.bench, console);
-    if (app.got_subcommand("acquire"))
-        return acquire_command(arguments.acquire, console);
-    return simulate_command(arguments.simulate, console);
+    return arguments.commands.at(app.get_subcommands().front()->get_name())(console);
 }
 
 /// Prints one line for each error, at most as many as fit a terminal.

@@ -1,5 +1,7 @@
 #include "program/record_arguments.hpp"
 
+#include "graze/picture/record_table.hpp"
+#include "program/commands.hpp"
 #include "program/declared_option.hpp"
 
 #include <string>
@@ -34,12 +36,12 @@ void declare_processing(CLI::App& command, RecordArguments& arguments) {
     stop->needs("--pass");
     declare_option(command, group, "--every", arguments.every, "N",
                    "Keep one of so many samples, without what is too fast for them")
-        ->check(whole_number(1, 1'000'000));
+        ->check(whole_number(1, RecordProcessing::most_every));
     declare_option(command, group, "--derivative", arguments.derivative, "NAME",
                    "Two channels more: the derivative of this one, and its error");
     declare_option(command, group, "--half-width", arguments.half_width, "N",
                    "Samples on each side that tell the derivative (those for which its error is least)")
-        ->check(whole_number(4, 100'000))
+        ->check(whole_number(RecordProcessing::least_half_width, RecordProcessing::most_half_width))
         ->needs("--derivative");
 }
 
@@ -60,13 +62,14 @@ void declare_tables(CLI::App& command, RecordArguments& arguments) {
                    "Sections: half a period later too, as images with the signs of these channels changed");
     declare_option(command, group, "--displacement", arguments.displacement, "NAME",
                    "Impacts: a channel whose corners tell their times");
-    declare_option(command, group, "--window", arguments.window, "N",
+    declare_option(command, group, "--window", arguments.impacts.window, "N",
                    "Impacts: samples on each side that tell velocities (12)")
-        ->check(whole_number(5, 100'000));
-    declare_option(command, group, "--transition", arguments.transition, "N",
+        ->check(whole_number(ImpactWindow::least_window, ImpactWindow::most_window));
+    declare_option(command, group, "--transition", arguments.impacts.transition, "N",
                    "Impacts: samples on each side that the impact itself disturbs (0)")
-        ->check(whole_number(0, 100'000));
-    declare_option(command, group, "--least-jump", arguments.least_jump, "VALUE", "Impacts: smaller jumps are none (0)")
+        ->check(whole_number(0, ImpactWindow::most_window));
+    declare_option(command, group, "--least-jump", arguments.impacts.least_jump, "VALUE",
+                   "Impacts: smaller jumps are none (0)")
         ->check(non_negative_number());
     declare_option(command, group, "--part", arguments.part, "N",
                    "Spectrum: averaged over parts of so many samples (the whole record as one)")
@@ -89,10 +92,6 @@ void declare_record(CLI::App& app, RecordArguments& arguments) {
 
 } // namespace
 
-std::vector<std::string> record_table_names() {
-    return {"channels", "samples", "periods", "sections", "extremes", "spectrum", "impacts"};
-}
-
 void declare_reading(CLI::App& command, RecordArguments& arguments) {
     const char* group = "What is read";
     declare_option(command, group, "--columns", arguments.columns, "NAMES",
@@ -114,6 +113,7 @@ void declare_reading(CLI::App& command, RecordArguments& arguments) {
 
 void declare_record_commands(CLI::App& app, Arguments& arguments) {
     declare_record(app, arguments.record);
+    arguments.add_command("record", record_command, arguments.record);
 }
 
 } // namespace graze

@@ -4,9 +4,6 @@
 
 namespace graze {
 
-/// What `graze record --what` makes.
-std::vector<std::string> record_table_names();
-
 /// Options that say what is read of a record.
 void declare_reading(CLI::App& command, RecordArguments& arguments);
 

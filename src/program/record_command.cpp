@@ -6,7 +6,8 @@
 #include "program/drawing.hpp"
 #include "program/interrupt.hpp"
 #include "program/output_file.hpp"
-#include "program/record_tables.hpp"
+#include "program/record_request.hpp"
+#include "program/values.hpp"
 
 #include <fmt/format.h>
 
@@ -17,29 +18,18 @@ namespace graze {
 
 namespace {
 
-/// @return the exit code
-int write_record(const RecordArguments& arguments, const Console& console) {
+/// Writes one processed record to a file. @return the exit code
+int write_processed(const RecordArguments& arguments, const Console& console) {
     if (arguments.files.size() > 1)
         throw InputError("several records cannot be written to one file", "give one record");
     const InterruptGuard guard; // a file that is half written is taken away
     FileReplacement replacement(arguments.write);
     with_place({arguments.files.front(), 0, 0}, [&] {
-        RecordStages stages(arguments.files.front(), arguments, console);
-        const std::vector<std::size_t> channels = stages.channels(arguments.channels);
-        RecordHeader header{stages.header().time, {}};
-        for (const std::size_t c : channels)
-            header.channels.push_back(stages.header().channels[c]);
+        ProcessedRecord record(arguments.files.front(), record_processing(arguments, console));
+        const std::vector<std::size_t> channels =
+            record.header().chosen_channels(split_list(arguments.channels), "--channel");
         replacement.written_by([&](const std::string& path) {
-            RecordWriter writer(path, header);
-            Samples samples, chosen;
-            while (!InterruptGuard::requested() && stages.source().read(samples)) {
-                chosen.times = samples.times;
-                chosen.values.clear();
-                for (const std::size_t c : channels)
-                    chosen.values.push_back(samples.values[c]);
-                writer.write(chosen);
-            }
-            writer.close();
+            write_record(record.source(), channels, path, [] { return InterruptGuard::requested(); });
         });
     });
     if (InterruptGuard::requested()) {
@@ -57,12 +47,14 @@ int record_command(const RecordArguments& arguments, const Console& console) {
     if (!arguments.plot.empty())
         picture_ending(arguments.plot, "--plot", {"svg", "png", "pdf", "eps"});
     if (!arguments.write.empty())
-        return write_record(arguments, console);
-    const std::unique_ptr<RecordTable> table = record_table(arguments);
+        return write_processed(arguments, console);
+    const RecordProcessing processing = record_processing(arguments, console);
+    const std::unique_ptr<RecordTable> table =
+        record_table(record_table_request(arguments), arguments.files.size() > 1);
     for (const std::string& file : arguments.files)
         with_place({file, 0, 0}, [&] {
-            RecordStages stages(file, arguments, console);
-            table->add(file, stages);
+            ProcessedRecord record(file, processing);
+            table->add(file, record);
         });
     if (!arguments.plot.empty()) {
         draw_figure(table->figure(), arguments.plot, arguments.data);

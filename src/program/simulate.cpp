@@ -3,6 +3,7 @@
 #include "graze/model/catalogue.hpp"
 #include "graze/results/model_table.hpp"
 #include "graze/results/table_recorder.hpp"
+#include "graze/study/run_length.hpp"
 #include "graze/trajectory/recorder.hpp"
 #include "graze/trajectory/trajectory.hpp"
 #include "program/commands.hpp"
@@ -10,7 +11,6 @@
 #include "program/output_file.hpp"
 #include "program/plot.hpp"
 #include "program/quantity.hpp"
-#include "program/run_length.hpp"
 #include "program/status_line.hpp"
 #include "program/values.hpp"
 
@@ -126,6 +126,20 @@ TableRequest table_request(const Model& model, const SimulateArguments& argument
     return request;
 }
 
+RunLength asked_length(const Model& model, const SimulateArguments& arguments) {
+    RunLengthRequest request;
+    if (!arguments.time.empty())
+        request.time = positive_value_of(model, arguments.time, "--time");
+    if (!arguments.after.empty())
+        request.after = positive_value_of(model, arguments.after, "--after");
+    request.periods = arguments.periods;
+    request.contacts = arguments.contact_count;
+    request.skip = arguments.skip;
+    request.phase = arguments.phase;
+    request.asked_as = "--";
+    return run_length(model, request);
+}
+
 /// The probes of the simulation: sections, extrema, then the probe that counts periods. It is the last since it ends
 /// the trajectory: events of the others at the same time are recorded before.
 std::vector<Probe> probes_for(const Model& model, const SimulateArguments& arguments, TableRequest& request,
@@ -184,7 +198,7 @@ class SimulateCommand {
 public:
     SimulateCommand(const SimulateArguments& arguments, const Console& console)
         : arguments_(arguments), console_(console), model_(prepared_model(arguments)),
-          request_(table_request(model_, arguments)), length_(run_length(model_, arguments)) {
+          request_(table_request(model_, arguments)), length_(asked_length(model_, arguments)) {
         if (request_.every && length_.shown.expected && *length_.shown.expected / *request_.every > most_samples)
             throw InputError({"--every", 0, 0}, fmt::format("there would be more than {} rows", most_samples),
                              "choose a larger distance or a shorter time");

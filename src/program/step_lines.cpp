@@ -13,8 +13,8 @@ constexpr int wide = 18, shown_digits = 10;
 
 /// The second parameter of a curve, which has a column of its own; none for branches.
 std::optional<ParameterId> second_parameter(const StudyRun& run) {
-    const bool two = run.kind == RunKind::curve && !run.branch.settings.free.empty();
-    return two ? std::optional(run.branch.settings.free.front()) : std::nullopt;
+    const bool two = run.kind == RunKind::curve && !run.branch().settings.free.empty();
+    return two ? std::optional(run.branch().settings.free.front()) : std::nullopt;
 }
 
 /// True for a monitor of the period, which has a column anyway.
@@ -26,13 +26,13 @@ bool is_period(const Monitor& monitor) {
 
 void StepLines::begin(const StudyRun& run, const std::string& part) {
     const std::vector<std::string> names = run.model.independent_parameters();
-    const std::size_t parameter = run.branch.settings.parameter.place();
+    const std::size_t parameter = run.branch().settings.parameter.place();
     std::string line = fmt::format("{:>5} {:<4} {:<6} {:>{}}", "step", "type", "label",
                                    parameter < names.size() ? names[parameter] : "parameter", wide);
     if (const auto second = second_parameter(run))
         line += fmt::format(" {:>{}}", names[second->place()], wide);
     line += fmt::format(" {:>{}} {:<6}", "period", wide, "stable");
-    for (const Monitor& monitor : run.branch.settings.monitors)
+    for (const Monitor& monitor : run.branch().settings.monitors)
         if (!is_period(monitor))
             line += fmt::format(" {:>{}}", monitor.name, wide);
     line.erase(line.find_last_not_of(' ') + 1);
@@ -55,7 +55,7 @@ void StepLines::show(const std::string& name, const OrbitRecord& record) {
     if (const auto second = second_parameter(*run))
         line += fmt::format(" {:>{}.{}g}", point.solution.orbit.parameters[second->place()], wide, shown_digits);
     line += fmt::format(" {:>{}.{}g} {:<6}", point.solution.orbit.period(), wide, shown_digits, stable);
-    const std::vector<Monitor>& monitors = run->branch.settings.monitors;
+    const std::vector<Monitor>& monitors = run->branch().settings.monitors;
     for (std::size_t m = 0; m < std::min(monitors.size(), point.monitors.size()); ++m)
         if (!is_period(monitors[m]))
             line += fmt::format(" {:>{}.{}g}", point.monitors[m], wide, shown_digits);

@@ -1,6 +1,7 @@
 #include "program/study_arguments.hpp"
 
 #include "graze/study/study_keys.hpp"
+#include "program/commands.hpp"
 #include "program/declared_option.hpp"
 
 #include <map>
@@ -167,9 +168,13 @@ void declare_plot_results(CLI::App& app, PlotArguments& arguments) {
 
 void declare_study_commands(CLI::App& app, Arguments& arguments) {
     declare_run(app, arguments.run);
+    arguments.add_command("run", run_command, arguments.run);
     declare_info(app, arguments.info);
+    arguments.add_command("info", info_command, arguments.info);
     declare_export(app, arguments.exports);
+    arguments.add_command("export", export_command, arguments.exports);
     declare_plot_results(app, arguments.plot);
+    arguments.add_command("plot", plot_command, arguments.plot);
 }
 
 } // namespace graze

@@ -1,11 +1,9 @@
 #include "graze/base/input_error.hpp"
 #include "graze/base/with_place.hpp"
-#include "graze/branch/curve_start.hpp"
 #include "graze/branch/yield.hpp"
 #include "graze/picture/figure_script.hpp"
 #include "graze/picture/yield_picture.hpp"
-#include "graze/results/orbit_motion.hpp"
-#include "graze/results/stored_orbit.hpp"
+#include "graze/results/located_point.hpp"
 #include "program/commands.hpp"
 #include "program/drawing.hpp"
 #include "program/empty_cell.hpp"
@@ -27,65 +25,13 @@ namespace graze {
 
 namespace {
 
-/// What has been found at a point.
-struct Findings {
-    StoredOrbit stored;
-    Model model; ///< at the point's parameters
-    SpecialPoint point;
-    std::vector<std::string> names; ///< of the independent parameters
-    ParameterId control{};
-    std::optional<LocatedValue> located{};
+/// The point, and the yield if tolerances were given.
+struct Findings : LocatedPoint {
     YieldSettings settings{};
     std::optional<Yield> yield{};
-
-    const std::string& name_of_control() const { return names[control.place()]; }
-    std::string unit() const { return model.parameters[*model.find_parameter(name_of_control())].unit; }
 };
 
-/// The point as one whose condition can be held: of several, what it is first.
-SpecialPoint with_condition(const SpecialPoint& point) {
-    if (kind_of(point.type).may_be_kept)
-        return point;
-    const std::vector<PointType> known = curves_at(point);
-    if (known.empty())
-        throw InputError(Place{"POINT", 0, 0},
-                         fmt::format("nothing that could be held happens at a point of type {} ({})",
-                                     short_name(point.type), name_of(point.type)),
-                         "choose a grazing (GR), fold (SN) or flip (PD), or a point of a curve of such");
-    return as_type(point, known.front());
-}
-
-/// What was asked for, or what the run follows; on a curve first the parameter that was freed.
-std::vector<ParameterId> parameters_of(const StoredRun& run, const std::string& asked) {
-    if (!asked.empty())
-        return {asked_parameter(run.model, asked)};
-    std::vector<ParameterId> result;
-    if (run.record.kind == "curve" && run.record.coordinates.size() > 1)
-        result.push_back(run.model.independent_parameter(run.record.coordinates[1].name));
-    if (const std::string followed = followed_parameter(run.record); !followed.empty())
-        result.push_back(run.model.independent_parameter(followed));
-    if (result.empty())
-        throw InputError(Place{"POINT", 0, 0}, fmt::format("run '{}' follows no parameter", run.record.name),
-                         "say whose value follows from the others: --parameter NAME");
-    return result;
-}
-
-/// The first of the parameters on which the point depends.
-void locate(Findings& found, const System& system, const std::string& asked) {
-    const std::vector<ParameterId> candidates = parameters_of(found.stored.run, asked);
-    for (const ParameterId one : candidates) {
-        found.control = one;
-        try {
-            found.located.emplace(system, found.point, one, parameters_but(found.model, one));
-            return;
-        } catch (const InputError& error) {
-            if (one == candidates.back())
-                throw InputError(Place{"POINT", 0, 0}, error.problem(), error.remedy());
-        }
-    }
-}
-
-/// NAME=SIZE, NAME=SIZE%, NAME=SIZE:uniform
+/// Reads NAME=SIZE, NAME=SIZE% or NAME=SIZE:uniform.
 Tolerance tolerance_of(const Findings& found, const std::string& text) {
     const Place place{fmt::format("--vary {}", text), 0, 0};
     const std::size_t equals = text.find('='), colon = text.rfind(':');
@@ -120,7 +66,7 @@ Tolerance tolerance_of(const Findings& found, const std::string& text) {
     }
     if (result.size < 0)
         throw InputError(place, "a tolerance below zero", "give its size");
-    if (result.parameter == found.control)
+    if (result.parameter == found.located.control())
         throw InputError(place, fmt::format("'{}' is the parameter whose value follows from the others", name),
                          "vary others, or choose another one by --parameter");
     return result;
@@ -152,21 +98,22 @@ void set_yield(Findings& found, const System& system, const ToleranceArguments& 
         if (line.is_due())
             line.show(fmt::format("device {} of {}", devices, arguments.devices));
     };
-    found.yield = with_place({"--vary", 0, 0}, [&] { return yield_of(system, found.point, found.control, settings); });
+    found.yield =
+        with_place({"--vary", 0, 0}, [&] { return yield_of(system, found.point, found.located.control(), settings); });
 }
 
-/// Derivatives by all parameters, and what those that vary contribute.
+/// Derivatives by all parameters, and the contributions of those with tolerances.
 Table derivatives_of(const Findings& found) {
-    const LocatedValue& located = *found.located;
-    std::vector<Table::Column> columns{
-        {"parameter", ""}, {"value", ""}, {"d" + found.name_of_control(), ""}, {"relative", ""}};
+    const LocatedValue& located = found.located;
+    std::vector<Table::Column> columns{{"parameter", ""}, {"value", ""}, {"d" + found.name, ""}, {"relative", ""}};
     if (found.yield)
         for (const char* name : {"deviation", "effect", "share"})
             columns.push_back({name, ""});
     Table table(columns);
+    const std::vector<std::string> names = found.model.independent_parameters();
     for (std::size_t i = 0; i < located.others().size(); ++i) {
         const ParameterId parameter = located.others()[i];
-        table.add(found.names[parameter.place()]);
+        table.add(names[parameter.place()]);
         table.add(located.values()[i]);
         table.add(located.derivatives()[i]);
         table.add(located.value() != 0 ? located.derivatives()[i] * located.values()[i] / located.value() : nothing);
@@ -185,7 +132,7 @@ Table derivatives_of(const Findings& found) {
     return table;
 }
 
-/// One row of statistics; members of a JSON object say the same.
+/// Statistics as rows of a table and as members of a JSON object.
 class Statistics {
 public:
     Statistics() : table_({{"quantity", ""}, {"value", ""}, {"low", ""}, {"high", ""}, {"meaning", ""}}) {}
@@ -219,7 +166,7 @@ private:
 Statistics statistics_of(const Findings& found) {
     const Yield& yield = *found.yield;
     Statistics result;
-    result.add("nominal", yield.nominal, fmt::format("{} without tolerances", found.name_of_control()));
+    result.add("nominal", yield.nominal, fmt::format("{} without tolerances", found.name));
     result.add("devices", static_cast<double>(yield.made), "that were made");
     result.add("found", static_cast<double>(yield.found), "with a value; what follows is of them");
     result.add("inadmissible", static_cast<double>(yield.inadmissible), "of which something else happens first");
@@ -247,9 +194,9 @@ JsonObject heading_of(const ResultFile& file, const Findings& found) {
     heading.add("number", static_cast<double>(record.number));
     heading.add("label", record.label);
     heading.add("type", short_name(found.point.type));
-    heading.add("parameter", found.name_of_control());
-    heading.add("unit", found.unit());
-    heading.add("value", found.located->value());
+    heading.add("parameter", found.name);
+    heading.add("unit", found.unit);
+    heading.add("value", found.located.value());
     if (!found.yield)
         return heading;
     heading.add("seed", static_cast<double>(found.settings.seed));
@@ -265,15 +212,15 @@ JsonObject heading_of(const ResultFile& file, const Findings& found) {
     return heading;
 }
 
-/// For people both tables; as CSV the one that was asked for.
+/// Prints both tables for people; as CSV the derivatives, or the statistics if there are tolerances.
 void show(const ResultFile& file, const Findings& found, const OutputArguments& output, const Console& console) {
     std::ostringstream text;
     const Console inner{text, console.err, console.terminal, console.cursor, console.width};
     OutputArguments here = output;
     here.file.clear();
     if (output.format == TableFormat::table)
-        text << fmt::format("{} = {:.{}g}{}{}\n\n", found.name_of_control(), found.located->value(),
-                            output.shown_digits(), found.unit().empty() ? "" : " ", found.unit());
+        text << fmt::format("{} = {:.{}g}{}{}\n\n", found.name, found.located.value(), output.shown_digits(),
+                            found.unit.empty() ? "" : " ", found.unit);
     if (output.format != TableFormat::csv || !found.yield)
         deliver(derivatives_of(found), here, heading_of(file, found), inner);
     if (output.format == TableFormat::table && found.yield)
@@ -288,7 +235,7 @@ void show(const ResultFile& file, const Findings& found, const OutputArguments& 
     }
 }
 
-/// What has gone wrong with some, beside the tables.
+/// Prints why devices failed, beside the tables.
 void tell(const Yield& yield, const Console& console) {
     constexpr std::size_t most = 5;
     for (std::size_t i = 0; i < std::min(most, yield.problems.size()); ++i)
@@ -312,13 +259,8 @@ void require_devices(const ToleranceArguments& arguments) {
 int tolerance_command(const ToleranceArguments& arguments, const Console& console) {
     require_devices(arguments);
     const ResultFile file(result_path(arguments.file), ResultFile::Access::read);
-    StoredOrbit stored = find_stored_orbit(file, arguments.point, {"POINT", 0, 0});
-    const SpecialPoint point = with_condition(stored.record.point);
-    Model model = model_at(stored.run.model, point.solution.orbit);
-    std::vector<std::string> names = model.independent_parameters();
-    Findings found{.stored = std::move(stored), .model = std::move(model), .point = point, .names = std::move(names)};
+    Findings found{located_point(file, arguments.point, arguments.parameter, {"POINT", 0, 0}, {"--parameter", 0, 0})};
     const System system(found.stored.run.model);
-    locate(found, system, arguments.parameter);
     const InterruptGuard guard;
     if (!arguments.vary.empty())
         set_yield(found, system, arguments, console);
@@ -327,8 +269,7 @@ int tolerance_command(const ToleranceArguments& arguments, const Console& consol
         return exit_success;
     tell(*found.yield, console);
     if (!arguments.plot.empty() && !found.yield->interrupted)
-        draw_figure(yield_picture(*found.yield, found.name_of_control(), found.unit(), found.settings.least,
-                                  found.settings.greatest),
+        draw_figure(yield_picture(*found.yield, found.name, found.unit, found.settings.least, found.settings.greatest),
                     arguments.plot, arguments.data);
     if (found.yield->interrupted) {
         console.err << fmt::format("graze: interrupted; {} of {} devices were made\n", found.yield->made,

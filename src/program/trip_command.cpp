@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -24,15 +23,7 @@ namespace graze {
 
 namespace {
 
-/// All rows of one point: of a touch, or of a fold.
-struct Trips {
-    AskedTrip asked;
-    std::vector<OvershootTrip> of_touch{};
-    std::vector<FoldTrip> of_fold{};
-    std::vector<std::string> lacks{}; ///< what has not come to its end
-};
-
-/// Those asked for, or ten from 1e-2 to 1e-20 of the size of the parameter, on the side on which the motion is lost.
+/// The overshoots that are asked for, or the usual ones on the side on which the motion is lost.
 std::vector<double> overshoots_of(const LossPoint& point, const std::vector<std::string>& asked) {
     std::vector<double> values = numbers_by_decades(point.model(), asked, "--overshoot");
     if (!values.empty())
@@ -46,44 +37,27 @@ TripOptions options_of(const LossPoint& point, const TripArguments& arguments) {
     options.cycles = static_cast<double>(arguments.cycles.value_or(usual));
     options.disturbance = disturbance_of(point.model(), arguments.disturbances);
     options.interrupted = [] { return InterruptGuard::requested(); };
-    if (point.fold && !options.disturbance.empty())
-        throw InputError(Place{"--disturbance", 0, 0}, "a passage through a fold begins before it",
-                         "leave it out, or choose a touch (GR)");
     return options;
 }
 
-/// One more row. @return false when it was interrupted
-bool add_row(Trips& trips, double overshoot, const TripOptions& options) {
-    const auto& [stored, point, end] = trips.asked;
-    const TripTime* unfinished = nullptr;
-    if (point.fold) {
-        trips.of_fold.push_back(trip_of_fold(point.system, *point.fold, overshoot, end.end, !end.given, options));
-        const std::optional<SimulatedPassage>& passage = trips.of_fold.back().passage;
-        if (passage && !(end.given ? passage->trip.ended : passage->passed))
-            unfinished = &passage->trip;
-    } else {
-        trips.of_touch.push_back(trip_of_touch(point.system, point.map, point.verdict, point.parameter, overshoot,
-                                               level_until(point, end.end), end.end, options));
-        if (!trips.of_touch.back().continued->ended)
-            unfinished = &*trips.of_touch.back().continued;
-    }
-    if (InterruptGuard::requested()) {
-        point.fold ? trips.of_fold.pop_back() : trips.of_touch.pop_back();
-        return false;
-    }
-    if (unfinished)
-        trips.lacks.push_back(fmt::format("the trip at the overshoot {:g} has not come to its end: {}", overshoot,
-                                          why_not(*unfinished, "give more --cycles, or another end by --until")));
-    return true;
+/// Messages about trips that have not come to their end.
+std::vector<std::string> lacks_of(const OvershootTrips& trips) {
+    std::vector<std::string> lacks;
+    for (std::size_t i = 0; i < trips.size(); ++i)
+        if (const TripTime* const unfinished = trips.unfinished(i))
+            lacks.push_back(fmt::format("the trip at the overshoot {:g} has not come to its end: {}",
+                                        trips.point.fold ? trips.of_fold[i].overshoot : trips.of_touch[i].overshoot,
+                                        why_not(*unfinished, "give more --cycles, or another end by --until")));
+    return lacks;
 }
 
-/// A number of the table: missing where the end has not come.
+/// A cell of the table: empty where the end has not come.
 double if_ended(const TripTime& trip, double value) {
     return trip.ended ? value : nothing;
 }
 
-Table table_of_touch(const Trips& trips) {
-    const LossPoint& point = trips.asked.point;
+Table table_of_touch(const OvershootTrips& trips) {
+    const LossPoint& point = trips.point;
     const std::string& time = point.model().time_unit;
     Table table({{"overshoot", point.unit},
                  {"first_speed", ""},
@@ -106,9 +80,9 @@ Table table_of_touch(const Trips& trips) {
     return table;
 }
 
-Table table_of_fold(const Trips& trips) {
-    const LossPoint& point = trips.asked.point;
-    const bool until_end = trips.asked.end.given;
+Table table_of_fold(const OvershootTrips& trips) {
+    const LossPoint& point = trips.point;
+    const bool until_end = trips.end.given;
     const std::string& time = point.model().time_unit;
     std::vector<Table::Column> columns{{"overshoot", point.unit}, {"cycles", ""},           {"time", time},
                                        {"gate_cycles", ""},       {"simulated_cycles", ""}, {"simulated_time", time}};
@@ -132,108 +106,25 @@ Table table_of_fold(const Trips& trips) {
     return table;
 }
 
-/// What a row says first of all, of a touch as of a fold: by the map or the normal form, and by simulation.
-struct Summary {
-    double overshoot = 0, cycles = nothing, time = nothing, end_time = nothing;
-};
-std::vector<Summary> summaries_of(const Trips& trips) {
-    std::vector<Summary> result;
-    for (const OvershootTrip& row : trips.of_touch)
-        result.push_back({row.overshoot, if_ended(*row.predicted, row.predicted->cycles),
-                          if_ended(*row.predicted, row.predicted->time),
-                          if_ended(*row.continued, row.continued->time)});
-    for (const FoldTrip& row : trips.of_fold) {
-        Summary& one =
-            result.emplace_back(Summary{row.overshoot, row.cycles, row.cycles * trips.asked.point.cycle, nothing});
-        if (row.passage && trips.asked.end.given)
-            one.end_time = if_ended(row.passage->trip, row.passage->trip.time);
-        else if (row.passage && row.passage->passed)
-            one.end_time = row.passage->time;
-    }
-    return result;
-}
-
-Table table_of_both(const Trips& one, const Trips& other) {
-    const std::string &time = one.asked.point.model().time_unit, &other_time = other.asked.point.model().time_unit;
-    Table table({{"overshoot", one.asked.point.unit},
+Table table_of_both(const OvershootTrips& one, const OvershootTrips& other) {
+    const std::string &time = one.point.model().time_unit, &other_time = other.point.model().time_unit;
+    Table table({{"overshoot", one.point.unit},
                  {"cycles", ""},
                  {"time", time},
                  {"end_time", time},
                  {"beside_cycles", ""},
                  {"beside_time", other_time},
                  {"beside_end_time", other_time}});
-    const std::vector<Summary> rows = summaries_of(one), others = summaries_of(other);
+    const std::vector<TripSummary> rows = one.summaries(), others = other.summaries();
     for (std::size_t i = 0; i < std::min(rows.size(), others.size()); ++i) {
         table.add(rows[i].overshoot);
-        for (const Summary& summary : {rows[i], others[i]}) {
+        for (const TripSummary& summary : {rows[i], others[i]}) {
             table.add(summary.cycles);
             table.add(summary.time);
             table.add(summary.end_time);
         }
     }
     return table;
-}
-
-void add_touch(FigurePanel& panel, const Trips& trips, const std::string& which) {
-    const AskedTrip& asked = trips.asked;
-    const std::string level = fmt::format("speed {:.4g}", level_until(asked.point, asked.end.end));
-    const std::string& end = asked.end.words;
-    std::vector<std::pair<double, TripTime>> map, continued;
-    FigureSeries simulated = series_of(which + "simulation alone, until " + end, FigureSeries::Style::circles, 2);
-    for (const OvershootTrip& row : trips.of_touch) {
-        const double x = std::abs(row.overshoot);
-        if (x == 0) // has no place on the axis
-            continue;
-        if (row.predicted->ended)
-            map.emplace_back(x, *row.predicted);
-        if (row.continued->ended)
-            continued.emplace_back(x, *row.continued);
-        if (row.simulated && row.simulated->ended)
-            simulated.points.push_back({x, row.simulated->time});
-    }
-    constexpr int disc = 7, triangle = 9; // gnuplot's symbols
-    add_trips(panel, map, which + "map, until " + level, 0, triangle);
-    add_trips(panel, continued, which + "map, then simulation, until " + end, 1, disc);
-    panel.series.push_back(std::move(simulated));
-}
-
-void add_fold(FigurePanel& panel, const Trips& trips, const std::string& which) {
-    FigureSeries form = series_of(which + "normal form, from far away", FigureSeries::Style::dashed, 3);
-    FigureSeries gated = series_of(which + "normal form, from gate to gate", FigureSeries::Style::line, 3);
-    FigureSeries simulated =
-        series_of(which + "simulation, until " + trips.asked.end.words, FigureSeries::Style::circles, 4);
-    for (const Summary& summary : summaries_of(trips)) {
-        form.points.push_back({std::abs(summary.overshoot), summary.time});
-        if (std::isfinite(summary.end_time))
-            simulated.points.push_back({std::abs(summary.overshoot), summary.end_time});
-    }
-    for (const FoldTrip& row : trips.of_fold)
-        gated.points.push_back({std::abs(row.overshoot), row.gate_cycles * trips.asked.point.cycle});
-    panel.series.insert(panel.series.end(), {form, gated, simulated});
-}
-
-Figure figure_of(const std::vector<Trips>& all) {
-    const LossPoint& point = all.front().asked.point;
-    FigurePanel panel;
-    panel.x_label = point.name + (point.side > 0 ? " beyond its " : " short of its ") + point.kind();
-    if (all.size() > 1)
-        panel.x_label = "distance of " + point.name;
-    panel.x_unit = point.unit;
-    panel.y_label = "time";
-    panel.y_unit = point.model().time_unit;
-    panel.logarithmic_x = true;
-    panel.roomy_x = panel.roomy_y = true;
-    for (const Trips& trips : all) {
-        const std::string which = all.size() > 1 ? std::string(trips.asked.point.kind()) + ": " : "";
-        panel.logarithmic_y = panel.logarithmic_y || trips.asked.point.fold;
-        if (trips.asked.point.fold)
-            add_fold(panel, trips, which);
-        else
-            add_touch(panel, trips, which);
-    }
-    Figure figure;
-    figure.panels.push_back(std::move(panel));
-    return figure;
 }
 
 void require_drawable(const std::vector<double>& overshoots) {
@@ -252,39 +143,40 @@ int trip_command(const TripArguments& arguments, const Console& console) {
         return disturbed_trips(file, arguments, console);
     if (!arguments.at.empty())
         throw InputError(Place{"--at", 0, 0}, "nothing changes in time", "give --ramp, --wave or --noise too");
-    std::vector<Trips> all;
-    all.push_back({asked_trip(file, arguments.point, arguments, "POINT")});
+    std::vector<AskedTrip> asked{asked_trip(file, arguments.point, arguments, "POINT")};
     if (!arguments.beside.empty())
-        all.push_back({asked_trip(file, arguments.beside, arguments, "--beside")});
-    const LossPoint& first = all.front().asked.point;
+        asked.push_back(asked_trip(file, arguments.beside, arguments, "--beside"));
+    const LossPoint& first = asked.front().point;
     const std::vector<double> overshoots = overshoots_of(first, arguments.overshoots);
     if (!arguments.plot.empty())
         require_drawable(overshoots);
     const InterruptGuard guard;
-    bool interrupted = false;
+    std::vector<OvershootTrips> all;
     std::vector<std::string> lacks;
-    for (Trips& trips : all) {
-        const LossPoint& point = trips.asked.point;
-        const TripOptions options = options_of(point, arguments);
-        for (std::size_t i = 0; i < overshoots.size() && !interrupted; ++i) {
-            const bool own = &trips == &all.front();
-            interrupted = !add_row(trips, own ? overshoots[i] : point.side * std::abs(overshoots[i]), options);
-        }
-        lacks.insert(lacks.end(), trips.lacks.begin(), trips.lacks.end());
+    for (const AskedTrip& one : asked) {
+        std::vector<double> own = overshoots;
+        for (double& overshoot : own)
+            overshoot = &one == &asked.front() ? overshoot : one.point.side * std::abs(overshoot);
+        if (!all.empty() && all.front().interrupted)
+            own.clear();
+        all.push_back(overshoot_trips(one.point, one.end, own, options_of(one.point, arguments), "--"));
+        const std::vector<std::string> here = lacks_of(all.back());
+        lacks.insert(lacks.end(), here.begin(), here.end());
     }
+    const bool interrupted = all.front().interrupted || all.back().interrupted;
     if (arguments.plot.empty() || interrupted) {
-        const Trips& one = all.front();
+        const OvershootTrips& one = all.front();
         const Table table = all.size() > 1 ? table_of_both(one, all.back())
                             : first.fold   ? table_of_fold(one)
                                            : table_of_touch(one);
-        deliver(table, arguments.output, heading_of(file, one.asked), console);
+        deliver(table, arguments.output, heading_of(file, asked.front()), console);
     } else {
-        draw_figure(figure_of(all), arguments.plot, arguments.data);
+        draw_figure(trip_figure(all), arguments.plot, arguments.data);
         console.out << arguments.plot << '\n';
     }
     if (interrupted) {
-        console.err << fmt::format("graze: interrupted; {} of {} overshoots are done\n",
-                                   all.back().of_touch.size() + all.back().of_fold.size(), overshoots.size());
+        console.err << fmt::format("graze: interrupted; {} of {} overshoots are done\n", all.back().size(),
+                                   overshoots.size());
         return InterruptGuard::exit_code();
     }
     tell_lacks(lacks, console);

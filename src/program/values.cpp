@@ -127,14 +127,6 @@ double positive_value_of(const Model& model, std::string_view text, const std::s
     return value;
 }
 
-ParameterId asked_parameter(const Model& model, const std::string& name) {
-    try {
-        return model.independent_parameter(name);
-    } catch (const InputError& error) {
-        throw InputError(Place{"--parameter", 0, 0}, error.problem(), error.remedy());
-    }
-}
-
 void set_parameters(Model& model, const std::vector<std::string>& assignments) {
     for (const Assignment& assignment : all_assignments(assignments, "--set", &model)) {
         if (!model.find_parameter(assignment.name) && model.find_state(assignment.name))

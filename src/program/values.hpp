@@ -21,9 +21,6 @@ double value_of(const Model& model, std::string_view text, const std::string& op
 /// The same, and positive. @throws InputError
 double positive_value_of(const Model& model, std::string_view text, const std::string& option);
 
-/// The independent parameter that `--parameter NAME` names. @throws InputError for other names
-ParameterId asked_parameter(const Model& model, const std::string& name);
-
 /// Sets parameters by `--set NAME=EXPRESSION ...`, one after the other; `@FILE` sets all values in a file of
 /// parameters, which later assignments replace. @throws InputError, also for a file of another model
 void set_parameters(Model& model, const std::vector<std::string>& assignments);

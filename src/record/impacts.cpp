@@ -238,6 +238,15 @@ bool ImpactFinder::next(std::vector<RecordedImpact>& impacts) {
     return true;
 }
 
+ImpactSettings impact_settings(const RecordHeader& header, const std::string& velocity, const std::string& displacement,
+                               const ImpactWindow& window, const std::string& asked_as) {
+    ImpactSettings settings{window};
+    settings.velocity = header.channel(velocity, asked_as + "channel");
+    if (!displacement.empty())
+        settings.displacement = header.channel(displacement, asked_as + "displacement");
+    return settings;
+}
+
 std::vector<RecordedImpact> find_impacts(SampleSource& source, const ImpactSettings& settings) {
     constexpr std::size_t most = 1'000'000;
     ImpactFinder finder(borrowed(source), settings);

@@ -204,4 +204,26 @@ void RecordWriter::close() {
     last->close();
 }
 
+bool write_record(SampleSource& source, const std::vector<std::size_t>& channels, const std::string& path,
+                  const std::function<bool()>& interrupted) {
+    RecordHeader header{source.header().time, {}};
+    for (const std::size_t c : channels) {
+        require_index(c, source.header().channels.size(), "channel");
+        header.channels.push_back(source.header().channels[c]);
+    }
+    RecordWriter writer(path, header);
+    Samples samples, chosen;
+    bool stopped = interrupted && interrupted();
+    while (!stopped && source.read(samples)) {
+        chosen.times = samples.times;
+        chosen.values.clear();
+        for (const std::size_t c : channels)
+            chosen.values.push_back(samples.values[c]);
+        writer.write(chosen);
+        stopped = interrupted && interrupted();
+    }
+    writer.close();
+    return !stopped;
+}
+
 } // namespace graze

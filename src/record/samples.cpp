@@ -12,6 +12,16 @@
 
 namespace graze {
 
+std::vector<std::size_t> RecordHeader::chosen_channels(const std::vector<std::string>& names,
+                                                       std::string_view asked) const {
+    std::vector<std::size_t> chosen;
+    for (const std::string& name : names)
+        chosen.push_back(channel(name, asked));
+    for (std::size_t c = 0; names.empty() && c < channels.size(); ++c)
+        chosen.push_back(c);
+    return chosen;
+}
+
 std::size_t RecordHeader::channel(std::string_view name, std::string_view asked) const {
     std::vector<std::string> names;
     for (const Channel& one : channels)

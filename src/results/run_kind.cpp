@@ -8,8 +8,8 @@ namespace graze {
 
 namespace {
 
-/// What the points of a run are.
-enum class Points { motions, one_orbit, orbits, measured };
+/// What the points of runs of a kind are.
+enum class Points { motions, attractors, one_orbit, orbits, measured };
 
 struct KindOfRun {
     const char* name;
@@ -18,8 +18,8 @@ struct KindOfRun {
 
 /// In the order of RunKind.
 constexpr std::array all_kinds{
-    KindOfRun{"simulate", Points::motions},  KindOfRun{"sweep", Points::motions},
-    KindOfRun{"basin", Points::motions},     KindOfRun{"orbit", Points::one_orbit},
+    KindOfRun{"simulate", Points::motions},  KindOfRun{"sweep", Points::attractors},
+    KindOfRun{"basin", Points::attractors},  KindOfRun{"orbit", Points::one_orbit},
     KindOfRun{"continue", Points::orbits},   KindOfRun{"curve", Points::orbits},
     KindOfRun{"ladder", Points::orbits},     KindOfRun{"record", Points::measured},
     KindOfRun{"identify", Points::measured},
@@ -54,7 +54,11 @@ std::optional<RunKind> run_kind(std::string_view name) {
 }
 
 bool has_motions(RunKind kind) {
-    return has(kind, Points::motions);
+    return has(kind, Points::motions) || seeks_attractors(kind);
+}
+
+bool seeks_attractors(RunKind kind) {
+    return has(kind, Points::attractors);
 }
 
 bool is_followed(RunKind kind) {

@@ -7,14 +7,14 @@
 
 namespace graze {
 
-/// A run as it was asked for, in words: all of it but the model.
+/// A run as it was asked for, without its model, as texts.
 struct AskedRun {
     std::string name, kind, settings, version;
-    std::string file = {};               ///< that says so
-    std::vector<std::string> units = {}; ///< of its values, or monitors
+    std::string file = {};               ///< from which these texts come, for messages
+    std::vector<std::string> units = {}; ///< of its values; of branches, of its monitors
 };
 
-/// The run of these words. @throws InputError when the settings cannot be read, or are of another version with more of
+/// Makes the run. @throws InputError when the settings cannot be read, or come from another version that has more of
 /// them
 StudyRun run_of(const AskedRun& asked, Model model);
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double generator_frequency = 1000; ///< Hz, as after it is switched on
 constexpr double largest_amplitude = 5;      ///< V, half of what the generator gives from peak to peak
-constexpr std::size_t part = 8192;           ///< samples, after which somebody is asked whether to go on
+constexpr std::size_t part = 8192;           ///< samples between two questions whether to go on
 
 } // namespace
 
@@ -27,7 +27,7 @@ void BenchRecords::begin(std::size_t number) {
     settings.amplitude.parameter = settings.model.independent_parameter(bench_->parameter);
     factor_ = largest / largest_amplitude;
     settings.amplitude.factor = factor_;
-    // What is not stepped keeps the value that it has.
+    // The other parameter keeps its value.
     const std::size_t other = settings.amplitude.parameter.place() == 0 ? 1 : 0;
     settings.frequency.parameter = settings.model.independent_parameter(names[other]);
     settings.frequency.factor = settings.model.parameter_values()[other] / generator_frequency;
@@ -65,7 +65,7 @@ bool BenchRecords::take(std::size_t number, const std::function<bool()>& interru
                 "levels may be from 1/200 of the largest one up to it; with carry = false any");
         drive(amplitude);
     }
-    // In parts as long as those of the samples, so that one can break off.
+    // In parts as long as those of the samples, so that settling can be interrupted.
     const double stretch = static_cast<double>(part) / bench_->rate;
     for (double left = bench_->settle; left > 0; left -= stretch) {
         if (interrupted && interrupted())
@@ -99,7 +99,7 @@ std::optional<Samples> BenchRecords::record(std::size_t number, const std::funct
             instrument_.reset();
             return std::nullopt;
         }
-    // Each record counts its time from its own beginning.
+    // The time of each record begins at zero.
     const double begin = samples.times.front();
     for (double& time : samples.times)
         time -= begin;

@@ -11,8 +11,8 @@
 
 namespace graze {
 
-/// Records of a virtual bench whose motion goes on from level to level, or begins anew at each. The same ones come
-/// whichever of them are asked for: those before are then gone through without being kept.
+/// Records of a virtual bench whose motion goes on from level to level, or begins anew at each level. A record does not
+/// depend on which others are asked for: where the motion goes on, the levels before it are passed without being kept.
 class BenchRecords {
 public:
     /// @param bench must outlive this

@@ -24,7 +24,6 @@ void PointWriter::end(const std::string& why) {
     flush();
 }
 
-/// Says so of a point that an earlier part has as well.
 void PointWriter::flush() {
     if (!waiting_)
         return;
@@ -32,9 +31,9 @@ void PointWriter::flush() {
     record.number = report_->points++;
     if (record.point.type != PointType::regular) {
         record.label = point_label(record.point.type, ++counts_[record.point.type]);
-        note_twin(record);
+        note_image(record);
     }
-    if (run_->branch.touches)
+    if (run_->branch().touches)
         record.touch = findings_at(*run_, record.point);
     file_->with([&](ResultFile& results) {
         results.add_orbit(run_->name, record);
@@ -45,26 +44,26 @@ void PointWriter::flush() {
     waiting_.reset();
 }
 
-/// Says so of a point that an earlier part has as well.
-void PointWriter::note_twin(OrbitRecord& record) {
+/// Notes in the detail of a point that it is the symmetric image of a point of an earlier part.
+void PointWriter::note_image(OrbitRecord& record) {
     const auto alike = [](double one, double other) {
         return std::abs(one - other) <= same_point * std::max(std::abs(one), std::abs(other));
     };
-    for (const OrbitRecord& other : twin_.empty() ? std::vector<OrbitRecord>() : special_)
-        if (other.part == twin_ && other.point.type == record.point.type &&
+    for (const OrbitRecord& other : image_of_.empty() ? std::vector<OrbitRecord>() : special_)
+        if (other.part == image_of_ && other.point.type == record.point.type &&
             alike(other.point.parameter, record.point.parameter) &&
             alike(other.point.solution.orbit.period(), record.point.solution.orbit.period())) {
             std::string& detail = record.point.detail;
             detail = fmt::format("twin of {}{}{}", other.label, detail.empty() ? "" : "; ", detail);
             return;
         }
-    if (twin_.empty())
+    if (image_of_.empty())
         special_.push_back(record);
 }
 
 namespace {
 
-/// @param again whether an earlier part of the run has the same first point, which is an end of neither
+/// @param again an earlier part of the run has the same first point, which therefore ends neither of them
 SpecialPoint regular_point(const BranchPoint& point, bool again) {
     SpecialPoint result;
     result.type = point.step == 0 && !again ? PointType::end : PointType::regular;
@@ -80,7 +79,7 @@ SpecialPoint regular_point(const BranchPoint& point, bool again) {
     return result;
 }
 
-/// An orbit from which no branch could be begun, for the file to say so.
+/// The point that is stored where no branch can be begun.
 SpecialPoint failed_start(const BranchPart& part, const StudyRun& run, const std::string& why) {
     SpecialPoint point;
     point.type = PointType::end;
@@ -89,12 +88,12 @@ SpecialPoint failed_start(const BranchPart& part, const StudyRun& run, const std
     point.solution.orbit = part.orbit;
     point.solution.certificate.admissible = false;
     point.solution.certificate.reason = "no orbit was found";
-    point.parameter = part.orbit.parameters[run.branch.settings.parameter.place()];
+    point.parameter = part.orbit.parameters[run.branch().settings.parameter.place()];
     point.bracket = {unknown_value, unknown_value};
     return point;
 }
 
-/// Whether a curve has not left its point, from which it leads the other way or nowhere.
+/// True when a curve has not left its point: it leads in the other direction, or nowhere.
 bool stays_at_start(const BranchPart& part, const OrbitBranch& branch) {
     return part.kept && branch.point().step == 0 && branch.outcome() != BranchOutcome::bound;
 }

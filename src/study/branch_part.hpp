@@ -16,66 +16,67 @@
 
 namespace graze {
 
-/// Of a point: NULL in the file.
+/// A value of a point that is not known, which is NULL in the file.
 inline constexpr double unknown_value = std::numeric_limits<double>::quiet_NaN();
 
-/// A branch, or half of one, that a run follows.
+/// A branch that a run follows from an orbit in one direction.
 struct BranchPart {
     std::string name;
     Orbit orbit;
-    std::optional<BranchStart> onto; ///< along this rather than along the branch through the orbit
+    std::optional<BranchStart> onto; ///< the branch that begins so is followed, rather than that through the orbit
     int direction = 1;
-    bool again = false; ///< another part has begun at the same orbit
-    std::string twin;   ///< of which part its orbits are images under the symmetry; empty: of none
+    bool again = false;   ///< another part of the run begins at the same orbit
+    std::string image_of; ///< the part whose orbits have those of this part as symmetric images; empty: none
     std::optional<SpecialPoint> kept = std::nullopt;  ///< of curves
     std::optional<PointType> kept_too = std::nullopt; ///< of curves of codimension two
 };
 
-/// Messages of numerical functions, with the place of the run.
+/// Gives errors of numerical functions the place and the name of the run.
 template <class Work>
 auto at_place(const Place& place, const StudyRun& run, const Work& work) {
     return with_place(place, work, "run '" + run.name + "': ");
 }
 
-/// Writes points one by one, the last of a part only when it is known to be the last.
+/// Writes points to the result file one by one. It holds the last point back until it is known whether the part ends
+/// there.
 class PointWriter {
 public:
     PointWriter(const StudyRun& run, SharedFile& file, const RunnerOptions& options, RunReport& report)
         : run_(&run), file_(&file), options_(&options), report_(&report) {}
 
     void add(const std::string& part, const SpecialPoint& point, bool stable);
-    /// Points to come are images of those of an earlier part, if they are like them.
-    void set_twin(const std::string& part) { twin_ = part; }
-    /// What is said of the last point, which becomes an end unless it is special already.
+    /// Points to come are compared with those of this earlier part, of which they may be symmetric images.
+    void set_image_of(const std::string& part) { image_of_ = part; }
+    /// Ends a part: its last point becomes an end point unless it is special already. @param why is added to its detail
     void end(const std::string& why);
-    /// The last point has been none.
+    /// Forgets the last point, which does not belong to the branch.
     void drop() { waiting_.reset(); }
     void flush();
 
 private:
-    void note_twin(OrbitRecord& record);
+    void note_image(OrbitRecord& record);
 
     const StudyRun* run_;
     SharedFile* file_;
     const RunnerOptions* options_;
     RunReport* report_;
-    std::string twin_;
-    std::vector<OrbitRecord> special_; ///< written so far
+    std::string image_of_;
+    std::vector<OrbitRecord> special_; ///< special points that have been written
     std::map<PointType, std::size_t> counts_;
     std::optional<OrbitRecord> waiting_;
 };
 
-/// How a part has ended.
+/// Tells how a part has ended.
 struct PartEnd {
     bool interrupted = false;
     BranchOutcome outcome = BranchOutcome::no_start;
-    bool begun = true;
-    bool left = true; ///< its first point
+    bool begun = true; ///< its first orbit was found
+    bool left = true;  ///< it has a second point
     std::string why;
     std::optional<SpecialPoint> last; ///< if it has ended at a special point
 };
 
-/// Follows a part and writes its points. @param settings of the run, or more special ones
+/// Follows a part and writes its points. @param settings of the run, or of a rung of a ladder
 PartEnd follow_part(const StudyRun& run, const BranchSettings& settings, const System& system, const BranchPart& part,
                     PointWriter& writer, const RunnerOptions& options);
 

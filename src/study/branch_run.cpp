@@ -18,21 +18,21 @@ namespace graze {
 
 namespace {
 
-/// An orbit with the signature that is asked for. None when interrupted.
+/// An orbit with the signature that the run asks for; none when interrupted.
 std::optional<Orbit> orbit_asked_for(const StudyRun& run, const System& system, const RunnerOptions& options) {
-    const Signature wanted = parse_signature(run.model, run.branch.signature, run.branch.signature_place);
+    const Signature wanted = parse_signature(run.model, run.branch().signature, run.branch().signature_place);
     SignatureSearchOptions search;
-    search.unphysical = !run.branch.settings.stop_when_unphysical;
+    search.unphysical = !run.branch().settings.stop_when_unphysical;
     search.interrupted = options.interrupted;
-    const auto solution = at_place(run.branch.signature_place, run, [&] {
-        return orbit_with_signature(system, wanted, run.branch.settings.orbit, run.simulation, search);
+    const auto solution = at_place(run.branch().signature_place, run, [&] {
+        return orbit_with_signature(system, wanted, run.branch().settings.orbit, run.branch().simulation, search);
     });
     return solution ? std::optional(solution->orbit) : std::nullopt;
 }
 
-/// A candidate from a table: given by its half if it leads to an orbit that is its own image.
+/// The first guess from the run's table; its half if it converges to an orbit that is symmetric.
 Orbit orbit_of_table(const StudyRun& run, const System& system) {
-    const BranchRequest& branch = run.branch;
+    const BranchRequest& branch = run.branch();
     const Orbit candidate =
         branch.table_text.empty()
             ? read_orbit_table(run.model, branch.table, branch.signature)
@@ -40,26 +40,27 @@ Orbit orbit_of_table(const StudyRun& run, const System& system) {
     if (run.model.symmetries.empty())
         return candidate;
     return at_place(run.place, run, [&] {
-        const OrbitSolution solution = solve_orbit(system, candidate, run.branch.settings.orbit);
+        const OrbitSolution solution = solve_orbit(system, candidate, run.branch().settings.orbit);
         const bool converged = solution.outcome == OrbitOutcome::converged;
         return (converged ? half_orbit(system, solution.orbit) : std::nullopt).value_or(candidate);
     });
 }
 
-/// What simulation settles on, from the model's initial state. None when interrupted.
+/// The orbit on which a motion from the model's initial state settles; none when interrupted.
 std::optional<Orbit> settled(const StudyRun& run, const System& system, const RunnerOptions& options) {
     const auto interrupted = [&] { return options.interrupted && options.interrupted(); };
     const auto solution = at_place(run.place, run, [&] {
-        return find_orbit(system, run.attractor, run.branch.settings.orbit, run.simulation, interrupted);
+        const BranchRequest& branch = run.branch();
+        return find_orbit(system, branch.attractor, branch.settings.orbit, branch.simulation, interrupted);
     });
     return solution ? std::optional(solution->orbit) : std::nullopt;
 }
 
 OrbitSolution solved(const StudyRun& run, const System& system, const Orbit& candidate) {
-    return at_place(run.place, run, [&] { return solve_orbit(system, candidate, run.branch.settings.orbit); });
+    return at_place(run.place, run, [&] { return solve_orbit(system, candidate, run.branch().settings.orbit); });
 }
 
-/// The system with the parameters and the state of a point of a sweep.
+/// The system with the parameters, the initial state and the mode of a point of another run.
 System system_at(const StudyRun& run, const StartPoint& start) {
     Model model = run.model;
     set_parameters(model, start.parameters);
@@ -69,8 +70,8 @@ System system_at(const StudyRun& run, const StartPoint& start) {
     return System(model);
 }
 
-/// An orbit of an earlier run, at the parameters that this run sets.
-Orbit taken_over(const StudyRun& run, Orbit orbit) {
+/// An orbit of another run, at the parameters that this run sets.
+Orbit with_parameters_of_run(const StudyRun& run, Orbit orbit) {
     orbit.parameters = with_own_parameters(run, std::move(orbit.parameters));
     return orbit;
 }
@@ -86,11 +87,12 @@ std::vector<BranchPart> both_directions(const StudyRun& run, const Orbit& orbit)
     return in_directions(direction_names(run), orbit);
 }
 
-Orbit twin_of(const StudyRun& run, const System& system, const Orbit& orbit) {
+/// The image of an orbit under the model's symmetry.
+Orbit symmetric_image(const StudyRun& run, const System& system, const Orbit& orbit) {
     if (run.model.symmetries.empty())
         throw InputError(run.start->place, fmt::format("model '{}' declares no symmetry", run.model.name),
                          "declare one in the model");
-    // The second half of an orbit whose first is this one is its image.
+    // The orbit whose first half is this one has its image as the second half.
     Orbit half = orbit;
     half.symmetry = orbit.symmetry.value_or(0);
     const Orbit whole = whole_orbit(system, half);
@@ -98,14 +100,14 @@ Orbit twin_of(const StudyRun& run, const System& system, const Orbit& orbit) {
     if (whole.segments() != 2 * count)
         throw InputError(run.start->place, "the image of an orbit that ends at a section cannot be taken",
                          "begin from another initial state");
-    Orbit twin = orbit;
+    Orbit image = orbit;
     const auto from = static_cast<std::ptrdiff_t>(count);
-    twin.signature.assign(whole.signature.begin() + from, whole.signature.end());
-    twin.starts.assign(whole.starts.begin() + from, whole.starts.end());
-    return twin;
+    image.signature.assign(whole.signature.begin() + from, whole.signature.end());
+    image.starts.assign(whole.starts.begin() + from, whole.starts.end());
+    return image;
 }
 
-/// What one must say of a point through which several curves lead, or none.
+/// The remedy where it is not clear which curve through a point is to be followed.
 std::string which_curves(const System& system, const SpecialPoint& point) {
     std::vector<std::string> ways;
     std::vector<PointType> types = curves_at(point);
@@ -118,7 +120,7 @@ std::string which_curves(const System& system, const SpecialPoint& point) {
                         : fmt::format("say which curve through it is meant: {}", fmt::join(ways, " or "));
 }
 
-/// The touch at which a vanishing sensitivity is held besides, where one more parameter is free for that.
+/// The touch of a curve on which a vanishing sensitivity is held too, for which one more parameter is free.
 SpecialPoint touch_to_keep(const StudyRun& run, const SpecialPoint& point) {
     const PointType asked = point_type(run.start->onto).value_or(point.type);
     if (point.type != PointType::sensitivity || asked != PointType::sensitivity)
@@ -129,7 +131,7 @@ SpecialPoint touch_to_keep(const StudyRun& run, const SpecialPoint& point) {
     return at_place(run.start->place, run, [&] { return as_type(point, PointType::grazing); });
 }
 
-/// The point as that whose curve is asked for.
+/// The point, as one of the type whose curve is followed.
 SpecialPoint point_to_keep(const StudyRun& run, const System& system, const SpecialPoint& point) {
     const PointType asked = point_type(run.start->onto).value_or(point.type);
     if (!kind_of(asked).may_be_kept)
@@ -143,19 +145,19 @@ SpecialPoint point_to_keep(const StudyRun& run, const System& system, const Spec
     return at_place(run.start->place, run, [&] {
         const std::vector<PointType> impacting = impacting_curves_at(system, point);
         return std::find(impacting.begin(), impacting.end(), asked) != impacting.end()
-                   ? on_impacting_curve(system, point, asked, run.branch.settings)
+                   ? on_impacting_curve(system, point, asked, run.branch().settings)
                    : as_type(point, asked);
     });
 }
 
-/// Both ways along the curve through a point. From a resonance a curve of torus points leads one way, which is not
-/// known before, and so does one of folds or flips from a contact without speed.
+/// Both directions along the curve through a point. From a resonance a curve of torus points leads in one direction
+/// only, and so does a curve of folds or flips from a contact without speed; which direction is not known beforehand.
 std::vector<BranchPart> parts_of_curve(const StudyRun& run, const System& system, const SpecialPoint& point) {
-    if (!run.branch.keeps_point())
-        return both_directions(run, taken_over(run, point.solution.orbit));
-    const bool twice = run.branch.kept_conditions() == 2;
+    if (!run.branch().keeps_point())
+        return both_directions(run, with_parameters_of_run(run, point.solution.orbit));
+    const bool twice = run.branch().kept_conditions() == 2;
     const SpecialPoint kept = twice ? touch_to_keep(run, point) : point_to_keep(run, system, point);
-    const Orbit orbit = taken_over(run, kept.solution.orbit);
+    const Orbit orbit = with_parameters_of_run(run, kept.solution.orbit);
     const bool resonant = point.type == PointType::resonance_1 || point.type == PointType::resonance_2;
     const bool begins_contact = kept.solution.orbit.signature != point.solution.orbit.signature;
     std::vector<BranchPart> parts = begins_contact || (resonant && kept.type == PointType::torus)
@@ -179,21 +181,21 @@ std::vector<BranchPart> parts_from_orbit(const StudyRun& run, const System& syst
     if (run.kind == RunKind::curve)
         return parts_of_curve(run, system, point);
     const bool same_parameter = (parent.kind == RunKind::follow || parent.kind == RunKind::ladder) &&
-                                parent.branch.settings.parameter == run.branch.settings.parameter;
+                                parent.branch().settings.parameter == run.branch().settings.parameter;
     std::string onto = start.onto;
     if (onto.empty())
         onto = kind_of(point.type).leads_on && same_parameter ? "other" : "same";
     if (onto == "twin")
-        return both_directions(run,
-                               at_place(start.place, run, [&] { return twin_of(run, system, point.solution.orbit); }));
+        return both_directions(
+            run, at_place(start.place, run, [&] { return symmetric_image(run, system, point.solution.orbit); }));
     if (onto == "same")
-        return both_directions(run, taken_over(run, point.solution.orbit));
+        return both_directions(run, with_parameters_of_run(run, point.solution.orbit));
     if (!same_parameter && point.type == PointType::branch_point)
         throw InputError(start.place, "another branch is left for only along the parameter of the first",
                          "follow the same parameter first");
-    const auto starts = at_place(start.place, run, [&] { return branches_at(system, point, run.branch.settings); });
-    if (!run.branch.set.empty()) // at other parameters there is no direction yet
-        return both_directions(run, taken_over(run, starts.front().orbit));
+    const auto starts = at_place(start.place, run, [&] { return branches_at(system, point, run.branch().settings); });
+    if (!run.set.empty()) // at other parameters there is no direction yet
+        return both_directions(run, with_parameters_of_run(run, starts.front().orbit));
     std::vector<BranchPart> parts;
     for (const BranchStart& one : starts)
         parts.push_back({one.how, one.orbit, one, 1, false,
@@ -201,11 +203,11 @@ std::vector<BranchPart> parts_from_orbit(const StudyRun& run, const System& syst
     return parts;
 }
 
-/// @param first the orbit of an earlier run from which it starts, if it does
-/// @return none when interrupted
+/// The parts of a run of orbits or branches. @param first the orbit of another run from which it starts, if any
+/// @return no parts when interrupted
 std::vector<BranchPart> parts_of(const Study& study, const StudyRun& run, const System& system, SharedFile& file,
                                  const std::optional<OrbitRecord>& first, const RunnerOptions& options) {
-    const BranchRequest& branch = run.branch;
+    const BranchRequest& branch = run.branch();
     if (first)
         return parts_from_orbit(run, system, run_named(study, run.start->run), *first);
     if (run.start) {
@@ -220,7 +222,7 @@ std::vector<BranchPart> parts_of(const Study& study, const StudyRun& run, const 
     return orbit ? both_directions(run, *orbit) : std::vector<BranchPart>();
 }
 
-/// The orbit of an earlier run from which a run starts, if it does.
+/// The orbit from which a run starts; none if it does not start from an orbit.
 std::optional<OrbitRecord> first_orbit(const Study& study, const StudyRun& run, SharedFile& file) {
     if (!run.start || !run_named(study, run.start->run).is_branch())
         return std::nullopt;
@@ -228,7 +230,7 @@ std::optional<OrbitRecord> first_orbit(const Study& study, const StudyRun& run, 
     return file.with([&](const ResultFile& results) { return orbit_to_start_from(*run.start, parent, results); });
 }
 
-/// A curve that leads nowhere has failed.
+/// Refuses a curve that does not leave its first point.
 [[noreturn]] void refuse_curve(const StudyRun& run, const SpecialPoint& kept, const std::string& why) {
     throw InputError(run.start->place,
                      fmt::format("run '{}': no curve of points of type {} ({}) begins there: {}; {}", run.name,
@@ -236,8 +238,8 @@ std::optional<OrbitRecord> first_orbit(const Study& study, const StudyRun& run, 
                      "choose another point, or another of the curves through it by `onto`");
 }
 
-/// Parts that have got no further than their first orbit. That is a failure where steps cannot be made; and, whatever
-/// the reason, where no part has got further.
+/// Counts the parts of a run that end at their first orbit. The run fails where steps cannot be made, and where all
+/// parts end at their first orbit for whatever reason.
 class Standstill {
 public:
     void note(const BranchPart& part, const PartEnd& end) {
@@ -278,11 +280,11 @@ bool compute_orbit(const Study& study, const StudyRun& run, const System& system
     point.solution = solved(run, system, part.orbit);
     point.detail = point.solution.detail;
     const Orbit& orbit = point.solution.orbit;
-    if (point.solution.outcome == OrbitOutcome::converged && !run.branch.settings.monitors.empty())
+    if (point.solution.outcome == OrbitOutcome::converged && !run.branch().settings.monitors.empty())
         point.monitors = at_place(run.place, run, [&] {
-            const std::vector<Monitor>& monitors = run.branch.settings.monitors;
+            const std::vector<Monitor>& monitors = run.branch().settings.monitors;
             std::vector<double> values =
-                OrbitMonitors(system, orbit.signature, monitors, run.branch.settings.orbit.tolerance)(orbit);
+                OrbitMonitors(system, orbit.signature, monitors, run.branch().settings.orbit.tolerance)(orbit);
             measure_multipliers(monitors, point.solution.multipliers, values);
             return values;
         });
@@ -291,7 +293,7 @@ bool compute_orbit(const Study& study, const StudyRun& run, const System& system
         point.solution.certificate.admissible = false;
         point.solution.certificate.reason = "no orbit was found";
     }
-    point.parameter = orbit.parameters.empty() ? 0 : orbit.parameters[run.branch.settings.parameter.place()];
+    point.parameter = orbit.parameters.empty() ? 0 : orbit.parameters[run.branch().settings.parameter.place()];
     point.bracket = {unknown_value, unknown_value};
     writer.add("", point, is_stable(point.solution));
     writer.end("");
@@ -307,7 +309,7 @@ bool follow_chatter(const StudyRun& run, const System& system, const SpecialPoin
     };
     if (!run.start->onto.empty())
         refuse(fmt::format("it is no point of type {}", run.start->onto), "leave `onto` out");
-    const BranchSettings& settings = run.branch.settings;
+    const BranchSettings& settings = run.branch().settings;
     try {
         require_chatter_curve(run.model, first, settings);
     } catch (const InputError& error) {
@@ -350,7 +352,7 @@ bool run_branch(const Study& study, const StudyRun& run, SharedFile& file, const
                              "start from a run of kind \"continue\"");
         return run_ladder(run, system, *first, writer, options);
     }
-    if (run.kind == RunKind::curve && first && run.branch.keeps_point() && first->point.type == PointType::chatter)
+    if (run.kind == RunKind::curve && first && run.branch().keeps_point() && first->point.type == PointType::chatter)
         return follow_chatter(run, system, first->point, writer, options);
     const std::vector<BranchPart> parts = parts_of(study, run, system, file, first, options);
     if (parts.empty())
@@ -359,10 +361,10 @@ bool run_branch(const Study& study, const StudyRun& run, SharedFile& file, const
     std::string why;
     Standstill standstill;
     for (BranchPart part : parts) {
-        writer.set_twin(part.twin);
+        writer.set_image_of(part.image_of);
         if (part.kept && !any)
             part.again = false;
-        const auto end = follow_part(run, run.branch.settings, system, part, writer, options);
+        const auto end = follow_part(run, run.branch().settings, system, part, writer, options);
         if (end.interrupted)
             return false;
         if (part.kept && !end.begun && end.outcome == BranchOutcome::no_start)

@@ -78,16 +78,18 @@ void add_settings(Facts& facts, const std::string& run, const std::string& setti
 
 /// In a few words, such as "V from 1 to 2 (101 values)".
 void add_axes(Facts& facts, const StudyRun& run) {
-    for (const Variation& axis : run.axes) {
-        const auto& values = axis.values;
-        const std::string way = values.empty() ? fmt::format("at random from {:.6g} to {:.6g} ({} draws)",
-                                                             axis.low + axis.offset, axis.high + axis.offset, run.draws)
-                                               : fmt::format("from {:.6g} to {:.6g} ({} values)", values.front(),
-                                                             values.back(), values.size());
-        facts.add("run", run.name, "varies", axis.name + " " + way);
-    }
-    const BranchSettings& branch = run.branch.settings;
+    if (run.has_motions())
+        for (const Variation& axis : run.motion().axes) {
+            const auto& values = axis.values;
+            const std::string range =
+                values.empty()
+                    ? fmt::format("at random from {:.6g} to {:.6g} ({} draws)", axis.low + axis.offset,
+                                  axis.high + axis.offset, run.motion().draws)
+                    : fmt::format("from {:.6g} to {:.6g} ({} values)", values.front(), values.back(), values.size());
+            facts.add("run", run.name, "varies", axis.name + " " + range);
+        }
     if (run.is_followed()) {
+        const BranchSettings& branch = run.branch().settings;
         const std::vector<std::string> names = run.model.independent_parameters();
         const auto bound = [](const std::optional<double>& value) {
             return value ? fmt::format("{:.6g}", *value) : std::string("anywhere");

@@ -32,18 +32,18 @@ UnknownParameter unknown_of(const StudyRun& run, const IdentifyRequest::Unknown&
     return unknown;
 }
 
-/// The channel that a reading is of. Nothing where the record need not have it, and has not.
+/// The channel of a reading; none where the record lacks it and may do so.
 std::optional<std::size_t> column_of(const Reading& reading, const RecordHeader& header) {
     const bool has = std::any_of(header.channels.begin(), header.channels.end(),
                                  [&](const Channel& channel) { return channel.name == reading.channel; });
     return has || !reading.may_lack ? std::optional(header.channel(reading.channel, "readings")) : std::nullopt;
 }
 
-/// Puts a fit together from records, one after the other.
+/// Builds the task of a fit, record by record.
 class FitMaker {
 public:
     explicit FitMaker(const StudyRun& run) : run_(&run) {
-        const IdentifyRequest& request = run.identify;
+        const IdentifyRequest& request = run.identify();
         for (const IdentifyRequest::Unknown& one : request.unknowns)
             made_.task.parameters.push_back(unknown_of(run, one));
         for (const Reading& one : request.readings) {
@@ -74,7 +74,7 @@ public:
         record.mode = run_->model.initial_mode;
         record.unknown_states = unknown_states_;
         for (std::size_t o = 0; o < units_.size(); ++o)
-            if (const auto column = column_of(run_->identify.readings[o], kept.header)) {
+            if (const auto column = column_of(run_->identify().readings[o], kept.header)) {
                 check_unit(o, kept.header.channels[*column]);
                 require_index(*column, kept.samples.values.size(), "channel");
                 record.readings.push_back({o, kept.samples.values[*column]});
@@ -88,10 +88,10 @@ public:
     FitOfRecords made() { return std::move(made_); }
 
 private:
-    /// A reading in another unit than what it is compared with would be taken for something else. A gain converts,
-    /// whether it is found or given.
+    /// Refuses a channel whose unit differs from that of the value it measures. A gain converts units, whether it is
+    /// found or given.
     void check_unit(std::size_t output, const Channel& channel) {
-        const Reading& reading = run_->identify.readings[output];
+        const Reading& reading = run_->identify().readings[output];
         Channel& known = made_.channels[output];
         const auto text = [](const std::string& unit) { return unit.empty() ? "no unit" : unit; };
         if (!known.name.empty() && known.unit != channel.unit)
@@ -109,7 +109,7 @@ private:
 
     const StudyRun* run_;
     FitOfRecords made_;
-    std::vector<std::string> units_; ///< of what is measured
+    std::vector<std::string> units_; ///< of the values that are measured
     std::vector<std::size_t> unknown_states_;
 };
 
@@ -121,9 +121,9 @@ FitOfRecords fit_records(const StudyRun& run, const std::vector<KeptRecord>& rec
         with_place(
             run.place, [&] { maker.add(record); }, record.name + ": ");
     FitOfRecords made = maker.made();
-    settings.loss = run.identify.loss;
-    settings.piece = run.identify.piece;
-    settings.simulation = run.simulation;
+    settings.loss = run.identify().loss;
+    settings.piece = run.identify().piece;
+    settings.simulation = run.identify().simulation;
     made.fit = fit_model(System(run.model), made.task, settings);
     for (FittedNumber& number : made.fit.numbers)
         if (number.kind == FittedNumber::Kind::offset)

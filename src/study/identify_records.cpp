@@ -1,6 +1,7 @@
 #include "graze/study/identify_records.hpp"
 
 #include "graze/model/named_value.hpp"
+#include "study/estimate_kind.hpp"
 #include "study/identify_units.hpp"
 
 #include <algorithm>
@@ -11,13 +12,13 @@ namespace graze {
 
 namespace {
 
-/// Numbers in parameters of the model, some of which others have found.
+/// Evaluates numbers that depend on parameters, some of which other runs have found.
 class KnownNumbers {
 public:
     KnownNumbers(const StudyRun& run, const std::vector<EstimateRecords>& found)
         : model_(run.model), found_(&found), place_(run.place) {}
 
-    /// With the error that those of the parameters make, to first order.
+    /// The value, with the error that propagates from those of the parameters, to first order.
     Estimate value(const std::string& text) {
         Estimate result;
         result.value = value_of_text(model_, text, place_);
@@ -41,7 +42,8 @@ public:
     }
 
 private:
-    /// By differences of one standard error, over which nothing bends that errors are told of.
+    /// The derivative by a parameter, by differences of one standard error, over which the expression is taken as
+    /// linear.
     double slope(const std::string& text, const EstimateRecord& number) {
         const double error = number.estimate.freedom > 0 ? number.estimate.error : 0;
         const auto parameter = model_.find_independent_parameter(number.name);
@@ -63,7 +65,7 @@ private:
 };
 
 IdentificationSettings settings_of(const StudyRun& run, const std::vector<EstimateRecords>& found, std::size_t count) {
-    const IdentifyRequest& request = run.identify;
+    const IdentifyRequest& request = run.identify();
     KnownNumbers known(run, found);
     IdentificationSettings settings;
     settings.channel = request.channel;
@@ -71,9 +73,7 @@ IdentificationSettings settings_of(const StudyRun& run, const std::vector<Estima
     settings.voltage = request.voltage;
     settings.current = request.current;
     settings.peaks = request.peaks;
-    settings.window = request.window;
-    settings.transition = request.transition;
-    settings.least_jump = request.least_jump;
+    settings.impacts = request.impacts;
     settings.displacement_noise = request.displacement_noise;
     settings.current_noise = request.current_noise;
     settings.one_load_a_record = count > 1 && !request.each_row;
@@ -110,20 +110,10 @@ Identification identify_records(const StudyRun& run, const EachRecord& records, 
             work(name, record);
         });
     };
-    const IdentificationSettings settings = settings_of(run, found, count);
-    switch (run.identify.what) {
-    case IdentifyRequest::What::decrement:
-        return identify_decrement(checked, settings);
-    case IdentifyRequest::What::restitution:
-        return identify_restitution(checked, settings);
-    case IdentifyRequest::What::coupling:
-        return identify_coupling(checked, settings);
-    case IdentifyRequest::What::impedance:
-        return identify_impedance(checked, settings);
-    case IdentifyRequest::What::fit:
-        break;
-    }
-    throw InputError(run.place, "a fit needs all records at once", "call fit_records");
+    const auto identify = estimate_kind(run.identify().what).identify;
+    if (!identify)
+        throw InputError(run.place, "a fit needs all records at once", "call fit_records");
+    return identify(checked, settings_of(run, found, count));
 }
 
 } // namespace graze

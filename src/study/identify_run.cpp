@@ -4,6 +4,7 @@
 #include "graze/base/with_place.hpp"
 #include "graze/study/identify_records.hpp"
 #include "graze/study/stored_study.hpp"
+#include "study/estimate_kind.hpp"
 #include "study/identify_units.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +18,7 @@ namespace {
 
 using What = IdentifyRequest::What;
 
-/// Under the names of the parameters that they are.
+/// The estimates, under the names of the parameters that they give.
 EstimateRecords estimates_of(const Identification& found, const IdentifyRequest& request, const Place& place) {
     EstimateRecords records;
     records.covariance = found.covariance;
@@ -47,7 +48,7 @@ void add_curve(SampleSet& samples, std::size_t sampling, std::size_t record, con
 
 FoundByRun found_from(const Identification& found, const StudyRun& run) {
     FoundByRun result;
-    result.estimates = estimates_of(found, run.identify, run.place);
+    result.estimates = estimates_of(found, run.identify(), run.place);
     convert_to_model(result.estimates, run);
     SampleSet& samples = result.point.result.samples;
     samples.width = 3;
@@ -119,17 +120,9 @@ FoundByRun found_from(const FitOfRecords& found) {
 } // namespace
 
 std::vector<std::string> residual_names(const IdentifyRequest& request) {
-    switch (request.what) {
-    case What::decrement:
-        return {"record", "t", "peak"};
-    case What::restitution:
-        return {"record", "before", "after"};
-    case What::coupling:
-        return {"record", request.current, request.displacement.empty() ? "q" : request.displacement};
-    case What::impedance:
-        return {"record", "t", request.current};
-    case What::fit:
-        break;
+    if (const auto shown = estimate_kind(request.what).shown) {
+        const auto [x, y] = shown(request);
+        return {"record", x, y};
     }
     std::vector<std::string> names{"record", "t"};
     for (const IdentifyRequest::Reading& reading : request.readings)
@@ -137,25 +130,8 @@ std::vector<std::string> residual_names(const IdentifyRequest& request) {
     return names;
 }
 
-std::vector<std::string> names_of_estimates(What what) {
-    switch (what) {
-    case What::decrement:
-        return {"natural_frequency", "damping_ratio", "natural_frequency_of_pairs", "damping_ratio_of_pairs",
-                "rest_position"};
-    case What::restitution:
-        return {"restitution"};
-    case What::coupling:
-        return {"beta1", "beta2", "correlation", "beta1_of_regression", "beta2_of_regression"};
-    case What::impedance:
-        return {"resistance", "inductance", "leakage_inductance", "frequency"};
-    case What::fit:
-        break;
-    }
-    return {};
-}
-
 std::vector<std::string> names_found(const IdentifyRequest& request) {
-    std::vector<std::string> names = names_of_estimates(request.what);
+    std::vector<std::string> names = estimate_kind(request.what).numbers;
     for (const auto& [name, parameter] : request.gives) {
         std::replace(names.begin(), names.end(), name, parameter);
         if (std::find(names.begin(), names.end(), parameter) == names.end())
@@ -168,18 +144,18 @@ std::vector<std::string> names_found(const IdentifyRequest& request) {
 
 std::vector<KeptRecord> kept_records(const StudyRun& run, const ResultFile& file) {
     std::vector<KeptRecord> records;
-    for (const std::string& name : run.identify.records) {
+    for (const std::string& name : run.identify().records) {
         const auto from = file.find_run(name);
         if (!from)
             throw InputError(run.place, fmt::format("there are no results of a run '{}'", name), "run it first");
         const StudyRun asked = stored_run(*from);
         std::size_t sampling = 0;
-        while (sampling < asked.record.samplings.size() &&
-               asked.record.samplings[sampling].kind != RecordSampling::Kind::record)
+        while (sampling < asked.record().samplings.size() &&
+               asked.record().samplings[sampling].kind != RecordSampling::Kind::record)
             ++sampling;
         const std::vector<std::string> names = from->samplings;
         const std::string kept =
-            sampling < asked.record.samplings.size() ? asked.record.samplings[sampling].name : std::string();
+            sampling < asked.record().samplings.size() ? asked.record().samplings[sampling].name : std::string();
         for (std::size_t number = 0; number < from->points; ++number) {
             const auto point = file.point(name, number);
             if (!point)
@@ -212,7 +188,7 @@ std::vector<KeptRecord> kept_records(const StudyRun& run, const ResultFile& file
 std::optional<FoundByRun> identify(const StudyRun& run, const std::vector<KeptRecord>& records,
                                    const std::vector<EstimateRecords>& found,
                                    const std::function<bool()>& interrupted) {
-    if (run.identify.what == What::fit) {
+    if (run.identify().what == What::fit) {
         FitSettings settings;
         settings.interrupted = interrupted;
         settings.progress = [&](const FitProgress&) { return !(interrupted && interrupted()); };

@@ -11,28 +11,26 @@
 
 namespace graze {
 
-/// What samples of a run of kind identify are: the number of the record, what is shown, and over what.
+/// Names of the values of the samples of a run of kind identify: the number of the record, the abscissa and the
+/// ordinate.
 std::vector<std::string> residual_names(const IdentifyRequest& request);
 
-/// What it finds besides fits, by its own names; of several records some numbers more.
-std::vector<std::string> names_of_estimates(IdentifyRequest::What what);
-/// All names of numbers that it may find under the names of parameters, as far as the study tells.
+/// Names of all numbers that a run may find, under the names of parameters where the study gives them.
 std::vector<std::string> names_found(const IdentifyRequest& request);
 
-/// Records that other runs have kept. @throws InputError where one of these keeps no rows
+/// The records of the runs IdentifyRequest::records. @throws InputError where one of these keeps no rows
 std::vector<KeptRecord> kept_records(const StudyRun& run, const ResultFile& file);
 
-/// What a run of kind identify has found.
+/// The result of a run of kind identify.
 struct FoundByRun {
     EstimateRecords estimates;
-    PointRecord point;   ///< with what was measured, fitted, and is left
-    std::string problem; ///< what makes it unfit to be gone on with; empty: nothing
+    PointRecord point;   ///< whose samples are the measured curve, the fitted one and the residuals
+    std::string problem; ///< why the estimates must not be used by other runs; empty: they may be used
 };
 
-/// A run of kind identify, from records and what other runs have found.
-/// @param found by runs of StudyRun::parameters, in their order
+/// Carries out a run of kind identify. @param found estimates of the runs StudyRun::parameters, in their order
 /// @return nothing when it was interrupted
-/// @throws InputError for records from which it cannot be found
+/// @throws InputError for records from which the estimate cannot be made
 std::optional<FoundByRun> identify(const StudyRun& run, const std::vector<KeptRecord>& records,
                                    const std::vector<EstimateRecords>& found, const std::function<bool()>& interrupted);
 

@@ -1,6 +1,7 @@
 #include "study/identify_units.hpp"
 
 #include "graze/base/physical_unit.hpp"
+#include "study/estimate_kind.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,7 +16,7 @@ namespace {
 
 using What = IdentifyRequest::What;
 
-/// Units of the model's parameters and states, and of its time, that measure what this one does.
+/// Units of the model's time, parameters and states that have the dimension of this unit.
 std::vector<std::string> units_alike(const Model& model, const PhysicalUnit& unit) {
     std::vector<std::string> found;
     const auto add = [&](const std::string& text) {
@@ -31,7 +32,8 @@ std::vector<std::string> units_alike(const Model& model, const PhysicalUnit& uni
     return found;
 }
 
-/// A parameter without a unit is a number where others of the model have units; where none has, nothing is known.
+/// The unit of a parameter. One without a unit is a pure number where other parameters have units; where none has,
+/// nothing is known.
 std::optional<PhysicalUnit> unit_in_model(const Model& model, const std::string& text) {
     if (!text.empty())
         return told_unit(text);
@@ -41,7 +43,7 @@ std::optional<PhysicalUnit> unit_in_model(const Model& model, const std::string&
     return has_units ? std::optional(PhysicalUnit()) : std::nullopt;
 }
 
-/// @param wanted units, of which each would do
+/// @param wanted units, any of which is right; none: every unit is
 bool agrees(const PhysicalUnit& unit, const std::vector<std::string>& wanted) {
     return wanted.empty() ||
            std::any_of(wanted.begin(), wanted.end(), [&](const std::string& text) { return told_unit(text) == unit; });
@@ -59,8 +61,7 @@ void check_channel(const StudyRun& run, const Channel& channel) {
                      scale_remedy(run, channel, wanted.front()));
 }
 
-/// Of a number that is known beforehand: a parameter that is named alone has a unit, what is computed of several none
-/// that is known.
+/// Checks the unit of a number that is known beforehand. Only a text that is the name of a parameter has a known unit.
 void check_known(const StudyRun& run, const char* key, const std::string& text, const std::string& kind) {
     const auto parameter = run.model.find_parameter(text);
     const auto wanted = told_unit(kind);
@@ -77,7 +78,7 @@ void check_known(const StudyRun& run, const char* key, const std::string& text, 
 
 /// @param length unit of displacements
 void check_known_numbers(const StudyRun& run, const std::string& length) {
-    const IdentifyRequest& request = run.identify;
+    const IdentifyRequest& request = run.identify();
     check_known(run, "gap", request.gap, length);
     check_known(run, "clamped", request.clamped, length);
     check_known(run, "beta2", request.beta2, length);
@@ -88,12 +89,15 @@ void check_known_numbers(const StudyRun& run, const std::string& length) {
     }
 }
 
-/// Whether what is found under a name has no unit by its nature.
+/// Whether a number has no unit by its nature. Names of several records begin with that of one record.
 bool is_ratio(const std::string& name) {
-    return name.starts_with("damping_ratio") || name.starts_with("restitution") || name == "correlation";
+    return std::any_of(estimate_kinds().begin(), estimate_kinds().end(), [&](const EstimateKind& kind) {
+        return std::any_of(kind.ratios.begin(), kind.ratios.end(),
+                           [&](const std::string& ratio) { return name.starts_with(ratio); });
+    });
 }
 
-/// By what a number is multiplied to be in another unit. Where cycles and radians are told apart, they are here, too.
+/// The factor between two units. Hz and rad/s differ by 2 pi.
 double factor_between(const std::string& from, const std::string& to) {
     const auto is = [](const std::string& text, const char* part) { return text.find(part) != std::string::npos; };
     const double factor = converted(1, *told_unit(from), *told_unit(to));
@@ -108,8 +112,8 @@ std::string scale_remedy(const StudyRun& run, const Channel& channel, const std:
     const auto from = told_unit(channel.unit), to = told_unit(unit);
     const std::string factor =
         from && to && from->dimension == to->dimension ? fmt::format("{:g}", converted(1, *from, *to)) : "FACTOR";
-    if (!run.identify.asked_as.empty())
-        return fmt::format("convert it by {}scale {}={}:{}", run.identify.asked_as, channel.name, factor, unit);
+    if (!run.identify().asked_as.empty())
+        return fmt::format("convert it by {}scale {}={}:{}", run.identify().asked_as, channel.name, factor, unit);
     return fmt::format("convert it in the run that has the record: scale = {{ {} = {{ factor = {}, unit = \"{}\" }} }}",
                        channel.name, factor, unit);
 }
@@ -128,11 +132,11 @@ void check_record_time(const StudyRun& run, const RecordHeader& header) {
 }
 
 void check_record_units(const StudyRun& run, const RecordHeader& header) {
-    const IdentifyRequest& request = run.identify;
+    const IdentifyRequest& request = run.identify();
     const auto channel = [&](const std::string& name, const char* key) -> const Channel& {
         return header.channels[header.channel(name, request.asked_as + key)];
     };
-    std::string length = "m"; // unless the record says that displacements are something else
+    std::string length = "m"; // unless the record has another unit of displacements
     if (request.what == What::coupling) {
         const Channel& q = channel(request.displacement.empty() ? "q" : request.displacement, "displacement");
         check_channel(run, q);
@@ -156,10 +160,10 @@ void convert_to_model(EstimateRecords& estimates, const StudyRun& run) {
         if (!parameter)
             continue;
         const std::string& unit = run.model.parameters[*run.model.find_parameter(number.name)].unit;
-        const auto& gives = run.identify.gives;
-        const bool ratio = std::any_of(gives.begin(), gives.end(), [&](const auto& one) {
-            return one.second == number.name && is_ratio(one.first);
-        });
+        const auto* const request = std::get_if<IdentifyRequest>(&run.request);
+        const bool ratio = request && std::any_of(request->gives.begin(), request->gives.end(), [&](const auto& one) {
+                               return one.second == number.name && is_ratio(one.first);
+                           });
         const auto from = ratio ? PhysicalUnit() : told_unit(number.unit), to = unit_in_model(run.model, unit);
         if (!from && to && !number.unit.empty() && number.unit != unit_symbol(unit))
             throw InputError(run.place,

@@ -10,7 +10,7 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t rows_of_side = 5; ///< noise grows little by them, and what is curved stays so
+constexpr std::size_t rows_of_side = 5; ///< few enough to follow a curve, enough not to amplify noise much
 
 /// Rows between two impacts that are nearest to one of them.
 struct NearRows {
@@ -47,7 +47,7 @@ std::vector<double> continued(const NearRows& near, std::size_t first, std::size
     return values;
 }
 
-/// What lies between two impacts, of which only its ends count.
+/// The rows between two impacts; only those near its ends are kept.
 struct Stretch {
     NearRows head, tail;
 };
@@ -79,7 +79,8 @@ std::vector<ImpactSides> impact_sides(SampleSource& record, const std::vector<Re
             while (next < impacts.size() && time >= impacts[next].time)
                 ++next;
             const auto unsure = [&](std::size_t impact) {
-                // Twice its error, but never the rows between which an impact is without a displacement.
+                // Twice the error of the time, but less than to the rows on both sides of an impact without
+                // displacement.
                 const double margin = std::min(2 * impacts[impact].time_error, 0.4 * spacing) + 1e-6 * spacing;
                 return std::abs(time - impacts[impact].time) <= margin;
             };

@@ -13,8 +13,8 @@
 
 namespace graze {
 
-/// Lists the keys of a run, with what they are where nothing is said.
-class KeyList : public KeysAlone {
+/// Lists the keys of a run with their defaults.
+class KeyList : public KeysOnly {
 public:
     std::vector<StudyKey> keys;
 
@@ -61,6 +61,11 @@ public:
     void lines(const Key& key, std::vector<std::string>&) { add(key, "texts"); }
     void later_number(const Key& key, std::string&) { add(key, "number"); }
     void form(const Key& key, const char* written, FormReader) { add(key, written); }
+
+    template <class Describe>
+    void table(const Key& key, const char* written, const Describe&) {
+        add(key, written);
+    }
 
     template <class Describe>
     void object(std::string_view, Describe describe) {

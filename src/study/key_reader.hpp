@@ -1,5 +1,6 @@
 #pragma once
 
+#include "study/key_list.hpp"
 #include "study/run_key.hpp"
 #include "study/study_reader.hpp"
 
@@ -14,9 +15,9 @@
 
 namespace graze {
 
-/// Reads the keys of a run from a study, those that it has: others keep their values. A mistake is noted, and leaves
-/// the others to be read.
-class KeyReader : public KeysAlone {
+/// Reads the keys of a run from a study. Keys that the study does not have keep their values. After a mistake, which is
+/// noted, the other keys are read.
+class KeyReader : public KeysOnly {
 public:
     KeyReader(const StudyReader& reader, StudyRun& run, const RunKeys& keys, Mistakes& mistakes)
         : reader_(reader), run_(run), keys_(keys), mistakes_(mistakes) {}
@@ -31,7 +32,7 @@ public:
     void truth(const Key& key, bool& value) {
         read(key, [&](const TomlEntry& e) { value = reader_.toml().boolean(e); });
     }
-    /// The opposite of what is stored.
+    /// A key whose negation is stored.
     void denied(const Key& key, const char*, bool& value) {
         read(key, [&](const TomlEntry& e) { value = !reader_.toml().boolean(e); });
     }
@@ -45,7 +46,7 @@ public:
     void lines(const Key& key, std::vector<std::string>& value) {
         read(key, [&](const TomlEntry& e) { value = reader_.strings(e); });
     }
-    /// A number, or an expression in parameters as they will be when other runs have found them.
+    /// A number, or an expression in parameters whose values other runs will find.
     void later_number(const Key& key, std::string& value) {
         read(key, [&](const TomlEntry& e) { value = reader_.number_text(run_.model, e); });
     }
@@ -56,13 +57,36 @@ public:
         });
     }
 
-    /// Whether one of these keys is there and could not be read.
+    /// A table of keys of its own. @param describe given what reads them
+    template <class Describe>
+    void table(const Key& key, const char*, const Describe& describe) {
+        read(key, [&](const TomlEntry& e) { read_table(reader_, run_, e, describe); });
+    }
+    /// Reads a table of keys by itself.
+    template <class Describe>
+    static void read_table(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const Describe& describe) {
+        KeyList known;
+        describe(known);
+        RunKeys keys;
+        Mistakes mistakes;
+        mistakes.attempt([&] {
+            reader.each_of(entry, {}, [&](const TomlEntry& item) {
+                reader.toml().require_one_of(names_of(known.keys), item, entry.path);
+                keys.emplace(item.name, item);
+            });
+        });
+        KeyReader fields(reader, run, keys, mistakes);
+        describe(fields);
+        mistakes.throw_noted();
+    }
+
+    /// True when the study has one of these keys and it could not be read.
     bool is_wrong(std::initializer_list<std::string_view> names) const {
         return std::any_of(names.begin(), names.end(), [&](std::string_view name) {
             return std::find(wrong_.begin(), wrong_.end(), name) != wrong_.end();
         });
     }
-    /// Keys that are stored together stand in the run one by one.
+    /// Keys that are stored in an object of their own stand beside the others in a study.
     template <class Describe>
     void object(std::string_view, Describe describe) {
         describe(*this);

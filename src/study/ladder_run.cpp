@@ -15,8 +15,8 @@ std::string name_of_rung(std::size_t number) {
     return fmt::format("rung {}", number);
 }
 
-/// What is known of the limit, in words.
-std::string told(const ChatterLimit& limit) {
+/// The limit in words.
+std::string limit_in_words(const ChatterLimit& limit) {
     std::string text;
     if (limit.direct)
         text = fmt::format("+- {:.1e}; e = {:.6g}, ratio {:.6g}", limit.direct->second, limit.contacts.restitution,
@@ -32,7 +32,7 @@ SpecialPoint point_of(const ChatterLimit& limit, const System& system, const Spe
     const auto [value, error] = *limit.direct;
     SpecialPoint point = last;
     point.type = PointType::chatter;
-    point.detail = told(limit);
+    point.detail = limit_in_words(limit);
     point.parameter = value;
     point.bracket = {value - error, value + error};
     point.solution = {};
@@ -45,7 +45,7 @@ SpecialPoint point_of(const ChatterLimit& limit, const System& system, const Spe
     return point;
 }
 
-/// Why nothing is known of it.
+/// The last point of a ladder whose limit is not known, which says why.
 SpecialPoint end_of(const SpecialPoint& last, const std::string& problem, const std::string& why) {
     SpecialPoint point = last;
     point.type = PointType::end;
@@ -58,9 +58,9 @@ SpecialPoint end_of(const SpecialPoint& last, const std::string& problem, const 
 } // namespace
 
 std::vector<double> monitors_of(const System& system, const Orbit& orbit, const StudyRun& run) {
-    const std::vector<Monitor>& monitors = run.branch.settings.monitors;
+    const std::vector<Monitor>& monitors = run.branch().settings.monitors;
     try {
-        return OrbitMonitors(system, orbit.signature, monitors, run.branch.settings.orbit.tolerance)(orbit);
+        return OrbitMonitors(system, orbit.signature, monitors, run.branch().settings.orbit.tolerance)(orbit);
     } catch (const InputError&) {
         return std::vector<double>(monitors.size(), unknown_value);
     }
@@ -68,24 +68,22 @@ std::vector<double> monitors_of(const System& system, const Orbit& orbit, const 
 
 bool run_ladder(const StudyRun& run, const System& system, const OrbitRecord& first, PointWriter& writer,
                 const RunnerOptions& options) {
-    Ladder ladder = at_place(run.start->place, run, [&] { return Ladder(system, first.point, run.branch.settings); });
+    Ladder ladder = at_place(run.start->place, run, [&] { return Ladder(system, first.point, run.branch().settings); });
     SpecialPoint begin = ladder.grazings().front();
-    begin.monitors.assign(run.branch.settings.monitors.size(), unknown_value);
+    begin.monitors.assign(run.branch().settings.monitors.size(), unknown_value);
     writer.add(name_of_rung(1), begin, first.stable);
     writer.end("");
-    while (ladder.grazings().size() < run.branch.rungs) {
+    const auto follow = [&](std::size_t number, const BranchStart& start) -> std::optional<RungEnd> {
         BranchPart part;
-        part.name = name_of_rung(ladder.grazings().size() + 1);
+        part.name = name_of_rung(number);
         part.again = true; // its first point is none of its ends
-        part.onto = ladder.next();
-        if (!part.onto)
-            break;
-        part.orbit = part.onto->orbit;
+        part.onto = start;
+        part.orbit = start.orbit;
         const PartEnd end = follow_part(run, ladder.settings(), system, part, writer, options);
-        if (end.interrupted)
-            return false;
-        ladder.take(end.last, end.why);
-    }
+        return end.interrupted ? std::nullopt : std::optional(RungEnd{end.last, end.why});
+    };
+    if (!climb(ladder, run.branch().rungs, follow))
+        return false;
     if (ladder.grazings().size() < 2)
         throw InputError(run.start->place, fmt::format("run '{}': no ladder begins there: {}", run.name, ladder.why()),
                          "choose another grazing, or wider bounds");

@@ -8,10 +8,11 @@
 
 namespace graze {
 
-/// Monitors of a motion over many contacts. Unknown where they name segments that it has not.
+/// Monitors of the orbit at an onset of chatter. Unknown (NaN) where they name segments that the orbit does not have.
 std::vector<double> monitors_of(const System& system, const Orbit& orbit, const StudyRun& run);
 
-/// Climbs from a grazing to the next, with one contact more each time, and adds where that leads: a run of kind ladder.
+/// Carries out a run of kind ladder: climbs from grazing to grazing, with one more contact each time, and adds the
+/// limit.
 /// @param first the grazing of the run that it starts from
 /// @return whether it was finished rather than interrupted
 /// @throws InputError when nothing can be climbed from there

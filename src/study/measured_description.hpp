@@ -10,7 +10,7 @@
 
 namespace graze {
 
-// The keys of runs of records, and of what is found from them, as run_description.hpp has those of others.
+// The keys of runs of kind record and identify; run_description.hpp has those of the other kinds.
 
 template <class Fields, class One>
 void describe_record_sampling(Fields& fields, One& sampling) {
@@ -20,24 +20,27 @@ void describe_record_sampling(Fields& fields, One& sampling) {
     fields.field("negated", sampling.negated);
     fields.field("channel", sampling.channel);
     fields.field("displacement", sampling.displacement);
-    fields.field("window", sampling.window);
-    fields.field("transition", sampling.transition);
-    fields.field("least_jump", sampling.least_jump);
+    fields.field("window", sampling.impacts.window);
+    fields.field("transition", sampling.impacts.transition);
+    fields.field("least_jump", sampling.impacts.least_jump);
 }
 
 template <class Fields, class Processing>
 void describe_processing(Fields& fields, Processing& processing) {
     fields.line({"columns", "what the columns of a text are called, if it does not say"}, processing.layout.columns);
     fields.line({"group", "the group of HDF5"}, processing.layout.group);
-    fields.form({"lines",
-                 "of an instrument's text, where what is found by itself is not what is meant: how many lines to "
-                 "pass over, and the lines that have the names and the units, from 1 on"},
-                "{ skip = 3, names = 4, units = 5 }", &read_lines);
-    for (auto [name, number] :
-         {std::pair{"skipped_lines", &processing.layout.skip}, std::pair{"names_line", &processing.layout.names_line},
-          std::pair{"units_line", &processing.layout.units_line}})
-        if (fields.has(name, *number > 0))
-            fields.field(name, *number);
+    fields.table({"lines",
+                  "of an instrument's text, where what is found by itself is not what is meant: how many lines to "
+                  "pass over, and the lines that have the names and the units, from 1 on"},
+                 "{ skip = 3, names = 4, units = 5 }", [&layout = processing.layout](auto& one) {
+                     const auto line = [&](const char* name, const char* stored, auto& number, std::size_t least) {
+                         if (one.has(stored, number > 0))
+                             one.count(key_in_table(name, stored), number, {least, 1'000'000});
+                     };
+                     line("skip", "skipped_lines", layout.skip, 0);
+                     line("names", "names_line", layout.names_line, 1);
+                     line("units", "units_line", layout.units_line, 1);
+                 });
     fields.form({"scale", "factors, offsets and units of channels"}, "{ q = 2.011, I = { factor, offset, unit } }",
                 &read_scales);
     fields.list("scales", processing.scales, [](auto& one, auto& scale) {
@@ -53,31 +56,33 @@ void describe_processing(Fields& fields, Processing& processing) {
                 "{ pass, stop }", &read_filter);
     fields.field("pass", processing.pass);
     fields.field("stop", processing.stop);
-    fields.count({"every", "keep every so many-th sample"}, processing.every, {1, 1'000'000});
+    fields.count({"every", "keep every so many-th sample"}, processing.every, {1, RecordProcessing::most_every});
     fields.form({"derivative", "a channel more: the rate of change of this one"}, "\"q\" or { channel, half_width }",
                 &read_derivative);
     fields.field("derivative", processing.derivative);
     fields.field("half_width", processing.half_width);
 }
 
+/// A virtual bench: the keys of the table `bench`, and what is stored of it.
 template <class Fields, class Bench>
 void describe_bench(Fields& fields, Bench& bench) {
-    if constexpr (Fields::reading) {
+    if constexpr (Fields::stored && Fields::reading) {
         std::string text;
         fields.field("model", text);
         bench.model = parse_model(text, "model of a bench");
-    } else {
+    } else if constexpr (Fields::stored) {
         fields.field("model", write_model(bench.model));
     }
     fields.field("parameter", bench.parameter);
     fields.field("levels", bench.levels);
     fields.field("directions", bench.directions);
-    fields.field("repeats", bench.repeats);
+    fields.count(key_in_table("repeats"), bench.repeats, {1, 10'000});
     fields.field("carry", bench.carry);
-    fields.field("settle", bench.settle);
-    fields.field("time", bench.time);
-    fields.field("rate", bench.rate);
-    fields.field("time_unit", bench.time_unit);
+    fields.number(key_in_table("settle"), bench.settle, any_number);
+    fields.number(key_in_table("time"), bench.time, positive_number);
+    fields.number(key_in_table("rate"), bench.rate, positive_number);
+    fields.number(key_in_table("time_unit"), bench.time_unit, positive_number);
+    fields.form(key_in_table("channels"), "", &read_bench_channels);
     fields.list("channels", bench.channels, [&](auto& one, auto& channel) {
         one.field("name", channel.value.name);
         one.field("unit", channel.value.unit);
@@ -96,24 +101,24 @@ void describe_bench(Fields& fields, Bench& bench) {
         one.field("drift", channel.drift);
         one.field("range", channel.range);
     });
-    fields.field("bits", bench.bits);
-    fields.field("anti_alias", bench.anti_alias);
+    fields.count(key_in_table("bits"), bench.bits, {1, 32});
+    fields.number(key_in_table("anti_alias"), bench.anti_alias, positive_number);
     fields.field("seed", bench.seed);
 }
 
-/// What only the levels of a virtual bench have.
-template <class Fields, class Run>
-void describe_levels(Fields& fields, Run& run) {
+/// Keys of the levels of a virtual bench. They are stored with the bench.
+template <class Fields, class Vary>
+void describe_levels(Fields& fields, Vary& vary) {
     if constexpr (!Fields::stored) {
         fields.form({"set", "parameters of the model on a virtual bench"}, "{ V = 1 }", read_apart);
         fields.form({"from", "its initial states"}, "{ x = 0.1 }", read_apart);
         fields.form({"mode", "its initial mode"}, "\"NAME\"", read_apart);
         fields.form({"vary", "the parameter that a virtual bench steps, with its levels"}, "{ V = { from, to, step } }",
                     &read_vary);
-        fields.choice({"direction", "how it steps them"}, run.direction, {"up", "down", "both"});
+        fields.choice({"direction", "how it steps them"}, vary.direction, {"up", "down", "both"});
         fields.truth({"carry", "the motion goes on from level to level; `false`: each begins at the initial state"},
-                     run.carry);
-        fields.count({"seed", "of the noise of a virtual bench"}, run.seed, any_seed);
+                     vary.carry);
+        fields.count({"seed", "of the noise of a virtual bench"}, vary.seed, any_seed);
     }
 }
 
@@ -162,7 +167,7 @@ void describe_record(Fields& fields, Request& request) {
         request.keep, {0, 10'000'000});
 }
 
-/// Keys that have no effect on an estimate are refused by its name.
+/// Makes keys that only some estimates have: in runs of other estimates they are refused.
 template <class Request>
 class KeyOfEstimate {
 public:
@@ -264,12 +269,12 @@ void describe_identify(Fields& fields, Request& request) {
                      "samples that tell the velocities at an impact. Records with fewer than three impacts are passed "
                      "over, unless all are so",
                      {What::restitution}),
-                 request.window, {5, 100'000});
+                 request.impacts.window, {ImpactWindow::least_window, ImpactWindow::most_window});
     fields.count(key("transition", "samples beside an impact that are left out", {What::restitution}),
-                 request.transition, {0, 100'000});
+                 request.impacts.transition, {0, ImpactWindow::most_window});
     fields.number(
         key("least_jump", "by which the velocity changes at an impact at least (by the noise)", {What::restitution}),
-        request.least_jump, positive_number);
+        request.impacts.least_jump, positive_number);
     const auto error_of = [&](const char* name, const char* meaning, What of, auto& error) {
         if (fields.has(name, error > 0))
             fields.number(key(name, meaning, {of}), error, positive_number);
@@ -283,31 +288,33 @@ void describe_identify(Fields& fields, Request& request) {
         fields.truth(key("each_row", "of several records, too, each row is an equilibrium, not the mean of all",
                          {What::coupling}),
                      request.each_row);
-    fields.form(key("noise", "standard deviations of the readings, where they are known", {What::coupling}),
-                "{ displacement, current }", &read_noise);
-    fields.field("displacement_noise", request.displacement_noise);
-    fields.field("current_noise", request.current_noise);
+    fields.table(key("noise", "standard deviations of the readings, where they are known", {What::coupling}),
+                 "{ displacement, current }", [&request](auto& one) {
+                     one.number(key_in_table("displacement", "displacement_noise"), request.displacement_noise,
+                                positive_number);
+                     one.number(key_in_table("current", "current_noise"), request.current_noise, positive_number);
+                 });
     if (fields.has("fit", request.what == What::fit))
         fields.object("fit", [&](auto& one) { describe_fit(one, request); });
 }
 
-/// All of a run that finds something in records.
+/// A run of kind identify.
 template <class Fields, class Run>
 void describe_found_by(Fields& fields, Run& run) {
-    const KeyOfEstimate key(run.identify);
+    const KeyOfEstimate key(run.identify());
     if constexpr (!Fields::stored) {
         fields.form({"set", "more parameters, for this run"}, "{ V = 1 }", read_apart);
         fields.form(key("from", "guesses of states at the beginning", {IdentifyRequest::What::fit}), "{ x = 0.1 }",
                     read_apart);
         fields.form(key("mode", "the initial mode", {IdentifyRequest::What::fit}), "\"NAME\"", read_apart);
     }
-    fields.object("identify", [&](auto& one) { describe_identify(one, run.identify); });
+    fields.object("identify", [&](auto& one) { describe_identify(one, run.identify()); });
     fields.form({"parameters", "other runs of this kind, whose parameters are known, with their errors"},
                 "\"RUN\" or [\"RUN\"]", &read_parameters);
     fields.field("parameters", run.parameters);
     fields.number(
         key("tolerance", "of the integration, for each step relative to each state", {IdentifyRequest::What::fit}),
-        run.simulation.tolerance, positive_number);
+        run.identify().simulation.tolerance, positive_number);
 }
 
 } // namespace graze

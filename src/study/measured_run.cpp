@@ -1,6 +1,7 @@
 #include "study/measured_run.hpp"
 
 #include "graze/base/name_list.hpp"
+#include "study/estimate_kind.hpp"
 #include "study/identify_run.hpp"
 #include "study/identify_units.hpp"
 #include "study/record_run.hpp"
@@ -16,7 +17,7 @@ namespace {
 std::vector<EstimateRecords> estimates_for(const StudyRun& run, const ResultFile& file) {
     std::vector<EstimateRecords> found;
     for (const std::string& name : run.parameters)
-        convert_to_model(found.emplace_back(file.estimates(name)), run); // of a model in other units, maybe
+        convert_to_model(found.emplace_back(file.estimates(name)), run); // the other run's model may have other units
     return found;
 }
 
@@ -24,7 +25,7 @@ bool run_records(const StudyRun& run, SharedFile& file, const std::function<bool
                  const std::function<void(bool)>& told) {
     const std::size_t there = file.with([&](const ResultFile& results) { return results.point_count(run.name); });
     RecordRun records(run);
-    for (std::size_t number = 0; number < run.record.records(); ++number) {
+    for (std::size_t number = 0; number < run.record().records(); ++number) {
         if (number < there) {
             file.with([&](ResultFile&) { told(false); });
             continue;
@@ -83,7 +84,7 @@ StudyRun with_parameters_found(const StudyRun& run, const ResultFile& file) {
             if (!parameter)
                 continue;
             result.model.set_parameter(number.name, number.estimate.value);
-            auto& set = result.branch.set;
+            auto& set = result.set;
             if (std::find(set.begin(), set.end(), *parameter) == set.end())
                 set.push_back(*parameter);
             ++taken;
@@ -101,7 +102,7 @@ StudyRun measured_run(const StudyRun& run, const ResultFile& file) {
     StudyRun result = with_parameters_found(run, file);
     if (run.kind != RunKind::identify)
         return result;
-    const auto from = run.identify.records.empty() ? std::nullopt : file.find_run(run.identify.records.front());
+    const auto from = run.identify().records.empty() ? std::nullopt : file.find_run(run.identify().records.front());
     if (!from)
         return result;
     const Model model = stored_model(*from);
@@ -111,11 +112,10 @@ StudyRun measured_run(const StudyRun& run, const ResultFile& file) {
                 return value.unit;
         return std::string();
     };
-    using What = IdentifyRequest::What;
-    const bool of_speeds = run.identify.what == What::decrement || run.identify.what == What::restitution;
+    const bool of_speeds = estimate_kind(run.identify().what).shows_channel;
     for (std::size_t v = 1; v < result.value_names.size(); ++v)
         result.value_units[v] = result.value_names[v] == "t" ? model.time_unit
-                                : of_speeds                  ? unit(run.identify.channel)
+                                : of_speeds                  ? unit(run.identify().channel)
                                                              : unit(result.value_names[v]);
     return result;
 }

@@ -10,7 +10,8 @@ namespace graze {
 
 namespace {
 
-/// A number from three others that looks random (Steele, Lea and Flood 2014): any draw can be made by itself.
+/// A pseudorandom number from three numbers (splitmix, Steele, Lea and Flood 2014), so that draws are independent of
+/// order.
 std::uint64_t mixed(std::uint64_t seed, std::uint64_t point, std::uint64_t axis) {
     const auto mix = [](std::uint64_t x) {
         x += 0x9e3779b97f4a7c15u;
@@ -22,41 +23,41 @@ std::uint64_t mixed(std::uint64_t seed, std::uint64_t point, std::uint64_t axis)
 }
 
 double drawn(const StudyRun& run, std::size_t axis, std::size_t point) {
-    const Variation& variation = run.axes[axis];
-    const double share = static_cast<double>(mixed(run.seed, point, axis) >> 11) * 0x1p-53;
+    const Variation& variation = run.motion().axes[axis];
+    const double share = static_cast<double>(mixed(run.motion().seed, point, axis) >> 11) * 0x1p-53;
     return variation.offset + (variation.logarithmic ? variation.low * std::pow(variation.high / variation.low, share)
                                                      : variation.low + share * (variation.high - variation.low));
 }
 
-/// Values along the first axis of a sweep, one way.
+/// Number of values along the first axis of a sweep, in one direction.
 std::size_t sweep_length(const StudyRun& run) {
-    return run.kind == RunKind::sweep ? run.axes.front().values.size() : 1;
+    return run.kind == RunKind::sweep ? run.motion().axes.front().values.size() : 1;
 }
 
 std::size_t chain_length_of(const StudyRun& run) {
-    return sweep_length(run) * (run.kind == RunKind::sweep && run.direction == SweepDirection::both ? 2 : 1);
+    return sweep_length(run) * (run.kind == RunKind::sweep && run.motion().direction == SweepDirection::both ? 2 : 1);
 }
 
-/// Combinations of the axes' values that make chains.
+/// Number of combinations of values of the axes, each of which makes a chain.
 std::size_t combinations(const StudyRun& run) {
     std::size_t count = 1;
-    for (std::size_t a = run.kind == RunKind::sweep ? 1 : 0; a < run.axes.size(); ++a)
-        count *= std::max<std::size_t>(run.axes[a].values.size(), 1);
+    for (std::size_t a = run.kind == RunKind::sweep ? 1 : 0; a < run.motion().axes.size(); ++a)
+        count *= std::max<std::size_t>(run.motion().axes[a].values.size(), 1);
     return count;
 }
 
-/// Values of the initial states that follow from states and parameters.
+/// The initial states that are functions of states and parameters.
 Function following_states(const StudyRun& run) {
-    if (run.following.empty())
+    if (run.motion().following.empty())
         return {};
-    // Of a run that was copied the model has a graph of its own, and the values are of the first one's.
-    const auto graph = run.following.front().value.graph();
+    // The model of a copied run has a graph of its own, while these expressions belong to the original graph.
+    const auto graph = run.motion().following.front().value.graph();
     std::vector<Expression> inputs, outputs;
     for (const State& state : run.model.states)
         inputs.push_back(graph->symbol(state.name));
     for (const Expression& parameter : run.model.parameter_symbols())
         inputs.push_back(graph->symbol(parameter.name()));
-    for (const FollowingState& one : run.following)
+    for (const FollowingState& one : run.motion().following)
         outputs.push_back(one.value);
     return {inputs, outputs};
 }
@@ -68,21 +69,21 @@ std::size_t direction_of(const StudyRun& run, std::size_t point) {
     if (run.kind != RunKind::sweep)
         return 0;
     const bool second = point % chain_length_of(run) >= sweep_length(run);
-    return run.direction == SweepDirection::both ? (second ? 1 : 0) : 0;
+    return run.motion().direction == SweepDirection::both ? (second ? 1 : 0) : 0;
 }
 
 std::vector<double> coordinates_of(const StudyRun& run, std::size_t point) {
     require_index(point, points_of(run), "point");
     const std::size_t length = chain_length_of(run), chain = point / length, index = point % length;
-    std::vector<double> coordinates(run.axes.size());
+    std::vector<double> coordinates(run.motion().axes.size());
     std::size_t rest = chain % combinations(run);
-    for (std::size_t a = run.axes.size(); a-- > 0;) {
-        const Variation& axis = run.axes[a];
+    for (std::size_t a = run.motion().axes.size(); a-- > 0;) {
+        const Variation& axis = run.motion().axes[a];
         if (axis.values.empty()) {
             coordinates[a] = drawn(run, a, point);
         } else if (a == 0 && run.kind == RunKind::sweep) {
             const std::size_t size = axis.values.size();
-            const bool falling = run.direction == SweepDirection::down || index >= size;
+            const bool falling = run.motion().direction == SweepDirection::down || index >= size;
             coordinates[a] = axis.values[falling ? size - 1 - index % size : index];
         } else {
             coordinates[a] = axis.values[rest % axis.values.size()];
@@ -93,7 +94,7 @@ std::vector<double> coordinates_of(const StudyRun& run, std::size_t point) {
 }
 
 std::size_t chains_of(const StudyRun& run) {
-    return combinations(run) * std::max<std::size_t>(run.draws, 1);
+    return combinations(run) * std::max<std::size_t>(run.motion().draws, 1);
 }
 
 std::size_t points_of(const StudyRun& run) {
@@ -106,26 +107,26 @@ Plan plan_of(const StudyRun& given, const System& system, const PointRecord* sta
     Plan plan;
     plan.chain_length = chain_length_of(run);
     plan.chains = chains_of(run);
-    plan.carry = run.kind == RunKind::sweep && run.carry;
+    plan.carry = run.kind == RunKind::sweep && run.motion().carry;
     std::vector<double> state = start ? start->result.state : std::vector<double>();
     const std::size_t mode = start ? start->result.mode : run.model.initial_mode;
     plan.start = [kept, &run, state, mode, system, following = following_states(run)](std::size_t point) {
         PointStart result{run.model.parameter_values(), state, mode};
         const std::vector<double> coordinates = coordinates_of(run, point);
-        for (std::size_t a = 0; a < run.axes.size(); ++a)
-            if (!run.axes[a].state)
-                result.parameters[run.axes[a].parameter.place()] = coordinates[a];
+        for (std::size_t a = 0; a < run.motion().axes.size(); ++a)
+            if (!run.motion().axes[a].state)
+                result.parameters[run.motion().axes[a].parameter.place()] = coordinates[a];
         if (result.state.empty())
             result.state = system.initial()(result.parameters);
-        for (std::size_t a = 0; a < run.axes.size(); ++a)
-            if (const auto& varied = run.axes[a].state)
+        for (std::size_t a = 0; a < run.motion().axes.size(); ++a)
+            if (const auto& varied = run.motion().axes[a].state)
                 result.state[*varied] = coordinates[a];
-        if (!run.following.empty()) {
+        if (!run.motion().following.empty()) {
             std::vector<double> inputs = result.state;
             inputs.insert(inputs.end(), result.parameters.begin(), result.parameters.end());
             const std::vector<double> values = following(inputs);
             for (std::size_t i = 0; i < values.size(); ++i)
-                result.state[run.following[i].state] = values[i];
+                result.state[run.motion().following[i].state] = values[i];
         }
         return result;
     };

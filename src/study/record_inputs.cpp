@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_files = 100'000;
 
-/// Whether a name fits a pattern in which `*` stands for anything.
+/// True when a name matches a pattern in which `*` stands for any text.
 bool fits(std::string_view name, std::string_view pattern) {
     std::size_t n = 0, p = 0, star = std::string_view::npos, after = 0;
     while (n < name.size())
@@ -41,7 +41,7 @@ bool fits(std::string_view name, std::string_view pattern) {
                        [](char c) { return c == '*'; });
 }
 
-/// Whether a path, with all links followed, lies in a folder.
+/// True when a path, with all links followed, lies in a folder.
 bool is_within(const fs::path& path, const fs::path& folder) {
     std::error_code none;
     const fs::path real = fs::weakly_canonical(path, none), home = fs::weakly_canonical(folder, none);
@@ -131,7 +131,7 @@ void fingerprint_record(RecordInput& input) {
 
 Model model_of_record(const std::vector<RecordedName>& states, const std::vector<RecordedName>& parameters,
                       const std::string& time_unit) {
-    // Text in, so that what is kept with the results is read the same way.
+    // The model is made from a text since that text is stored with the results and read again.
     const auto quoted = [](const std::string& text) {
         std::string result = "\"";
         for (const char c : text)

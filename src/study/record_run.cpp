@@ -26,16 +26,16 @@ namespace {
 
 constexpr std::size_t most_samples = (std::size_t{1} << 24) - 1; ///< of a record, as the result file takes
 
-/// A record's channels by the run's names and, behind them, its values.
+/// A record with its channels under the names that the run gives them, followed by the values of the run.
 class ValueSource : public SampleSource {
 public:
     ValueSource(std::unique_ptr<SampleSource> source, const StudyRun& run)
-        : record_(std::move(source), run.record.processing), evaluate_(System(run.model).function_of(run.values)),
+        : record_(std::move(source), run.record().processing), evaluate_(System(run.model).function_of(run.values)),
           inputs_(evaluate_.inputs()), results_(evaluate_.outputs()), work_(evaluate_.workspace()) {
         const RecordHeader& header = record_.header();
         header_.time = header.time;
-        for (std::size_t c = 0; c < run.record.channels.size(); ++c) {
-            const RecordRequest::Kept& kept = run.record.channels[c];
+        for (std::size_t c = 0; c < run.record().channels.size(); ++c) {
+            const RecordRequest::Kept& kept = run.record().channels[c];
             columns_.push_back(header.channel(kept.channel, "channels"));
             const std::string& unit = header.channels[columns_.back()].unit;
             if (unit != run.model.states[c].unit)
@@ -85,7 +85,7 @@ private:
     Samples raw_;
 };
 
-/// Asks, with each part that is read, whether to go on.
+/// A source that ends when it is interrupted. It asks with each part that is read.
 class InterruptedSource : public SampleSource {
 public:
     InterruptedSource(std::unique_ptr<SampleSource> source, const std::function<bool()>& interrupted, bool& was)
@@ -107,10 +107,10 @@ private:
 };
 
 /// Takes the samples of one record.
-class Taker {
+class RecordSampler {
 public:
     using Open = std::function<std::unique_ptr<SampleSource>()>;
-    Taker(const StudyRun& run, Open open) : run_(&run), request_(&run.record), open_(std::move(open)) {
+    RecordSampler(const StudyRun& run, Open open) : run_(&run), request_(&run.record()), open_(std::move(open)) {
         first_ = request_->channels.size();
         set_.width = run.values.size();
     }
@@ -139,7 +139,7 @@ private:
     }
     std::size_t channel(const std::string& name) const { return header_.channel(name, "sample"); }
 
-    /// How long it is, its last values, and all rows if they are wanted and few enough.
+    /// Reads the duration and the last values of the record, and takes all rows if they are wanted and not too many.
     void read_rows(PointResult& result) {
         const auto source = open_();
         header_ = source->header();
@@ -223,33 +223,27 @@ private:
         return first_ + static_cast<std::size_t>(found - run_->value_names.begin());
     }
 
-    /// Values at impacts, from the rows before each and from those after it.
+    /// Takes values at impacts, continued from the rows before each and from the rows after it.
     void read_impacts(const RecordSampling& sampling, std::size_t index) {
-        ImpactSettings settings;
-        settings.velocity = channel(sampling.channel);
-        if (!sampling.displacement.empty())
-            settings.displacement = channel(sampling.displacement);
-        settings.window = sampling.window;
-        settings.transition = sampling.transition;
-        settings.least_jump = sampling.least_jump;
         const auto source = open_();
-        const std::vector<RecordedImpact> impacts = find_impacts(*source, settings);
+        const std::vector<RecordedImpact> impacts =
+            find_impacts(*source, impact_settings(header_, sampling.channel, sampling.displacement, sampling.impacts));
         const auto again = open_();
         const auto of_values = [&](const std::vector<double>& row, double velocity) {
             std::vector<double> values(row.begin() + static_cast<std::ptrdiff_t>(first_), row.end());
-            for (std::size_t v = 0; v < values.size(); ++v) // what is the velocity itself is as precise as it is
+            for (std::size_t v = 0; v < values.size(); ++v) // the velocity is known better than its continuation
                 if (to_string(run_->values[v]) == sampling.channel || run_->value_names[v] == sampling.channel)
                     values[v] = velocity;
             return values;
         };
-        for (const ImpactSides& sides : impact_sides(*again, impacts, sampling.transition)) {
+        for (const ImpactSides& sides : impact_sides(*again, impacts, sampling.impacts.transition)) {
             const RecordedImpact& impact = impacts[sides.impact];
             add(index, impact.time, of_values(sides.before, impact.before));
             add(index + 1, impact.time, of_values(sides.after, impact.after));
         }
     }
 
-    /// In the order of time.
+    /// The samples in the order of time.
     SampleSet in_order() const {
         std::vector<std::size_t> order(set_.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
@@ -283,15 +277,15 @@ struct RecordRun::State {
 };
 
 RecordRun::RecordRun(const StudyRun& run) : state_(std::make_unique<State>(State{&run, std::nullopt})) {
-    if (run.record.bench)
-        state_->bench.emplace(*run.record.bench);
+    if (run.record().bench)
+        state_->bench.emplace(*run.record().bench);
 }
 
 RecordRun::~RecordRun() = default;
 
 std::optional<PointRecord> RecordRun::point(std::size_t number, const std::function<bool()>& interrupted) {
     const StudyRun& run = *state_->run;
-    const RecordRequest& request = run.record;
+    const RecordRequest& request = run.record();
     PointRecord point;
     point.number = number;
     point.result.label = Label::ended;
@@ -334,7 +328,7 @@ std::optional<PointRecord> RecordRun::point(std::size_t number, const std::funct
                                                    was_interrupted);
     };
     try {
-        Taker(run, open).take(point.result, point.coordinates);
+        RecordSampler(run, open).take(point.result, point.coordinates);
     } catch (const InputError& error) {
         if (was_interrupted) // what was read in part makes no sense
             return std::nullopt;

@@ -11,14 +11,17 @@
 
 namespace graze {
 
-// All that a run is: its keys, and what is stored of them. Each is said here once, to whatever is given as `fields`:
-// KeyReader reads studies, SettingsWriter and SettingsReader store what was asked for and read it again, KeyList lists
-// the keys. Of what writes, runs are constant. What follows in the order of the fields is what is stored, whose texts
-// are compared: new fields are written only where they differ from what holds without them.
+// The keys of runs and the fields that are stored of them, each described once to a visitor `fields`: KeyReader reads
+// studies, SettingsWriter and SettingsReader store settings and read them, KeyList lists the keys. Runs are constant
+// for the writer. Stored texts are compared, so that the order of the fields must not change, and a new field is
+// written only where it differs from its default.
 
 std::vector<std::string> short_names_of_points();
-/// The contents of a run's table. Empty when it cannot be read, which is told when the run reads it.
+/// The contents of the file of a run's table. Empty when the file cannot be read: the error is thrown when the run is
+/// carried out.
 std::string text_of_table(const BranchRequest& branch);
+/// What is stored with a branch as if it were a motion: a sampling at the section of its attractor.
+MotionRequest motion_of_branch(const BranchRequest& branch);
 
 template <class Fields, class Axis>
 void describe_axis(Fields& fields, Axis& axis) {
@@ -80,10 +83,10 @@ void describe_monitor(Fields& fields, One& monitor) {
     fields.optional("greatest", monitor.greatest);
 }
 
-/// Along which parameters, and how far.
+/// Along which parameters a branch is followed, and how far.
 template <class Fields, class Run>
-void describe_way(Fields& fields, Run& run, const std::vector<std::string>& parameters) {
-    auto& branch = run.branch.settings;
+void describe_path(Fields& fields, Run& run, const std::vector<std::string>& parameters) {
+    auto& branch = run.branch().settings;
     const bool plane = run.kind == RunKind::curve, ladder = run.kind == RunKind::ladder;
     fields.form(
         {"along", plane ? "both parameters, with their bounds" : "the parameter that is followed, and its bounds"},
@@ -116,33 +119,33 @@ void describe_way(Fields& fields, Run& run, const std::vector<std::string>& para
 
 template <class Fields, class Run>
 void describe_continuation(Fields& fields, Run& run) {
-    auto& branch = run.branch.settings;
-    describe_way(fields, run, run.model.independent_parameters());
+    auto& branch = run.branch().settings;
+    describe_path(fields, run, run.model.independent_parameters());
     fields.denied(
         {"unphysical", "go on where the model itself would not follow (drawn faint)", run.kind != RunKind::ladder},
         "stop_when_unphysical", branch.stop_when_unphysical);
     fields.field("reorder", branch.reorder);
     fields.optional("least", branch.least);
     fields.optional("greatest", branch.greatest);
-    fields.form({"step",
-                 "of the continuation: first, smallest and largest step, in units of the orbit's size (0.01, "
-                 "1e-8, 0.05), and the largest angle in radians (0.35). Where the branch is straight, steps are "
-                 "up to ten times as long as `largest`, if states are larger than what they vary by"},
-                "{ first, smallest, largest, angle }", &read_step);
-    auto& step = branch.continuation;
-    fields.field("first_step", step.first_step);
-    fields.field("smallest_step", step.smallest_step);
-    fields.field("largest_step", step.largest_step);
-    fields.field("step_accuracy", step.accuracy);
-    fields.field("largest_angle", step.largest_angle);
-    fields.field("step_iterations", step.iterations);
+    fields.table({"step",
+                  "of the continuation: first, smallest and largest step, in units of the orbit's size (0.01, "
+                  "1e-8, 0.05), and the largest angle in radians (0.35). Where the branch is straight, steps are "
+                  "up to ten times as long as `largest`, if states are larger than what they vary by"},
+                 "{ first, smallest, largest, angle }", [&step = branch.continuation](auto& one) {
+                     one.number(key_in_table("first", "first_step"), step.first_step, positive_number);
+                     one.number(key_in_table("smallest", "smallest_step"), step.smallest_step, positive_number);
+                     one.number(key_in_table("largest", "largest_step"), step.largest_step, positive_number);
+                     one.field("step_accuracy", step.accuracy);
+                     one.number(key_in_table("angle", "largest_angle"), step.largest_angle, positive_number);
+                     one.field("step_iterations", step.iterations);
+                 });
     if (run.kind == RunKind::ladder)
-        fields.count({"rungs", "grazings at most, the first one included"}, run.branch.rungs, {2, most_rungs});
-    if (fields.has("grazing", run.branch.touches))
+        fields.count({"rungs", "grazings at most, the first one included"}, run.branch().rungs, {2, most_rungs});
+    if (fields.has("grazing", run.branch().touches))
         fields.truth({"grazing",
                       "tell of orbits that touch what becomes of them, as `graze grazing` does: of grazings, "
                       "and of all points of curves of touches"},
-                     run.branch.touches);
+                     run.branch().touches);
     fields.form({"point_names",
                  "what special points are called besides their labels, in pictures, tables and wherever a "
                  "point is asked for. Another name is no reason to compute anything again"},
@@ -151,23 +154,23 @@ void describe_continuation(Fields& fields, Run& run) {
 
 template <class Fields, class Run>
 void describe_branch(Fields& fields, Run& run) {
-    auto& branch = run.branch.settings;
+    auto& branch = run.branch().settings;
     const bool begins = run.kind == RunKind::orbit || run.kind == RunKind::follow;
     fields.form({"signature",
                  "segments of the orbit: labels of transitions or names of sections. The motion from the "
                  "initial state is followed until a piece of it with these segments leads to an orbit",
                  begins},
                 "\"J1 J8\"", &read_signature);
-    fields.field("signature", run.branch.signature);
+    fields.field("signature", run.branch().signature);
     fields.form({"table",
                  "file with a motion that the orbit is like: a CSV file with columns `segment`, `t` and the "
                  "states, of which the first and the last row of each segment count",
                  begins},
                 "\"FILE.csv\"", &read_orbit_table);
     if constexpr (Fields::reading)
-        fields.field("table", run.branch.table_text);
+        fields.field("table", run.branch().table_text);
     else
-        fields.field("table", text_of_table(run.branch));
+        fields.field("table", text_of_table(run.branch()));
     fields.form({"monitors", "numbers of each orbit, by name (the period and the maxima of the states)"},
                 "{ NAME = { ... } }", &read_monitors);
     fields.list("monitors", branch.monitors, [](auto& one, auto& monitor) { describe_monitor(one, monitor); });
@@ -176,7 +179,7 @@ void describe_branch(Fields& fields, Run& run) {
     fields.field("orbit_tolerance", branch.orbit.tolerance);
     fields.field("orbit_iterations", branch.orbit.iterations);
     fields.field("error_estimate", branch.orbit.error_estimate);
-    // Of an orbit too: when it does not settle, what is not admissible may do.
+    // An orbit that is given by its signature may be inadmissible too.
     if (run.is_followed())
         describe_continuation(fields, run);
     else
@@ -209,7 +212,7 @@ void describe_transient(Fields& fields, Transient& transient) {
 
 template <class Fields, class Attractor>
 void describe_attractor(Fields& fields, Attractor& attractor, RunKind kind) {
-    const bool labels = kind == RunKind::sweep || kind == RunKind::basin;
+    const bool labels = seeks_attractors(kind);
     const bool settles = labels || kind == RunKind::orbit || kind == RunKind::follow;
     fields.form({"section",
                  "whose passages are returns and periods (the first section of a phase, or the first of all)", settles},
@@ -261,22 +264,22 @@ void describe_start(Fields& fields, Start& start) {
     fields.field("onto", start.onto);
 }
 
-/// What varies from point to point.
-template <class Fields, class Run>
-void describe_axes(Fields& fields, Run& run) {
+/// What varies from point to point, and where motions begin.
+template <class Fields, class Run, class Motion, class Request>
+void describe_axes(Fields& fields, Run& run, Motion& motion, Request& request) {
     const bool points = run.has_motions();
     fields.form(
         {"vary", "what changes from point to point: parameters or initial states. Several lists make a grid", points},
         "{ V = { from, to, step } }", &read_vary);
-    fields.list("vary", run.axes, [](auto& one, auto& axis) { describe_axis(one, axis); });
+    fields.list("vary", motion.axes, [](auto& one, auto& axis) { describe_axis(one, axis); });
     fields.form({"from",
                  points ? "initial states (those of the model). They may be expressions in what varies, "
                           "parameters or other initial states: then they have another value at each point"
                         : "initial states (those of the model)",
                  points || run.kind == RunKind::orbit || run.kind == RunKind::follow},
                 "{ x = 0.1 }", read_apart);
-    if (fields.has("following", !run.following.empty()))
-        fields.list("following", run.following, [&](auto& one, auto& following) {
+    if (fields.has("following", !motion.following.empty()))
+        fields.list("following", motion.following, [&](auto& one, auto& following) {
             one.named("state", following.state, names_of(run.model.states));
             one.expression("value", following.value);
         });
@@ -284,30 +287,29 @@ void describe_axes(Fields& fields, Run& run) {
                  points || run.kind == RunKind::orbit || run.kind == RunKind::follow},
                 "\"NAME\"", read_apart);
     fields.form({"set", "more parameters, for this run", run.kind != RunKind::ladder}, "{ V = 1 }", read_apart);
-    fields.named("set", run.branch.set, run.model.independent_parameters());
-    if (fields.has("draws", run.draws > 0)) {
+    fields.named("set", run.set, run.model.independent_parameters());
+    if (fields.has("draws", motion.draws > 0)) {
         fields.count({"draws", "how many points are drawn at random for each combination of the other values", points},
-                     run.draws, {1});
-        fields.count({"seed", "from which they are drawn", points}, run.seed, any_seed);
+                     motion.draws, {1});
+        fields.count({"seed", "from which they are drawn", points}, motion.seed, any_seed);
     }
     if (run.kind == RunKind::sweep)
         fields.choice({"direction", "how the first of what varies goes: `both` is up, then down from where that ended"},
-                      run.direction, {"up", "down", "both"});
+                      request.direction, {"up", "down", "both"});
     else if (run.is_followed())
         fields.choice({"direction",
                        "how the parameter changes at first, for the branch turns at folds. Where a start at "
                        "a point leads onto another branch that branch has ways of its own, and `direction` "
                        "says nothing"},
-                      run.direction, {"up", "down", "both"});
+                      request.direction, {"up", "down", "both"});
     if (run.kind == RunKind::sweep)
         fields.truth({"carry", "every point begins where the one before ended; `false`: at the initial state"},
-                     run.carry);
+                     motion.carry);
 }
 
-template <class Fields, class Run>
-void describe_integration(Fields& fields, Run& run) {
+template <class Fields, class Run, class Simulation>
+void describe_integration(Fields& fields, const Run& run, Simulation& simulation) {
     const bool chosen = run.has_motions() || run.kind == RunKind::orbit || run.kind == RunKind::follow;
-    auto& simulation = run.simulation;
     fields.number({"tolerance", "of the integration, for each step relative to each state", true,
                    run.is_branch() ? "1e-13 of orbits, 1e-12 of what leads to them" : nullptr},
                   simulation.tolerance, positive_number);
@@ -319,22 +321,23 @@ void describe_integration(Fields& fields, Run& run) {
     fields.field("touch", simulation.touch);
 }
 
-template <class Fields, class Run>
-void describe_simulated(Fields& fields, Run& run) {
+/// Runs that simulate. @param motion of a branch one without axes: what is stored of both is in the same order
+template <class Fields, class Run, class Motion, class Request>
+void describe_simulated(Fields& fields, Run& run, Motion& motion, Request& request) {
     const bool points = run.has_motions(), begins = points || run.kind == RunKind::orbit || run.kind == RunKind::follow;
-    describe_axes(fields, run);
+    describe_axes(fields, run, motion, request);
     if (run.is_branch())
         fields.object("branch", [&](auto& one) { describe_branch(one, run); });
-    const bool transient = run.kind == RunKind::simulate;
+    const bool transient = points && !seeks_attractors(run.kind);
     if (transient)
-        describe_transient(fields, run.transient);
+        describe_transient(fields, motion.transient);
     else
-        describe_attractor(fields, run.attractor, run.kind);
+        describe_attractor(fields, request.attractor, run.kind);
     fields.form({"bounds", "a motion that leaves them has escaped", begins}, "{ q = [-1, 1] }", &read_bounds);
-    describe_bounds(fields, transient ? run.transient.bounds : run.attractor.bounds, run.model);
+    describe_bounds(fields, transient ? motion.transient.bounds : request.attractor.bounds, run.model);
     fields.form({"sample", "where values are taken (at the section)", points}, "\"SECTION\" or { NAME = { ... } }",
                 &read_samplings);
-    fields.list("samplings", run.samplings,
+    fields.list("samplings", motion.samplings,
                 [&](auto& one, auto& sampling) { describe_sampling(one, sampling, run.model); });
     fields.form({"values",
                  "states, quantities, definitions, parameters or expressions; \"name = expression\" gives a "
@@ -358,16 +361,16 @@ void describe_simulated(Fields& fields, Run& run) {
                 "\"RUN\" or [\"RUN\"]", &read_parameters);
     if (fields.has("parameters", !run.parameters.empty()))
         fields.field("parameters", run.parameters);
-    describe_integration(fields, run);
+    describe_integration(fields, run, request.simulation);
 }
 
-/// Runs that simulate nothing themselves.
+/// Records, and what is identified from them.
 template <class Fields, class Run>
 void describe_measured(Fields& fields, Run& run) {
     fields.field("value_names", run.value_names);
     if (run.kind == RunKind::record) {
-        describe_levels(fields, run);
-        fields.object("record", [&](auto& one) { describe_record(one, run.record); });
+        describe_levels(fields, run.record().vary);
+        fields.object("record", [&](auto& one) { describe_record(one, run.record()); });
         fields.form({"values", "channels or expressions of them, as of other runs (all channels)"}, "[\"q\"]",
                     read_apart);
         fields.expressions("values", run.values);
@@ -383,12 +386,17 @@ void describe(Fields& fields, Run& run) {
         fields.form({"text", "what it is for, in words"}, "text", read_apart);
         fields.form({"model", "another model"}, "\"NAME\" or \"./FILE.toml\"", read_apart);
     } else {
-        fields.word("kind", run.kind, kinds_of_runs());
+        auto kind = run.kind;
+        fields.word("kind", kind, kinds_of_runs());
+        if constexpr (Fields::reading)
+            run.set_kind(kind);
     }
     if (run.is_measured())
-        describe_measured(fields, run);
-    else
-        describe_simulated(fields, run);
+        return describe_measured(fields, run);
+    if (run.has_motions())
+        return describe_simulated(fields, run, run.motion(), run.motion());
+    MotionRequest none = motion_of_branch(run.branch());
+    describe_simulated(fields, run, none, run.branch());
 }
 
 } // namespace graze

@@ -11,17 +11,18 @@
 namespace graze {
 
 void read_vary(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
+    std::vector<Variation>& axes = run.kind == RunKind::record ? run.record().vary.axes : run.motion().axes;
     double points = 1;
     reader.each_of(entry, {}, [&](const TomlEntry& item) {
-        run.axes.push_back(read_variation(reader, run.model, item));
-        points *= static_cast<double>(std::max<std::size_t>(run.axes.back().values.size(), 1));
+        axes.push_back(read_variation(reader, run.model, item));
+        points *= static_cast<double>(std::max<std::size_t>(axes.back().values.size(), 1));
         if (points > most_points) // before the next axis takes room
             reader.fail(entry, "there would be more than a thousand million points", "take larger steps");
     });
 }
 
 void read_section(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
-    run.attractor.section = run.model.sections[section_index(reader, run.model, entry)].name;
+    run.attractor().section = run.model.sections[section_index(reader, run.model, entry)].name;
 }
 
 void read_bounds(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
@@ -31,15 +32,16 @@ void read_bounds(const StudyReader& reader, StudyRun& run, const TomlEntry& entr
             throw InputError(item.place, fmt::format("the model has no state '{}'", item.name),
                              "give bounds of states: { q = [-1, 1] }");
         const auto [least, greatest] = reader.range(run.model, item);
-        run.attractor.bounds.push_back({*state, least, greatest});
+        run.attractor().bounds.push_back({*state, least, greatest});
     });
-    run.transient.bounds = run.attractor.bounds;
+    if (run.has_motions())
+        run.motion().transient.bounds = run.motion().attractor.bounds;
 }
 
 namespace {
 
 /// Which branch through a point, or which curve.
-std::vector<std::string> ways_on() {
+std::vector<std::string> words_of_onto() {
     std::vector<std::string> names{"same", "other", "twin"};
     for (const PointKind& kind : point_kinds())
         if (kind.may_be_kept)
@@ -61,7 +63,7 @@ void read_start(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
         } else if (item.name == "point") {
             start.point = item.node->is_integer() ? std::to_string(reader.count(item)) : reader.toml().string(item);
         } else if (item.name == "onto") {
-            reader.choice(item, ways_on());
+            reader.choice(item, words_of_onto());
             start.onto = reader.toml().string(item);
         } else {
             const auto at = reader.toml().entries(reader.toml().table(item), item.path);
@@ -86,14 +88,14 @@ void read_parameters(const StudyReader& reader, StudyRun& run, const TomlEntry& 
 void read_skip(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     reader.each_of(entry, {"time", "periods"}, [&](const TomlEntry& item) {
         if (item.name == "time")
-            run.transient.skip_time = reader.positive(run.model, item);
+            run.motion().transient.skip_time = reader.positive(run.model, item);
         else
-            run.transient.skip_periods = reader.count(item);
+            run.motion().transient.skip_periods = reader.count(item);
     });
 }
 
 void read_counted(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
-    run.transient.counted = events_of(reader, run.model, entry);
+    run.motion().transient.counted = events_of(reader, run.model, entry);
 }
 
 } // namespace graze

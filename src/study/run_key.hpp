@@ -13,24 +13,32 @@ namespace graze {
 class StudyReader;
 struct StudyRun;
 
-/// A key of a run. Functions that describe the keys of a run (run_description.hpp) say each of them once, to whatever
-/// needs to know: what reads studies, what stores settings and reads them again, what lists keys for pages and editors.
+/// A key of a run. The functions of run_description.hpp describe each key once, to any of four visitors: KeyReader
+/// reads studies, SettingsWriter and SettingsReader store settings and read them, KeyList lists keys for pages and
+/// editors.
 struct Key {
     const char* name;
     const char* meaning; ///< one phrase, with the unit if there is one
-    /// Whether runs of this kind offer it. What they do not may be stored with their settings all the same.
+    /// Users may give the key in runs of this kind. A key that is not offered may be stored all the same.
     bool offered = true;
-    const char* standard = nullptr; ///< what holds without it, in words; null: the value that it has then
+    const char* standard = nullptr; ///< its default in words; null: the value that it has in a new run
     std::string idle = {}; ///< why it has no effect in this run, such as "has no effect on a fit"; empty: it has one
+    const char* stored_as = nullptr; ///< the name of the field that is stored, where it is not that of the key
 };
 
-/// Whole numbers that a key takes.
+/// A key within a table whose meaning describes all its keys.
+/// @param stored the name of the field that is stored; null: that of the key
+inline Key key_in_table(const char* name, const char* stored = nullptr) {
+    return {name, "", true, nullptr, {}, stored};
+}
+
+/// The range of a whole number.
 struct CountRange {
     std::size_t least = 0, most = 1'000'000'000;
 };
-/// As far as TOML's numbers go.
+/// The largest range of integers that TOML has.
 inline constexpr CountRange any_seed{0, static_cast<std::size_t>(std::numeric_limits<std::int64_t>::max())};
-/// Numbers that a key takes.
+/// The range of a number.
 struct NumberRange {
     double least = -std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::infinity();
     bool includes_least = true;
@@ -39,13 +47,13 @@ struct NumberRange {
 };
 inline constexpr NumberRange any_number{}, positive_number{0, std::numeric_limits<double>::infinity(), false};
 
-/// Reads what has a form of its own: a table, or one of several.
+/// Reads a key that has a form of its own, such as a table.
 using FormReader = void (*)(const StudyReader&, StudyRun&, const TomlEntry&);
-/// Of keys that are read before or after all others.
+/// Stands for the reader of a key that is read before or after all others.
 inline constexpr FormReader read_apart = nullptr;
 
-/// Part of what is only after keys: what is stored and has no key is passed over.
-class KeysAlone {
+/// Base of visitors that see keys only: they ignore fields that are stored without a key.
+class KeysOnly {
 public:
     static constexpr bool stored = false, reading = true;
 

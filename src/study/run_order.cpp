@@ -17,34 +17,35 @@ std::vector<std::pair<std::string, Place>> StudyRun::needs() const {
         needed.emplace_back(start->run, start->place);
     for (const std::string& run : parameters)
         needed.emplace_back(run, parameters_place);
-    for (const std::string& run : identify.records)
-        needed.emplace_back(run, identify.records_place);
+    if (const auto* of_records = std::get_if<IdentifyRequest>(&request))
+        for (const std::string& run : of_records->records)
+            needed.emplace_back(run, of_records->records_place);
     return needed;
 }
 
-double StudyRun::points() const {
+double MotionRequest::points() const {
     double product = static_cast<double>(std::max<std::size_t>(draws, 1));
     for (const Variation& axis : axes)
         product *= static_cast<double>(std::max<std::size_t>(axis.values.size(), 1));
     return product;
 }
 
-double StudyRun::chains() const {
+double MotionRequest::chains(RunKind kind) const {
     const bool swept = kind == RunKind::sweep && !axes.empty() && !axes.front().values.empty();
     return swept ? points() / static_cast<double>(axes.front().values.size()) : points();
 }
 
 std::vector<std::string> StudyRun::sampling_names() const {
     if (kind == RunKind::record)
-        return record.sampling_names();
+        return record().sampling_names();
     if (kind == RunKind::identify)
         return {"measured", "fitted", "residual"};
-    return names_of(samplings);
+    return is_branch() ? std::vector<std::string>() : names_of(motion().samplings);
 }
 
 namespace {
 
-/// Whether a run goes on from what another one has found.
+/// True when a run uses the parameters that another run has found, directly or through others.
 bool refines(const StudyRun& run, const std::string& other, const Study& study) {
     return std::any_of(run.parameters.begin(), run.parameters.end(), [&](const std::string& name) {
         const StudyRun* one = study.find_run(name);
@@ -52,7 +53,7 @@ bool refines(const StudyRun& run, const std::string& other, const Study& study) 
     });
 }
 
-/// Of two numbers for a parameter the later one counts, which must then be the better one.
+/// Refuses two runs that find the same parameter, unless the later one uses the earlier one's estimate.
 void check_found_once(const StudyRun& run, const Study& study) {
     for (std::size_t j = 0; j < run.parameters.size(); ++j)
         for (std::size_t i = 0; i < j; ++i) {
@@ -62,7 +63,7 @@ void check_found_once(const StudyRun& run, const Study& study) {
                                  "name it once");
             if (!first || !second || refines(*second, first->name, study))
                 continue;
-            const std::vector<std::string> one = names_found(first->identify), two = names_found(second->identify);
+            const std::vector<std::string> one = names_found(first->identify()), two = names_found(second->identify());
             for (const std::string& name : one)
                 if (run.model.find_independent_parameter(name) && std::find(two.begin(), two.end(), name) != two.end())
                     throw InputError(run.parameters_place,
@@ -83,14 +84,15 @@ void check_needs(const StudyRun& run, const Study& study) {
                                  fmt::format("name a run of kind \"{}\"", name_of(kind)));
     };
     require_kind(run.parameters, run.parameters_place, RunKind::identify);
-    require_kind(run.identify.records, run.identify.records_place, RunKind::record);
+    if (run.kind == RunKind::identify)
+        require_kind(run.identify().records, run.identify().records_place, RunKind::record);
     check_found_once(run, study);
 }
 
 std::set<std::string> wanted_runs(const Study& study, const std::vector<std::string>& only) {
     for (const std::string& name : only)
-        run_named(study, name);            // throws when there is none
-    for (const StudyRun& run : study.runs) // of studies that were not read from a file
+        run_named(study, name);            // throws for the name of no run
+    for (const StudyRun& run : study.runs) // a study may have been made in C++
         for (const auto& need : run.needs())
             run_named(study, need.first);
     std::set<std::string> wanted(only.begin(), only.end());

@@ -14,10 +14,10 @@ namespace graze {
 
 namespace {
 
-/// Changes when the same settings lead to other numbers than in an earlier version.
+/// Version of the algorithms: it changes when the same settings lead to other numbers than before.
 constexpr int numbers = 3;
 
-/// All parameters, the one that is followed first; of a curve both.
+/// Adds all parameters as coordinates: first the one that is followed, of a curve both.
 void add_parameters(const StudyRun& run, RunRecord& record) {
     const std::vector<std::string> parameters = run.model.independent_parameters();
     const auto add = [&](std::size_t p) {
@@ -26,9 +26,9 @@ void add_parameters(const StudyRun& run, RunRecord& record) {
     };
     std::vector<std::size_t> first;
     if (!parameters.empty())
-        first.push_back(run.branch.settings.parameter.place());
+        first.push_back(run.branch().settings.parameter.place());
     if (run.kind == RunKind::curve)
-        first.push_back(run.branch.settings.free.front().place());
+        first.push_back(run.branch().settings.free.front().place());
     for (const std::size_t p : first)
         add(p);
     for (std::size_t p = 0; p < parameters.size(); ++p)
@@ -36,13 +36,15 @@ void add_parameters(const StudyRun& run, RunRecord& record) {
             add(p);
 }
 
-/// Of runs that were not read from a file.
+/// Checks a run that was made in C++.
 void require_fitting(const StudyRun& run) {
     const std::size_t values = run.kind == RunKind::identify ? run.value_names.size() : run.values.size();
     require_size(run.value_names.size(), values, "names of values");
     require_size(run.value_units.size(), values, "units of values");
+    if (!run.has_motions())
+        return;
     const std::vector<std::string> parameters = run.model.independent_parameters();
-    for (const Variation& axis : run.axes) {
+    for (const Variation& axis : run.motion().axes) {
         if (axis.state)
             require_index(*axis.state, run.model.states.size(), "state");
         else
@@ -70,15 +72,16 @@ RunRecord record_of(const StudyRun& run, const std::string& parent_fingerprint, 
         fingerprint_of(fmt::format("{} {} {} {}", numbers, record.model, record.settings, parent_fingerprint));
     if (run.is_branch())
         add_parameters(run, record);
-    if (!run.record.coordinate.empty())
+    if (run.kind == RunKind::record && !run.record().coordinate.empty())
         record.coordinates.push_back(
-            {run.record.coordinate, run.model.parameters[*run.model.find_parameter(run.record.coordinate)].unit});
-    for (const Variation& axis : run.axes)
-        record.coordinates.push_back({axis.name, axis.unit});
+            {run.record().coordinate, run.model.parameters[*run.model.find_parameter(run.record().coordinate)].unit});
+    if (run.has_motions())
+        for (const Variation& axis : run.motion().axes)
+            record.coordinates.push_back({axis.name, axis.unit});
     for (const State& state : run.model.states)
         record.states.push_back({state.name, state.unit});
     if (run.is_branch())
-        for (const Monitor& monitor : run.branch.settings.monitors)
+        for (const Monitor& monitor : run.branch().settings.monitors)
             record.values.push_back({monitor.name, monitor.unit});
     for (std::size_t v = 0; v < run.value_names.size() && !run.is_branch(); ++v)
         record.values.push_back({run.value_names[v], run.value_units[v]});
@@ -93,10 +96,10 @@ RunRecord record_of(const StudyRun& run, const std::string& parent_fingerprint, 
 
 std::vector<std::string> direction_names(const StudyRun& run) {
     if (run.kind == RunKind::record)
-        return run.record.directions;
+        return run.record().directions;
     if ((run.kind != RunKind::sweep && !run.is_followed()) || run.kind == RunKind::ladder)
         return {""};
-    switch (run.direction) {
+    switch (run.is_branch() ? run.branch().direction : run.motion().direction) {
     case SweepDirection::up:
         return {"up"};
     case SweepDirection::down:

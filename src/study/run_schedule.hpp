@@ -10,14 +10,14 @@
 
 namespace graze {
 
-/// Names of the runs that are asked for, or of all, with those that they need.
-/// @throws InputError for one that is not there
+/// Names of the given runs, or of all runs if none are given, and of the runs that they need.
+/// @throws InputError for the name of no run
 std::set<std::string> wanted_runs(const Study& study, const std::vector<std::string>& only);
 
-/// What decides when a run may go.
+/// Conditions under which a run may begin.
 struct ScheduledRun {
     std::vector<std::size_t> after{}; ///< earlier runs that have to end first
-    std::size_t threads = 1;          ///< as many as it can use
+    std::size_t threads = 1;          ///< that it can use at most
 };
 
 /// Does runs side by side: each begins, in their order, as soon as the one that it waits for has ended and one of

@@ -25,21 +25,22 @@ namespace graze {
 namespace {
 
 std::unique_ptr<SearchFactory> searches_of(const StudyRun& run, const System& system) {
-    AttractorOptions attractor = run.attractor;
-    attractor.stay_in_transients = run.kind == RunKind::sweep && run.carry;
-    return run.kind == RunKind::simulate
-               ? transient_searches(system, run.transient, run.samplings, run.values, run.simulation)
-               : attractor_searches(system, attractor, run.samplings, run.values, run.simulation);
+    const MotionRequest& motion = run.motion();
+    AttractorOptions attractor = motion.attractor;
+    attractor.stay_in_transients = run.kind == RunKind::sweep && motion.carry;
+    return seeks_attractors(run.kind)
+               ? attractor_searches(system, attractor, motion.samplings, run.values, motion.simulation)
+               : transient_searches(system, motion.transient, motion.samplings, run.values, motion.simulation);
 }
 
-/// What the file has of each chain.
+/// The points of each chain that the file has.
 std::vector<ChainProgress> progress_of(const ResultFile& file, const StudyRun& run, const Plan& plan,
                                        std::size_t& done) {
     std::vector<ChainProgress> progress(plan.chains);
     for (const PointRecord& point : file.last_points(run.name, plan.chain_length)) {
         const std::size_t chain = point.number / plan.chain_length;
         if (chain >= progress.size() || point.result.mode >= run.model.modes.size())
-            continue; // none of ours: it is computed anew
+            continue; // the point does not belong to this plan: its chain is computed anew
         progress[chain] = {point.number % plan.chain_length + 1, can_be_carried_on(point.result), point.result.state,
                            point.result.mode};
         done += progress[chain].done;
@@ -47,7 +48,7 @@ std::vector<ChainProgress> progress_of(const ResultFile& file, const StudyRun& r
     return progress;
 }
 
-/// Equal fingerprints promise that, in a file that nobody has changed.
+/// True when a stored run has the columns of the record. Equal fingerprints imply it unless the file was changed.
 bool has_columns_of(const RunRecord& stored, const RunRecord& record) {
     const auto same = [](const std::vector<ResultColumn>& a, const std::vector<ResultColumn>& b) {
         return std::equal(a.begin(), a.end(), b.begin(), b.end(),
@@ -59,7 +60,7 @@ bool has_columns_of(const RunRecord& stored, const RunRecord& record) {
            same(stored.values, record.values);
 }
 
-/// Whether a run has come to its end and has failed: it would do so again.
+/// True when a run ended without finding all orbits: it would fail again.
 bool lacks_orbits(const RunRecord& run, const ResultFile& file) {
     if (run.status != RunStatus::failed || !run.is_branch())
         return false;
@@ -69,8 +70,8 @@ bool lacks_orbits(const RunRecord& run, const ResultFile& file) {
     });
 }
 
-/// Whether the file has all of a run as it is asked for now. Otherwise what it has is kept only if it can be gone on
-/// with.
+/// True when the file has the complete run as it is asked for now. Otherwise begins it, or reopens it if it can be
+/// continued.
 bool is_done(const RunRecord& record, ResultFile& file) {
     const auto stored = file.find_run(record.name);
     const bool same = stored && stored->fingerprint == record.fingerprint && has_columns_of(*stored, record);
@@ -83,15 +84,15 @@ bool is_done(const RunRecord& record, ResultFile& file) {
     return false;
 }
 
-/// A run whose parameters are those of the point that it starts from.
+/// A copy of a run with the parameters of the point that it starts from.
 StudyRun at_start(const StudyRun& run, const StartPoint& start) {
     StudyRun result = run;
     set_parameters(result.model, start.parameters);
     return result;
 }
 
-/// Does a study's runs, those side by side that do not start from one another. What it knows of them is looked at and
-/// changed only by whoever has the file.
+/// Carries out the runs of a study, independent ones side by side. Its members are read and changed only by the thread
+/// that holds the file.
 class Runner {
 public:
     Runner(const Study& study, ResultFile& file, const RunnerOptions& options)
@@ -136,16 +137,18 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
-    /// A run that is being done.
+    /// The state of a run that is being carried out.
     struct Work {
         RunReport report;
         int threads = 1;
-        std::size_t counted = 0;       ///< of its points, in the progress
-        std::optional<RunTimes> times; ///< if it computes something
+        std::size_t counted = 0;       ///< number of its points that the progress has counted
+        std::optional<RunTimes> times; ///< none: it computes nothing
     };
 
     static std::size_t planned_points(const StudyRun& run) {
-        return run.is_branch() ? 1 : run.kind == RunKind::record ? run.record.records() : points_of(run);
+        if (run.kind == RunKind::record)
+            return run.record().records();
+        return run.is_branch() || run.kind == RunKind::identify ? 1 : points_of(run);
     }
 
     void do_one(std::size_t index, int threads) {
@@ -158,7 +161,7 @@ private:
             work.report.seconds = std::chrono::duration<double>(Clock::now() - begun).count();
             file_.with([&](ResultFile& file) { end(run, work, file); });
         } catch (...) {
-            broken_off_ = stopped_ = true; // whatever else goes on ends, too
+            broken_off_ = stopped_ = true; // all other runs end too
             throw;
         }
         if (work.report.outcome == RunOutcome::interrupted)
@@ -181,7 +184,7 @@ private:
         note_times(file, run.name, *work.times);
     }
 
-    /// A run that fails is told of, and those that do not start from it go on.
+    /// Carries out a run. A failure is reported, and runs that do not need this one go on.
     void attempt(const StudyRun& run, Work& work) {
         work.report.name = run.name;
         work.report.kind = name_of(run.kind);
@@ -217,7 +220,7 @@ private:
         }
     }
 
-    /// Before the first point of a run is computed. What is gone on with was begun earlier.
+    /// Notes when a run begins, before its first point is computed. A run that is continued keeps its first time.
     static void begin_times(const StudyRun& run, Work& work, ResultFile& file) {
         work.times = file.point_count(run.name) > 0 ? times_of(file, run.name) : std::nullopt;
         if (!work.times)
@@ -225,7 +228,7 @@ private:
         note_times(file, run.name, *work.times);
     }
 
-    /// Nothing of an earlier version of the run is left for others to take for its results.
+    /// Reports a failed run, and removes the results of an earlier version of it so that no other run uses them.
     void fail(const StudyRun& run, RunReport& report, ResultFile& file, RunOutcome outcome, const std::string& problem,
               const std::string& remedy) {
         report.outcome = outcome;
@@ -233,7 +236,7 @@ private:
         report.remedy = remedy;
         failed_.insert(run.name);
         const RunRecord record = record_of(run, parent_fingerprint(run), 0);
-        const auto known = fingerprints_.find(run.name); // with what it has from other runs
+        const auto known = fingerprints_.find(run.name); // includes the parameters that other runs have found
         const auto stored = file.find_run(run.name);
         if (!stored || stored->fingerprint != (known == fingerprints_.end() ? record.fingerprint : known->second))
             file.begin_run(record);
@@ -248,7 +251,7 @@ private:
         return all;
     }
 
-    /// Whether a run is there as it is asked for; otherwise its time begins.
+    /// True when the file has the run as it is asked for; otherwise notes that it begins.
     bool is_there_or_begins(const StudyRun& run, std::size_t points, Work& work) {
         return file_.with([&](ResultFile& file) {
             const RunRecord record = record_of(run, parent_fingerprint(run), points);
@@ -260,12 +263,12 @@ private:
         });
     }
 
-    /// A run with the parameters that others have found.
+    /// A copy of a run with the parameters that other runs have found.
     StudyRun with_found(const StudyRun& run) {
         return file_.with([&](const ResultFile& file) { return with_parameters_found(run, file); });
     }
 
-    /// Records, and what is found from them.
+    /// Carries out a run of kind record or identify.
     void do_measured(const StudyRun& wanted, Work& work) {
         const StudyRun run = file_.with([&](const ResultFile& file) { return measured_run(wanted, file); });
         work.report.points = planned_points(run);
@@ -298,7 +301,7 @@ private:
         });
     }
 
-    /// A run that has come to its end without an orbit, or with parts that have none, has failed.
+    /// Marks a run as failed when it, or one of its parts, has found no orbit.
     void note_missing_orbits(const StudyRun& run, RunReport& report, const ResultFile& file) {
         std::size_t found = 0;
         std::string why;
@@ -377,16 +380,16 @@ private:
     SharedFile file_;
     Turns turns_;
     RunnerOptions options_;
-    std::vector<const StudyRun*> runs_; ///< those that are wanted, in their order
+    std::vector<const StudyRun*> runs_; ///< the runs to be carried out, in the order of the study
     std::set<std::string> failed_;
     std::map<std::string, std::string> fingerprints_;
     StudyProgress progress_;
-    std::vector<std::optional<RunReport>> reports_; ///< of runs that were begun
-    std::atomic<bool> stopped_ = false;             ///< no run is to begin any more
-    std::atomic<bool> broken_off_ = false;          ///< by an error, for all
+    std::vector<std::optional<RunReport>> reports_; ///< of runs that have begun
+    std::atomic<bool> stopped_ = false;             ///< no further run may begin
+    std::atomic<bool> broken_off_ = false;          ///< an error stops all runs
 };
 
-/// Of runs that are there already: a point that is called otherwise is no reason to compute it again.
+/// Stores the names of points, which may change without computing runs again.
 void name_points(const Study& study, ResultFile& file) {
     for (const RunRecord& record : file.runs())
         if (const StudyRun* run = study.find_run(record.name))
@@ -397,11 +400,11 @@ void name_points(const Study& study, ResultFile& file) {
 
 std::vector<RunReport> run_study(const Study& study, ResultFile& file, const RunnerOptions& options) {
     Runner runner(study, file, options);
-    if (study.file != file.path()) // otherwise it has been read from there
+    if (study.file != file.path()) // otherwise the study was read from this file
         store_study(study, file);
     name_points(study, file);
     const std::vector<RunReport> reports = runner.run();
-    // However they took turns.
+    // The order of the study, not that in which runs have begun.
     file.order_runs(names_of(study.runs));
     return reports;
 }

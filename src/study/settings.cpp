@@ -32,9 +32,18 @@ std::string text_of_table(const BranchRequest& branch) {
     }
 }
 
+MotionRequest motion_of_branch(const BranchRequest& branch) {
+    MotionRequest motion;
+    if (!branch.attractor.section.empty()) {
+        Sampling& sampling = motion.samplings.emplace_back();
+        sampling.name = sampling.section = branch.attractor.section;
+    }
+    return motion;
+}
+
 namespace {
 
-/// What an axis has from the model. @throws InputError when it is none, or has no values
+/// Sets what an axis takes from the model. @throws InputError for an unknown name, and without values
 void complete(Variation& axis, const Model& model, const SettingsReader& fields) {
     const auto parameter = model.find_independent_parameter(axis.name);
     const auto state = model.find_state(axis.name);
@@ -50,26 +59,42 @@ void complete(Variation& axis, const Model& model, const SettingsReader& fields)
         fields.fail("vary", "made of finite values");
 }
 
-/// Units of values and monitors, which do not change numbers and so are no settings.
+void complete(StudyRun& run, const SettingsReader& fields) {
+    MotionRequest& motion = run.motion();
+    for (Variation& axis : motion.axes)
+        complete(axis, run.model, fields);
+    if (!seeks_attractors(run.kind))
+        motion.attractor.section = motion.transient.section, motion.attractor.bounds = motion.transient.bounds;
+    else
+        motion.transient.section = motion.attractor.section, motion.transient.bounds = motion.attractor.bounds;
+}
+
+/// Sets units of values and monitors, which are not stored as settings since they do not influence results.
 void take_units(StudyRun& run, const std::vector<std::string>& units) {
     const auto unit = [&](std::size_t value) { return value < units.size() ? units[value] : std::string(); };
     for (std::size_t v = 0; v < run.value_names.size(); ++v)
         run.value_units.push_back(run.is_branch() ? "" : unit(v));
-    for (std::size_t m = 0; m < run.branch.settings.monitors.size(); ++m)
-        run.branch.settings.monitors[m].unit = unit(m);
+    if (!run.is_branch())
+        return;
+    std::vector<Monitor>& monitors = run.branch().settings.monitors;
+    for (std::size_t m = 0; m < monitors.size(); ++m)
+        monitors[m].unit = unit(m);
 }
 
-/// The same of runs that simulate nothing themselves. Texts of theirs become names, titles and units.
-void check_measured(const StudyRun& run, const SettingsReader& fields) {
-    const RecordRequest& request = run.record;
-    std::vector<std::string> texts = run.sampling_names();
-    for (const auto* names : {&run.value_names, &request.directions, &run.parameters, &run.identify.records})
-        texts.insert(texts.end(), names->begin(), names->end());
+/// Checks texts that become names, titles and units.
+void check_texts(const StudyRun& run, const std::vector<const std::vector<std::string>*>& lists) {
+    for (const std::vector<std::string>* texts : lists)
+        for (const std::string& text : *texts)
+            require_plain_line(text, "text of a run", run.place);
+}
+
+void check_record(const StudyRun& run, const SettingsReader& fields) {
+    const RecordRequest& request = run.record();
+    std::vector<std::string> samplings = run.sampling_names(), inputs;
     for (const RecordInput& input : request.inputs)
-        texts.push_back(input.name);
-    for (const std::string& text : texts)
-        require_plain_line(text, "text of a run", run.place);
-    if (run.kind == RunKind::record && run.value_names.size() != run.values.size())
+        inputs.push_back(input.name);
+    check_texts(run, {&samplings, &run.value_names, &request.directions, &inputs});
+    if (run.value_names.size() != run.values.size())
         fields.fail("value_names", "a name for each value");
     if (!request.coordinate.empty() && !run.model.find_independent_parameter(request.coordinate))
         fields.fail("coordinate", "a parameter of the record");
@@ -90,19 +115,26 @@ void check_measured(const StudyRun& run, const SettingsReader& fields) {
             fields.fail("direction", "one of the run's");
 }
 
-/// @throws InputError for what no study has, and what would be out of range
+/// @throws InputError for settings that no study can have
 void check(const StudyRun& run, const SettingsReader& fields) {
-    if (run.is_measured())
-        return check_measured(run, fields);
-    if (!(run.points() <= most_points))
-        fields.fail("vary", "something with less than a thousand million points");
-    if (run.kind == RunKind::sweep && (run.axes.empty() || run.axes.front().values.empty()))
-        fields.fail("vary", "something to sweep along");
-    if (!(run.chains() <= most_chains))
-        fields.fail("vary", "something with less than twenty million points that begin by themselves");
+    if (run.kind == RunKind::identify)
+        return check_texts(run, {&run.value_names, &run.parameters, &run.identify().records});
+    if (run.kind == RunKind::record)
+        return check_record(run, fields);
     if (run.value_names.size() != run.values.size())
         fields.fail("value_names", "a name for each value");
-    for (const Sampling& sampling : run.samplings) {
+    if (run.is_branch()) {
+        run.branch().simulation.validate();
+        return run.branch().validate(run.kind, run.model);
+    }
+    const MotionRequest& motion = run.motion();
+    if (!(motion.points() <= most_points))
+        fields.fail("vary", "something with less than a thousand million points");
+    if (run.kind == RunKind::sweep && (motion.axes.empty() || motion.axes.front().values.empty()))
+        fields.fail("vary", "something to sweep along");
+    if (!(motion.chains(run.kind) <= most_chains))
+        fields.fail("vary", "something with less than twenty million points that begin by themselves");
+    for (const Sampling& sampling : motion.samplings) {
         if (sampling.at == Sampling::At::section && !run.model.find_section(sampling.section))
             fields.fail("section", "one of the model's");
         for (const std::size_t event : sampling.events)
@@ -110,13 +142,11 @@ void check(const StudyRun& run, const SettingsReader& fields) {
                 fields.fail("events", "some of the model's");
     }
     check_following_states(run, run.place);
-    run.simulation.validate();
-    if (run.kind == RunKind::simulate)
-        run.transient.validate(run.model);
-    else if (!run.is_branch())
-        run.attractor.validate(run.model);
+    motion.simulation.validate();
+    if (!seeks_attractors(run.kind))
+        motion.transient.validate(run.model);
     else
-        run.branch.validate(run.kind, run.model);
+        motion.attractor.validate(run.model);
 }
 
 } // namespace
@@ -137,16 +167,15 @@ StudyRun run_of(const AskedRun& asked, Model model) {
     describe(fields, run);
     if (name_of(run.kind) != asked.kind)
         fields.fail("kind", "that of the run");
-    for (Variation& axis : run.axes)
-        complete(axis, run.model, fields);
-    if (run.kind == RunKind::simulate)
-        run.attractor.section = run.transient.section, run.attractor.bounds = run.transient.bounds;
-    else
-        run.transient.section = run.attractor.section, run.transient.bounds = run.attractor.bounds;
-    run.branch.signature_place = run.place;
+    if (run.has_motions())
+        complete(run, fields);
+    if (run.is_branch())
+        run.branch().signature_place = run.place;
+    if (run.kind == RunKind::identify)
+        run.identify().records_place = run.place;
     if (run.start)
         run.start->place = run.place;
-    run.parameters_place = run.identify.records_place = run.place;
+    run.parameters_place = run.place;
     take_units(run, asked.units);
     check(run, fields);
     if (settings_of(run) != asked.settings) {

@@ -24,16 +24,16 @@
 
 namespace graze {
 
-// Settings are described once, as the fields of an object, by functions that are given one of two: what writes these
-// fields as JSON, or what reads them from it.
+// Settings are described once, as the fields of an object, by functions of a visitor. SettingsWriter writes the fields
+// as JSON, SettingsReader reads them.
 
-/// @throws InputError when there is none of that place, which a study may have been given in C++
+/// @throws InputError for an index out of range, which a study that was made in C++ may have
 inline const std::string& word_of(const std::vector<std::string>& words, std::size_t index) {
     require_index(index, words.size(), "setting");
     return words[index];
 }
 
-/// The keys of a run as fields, of which their names and values are stored.
+/// Base of visitors that store the keys of a run as fields, by name and value.
 template <class Fields>
 class StoredKeys {
 public:
@@ -53,7 +53,7 @@ public:
     void truth(const Key& key, Truth& value) {
         fields().field(key.name, value);
     }
-    /// A key that says the opposite of the field of this name.
+    /// A key whose negation is the field of this name.
     template <class Truth>
     void denied(const Key&, const char* name, Truth& value) {
         fields().field(name, value);
@@ -75,17 +75,23 @@ public:
         fields().field(key.name, value);
     }
     void form(const Key&, const char*, FormReader) const {}
+    /// Keys of a table are stored one by one, beside the others of the run.
+    template <class Describe>
+    void table(const Key&, const char*, const Describe& describe) {
+        describe(fields());
+    }
 
 private:
     Fields& fields() { return static_cast<Fields&>(*this); }
-    /// What is not said need not be in range: 0 may mean none.
+    static const char* name_of(const Key& key) { return key.stored_as ? key.stored_as : key.name; }
+    /// Refuses values out of range; a default may be out of range, as 0 may mean none.
     template <class Value, class Contains>
     void within(const Key& key, Value& value, const Contains& contains) {
         const auto standard = value;
-        fields().field(key.name, value);
+        fields().field(name_of(key), value);
         if constexpr (Fields::reading)
             if (value != standard && !contains(value))
-                fields().fail(key.name, "in the range that a study may give");
+                fields().fail(name_of(key), "in the range that a study may give");
     }
 };
 
@@ -105,9 +111,9 @@ public:
         if (value)
             field(name, *value);
     }
-    /// Whether what is told by a field is to be written.
+    /// True when an optional field is to be written.
     bool has(std::string_view, bool written) const { return written; }
-    /// What follows from fields, and has to be set when they are read.
+    /// A value that is not stored but follows from fields: it is set when these are read.
     template <class Value>
     void follows(const Value&, const Value&) const {}
     /// One of several words.
@@ -122,12 +128,12 @@ public:
             texts.push_back(word_of(words, static_cast<std::size_t>(choice)));
         field(name, texts);
     }
-    /// One of so many, by its number.
+    /// An enumerator, by its number.
     template <class Choice>
     void number(std::string_view name, Choice choice, std::size_t) {
         field(name, static_cast<int>(choice));
     }
-    /// Something by its name among others.
+    /// The name at an index, or the names at indices.
     void named(std::string_view name, std::size_t index, const std::vector<std::string>& names) {
         field(name, word_of(names, index));
     }
@@ -154,7 +160,7 @@ public:
             texts.push_back(to_string(value));
         field(name, texts);
     }
-    /// @param describe given what writes an item's fields, and the item
+    /// @param describe is called with a visitor and each item
     template <class Item, class Describe>
     void list(std::string_view name, const std::vector<Item>& items, Describe describe) {
         begin(name);
@@ -200,13 +206,13 @@ private:
     std::string text_;
 };
 
-/// Reads the fields of a JSON object, those that it has: others keep their values.
+/// Reads the fields of a JSON object. Fields that the object does not have keep their values.
 class SettingsReader : public StoredKeys<SettingsReader> {
 public:
     static constexpr bool reading = true;
     using StoredKeys::number;
 
-    /// @param model in whose words expressions are; may be null
+    /// @param model whose names expressions use; null: there are no expressions
     SettingsReader(const Json& object, const Model* model, const Place& place)
         : object_(&object), model_(model), place_(&place) {
         if (object.kind != Json::Kind::object)
@@ -285,7 +291,7 @@ public:
             describe(reader);
         }
     }
-    /// @throws InputError saying what a field should be
+    /// @throws InputError that says what a field should be
     [[noreturn]] void fail(std::string_view name, const std::string& wanted) const;
 
 private:

@@ -11,7 +11,7 @@ class SharedFile {
 public:
     explicit SharedFile(ResultFile& file) : file_(&file) {}
 
-    /// Does something with the file while nobody else does. @param work given the file; not to be called within another
+    /// Calls `work` with the file while no other thread uses it. Calls must not be nested.
     template <class Work>
     auto with(const Work& work) {
         const std::lock_guard lock(mutex_);

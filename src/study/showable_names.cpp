@@ -34,11 +34,14 @@ ShowableNames::ShowableNames(const StudyPicture& picture)
 void ShowableNames::add(const StudyRun& run) {
     own_.push_back(run.name);
     own_.insert(own_.end(), run.value_names.begin(), run.value_names.end());
-    add_names(own_, run.axes);
+    if (run.has_motions())
+        add_names(own_, run.motion().axes);
     const std::vector<std::string> samplings = run.sampling_names();
     own_.insert(own_.end(), samplings.begin(), samplings.end());
-    if (run.is_branch())
-        add_names(own_, run.branch.settings.monitors);
+    if (run.is_branch()) {
+        own_.push_back(run.branch().attractor.section);
+        add_names(own_, run.branch().settings.monitors);
+    }
     add_model(run.model);
 }
 

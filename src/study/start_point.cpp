@@ -14,7 +14,7 @@ namespace graze {
 
 namespace {
 
-/// All parameters of a point of a run that is no branch: those of the run as it was computed, and what varies.
+/// All parameters of a point of a run of motions: those of the run, with the values that vary.
 std::vector<double> parameters_of(const RunRecord& run, const PointRecord& point) {
     Model model = stored_model(run);
     for (std::size_t c = 0; c < run.coordinates.size(); ++c)
@@ -23,7 +23,7 @@ std::vector<double> parameters_of(const RunRecord& run, const PointRecord& point
     return model.parameter_values();
 }
 
-/// The number by which a point is named, or one that no point has.
+/// The number that names a point; a number that no point has where the name is no number.
 std::size_t number_of(const StartFrom& start) {
     std::size_t number = 0;
     const char* last = start.point.data() + start.point.size();
@@ -42,7 +42,7 @@ const StudyRun& run_named(const Study& study, const std::string& name) {
 
 std::vector<double> with_own_parameters(const StudyRun& run, std::vector<double> parameters) {
     const std::vector<double> values = run.model.parameter_values();
-    for (const ParameterId parameter : run.branch.set)
+    for (const ParameterId parameter : run.set)
         parameters[parameter.place()] = values[parameter.place()];
     return parameters;
 }
@@ -69,7 +69,7 @@ OrbitRecord orbit_to_start_from(const StartFrom& start, const StudyRun& parent, 
             least = distance;
             record = std::move(one);
         }
-        if (record) { // a first guess at exactly that value
+        if (record) { // the orbit is a first guess at exactly the value that is asked for
             record->point.solution.orbit.parameters[place] = start.value;
             record->point.type = PointType::regular;
         }

@@ -98,7 +98,7 @@ void describe_study(Fields& fields, One& study) {
         fields.list("tables", study.tables, [](auto& one, auto& table) { describe_table(one, table); });
 }
 
-/// A run that may not have been begun when the program ended.
+/// A run as it is stored with the study, whether it has begun or not.
 struct PlannedRun {
     AskedRun asked;
     std::string model; ///< text of its file
@@ -128,7 +128,7 @@ PlannedRun planned(const StudyRun& run) {
                       run.point_names};
     if (run.is_branch()) {
         result.asked.units.clear();
-        for (const Monitor& monitor : run.branch.settings.monitors)
+        for (const Monitor& monitor : run.branch().settings.monitors)
             result.asked.units.push_back(monitor.unit);
     }
     return result;
@@ -149,7 +149,7 @@ StudyRun run_of(const PlannedRun& run, const Place& place) {
     return result;
 }
 
-/// Names end up in names of files, and texts in pictures. @throws InputError as for those of study files
+/// Checks names, which become names of files, and texts, which are drawn. @throws InputError as for study files
 void check(StudyPicture& picture, const Place& place) {
     picture.place = place;
     require_file_name(picture.name, "name of a picture", place);

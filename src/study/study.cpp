@@ -18,6 +18,33 @@ const StudyRun* Study::find_run(const std::string& run) const {
     return found == runs.end() ? nullptr : &*found;
 }
 
+void StudyRun::set_kind(RunKind of_kind) {
+    kind = of_kind;
+    const auto set = [this](auto wanted) {
+        if (!std::holds_alternative<decltype(wanted)>(request))
+            request = std::move(wanted);
+    };
+    if (is_branch())
+        set(BranchRequest());
+    else if (kind == RunKind::record)
+        set(RecordRequest());
+    else if (kind == RunKind::identify)
+        set(IdentifyRequest());
+    else
+        set(MotionRequest());
+}
+
+void StudyRun::refuse_request() const {
+    throw InputError(place, fmt::format("run '{}' of kind \"{}\" has no request of another kind", name, name_of(kind)),
+                     "set the kind of a run by set_kind, and ask for what runs of this kind have");
+}
+
+bool StudyRun::varies(const std::string& parameter_or_state) const {
+    const auto* motion = std::get_if<MotionRequest>(&request);
+    return motion && std::any_of(motion->axes.begin(), motion->axes.end(),
+                                 [&](const Variation& axis) { return axis.name == parameter_or_state; });
+}
+
 bool BranchRequest::keeps_point() const {
     return kept_conditions() > 0;
 }
@@ -55,7 +82,7 @@ void require_run(const std::string& name, const std::vector<std::string>& names,
 
 namespace {
 
-/// Values that change nothing are mistakes.
+/// Refuses given values of parameters that change nothing.
 void check_given(const Study& study) {
     for (const auto& given : study.set) {
         const std::string& name = given.first;
@@ -67,10 +94,8 @@ void check_given(const Study& study) {
             is_state = is_state || run.model.find_state(name);
             const bool is_known = run.model.find_independent_parameter(name).has_value();
             follows = follows || (!is_known && run.model.find_parameter(name));
-            const bool varies =
-                std::any_of(run.axes.begin(), run.axes.end(), [&](const Variation& axis) { return axis.name == name; });
-            varied = varied || (is_known && varies);
-            used = used || (is_known && !varies);
+            varied = varied || (is_known && run.varies(name));
+            used = used || (is_known && !run.varies(name));
         }
         if (used)
             continue;
@@ -89,7 +114,7 @@ void check_given(const Study& study) {
     }
 }
 
-/// Reads one study. A mistake in one of its runs, pictures or tables leaves the others to be read.
+/// Reads one study. After a mistake in a run, picture or table the others are read.
 class WholeStudy {
 public:
     WholeStudy(const std::string& file, const ParameterValues& set) : reader_(file) {
@@ -140,7 +165,7 @@ private:
         });
     }
 
-    /// What is missing; a key that could not be read may have been that.
+    /// Reports a missing name or missing runs, unless a key could not be read, which may be the missing one.
     void check_head() {
         if (!study_.name.empty())
             mistakes_.attempt(
@@ -189,8 +214,9 @@ private:
         std::optional<StudyRun> run = read_run(reader_, entry, defaults_, keys_[entry.name]);
         if (!run)
             return;
-        for (const Variation& axis : run->axes)
-            values_ += axis.values.size();
+        if (run->has_motions())
+            for (const Variation& axis : run->motion().axes)
+                values_ += axis.values.size();
         constexpr std::size_t most = 20'000'000; // of all runs, which are in memory at once
         if (values_ > most) {
             mistakes_.attempt([&] {
@@ -202,7 +228,7 @@ private:
         study_.runs.push_back(std::move(*run));
     }
 
-    /// Runs that start from each other have no order; those that start from nothing are told one by one.
+    /// Sorts the runs, which fails for runs that start from each other. Runs that name no run are reported elsewhere.
     void check_order() {
         const bool known = std::all_of(study_.runs.begin(), study_.runs.end(), [&](const StudyRun& run) {
             const auto needs = run.needs();
@@ -213,7 +239,8 @@ private:
             study_.runs = in_order(std::move(study_.runs));
     }
 
-    /// Of runs that could not be read too. What is no text is told there.
+    /// Checks the run that `start` names, also in runs that could not be read. Other types than texts are reported
+    /// there.
     void check_parent(const TomlEntry& start) const {
         if (const toml::table* keys = start.node->as_table())
             if (const auto name = (*keys)["run"].value<std::string>(); name && !name->empty() && is_plain_text(*name))
@@ -248,9 +275,9 @@ private:
     Place name_place_;
     std::optional<TomlEntry> runs_, pictures_, tables_;
     std::vector<TomlEntry> run_entries_;
-    std::vector<std::string> names_, picture_names_; ///< also of those that could not be read
+    std::vector<std::string> names_, picture_names_; ///< including those of entries that could not be read
     std::map<std::string, RunKeys> keys_;
-    std::size_t values_ = 0; ///< through which things vary
+    std::size_t values_ = 0; ///< number of values of all axes
 };
 
 } // namespace
@@ -267,11 +294,13 @@ bool is_study_text(std::string_view text, const std::string& file) {
 std::vector<std::string> input_files(const Study& study) {
     std::vector<std::string> files{study.file};
     for (const StudyRun& run : study.runs) {
-        for (const std::string& file : {run.model_path, run.branch.table})
-            if (!file.empty())
-                files.push_back(file);
-        for (const RecordInput& input : run.record.inputs)
-            files.push_back(input.path);
+        if (!run.model_path.empty())
+            files.push_back(run.model_path);
+        if (run.is_branch() && !run.branch().table.empty())
+            files.push_back(run.branch().table);
+        if (run.kind == RunKind::record)
+            for (const RecordInput& input : run.record().inputs)
+                files.push_back(input.path);
     }
     return files;
 }

@@ -2,6 +2,8 @@
 
 #include "graze/flow/system.hpp"
 #include "graze/symbolic/function.hpp"
+#include "study/key_reader.hpp"
+#include "study/measured_description.hpp"
 #include "study/point_limits.hpp"
 
 #include <fmt/format.h>
@@ -12,7 +14,7 @@ namespace graze {
 
 namespace {
 
-/// What has no value at the first sample would end the run once it is done.
+/// Refuses channels that have no finite value at the first sample, which would fail later when the run is carried out.
 void require_finite_at_start(const StudyReader& reader, const RecordBench& bench, const TomlEntry& entry) {
     std::vector<Expression> values;
     for (const BenchChannel& channel : bench.channels)
@@ -31,7 +33,10 @@ void require_finite_at_start(const StudyReader& reader, const RecordBench& bench
     });
 }
 
-void read_bench_channels(const StudyReader& reader, const TomlEntry& entry, RecordBench& bench) {
+} // namespace
+
+void read_bench_channels(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
+    RecordBench& bench = *run.record().bench;
     reader.each_of(entry, {}, [&](const TomlEntry& item) {
         BenchChannel channel;
         std::string unit;
@@ -57,7 +62,7 @@ void read_bench_channels(const StudyReader& reader, const TomlEntry& entry, Reco
                     (part.name == "offset" ? channel.offset : channel.drift) = reader.number(bench.model, part);
             });
         if (channel.value.name.empty())
-            value(item); // says that it is no expression
+            value(item); // throws: it is no expression
         channel.value.name = item.name;
         if (has_unit)
             channel.value.unit = unit;
@@ -65,27 +70,10 @@ void read_bench_channels(const StudyReader& reader, const TomlEntry& entry, Reco
     });
 }
 
-} // namespace
-
 void read_bench(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
-    RecordBench& bench = *run.record.bench;
-    reader.each_of(entry, {"channels", "rate", "settle", "time", "repeats", "bits", "anti_alias", "time_unit"},
-                   [&](const TomlEntry& item) {
-                       if (item.name == "channels")
-                           read_bench_channels(reader, item, bench);
-                       else if (item.name == "repeats")
-                           bench.repeats = reader.count(item, 1, 10'000);
-                       else if (item.name == "bits")
-                           bench.bits = static_cast<int>(reader.count(item, 1, 32));
-                       else if (item.name == "settle")
-                           bench.settle = reader.number(bench.model, item);
-                       else
-                           (item.name == "rate"         ? bench.rate
-                            : item.name == "time"       ? bench.time
-                            : item.name == "anti_alias" ? bench.anti_alias
-                                                        : bench.time_unit) = reader.positive(bench.model, item);
-                   });
-    if (!bench.channels.empty() && bench.settle == 0 && run.axes.empty())
+    RecordBench& bench = *run.record().bench;
+    KeyReader::read_table(reader, run, entry, [&bench](auto& keys) { describe_bench(keys, bench); });
+    if (!bench.channels.empty() && bench.settle == 0 && run.record().vary.axes.empty())
         reader.each_of(entry, {}, [&](const TomlEntry& item) {
             if (item.name == "channels")
                 require_finite_at_start(reader, bench, item);
@@ -99,40 +87,41 @@ void read_bench(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
 }
 
 void set_levels(const StudyReader& reader, StudyRun& run, const TomlEntry& place) {
-    RecordBench& bench = *run.record.bench;
+    RecordBench& bench = *run.record().bench;
+    VariedValues& vary = run.record().vary;
     const std::vector<std::string> names = bench.model.independent_parameters();
-    if (run.axes.size() > 1 || (!run.axes.empty() && (run.axes.front().state || run.axes.front().values.empty())))
+    if (vary.axes.size() > 1 || (!vary.axes.empty() && (vary.axes.front().state || vary.axes.front().values.empty())))
         reader.fail(place, "a bench goes through the values of one parameter",
                     "give vary = { V0 = { from = 1, to = 2, step = 0.1 } }, or leave it out");
     if (names.size() < 2)
         reader.fail(place,
                     fmt::format("model '{}' has fewer than two parameters, which a bench drives", bench.model.name),
                     "take another model");
-    bench.parameter = run.axes.empty() ? names.front() : run.axes.front().name;
+    bench.parameter = vary.axes.empty() ? names.front() : vary.axes.front().name;
     std::vector<double> values =
-        run.axes.empty() ? std::vector<double>{bench.model.parameter_values().front()} : run.axes.front().values;
-    if (!run.axes.empty() && run.direction == SweepDirection::both)
-        run.record.directions = {"up", "down"};
-    else if (!run.axes.empty())
-        run.record.directions = {run.direction == SweepDirection::up ? "up" : "down"};
+        vary.axes.empty() ? std::vector<double>{bench.model.parameter_values().front()} : vary.axes.front().values;
+    if (!vary.axes.empty() && vary.direction == SweepDirection::both)
+        run.record().directions = {"up", "down"};
+    else if (!vary.axes.empty())
+        run.record().directions = {vary.direction == SweepDirection::up ? "up" : "down"};
     const auto add = [&](bool rising, std::size_t direction) {
         for (std::size_t i = 0; i < values.size(); ++i) {
             bench.levels.push_back(values[rising ? i : values.size() - 1 - i]);
             bench.directions.push_back(direction);
         }
     };
-    add(run.direction != SweepDirection::down, 0);
-    if (run.direction == SweepDirection::both)
+    add(vary.direction != SweepDirection::down, 0);
+    if (vary.direction == SweepDirection::both)
         add(false, 1);
-    bench.carry = run.carry && !run.axes.empty();
-    bench.seed = run.seed;
+    bench.carry = vary.carry && !vary.axes.empty();
+    bench.seed = vary.seed;
     if (bench.carry && bench.repeats > 1)
         reader.fail(place, "levels that are gone through one after the other are recorded once",
                     "give carry = false, for each record to begin at the initial state");
     if (static_cast<double>(bench.levels.size()) * static_cast<double>(bench.repeats) > most_bench_records)
         reader.fail(place, fmt::format("there would be more than {} records", most_bench_records),
                     "take larger steps, or fewer repeats");
-    run.axes.clear();
+    vary.axes.clear();
 }
 
 } // namespace graze

@@ -26,7 +26,7 @@ ParameterId parameter_named(const StudyReader& reader, const Model& model, const
 } // namespace
 
 void read_free(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
-    BranchSettings& settings = run.branch.settings;
+    BranchSettings& settings = run.branch().settings;
     if (!entry.node->is_table()) {
         for (const std::string& name : reader.strings(entry))
             settings.free.push_back(parameter_named(reader, run.model, entry, name));
@@ -42,9 +42,9 @@ void read_free(const StudyReader& reader, StudyRun& run, const TomlEntry& entry)
 
 namespace {
 
-/// Both parameters of a curve: the second is free, as those of `free` after it.
+/// Reads both parameters of a curve; the second one is the first free parameter, before those of `free`.
 void read_plane(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
-    BranchSettings& settings = run.branch.settings;
+    BranchSettings& settings = run.branch().settings;
     const auto items = reader.toml().entries(reader.toml().table(entry), entry.path);
     if (items.size() != 2)
         reader.fail(entry, fmt::format("{} names {} parameters", entry.path, items.size()),
@@ -65,7 +65,7 @@ void read_plane(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
 } // namespace
 
 void read_along(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
-    BranchSettings& settings = run.branch.settings;
+    BranchSettings& settings = run.branch().settings;
     if (run.kind == RunKind::curve)
         return read_plane(reader, run, entry);
     if (entry.node->is_string()) {
@@ -82,16 +82,6 @@ void read_along(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
     settings.greatest = greatest;
 }
 
-void read_step(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
-    ContinuationOptions& options = run.branch.settings.continuation;
-    reader.each_of(entry, {"first", "smallest", "largest", "angle"}, [&](const TomlEntry& item) {
-        (item.name == "first"      ? options.first_step
-         : item.name == "smallest" ? options.smallest_step
-         : item.name == "largest"  ? options.largest_step
-                                   : options.largest_angle) = reader.positive(run.model, item);
-    });
-}
-
 void read_stop(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     std::vector<std::string> known;
     for (const PointKind& kind : point_kinds())
@@ -101,13 +91,13 @@ void read_stop(const StudyReader& reader, StudyRun& run, const TomlEntry& entry)
         const auto type = point_type(name);
         if (!type || std::find(known.begin(), known.end(), name) == known.end())
             reader.fail(entry, fmt::format("there is no type of point '{}'", name), study_name_remedy(name, known));
-        run.branch.settings.stop_at.push_back(*type);
+        run.branch().settings.stop_at.push_back(*type);
     }
 }
 
 namespace {
 
-/// What is measured: `kind = "expression"`, or `duration = "segment"`.
+/// Reads what a monitor measures: KIND = "EXPRESSION", or duration = "SEGMENT".
 void read_monitor_kind(const StudyReader& reader, const Model& model, const TomlEntry& item, Monitor& monitor) {
     const std::vector<std::string> kinds{"value",   "start", "duration", "maximum",
                                          "minimum", "mean",  "norm",     "multiplier"};
@@ -177,7 +167,7 @@ Monitor read_monitor(const StudyReader& reader, const Model& model, const TomlEn
 } // namespace
 
 void read_monitors(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
-    std::vector<Monitor>& monitors = run.branch.settings.monitors;
+    std::vector<Monitor>& monitors = run.branch().settings.monitors;
     monitors.clear();
     reader.each_of(entry, {},
                    [&](const TomlEntry& item) { monitors.push_back(read_monitor(reader, run.model, item)); });
@@ -201,7 +191,7 @@ std::vector<Monitor> usual_monitors(const Model& model) {
 
 namespace {
 
-/// Whether a text means something else than the name of a point, where points are asked for.
+/// True when a text cannot name a point since it has another meaning where points are asked for.
 bool is_taken(const std::string& name) {
     return is_point_label(name) || point_type(name) || name.find(':') != std::string::npos ||
            name.find_first_not_of("0123456789") == std::string::npos;
@@ -229,29 +219,30 @@ void read_point_names(const StudyReader& reader, StudyRun& run, const TomlEntry&
 void note_set(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     for (const TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path))
         if (const auto place = run.model.find_independent_parameter(item.name))
-            run.branch.set.push_back(*place);
+            run.set.push_back(*place);
 }
 
 void read_signature(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
-    run.branch.signature = reader.toml().string(entry);
-    run.branch.signature_place = reader.inside(entry);
-    parse_signature(run.model, run.branch.signature, run.branch.signature_place);
+    run.branch().signature = reader.toml().string(entry);
+    run.branch().signature_place = reader.inside(entry);
+    parse_signature(run.model, run.branch().signature, run.branch().signature_place);
 }
 
 void read_orbit_table(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     const std::filesystem::path path = reader.toml().string(entry);
-    run.branch.table = (path.is_relative() ? std::filesystem::path(reader.file()).parent_path() / path : path).string();
+    run.branch().table =
+        (path.is_relative() ? std::filesystem::path(reader.file()).parent_path() / path : path).string();
 }
 
 void complete_branch(StudyRun& run, const RunKeys& keys) {
-    BranchSettings& settings = run.branch.settings;
-    settings.continuation.accuracy = settings.orbit.accuracy;
+    BranchRequest& branch = run.branch();
+    branch.settings.continuation.accuracy = branch.settings.orbit.accuracy;
     if (keys.contains("tolerance"))
-        settings.orbit.tolerance = run.simulation.tolerance;
+        branch.set_tolerance(branch.simulation.tolerance);
 }
 
 void check_branch(const StudyReader& reader, const StudyRun& run, const TomlEntry& entry, const RunKeys& keys) {
-    const BranchRequest& branch = run.branch;
+    const BranchRequest& branch = run.branch();
     if (run.kind == RunKind::curve && !run.start)
         throw InputError(entry.place, fmt::format("{} does not say where the curve begins", entry.path),
                          "give start = { run = \"BRANCH\", point = \"SN1\" }");
@@ -274,7 +265,7 @@ void check_branch(const StudyReader& reader, const StudyRun& run, const TomlEntr
     try {
         branch.validate(run.kind, run.model);
         if (!run.start && !branch.has_table() && branch.signature.empty())
-            run.attractor.validate(run.model);
+            branch.attractor.validate(run.model);
     } catch (const InputError& error) {
         throw InputError(entry.place, fmt::format("{}: {}", entry.path, error.problem()), error.remedy());
     }

@@ -1,4 +1,5 @@
 #include "graze/symbolic/parser.hpp"
+#include "study/estimate_kind.hpp"
 #include "study/identify_run.hpp"
 #include "study/run_description.hpp"
 
@@ -11,14 +12,9 @@ namespace graze {
 
 using What = IdentifyRequest::What;
 
-const std::vector<std::string>& kinds_of_estimates() {
-    static const std::vector<std::string> kinds{"decrement", "restitution", "coupling", "impedance", "fit"};
-    return kinds;
-}
-
 void read_records(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
-    run.identify.records = reader.strings(entry);
-    run.identify.records_place = entry.place;
+    run.identify().records = reader.strings(entry);
+    run.identify().records_place = entry.place;
 }
 
 void read_gives(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
@@ -27,39 +23,30 @@ void read_gives(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
         if (!run.model.find_independent_parameter(parameter))
             reader.fail(item, fmt::format("model '{}' has no parameter '{}'", run.model.name, parameter),
                         study_name_remedy(parameter, run.model.independent_parameters()));
-        const std::vector<std::string> known = names_of_estimates(run.identify.what);
-        // Of several records there are numbers of each, which their names tell.
+        const std::vector<std::string>& known = estimate_kind(run.identify().what).numbers;
+        // From several records there are numbers of each record, under names with the record.
         const bool of_record =
             item.name.find(" of ") != std::string::npos || item.name.find("spread_between") != std::string::npos;
-        if (!of_record && run.identify.what != What::fit &&
+        if (!of_record && run.identify().what != What::fit &&
             std::find(known.begin(), known.end(), item.name) == known.end())
             throw InputError(item.place, fmt::format("nothing of the name '{}' is found", item.name),
                              fmt::format("it finds {}", fmt::join(known, ", ")));
-        for (const auto& [name, other] : run.identify.gives)
+        for (const auto& [name, other] : run.identify().gives)
             if (other == parameter)
                 reader.fail(item, fmt::format("'{}' and '{}' cannot both be '{}'", name, item.name, parameter),
                             "leave one of them out");
-        run.identify.gives.emplace_back(item.name, parameter);
+        run.identify().gives.emplace_back(item.name, parameter);
     });
 }
 
-void read_noise(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
-    IdentifyRequest& request = run.identify;
-    const Model none;
-    reader.each_of(entry, {"displacement", "current"}, [&](const TomlEntry& item) {
-        (item.name == "displacement" ? request.displacement_noise : request.current_noise) =
-            reader.positive(none, item);
-    });
-}
-
-/// Names, or { NAME = GUESS } with { guess, bounds } where they are wanted.
+/// Reads unknowns: names, or { NAME = GUESS }, or { NAME = { guess, bounds } }.
 void read_unknowns(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     const auto add = [&](const TomlEntry& item, const std::string& name) -> IdentifyRequest::Unknown& {
         if (!run.model.find_independent_parameter(name))
             reader.fail(item, fmt::format("model '{}' has no parameter '{}'", run.model.name, name),
                         study_name_remedy(name, run.model.independent_parameters()));
-        run.identify.unknowns.push_back({name, "", "", "", item.place});
-        return run.identify.unknowns.back();
+        run.identify().unknowns.push_back({name, "", "", "", item.place});
+        return run.identify().unknowns.back();
     };
     if (!entry.node->is_table())
         return reader.each(reader.items(entry), [&](const TomlEntry& item) { add(item, reader.toml().string(item)); });
@@ -81,13 +68,13 @@ void read_unknowns(const StudyReader& reader, StudyRun& run, const TomlEntry& en
     });
 }
 
-/// Channels, or { CHANNEL = "EXPRESSION" } with { value, gain, offset, noise } where they are wanted.
+/// Reads readings: channels, or { CHANNEL = "EXPRESSION" }, or { CHANNEL = { value, gain, offset, noise } }.
 void read_readings(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     const Model none;
     const auto add = [&](const TomlEntry& item, const std::string& channel,
                          const std::string& value) -> IdentifyRequest::Reading& {
         named_value(run.model, value, reader.inside(item));
-        IdentifyRequest::Reading& reading = run.identify.readings.emplace_back();
+        IdentifyRequest::Reading& reading = run.identify().readings.emplace_back();
         reading.channel = channel;
         reading.value = value;
         reading.place = reader.inside(item);
@@ -117,17 +104,17 @@ void read_readings(const StudyReader& reader, StudyRun& run, const TomlEntry& en
                 (is_gain ? reading.gain : reading.offset) = reader.number(none, part);
         });
         named_value(run.model, reading.value, item.place);
-        run.identify.readings.push_back(reading);
+        run.identify().readings.push_back(reading);
     });
 }
 
 void read_known(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     if (entry.node->is_boolean()) {
-        run.identify.all_known = reader.toml().boolean(entry);
+        run.identify().all_known = reader.toml().boolean(entry);
         return;
     }
-    run.identify.known = reader.strings(entry);
-    for (const std::string& name : run.identify.known)
+    run.identify().known = reader.strings(entry);
+    for (const std::string& name : run.identify().known)
         if (!run.model.find_state(name))
             reader.fail(entry, fmt::format("model '{}' has no state '{}'", run.model.name, name),
                         study_name_remedy(name, names_of(run.model.states)));
@@ -136,7 +123,7 @@ void read_known(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
 namespace {
 
 void require_what_is_needed(const StudyReader& reader, const StudyRun& run, const TomlEntry& entry) {
-    const IdentifyRequest& request = run.identify;
+    const IdentifyRequest& request = run.identify();
     if (request.records.empty())
         reader.fail(entry, fmt::format("{} has no records", entry.path),
                     "name runs of kind \"record\": records = \"NAME\"");
@@ -154,15 +141,17 @@ void require_what_is_needed(const StudyReader& reader, const StudyRun& run, cons
 } // namespace
 
 void read_estimate(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const RunKeys& keys) {
+    const std::vector<std::string>& kinds = kinds_of_estimates();
     if (!keys.contains("what"))
         reader.fail(entry, fmt::format("{} does not say what is to be found", entry.path),
-                    "give what = \"decrement\", \"restitution\", \"coupling\", \"impedance\" or \"fit\"");
-    run.identify.what = static_cast<What>(reader.choice(keys.at("what"), kinds_of_estimates()));
+                    fmt::format("give what = \"{}\" or \"{}\"", fmt::join(kinds.begin(), kinds.end() - 1, "\", \""),
+                                kinds.back()));
+    run.identify().what = static_cast<What>(reader.choice(keys.at("what"), kinds));
 }
 
 void complete_identify(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     require_what_is_needed(reader, run, entry);
-    run.value_names = residual_names(run.identify);
+    run.value_names = residual_names(run.identify());
     run.value_units.assign(run.value_names.size(), "");
 }
 

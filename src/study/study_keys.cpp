@@ -69,7 +69,7 @@ void check_beginning(const StudyReader& reader, RunKind kind, const RunKeys& key
     refuse_two("start", "table");
     refuse_two("table", "from");
     refuse_two("table", "mode");
-    if (kind == RunKind::orbit || kind == RunKind::follow || kind == RunKind::curve || kind == RunKind::ladder)
+    if (is_branch(kind))
         mistakes.attempt([&] { check_unused(reader, kind, keys); });
     if (kind == RunKind::record && !keys.contains("bench"))
         mistakes.attempt(
@@ -83,8 +83,7 @@ const std::vector<StudyKey>& study_keys(RunKind kind) {
     static const std::vector<std::vector<StudyKey>> of_kinds = [] {
         std::vector<std::vector<StudyKey>> all;
         for (std::size_t one = 0; one < kinds_of_runs().size(); ++one) {
-            StudyRun run;
-            run.kind = static_cast<RunKind>(one);
+            StudyRun run(static_cast<RunKind>(one));
             set_standards(run);
             KeyList list;
             describe(list, run);
@@ -191,11 +190,11 @@ void check_start(const StudyReader& reader, const StudyRun& run, const StudyRun&
         fail_start(start, "a curve begins at a special point of a branch",
                    "give start = { run = \"BRANCH\", point = \"SN1\" }");
     const bool curve = run.kind == RunKind::curve, of_curves = point_type(start.onto).has_value();
-    if (curve && !start.onto.empty() && (!of_curves || !run.branch.keeps_point()))
+    if (curve && !start.onto.empty() && (!of_curves || !run.branch().keeps_point()))
         fail_start(
             start,
             fmt::format("`onto = \"{}\"` has no effect here: a curve goes on along points of one kind", start.onto),
-            run.branch.keeps_point() ? "leave it out, or name the kind, such as \"SN\"" : "leave it out");
+            run.branch().keeps_point() ? "leave it out, or name the kind, such as \"SN\"" : "leave it out");
     if (!curve && of_curves)
         fail_start(start, fmt::format("`onto = \"{}\"` chooses a curve, and this is none", start.onto),
                    "follow it with kind = \"curve\", or choose \"same\", \"other\" or \"twin\"");

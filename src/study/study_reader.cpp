@@ -74,7 +74,7 @@ double StudyReader::positive(const Model& model, const TomlEntry& entry) const {
 }
 
 std::string StudyReader::number_text(const Model& model, const TomlEntry& entry) const {
-    const double value = number(model, entry); // says what is wrong with it
+    const double value = number(model, entry); // throws for what is no number
     return entry.node->is_string() ? toml_.string(entry) : fmt::format("{:.17g}", value);
 }
 
@@ -127,7 +127,7 @@ std::size_t StudyReader::choice(const TomlEntry& entry, const std::vector<std::s
 
 namespace {
 
-/// from + i step without the error that grows with i: where both are decimals, so is the result.
+/// from + i step, rounded so that decimals give decimals.
 double stepped(double from, double step, std::size_t i) {
     const double exact = from + static_cast<double>(i) * step;
     return rounded(exact, 13);

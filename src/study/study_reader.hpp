@@ -16,7 +16,7 @@
 
 namespace graze {
 
-/// Reads what studies are made of; every mistake is an InputError with its place, several are InputErrors.
+/// Reads the parts of a study file. A mistake throws InputError with its place, several mistakes throw InputErrors.
 class StudyReader {
 public:
     explicit StudyReader(std::string file) : toml_(file), file_(std::move(file)) {}
@@ -28,19 +28,19 @@ public:
     double number(const Model& model, const TomlEntry& entry) const;
     double number(const Model& model, const TomlEntry& entry, const NumberRange& range) const;
     double positive(const Model& model, const TomlEntry& entry) const;
-    /// What `number` reads, as a text to be evaluated when parameters are known that it depends on.
+    /// The text of a number or expression, to be evaluated when the parameters in it are known.
     std::string number_text(const Model& model, const TomlEntry& entry) const;
     std::size_t count(const TomlEntry& entry, std::size_t least = 0, std::size_t most = 1'000'000'000) const;
-    /// Two numbers in order.
+    /// Two numbers in ascending order.
     std::pair<double, double> range(const Model& model, const TomlEntry& entry) const;
     std::vector<std::string> strings(const TomlEntry& entry) const;
-    /// The place of the text within a string.
+    /// The place of the first letter of a string, behind its quotation mark.
     Place inside(const TomlEntry& entry) const;
-    /// One of several words. @return its index
+    /// Index of one of several words.
     std::size_t choice(const TomlEntry& entry, const std::vector<std::string>& words) const;
     [[noreturn]] void fail(const TomlEntry& entry, const std::string& problem, const std::string& remedy) const;
 
-    /// Does something with each entry by itself, and tells the mistakes of all of them.
+    /// Calls `work` with each entry, and reports the mistakes of all entries together.
     template <class Work>
     static void each(const std::vector<TomlEntry>& entries, const Work& work) {
         Mistakes mistakes;
@@ -48,7 +48,7 @@ public:
             mistakes.attempt([&] { work(entry); });
         mistakes.throw_noted();
     }
-    /// The same with those of a table. @param known the only keys that it may have; none: any
+    /// The same for the entries of a table. @param known the only keys that it may have; none: any key
     template <class Work>
     void each_of(const TomlEntry& table, std::initializer_list<std::string_view> known, const Work& work) const {
         each(toml_.entries(toml_.table(table), table.path), [&](const TomlEntry& entry) {
@@ -57,7 +57,7 @@ public:
             work(entry);
         });
     }
-    /// The items of a list, or what stands there in the place of a list of one.
+    /// The items of a list; an entry that is no list counts as a list of one.
     std::vector<TomlEntry> items(const TomlEntry& entry) const;
 
 private:
@@ -65,26 +65,26 @@ private:
     std::string file_;
 };
 
-/// What all runs of a study begin with.
+/// Settings of a study that hold for all of its runs.
 struct StudyDefaults {
     std::string model; ///< name or path; empty: each run says its own
     Place model_place;
     std::optional<TomlEntry> set, values;
-    ParameterValues given; ///< in the place of what the study says
-    bool whole = true;     ///< whether all that the study begins with could be read
+    ParameterValues given; ///< they replace the values of the study
+    bool whole = true;     ///< false: some of these settings could not be read
 };
 
 using RunKeys = std::map<std::string, TomlEntry>;
 
-/// Does something with a key of a run, if it is there. @return false for a mistake, which is noted
+/// Calls `work` with a key of a run if the run has it. @return false after a mistake, which is noted
 template <class Work>
 bool with_key(Mistakes& mistakes, const RunKeys& keys, const char* key, const Work& work) {
     const auto found = keys.find(key);
     return found == keys.end() || mistakes.attempt([&] { work(found->second); });
 }
 
-/// @param keys receives those of the run, for checks that need other runs
-/// @return nothing where only a mistake elsewhere keeps it from being read
+/// Reads a run. @param keys receives the keys of the run, for checks that need other runs
+/// @return nothing where a mistake elsewhere makes it impossible to read the run
 std::optional<StudyRun> read_run(const StudyReader& reader, const TomlEntry& entry, const StudyDefaults& defaults,
                                  RunKeys& keys);
 StudyPicture read_picture(const StudyReader& reader, const TomlEntry& entry);
@@ -99,36 +99,36 @@ void check_table(const Study& study, const StudyTable& table, const std::vector<
                  const std::vector<std::string>& pictures);
 /// @param names of all runs @throws InputError unless it is one of them
 void require_run(const std::string& name, const std::vector<std::string>& names, const Place& place);
-/// Each run after the one that it starts from, otherwise in their order.
+/// Sorts runs so that each follows those that it needs; otherwise their order stays.
 /// @throws InputError for a run that starts from one that is not there, or from itself
 std::vector<StudyRun> in_order(std::vector<StudyRun> runs);
-/// The values of one entry of `vary`.
+/// Reads one entry of `vary`.
 Variation read_variation(const StudyReader& reader, const Model& model, const TomlEntry& entry);
 
-/// The records of a run: files, or a virtual bench on which the run's model is.
+/// Reads the records of a run: files, or a virtual bench with the run's model.
 void read_inputs(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const RunKeys& keys);
-/// What is taken from them. The run's model becomes that of the record.
+/// Reads channels and samplings of records. The run's model becomes that of the record.
 void read_record(const StudyReader& reader, StudyRun& run, const RunKeys& keys);
-/// What the user left to us, once values have been read.
+/// Sets what the study leaves open, once values have been read.
 void complete_record(const StudyReader& reader, StudyRun& run, const RunKeys& keys);
-/// What a run of kind identify finds. @throws InputError for keys that have no effect on it
+/// Reads which estimate a run of kind identify makes.
 void read_estimate(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const RunKeys& keys);
-/// Once its keys have been read. @throws InputError where it lacks one
+/// Completes a run of kind identify, once its keys have been read. @throws InputError where it lacks one
 void complete_identify(const StudyReader& reader, StudyRun& run, const TomlEntry& entry);
 /// @throws InputError when the runs that another one needs do not give what it needs
 void check_needs(const StudyRun& run, const Study& study);
 
-/// The period, and how far each state goes.
+/// The monitors of branches whose study names none: the period, and the greatest value of each state.
 std::vector<Monitor> usual_monitors(const Model& model);
 /// Settings that follow from others, once the keys of a run of orbits have been read.
 void complete_branch(StudyRun& run, const RunKeys& keys);
 /// @throws InputError when they do not go together
 void check_branch(const StudyReader& reader, const StudyRun& run, const TomlEntry& entry, const RunKeys& keys);
-/// Remembers which parameters a run itself sets.
+/// Adds the parameters of a table `set` to StudyRun::set.
 void note_set(const StudyReader& reader, StudyRun& run, const TomlEntry& entry);
-/// What holds where nothing is said, and is not the same for all kinds.
+/// Sets defaults of runs in study files that depend on the kind and the model.
 void set_standards(StudyRun& run);
-/// Keys that runs of any kind have.
+/// Names of the keys of runs of all kinds.
 const std::vector<std::string>& names_of_keys();
 /// @throws InputError for a key that runs of this kind do not use, or that another one makes useless
 void check_keys_of_kind(const StudyReader& reader, RunKind kind, const RunKeys& keys);
@@ -138,14 +138,14 @@ void check_keys_of_picture(const StudyReader& reader, const std::string& kind, c
 /// @throws InputError when what a run starts from does not go with it
 void check_start(const StudyReader& reader, const StudyRun& run, const StudyRun& parent, const RunKeys& keys);
 
-/// "did you mean", or all there are.
+/// The remedy for an unknown name: the nearest known name, or all known names.
 std::string study_name_remedy(const std::string& name, const std::vector<std::string>& known);
 
 /// The text of a file that is part of the program. @param kind "study", "design"
 /// @throws InputError when there is none of this name
 std::string embedded_text(std::span<const EmbeddedModel> files, const std::string& kind, const std::string& name);
 
-/// As what pictures of a study can be written.
+/// The formats of files of pictures.
 std::vector<std::string> picture_formats();
 
 } // namespace graze

@@ -19,13 +19,6 @@ const Model& no_model() {
     return none;
 }
 
-/// A table's keys, each told once. @param table its entry
-template <class Work>
-void with_keys(const StudyReader& reader, const TomlEntry& table, std::initializer_list<std::string_view> known,
-               const Work& work) {
-    reader.each_of(table, known, work);
-}
-
 void read_files(const StudyReader& reader, const TomlEntry& entry, std::size_t direction, RecordRequest& request) {
     if (!entry.node->is_string() && !entry.node->is_array())
         reader.fail(entry, fmt::format("{} must be a name or a list of names", entry.path), "write it as \"run*.csv\"");
@@ -40,12 +33,12 @@ void read_files(const StudyReader& reader, const TomlEntry& entry, std::size_t d
         reader.fail(entry, fmt::format("{} names no record", entry.path), "name one");
 }
 
-/// A name, a list, or { up = ..., down = ... }.
+/// Reads the key `files`: a name, a list, or { up = ..., down = ... }.
 void read_all_files(const StudyReader& reader, const TomlEntry& entry, RecordRequest& request) {
     if (!entry.node->is_table())
         return read_files(reader, entry, 0, request);
     request.directions.clear();
-    with_keys(reader, entry, {"up", "down"}, [&](const TomlEntry& item) {
+    reader.each_of(entry, {"up", "down"}, [&](const TomlEntry& item) {
         request.directions.push_back(item.name);
         read_files(reader, item, request.directions.size() - 1, request);
     });
@@ -68,27 +61,16 @@ void read_scales(const StudyReader& reader, StudyRun& run, const TomlEntry& entr
             });
         else
             scale.factor = reader.number(no_model(), channel);
-        run.record.processing.scales.push_back(scale);
-    });
-}
-
-void read_lines(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
-    constexpr std::size_t most = 1'000'000;
-    RecordLayout& layout = run.record.processing.layout;
-    reader.each_of(entry, {"skip", "names", "units"}, [&](const TomlEntry& item) {
-        if (item.name == "skip")
-            layout.skip = reader.count(item, 0, most);
-        else
-            (item.name == "names" ? layout.names_line : layout.units_line) = reader.count(item, 1, most);
+        run.record().processing.scales.push_back(scale);
     });
 }
 
 void read_part(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
-    std::tie(run.record.processing.begin, run.record.processing.end) = reader.range(no_model(), entry);
+    std::tie(run.record().processing.begin, run.record().processing.end) = reader.range(no_model(), entry);
 }
 
 void read_filter(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
-    RecordProcessing& processing = run.record.processing;
+    RecordProcessing& processing = run.record().processing;
     reader.each_of(entry, {"pass", "stop"}, [&](const TomlEntry& item) {
         (item.name == "pass" ? processing.pass : processing.stop) = reader.positive(no_model(), item);
     });
@@ -97,7 +79,7 @@ void read_filter(const StudyReader& reader, StudyRun& run, const TomlEntry& entr
 }
 
 void read_derivative(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
-    RecordProcessing& processing = run.record.processing;
+    RecordProcessing& processing = run.record().processing;
     if (entry.node->is_string()) {
         processing.derivative = reader.toml().line(entry);
         return;
@@ -106,7 +88,8 @@ void read_derivative(const StudyReader& reader, StudyRun& run, const TomlEntry& 
         if (item.name == "channel")
             processing.derivative = reader.toml().line(item);
         else
-            processing.half_width = reader.count(item, 4, 100'000);
+            processing.half_width =
+                reader.count(item, RecordProcessing::least_half_width, RecordProcessing::most_half_width);
     });
 }
 
@@ -124,8 +107,8 @@ RecordSampling read_record_sampling(const StudyReader& reader, const TomlEntry& 
         placed = true;
         sampling.kind = kind;
     };
-    with_keys(
-        reader, entry,
+    reader.each_of(
+        entry,
         {"section", "maxima", "minima", "record", "peak_to_peak", "amplitude", "impacts", "image", "displacement",
          "window", "transition", "least_jump"},
         [&](const TomlEntry& item) {
@@ -143,11 +126,11 @@ RecordSampling read_record_sampling(const StudyReader& reader, const TomlEntry& 
             } else if (item.name == "displacement") {
                 sampling.displacement = reader.toml().line(item);
             } else if (item.name == "window") {
-                sampling.window = reader.count(item, 5, 100'000);
+                sampling.impacts.window = reader.count(item, ImpactWindow::least_window, ImpactWindow::most_window);
             } else if (item.name == "transition") {
-                sampling.transition = reader.count(item, 0, 100'000);
+                sampling.impacts.transition = reader.count(item, 0, ImpactWindow::most_window);
             } else if (item.name == "least_jump") {
-                sampling.least_jump = reader.number(no_model(), item);
+                sampling.impacts.least_jump = reader.number(no_model(), item);
             } else if (reader.toml().boolean(item)) {
                 place(item.name == "record"         ? Kind::record
                       : item.name == "peak_to_peak" ? Kind::peak_to_peak
@@ -162,7 +145,7 @@ RecordSampling read_record_sampling(const StudyReader& reader, const TomlEntry& 
     return sampling;
 }
 
-/// Which channels are there for values, as channels = ["V", "I"] or { v = "dq/dt" } says, or all.
+/// Reads the key `channels`, ["V", "I"] or { v = "dq/dt" }; without it values may use all channels.
 void read_channels(const StudyReader& reader, const RecordHeader& header, RecordRequest& request, const RunKeys& keys) {
     if (const auto found = keys.find("channels"); found != keys.end()) {
         const TomlEntry& entry = found->second;
@@ -209,9 +192,9 @@ void read_reference(const StudyReader& reader, RecordRequest& request, const Tom
                     "name one of those that the run keeps");
 }
 
-/// Its header, once all is done to it.
+/// The header of the first record after it has been processed.
 RecordHeader header_of(const StudyReader& reader, const StudyRun& run, const RunKeys& keys) {
-    const RecordRequest& request = run.record;
+    const RecordRequest& request = run.record();
     try {
         std::unique_ptr<SampleSource> source;
         if (request.bench) {
@@ -236,7 +219,7 @@ RecordHeader header_of(const StudyReader& reader, const StudyRun& run, const Run
 }
 
 void check_samplings(const StudyReader& reader, const StudyRun& run, const TomlEntry& entry) {
-    const RecordRequest& request = run.record;
+    const RecordRequest& request = run.record();
     std::vector<std::string> known = run.value_names;
     for (const RecordRequest::Kept& one : request.channels)
         known.push_back(one.name);
@@ -276,7 +259,7 @@ std::vector<std::string> RecordRequest::sampling_names() const {
 
 namespace {
 
-/// What the model on a virtual bench says of what a channel measures; of files nobody knows.
+/// The description of a channel: the text of what it measures in the model of a virtual bench; empty for files.
 std::string words_of_channel(const RecordRequest& request, const std::string& channel) {
     if (request.bench)
         for (const BenchChannel& one : request.bench->channels)
@@ -288,7 +271,7 @@ std::string words_of_channel(const RecordRequest& request, const std::string& ch
 } // namespace
 
 void read_inputs(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const RunKeys& keys) {
-    RecordRequest& request = run.record;
+    RecordRequest& request = run.record();
     if (keys.contains("files") == keys.contains("bench"))
         reader.fail(entry, fmt::format("{} has {} records", entry.path, keys.contains("files") ? "two kinds of" : "no"),
                     "give files = \"NAME.csv\", or a virtual bench: bench = { ... }");
@@ -305,7 +288,7 @@ void read_inputs(const StudyReader& reader, StudyRun& run, const TomlEntry& entr
 }
 
 void read_record(const StudyReader& reader, StudyRun& run, const RunKeys& keys) {
-    RecordRequest& request = run.record;
+    RecordRequest& request = run.record();
     Mistakes mistakes;
     const RecordHeader header = header_of(reader, run, keys);
     read_channels(reader, header, request, keys);
@@ -357,7 +340,7 @@ void read_record(const StudyReader& reader, StudyRun& run, const RunKeys& keys) 
 
 void complete_record(const StudyReader& reader, StudyRun& run, const RunKeys& keys) {
     if (run.values.empty())
-        for (const RecordRequest::Kept& one : run.record.channels) {
+        for (const RecordRequest::Kept& one : run.record().channels) {
             run.value_names.push_back(one.name);
             run.value_units.push_back(run.model.states[*run.model.find_state(one.name)].unit);
             run.values.push_back(run.model.symbol(one.name));

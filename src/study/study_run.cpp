@@ -7,6 +7,7 @@
 #include "study/study_sampling.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -15,13 +16,11 @@
 namespace graze {
 
 void set_standards(StudyRun& run) {
-    // Where a branch or a curve lies is what one asks; a sweep is a motion, which can go one way only.
+    // Users ask where a branch or a curve lies, in both directions; a sweep is a motion and goes in one.
     if (run.kind == RunKind::follow || run.kind == RunKind::curve)
-        run.direction = SweepDirection::both;
+        run.branch().direction = SweepDirection::both;
     if (run.is_branch())
-        run.branch.settings.monitors = usual_monitors(run.model);
-    if (run.kind == RunKind::identify)
-        run.simulation = FitSettings().simulation;
+        run.branch().settings.monitors = usual_monitors(run.model);
 }
 
 namespace {
@@ -47,8 +46,9 @@ Model model_of(const StudyReader& reader, const std::string& name, const Place& 
     }
 }
 
-/// @param given parameters that keep the values that they have
-/// @param later whether an initial state is read later, when it is known what varies; null: none is
+/// Sets parameters or initial states as a table says.
+/// @param given parameters that keep their values
+/// @param later true for an initial state that is read later, when it is known what varies; null: none is
 void set_values(const StudyReader& reader, Model& model, const TomlEntry& entry, bool initial,
                 const ParameterValues& given = {}, const std::function<bool(const TomlEntry&)>& later = nullptr) {
     reader.each_of(entry, {}, [&](const TomlEntry& item) {
@@ -67,34 +67,45 @@ void set_values(const StudyReader& reader, Model& model, const TomlEntry& entry,
     });
 }
 
-/// More points than can be kept in memory, or computed in a lifetime.
+/// Refuses more points than fit into memory or can be computed in a lifetime.
 void check_points(const StudyReader& reader, const StudyRun& run, const TomlEntry& vary) {
-    if (!(run.points() <= most_points))
+    if (!(run.motion().points() <= most_points))
         reader.fail(vary, "there would be more than a thousand million points", "take larger steps");
-    if (!(run.chains() <= most_chains))
+    if (!(run.motion().chains(run.kind) <= most_chains))
         reader.fail(
             vary, fmt::format("there would be more than {} million points that begin by themselves", most_chains / 1e6),
             "make several studies, or sweep along the axis with the most values");
 }
 
-/// What the user left to us.
+/// Sets where motions are sampled and which contacts count, unless the study says so.
+void complete_motion(StudyRun& run) {
+    MotionRequest& motion = run.motion();
+    motion.transient.section = motion.attractor.section;
+    if (motion.samplings.empty() && !motion.attractor.section.empty()) {
+        Sampling sampling;
+        sampling.name = sampling.section = motion.attractor.section;
+        motion.samplings.push_back(sampling);
+    }
+    if (motion.transient.counted.empty())
+        for (std::size_t i = 0; i < run.model.events.size(); ++i)
+            if (run.model.events[i].kind == EventKind::barrier)
+                motion.transient.counted.push_back(i);
+    motion.simulation.validate();
+    if (!seeks_attractors(run.kind))
+        motion.transient.validate(run.model);
+    else
+        motion.attractor.validate(run.model);
+}
+
+/// Sets what the study leaves open.
 void complete(StudyRun& run, const TomlEntry& entry) {
     const Model& model = run.model;
-    if (run.attractor.section.empty() && !model.sections.empty()) {
+    AttractorOptions& attractor = run.attractor();
+    if (attractor.section.empty() && !model.sections.empty()) {
         const auto phase = std::find_if(model.sections.begin(), model.sections.end(),
                                         [](const Section& section) { return section.state.has_value(); });
-        run.attractor.section = (phase == model.sections.end() ? model.sections.front() : *phase).name;
+        attractor.section = (phase == model.sections.end() ? model.sections.front() : *phase).name;
     }
-    run.transient.section = run.attractor.section;
-    if (run.samplings.empty() && !run.attractor.section.empty()) {
-        Sampling sampling;
-        sampling.name = sampling.section = run.attractor.section;
-        run.samplings.push_back(sampling);
-    }
-    if (run.transient.counted.empty())
-        for (std::size_t i = 0; i < model.events.size(); ++i)
-            if (model.events[i].kind == EventKind::barrier)
-                run.transient.counted.push_back(i);
     if (run.values.empty())
         for (std::size_t i = 0; i < model.states.size(); ++i)
             if (!model.states[i].period && !model.states[i].drifting) {
@@ -103,17 +114,14 @@ void complete(StudyRun& run, const TomlEntry& entry) {
                 run.values.push_back(model.symbol(model.states[i].name));
             }
     try {
-        run.simulation.validate();
         if (run.is_branch())
-            return;
-        if (run.kind == RunKind::simulate)
-            run.transient.validate(model);
-        else
-            run.attractor.validate(model);
+            return run.branch().simulation.validate();
+        complete_motion(run);
     } catch (const InputError& error) {
         throw InputError(entry.place, fmt::format("{}: {}", entry.path, error.problem()), error.remedy());
     }
-    if (run.kind == RunKind::sweep && (run.axes.empty() || run.axes.front().values.empty()))
+    const std::vector<Variation>& axes = run.motion().axes;
+    if (run.kind == RunKind::sweep && (axes.empty() || axes.front().values.empty()))
         throw InputError(entry.place, fmt::format("{} sweeps nothing", entry.path),
                          "give vary = { PARAMETER = { from = A, to = B, step = S } }");
 }
@@ -129,9 +137,9 @@ void read_model(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
         throw InputError(entry.place, fmt::format("{} has no model", entry.path), "give model = \"NAME\" or a path");
 }
 
-/// Parameters, initial state and mode of the model, as the run asks for.
+/// Sets parameters, initial state and mode of the model as the run asks.
 void read_beginning(const StudyReader& reader, StudyRun& run, const StudyDefaults& defaults, const RunKeys& keys) {
-    // Before the others, whose expressions may depend on them.
+    // Given values come first, since expressions may depend on them.
     for (const auto& [name, value] : defaults.given)
         if (run.model.find_independent_parameter(name))
             run.model.set_parameter(name, value);
@@ -157,19 +165,20 @@ void read_beginning(const StudyReader& reader, StudyRun& run, const StudyDefault
 }
 
 void check_draws(const StudyReader& reader, const StudyRun& run, const TomlEntry& entry, const RunKeys& keys) {
+    const MotionRequest& motion = run.motion();
     const bool random =
-        std::any_of(run.axes.begin(), run.axes.end(), [](const Variation& axis) { return axis.values.empty(); });
-    if (random && run.draws == 0)
+        std::any_of(motion.axes.begin(), motion.axes.end(), [](const Variation& axis) { return axis.values.empty(); });
+    if (random && motion.draws == 0)
         reader.fail(keys.at("vary"), fmt::format("{} does not say how many values to draw", entry.path),
                     "give draws = N");
-    if (!random && run.draws > 0)
+    if (!random && motion.draws > 0)
         reader.fail(keys.at("draws"), fmt::format("{} draws nothing", entry.path),
                     "give something random: vary = { x = { random = [0, 1] } }");
-    if (run.draws == 0 && keys.contains("seed"))
+    if (motion.draws == 0 && keys.contains("seed"))
         reader.fail(keys.at("seed"), fmt::format("{} draws nothing", entry.path), "leave it out, or give draws = N");
 }
 
-/// The keys that a run has, and what it is.
+/// Collects the keys of a run, and reads its kind and text.
 void read_keys(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, RunKeys& keys) {
     const std::vector<std::string>& known = names_of_keys();
     Mistakes mistakes;
@@ -183,23 +192,24 @@ void read_keys(const StudyReader& reader, StudyRun& run, const TomlEntry& entry,
         });
         if (!keys.contains("kind"))
             throw InputError(entry.place, fmt::format("{} has no kind", entry.path),
-                             "give kind = \"simulate\", \"sweep\", \"basin\", \"orbit\", \"continue\", \"curve\", "
-                             "\"ladder\", \"record\" or \"identify\"");
+                             fmt::format("give kind = \"{}\" or \"{}\"",
+                                         fmt::join(kinds_of_runs().begin(), kinds_of_runs().end() - 1, "\", \""),
+                                         kinds_of_runs().back()));
     });
     with_key(mistakes, keys, "kind", [&](const TomlEntry& kind) {
-        run.kind = static_cast<RunKind>(reader.choice(kind, kinds_of_runs()));
+        run.set_kind(static_cast<RunKind>(reader.choice(kind, kinds_of_runs())));
         check_keys_of_kind(reader, run.kind, keys);
     });
     with_key(mistakes, keys, "text", [&](const TomlEntry& text) { run.text = reader.toml().string(text); });
     mistakes.throw_noted();
 }
 
-/// Whether a run's records are those of a virtual bench.
+/// True when the records of a run come from a virtual bench.
 bool has_bench(const RunKeys& keys) {
     return keys.contains("bench") && !keys.contains("files");
 }
 
-/// Records, and what is found from them.
+/// Reads runs of kind record and identify.
 void read_measured(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const StudyDefaults& defaults,
                    const RunKeys& keys) {
     Mistakes mistakes;
@@ -222,7 +232,7 @@ void read_measured(const StudyReader& reader, StudyRun& run, const TomlEntry& en
     complete_record(reader, run, keys);
 }
 
-/// All that needs the model.
+/// Reads runs of motions and branches, once the model is known.
 void read_contents(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const StudyDefaults& defaults,
                    const RunKeys& keys) {
     Mistakes mistakes;
@@ -234,7 +244,7 @@ void read_contents(const StudyReader& reader, StudyRun& run, const TomlEntry& en
         with_key(mistakes, keys, "from", [&](const TomlEntry& from) { read_following_states(reader, run, from); });
     if (!keys.contains("values") && defaults.values)
         mistakes.attempt([&] { read_values(reader, run, *defaults.values); });
-    if (!fields.is_wrong({"vary", "draws", "seed"}))
+    if (run.has_motions() && !fields.is_wrong({"vary", "draws", "seed"}))
         mistakes.attempt([&] {
             check_draws(reader, run, entry, keys);
             if (keys.contains("vary"))
@@ -254,7 +264,7 @@ std::optional<StudyRun> read_run(const StudyReader& reader, const TomlEntry& ent
     run.place = entry.place;
     Mistakes mistakes;
     const bool has_keys = mistakes.attempt([&] { read_keys(reader, run, entry, keys); });
-    // A key that could not be read may have been the one that names the model.
+    // A missing model is not reported where a key that could not be read may have named it.
     const bool says_model = keys.contains("model") || !defaults.model.empty();
     if (run.is_measured() && has_keys) {
         if (run.kind == RunKind::identify || has_bench(keys))

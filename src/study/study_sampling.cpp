@@ -80,15 +80,16 @@ Sampling read_sampling(const StudyReader& reader, const Model& model, const Toml
 
 void read_samplings(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     if (entry.node->is_table()) {
-        reader.each_of(entry, {},
-                       [&](const TomlEntry& item) { run.samplings.push_back(read_sampling(reader, run.model, item)); });
+        reader.each_of(entry, {}, [&](const TomlEntry& item) {
+            run.motion().samplings.push_back(read_sampling(reader, run.model, item));
+        });
         return;
     }
     const auto items = entry.node->is_string() ? std::vector<TomlEntry>{entry} : reader.toml().elements(entry);
     reader.each(items, [&](const TomlEntry& item) {
         Sampling sampling;
         sampling.section = sampling.name = run.model.sections[section_index(reader, run.model, item)].name;
-        run.samplings.push_back(sampling);
+        run.motion().samplings.push_back(sampling);
     });
 }
 

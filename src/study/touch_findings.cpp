@@ -20,7 +20,7 @@ std::optional<OrbitTouch> touch_at(const StudyRun& run, const System& system, co
 
 /// On curves first the parameter that was freed, as `graze grazing` has it.
 std::vector<ParameterId> moving_parameters(const StudyRun& run) {
-    const BranchSettings& settings = run.branch.settings;
+    const BranchSettings& settings = run.branch().settings;
     std::vector<ParameterId> result;
     if (run.kind == RunKind::curve && !settings.free.empty())
         result.push_back(settings.free.front());

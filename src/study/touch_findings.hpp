@@ -8,7 +8,7 @@
 namespace graze {
 
 /// What becomes of an orbit beyond its touch, by the map of its cycle and the first of the run's parameters that moves
-/// it from there: of grazings, and of all points of curves that touch. @return none where nothing is touched
+/// the orbit from the touch. It is told of grazings, and of all points of curves of touches. @return none otherwise
 std::optional<TouchFindings> findings_at(const StudyRun& run, const SpecialPoint& point);
 
 } // namespace graze

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace graze {
 
@@ -78,6 +79,58 @@ TripTime swung_trip(const System& system, const TripOrigin& origin, double ampli
     const DrivenParameter driven = drive_parameter(system.model(), name_of_origin(system, origin), DriveKind::wave);
     return follow_disturbed(origin, driven, {2 * std::numbers::pi / period, amplitude}, options.cycles * origin.cycle,
                             end, options);
+}
+
+namespace {
+
+TripOrigin origin_of_ramp(const LossPoint& point, double from, bool given, const std::string& asked_as) {
+    try {
+        return trip_origin(point, from);
+    } catch (const InputError& error) {
+        if (given)
+            throw InputError(Place{asked_as + "at", 0, 0}, error.problem(), error.remedy());
+        throw InputError(Place{asked_as + "ramp", 0, 0},
+                         fmt::format("the ramp would begin at {} = {:.6g}: {}", point.name, from, error.problem()),
+                         fmt::format("give a slower one, or say where it begins: {}at VALUE", asked_as));
+    }
+}
+
+} // namespace
+
+std::vector<RampRow> ramped_trips(const LossPoint& point, const std::vector<double>& rates, std::optional<double> from,
+                                  const TripEnd& end, const TripOptions& options, const std::string& asked_as) {
+    std::vector<RampRow> rows;
+    for (const double rate : rates) {
+        if (!(rate * point.side > 0))
+            throw InputError(fmt::format("with the rate {} the parameter does not come to the point from where the "
+                                         "motion is at rest",
+                                         rate),
+                             point.side > 0 ? "give a positive rate" : "give a negative rate");
+        RampRow row{rate, from ? *from : beginning_of_ramp(point, rate), {}, {}, {}};
+        row.ramped =
+            ramped_trip(point.system, origin_of_ramp(point, row.from, from.has_value(), asked_as), rate, end, options);
+        if (options.interrupted && options.interrupted())
+            break;
+        if (row.ramped.trip.ended)
+            row.delay = row.ramped.value - point.value;
+        if (point.fold)
+            row.predicted_delay = delay_of_ramp(*point.fold, rate);
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+std::vector<TripTime> swung_trips(const LossPoint& point, const TripOrigin& origin,
+                                  const std::vector<double>& amplitudes, double period, const TripEnd& end,
+                                  const TripOptions& options) {
+    std::vector<TripTime> trips;
+    for (const double amplitude : amplitudes) {
+        TripTime trip = swung_trip(point.system, origin, amplitude, period, end, options);
+        if (options.interrupted && options.interrupted())
+            break;
+        trips.push_back(std::move(trip));
+    }
+    return trips;
 }
 
 } // namespace graze

@@ -223,4 +223,20 @@ NoisyTrips noisy_trips(const System& system, const TripOrigin& origin, double le
     return result;
 }
 
+std::vector<NoisyTrips> noisy_trips(const LossPoint& point, const TripOrigin& origin, const std::vector<double>& levels,
+                                    const TripEnd& end, const NoiseSettings& settings,
+                                    const std::function<void(std::size_t level, std::size_t motions)>& progress) {
+    std::vector<NoisyTrips> all;
+    NoiseSettings here = settings;
+    if (progress)
+        here.progress = [&](std::size_t motions) { progress(all.size(), motions); };
+    for (const double level : levels) {
+        NoisyTrips trips = noisy_trips(point.system, origin, level, end, here);
+        if (trips.interrupted)
+            break;
+        all.push_back(std::move(trips));
+    }
+    return all;
+}
+
 } // namespace graze

@@ -1,7 +1,13 @@
 #include "graze/trip/overshoot_trip.hpp"
 
+#include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace graze {
 
@@ -11,6 +17,19 @@ const TripTime* OvershootTrip::best() const {
     if (continued && continued->ended)
         return &*continued;
     return nullptr;
+}
+
+NamedEnd usual_end(const LossPoint& point) {
+    if (point.fold)
+        return {{}, "the fold is passed", false};
+    return {{point.level, {}, 0}, fmt::format("speed {:.4g}", point.level), false};
+}
+
+NamedEnd end_at_speed(const LossPoint& point, double speed, const std::string& asked_as) {
+    if (point.fold)
+        throw InputError(Place{asked_as + "greatest-speed", 0, 0}, "a fold has no contact of its own",
+                         fmt::format("name a level, {0}until EXPR=LEVEL, or {0}until end", asked_as));
+    return {{speed, {}, 0}, fmt::format("speed {:.4g}", speed), true};
 }
 
 double level_until(const LossPoint& point, const TripEnd& end) {
@@ -38,6 +57,56 @@ FoldTrip trip_of_fold(const System& system, const FoldPassage& fold, double over
     if (trip.cycles < options.cycles && std::abs(overshoot) >= least_overshoot(fold))
         trip.passage = simulated_passage(system, fold, overshoot, end, until_passed, options);
     return trip;
+}
+
+std::vector<TripSummary> OvershootTrips::summaries() const {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    const auto if_ended = [](const TripTime& trip, double value) { return trip.ended ? value : unknown; };
+    std::vector<TripSummary> result;
+    for (const OvershootTrip& trip : of_touch)
+        result.push_back({trip.overshoot, if_ended(*trip.predicted, trip.predicted->cycles),
+                          if_ended(*trip.predicted, trip.predicted->time),
+                          if_ended(*trip.continued, trip.continued->time)});
+    for (const FoldTrip& trip : of_fold) {
+        TripSummary& one =
+            result.emplace_back(TripSummary{trip.overshoot, trip.cycles, trip.cycles * point.cycle, unknown});
+        if (trip.passage && end.given)
+            one.end_time = if_ended(trip.passage->trip, trip.passage->trip.time);
+        else if (trip.passage && trip.passage->passed)
+            one.end_time = trip.passage->time;
+    }
+    return result;
+}
+
+const TripTime* OvershootTrips::unfinished(std::size_t index) const {
+    require_index(index, size(), "trip");
+    if (!point.fold) {
+        const TripTime& trip = *of_touch[index].continued;
+        return trip.ended ? nullptr : &trip;
+    }
+    const std::optional<SimulatedPassage>& passage = of_fold[index].passage;
+    return !passage || (end.given ? passage->trip.ended : passage->passed) ? nullptr : &passage->trip;
+}
+
+OvershootTrips overshoot_trips(const LossPoint& point, const NamedEnd& end, const std::vector<double>& overshoots,
+                               const TripOptions& options, const std::string& asked_as) {
+    if (point.fold && !options.disturbance.empty())
+        throw InputError(Place{asked_as + "disturbance", 0, 0}, "a passage through a fold begins before it",
+                         "leave it out, or choose a touch (GR)");
+    OvershootTrips trips{point, end};
+    for (const double overshoot : overshoots) {
+        if (point.fold)
+            trips.of_fold.push_back(trip_of_fold(point.system, *point.fold, overshoot, end.end, !end.given, options));
+        else
+            trips.of_touch.push_back(trip_of_touch(point.system, point.map, point.verdict, point.parameter, overshoot,
+                                                   level_until(point, end.end), end.end, options));
+        trips.interrupted = options.interrupted && options.interrupted();
+        if (!trips.interrupted)
+            continue;
+        point.fold ? trips.of_fold.pop_back() : trips.of_touch.pop_back();
+        break;
+    }
+    return trips;
 }
 
 } // namespace graze

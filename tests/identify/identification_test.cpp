@@ -113,7 +113,7 @@ TEST(Identification, DecrementHasUnitsAndCurves) {
 
 TEST(Identification, RestitutionsOfSeveralRecordsAreCombined) {
     IdentificationSettings settings;
-    settings.least_jump = 1;
+    settings.impacts.least_jump = 1;
     const Identification one = identify_restitution(each({drops("a", 0.8)}), settings);
     // Between two samples the time of an impact is uncertain by half a millisecond: 9.81 m/s^2 makes 0.005 m/s of that,
     // before and after, of speeds of 1.8 m/s and more.
@@ -137,7 +137,7 @@ TEST(Identification, RestitutionsOfSeveralRecordsAreCombined) {
 /// hide it, since the offset enlarges it.
 TEST(Identification, WarnsOfAnOffsetOfTheVelocity) {
     IdentificationSettings settings;
-    settings.least_jump = 1;
+    settings.impacts.least_jump = 1;
     NamedRecord ball = drops("a", 0.85);
     Noise noise(3);
     for (double& v : ball.samples.values[0])
@@ -154,7 +154,7 @@ TEST(Identification, WarnsOfAnOffsetOfTheVelocity) {
 /// one.
 TEST(Identification, WarnsOfARestitutionAboveOne) {
     IdentificationSettings settings;
-    settings.least_jump = 1;
+    settings.impacts.least_jump = 1;
     for (const double offset : {0.0, 0.1}) {
         std::size_t told = 0;
         for (int seed = 1; seed <= 20; ++seed) {

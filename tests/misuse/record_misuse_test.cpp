@@ -158,7 +158,7 @@ void stages(WrongUses& wrong) {
     wrong("derivative_without_source", [] { WithDerivative({}, {}); });
     wrong("splitter_without_source", [] { PeriodSplitter({}, {}); });
     wrong("impacts_without_source", [] { ImpactFinder({}, {}); });
-    wrong("processed_without_source", [] { ProcessedRecord({}, {}); });
+    wrong("processed_without_source", [] { ProcessedRecord(Source{}, {}); });
     for (const auto& [name, index] : wrong_indices(2)) {
         on_record("calibrated_channel_" + name,
                   [index = index](const Source& s) { Calibrated(s, {.calibrations = {{index}}}); });
@@ -201,7 +201,7 @@ void stages(WrongUses& wrong) {
             on_record("impacts_significance_" + name,
                       [value = value](const Source& s) { ImpactFinder(s, {.significance = value}); });
         }
-    on_record("impacts_window", [](const Source& s) { ImpactFinder(s, {.window = 4}); });
+    on_record("impacts_window", [](const Source& s) { ImpactFinder(s, {{.window = 4}}); });
     on_record("derivative_width", [](const Source& s) { WithDerivative(s, {.half_width = 3, .name = {}}); });
     on_record("derivative_width_huge", [](const Source& s) {
         WithDerivative with(s, {.half_width = huge, .name = {}});

@@ -313,11 +313,11 @@ void studies(WrongUses& wrong) {
             StudyRun& one = study.runs[0];
             one.name = "a";
             one.model = oscillator();
-            one.transient.time = 0.1;
-            one.axes = {{.name = "amplitude",
-                         .unit = "",
-                         .parameter = oscillator().independent_parameter("amplitude"),
-                         .values = {0.5, 1}}};
+            one.motion().transient.time = 0.1;
+            one.motion().axes = {{.name = "amplitude",
+                                  .unit = "",
+                                  .parameter = oscillator().independent_parameter("amplitude"),
+                                  .values = {0.5, 1}}};
             Results results;
             RunnerOptions options;
             spoil(study, results, options);
@@ -345,23 +345,24 @@ void studies(WrongUses& wrong) {
     });
     for (const auto& [kind, index] : wrong_indices(5))
         run("axis_parameter_" + kind,
-            [i = index](Study& s, Results&, RunnerOptions&) { s.runs[0].axes[0].parameter = ParameterId(i); });
+            [i = index](Study& s, Results&, RunnerOptions&) { s.runs[0].motion().axes[0].parameter = ParameterId(i); });
     for (const auto& [kind, index] : wrong_indices(oscillator().states.size()))
-        run("axis_state_" + kind, [i = index](Study& s, Results&, RunnerOptions&) { s.runs[0].axes[0].state = i; });
-    run("axis_of_another_name", [](Study& s, Results&, RunnerOptions&) { s.runs[0].axes[0].name = "omega"; });
-    run("axis_nan", [](Study& s, Results&, RunnerOptions&) { s.runs[0].axes[0].values = {not_a_number}; });
-    run("axis_without_values", [](Study& s, Results&, RunnerOptions&) { s.runs[0].axes[0].values.clear(); });
-    run("no_end", [](Study& s, Results&, RunnerOptions&) { s.runs[0].transient = {}; });
+        run("axis_state_" + kind,
+            [i = index](Study& s, Results&, RunnerOptions&) { s.runs[0].motion().axes[0].state = i; });
+    run("axis_of_another_name", [](Study& s, Results&, RunnerOptions&) { s.runs[0].motion().axes[0].name = "omega"; });
+    run("axis_nan", [](Study& s, Results&, RunnerOptions&) { s.runs[0].motion().axes[0].values = {not_a_number}; });
+    run("axis_without_values", [](Study& s, Results&, RunnerOptions&) { s.runs[0].motion().axes[0].values.clear(); });
+    run("no_end", [](Study& s, Results&, RunnerOptions&) { s.runs[0].motion().transient = {}; });
     wrong("plan_of_default_run", [] { keep(plan_of({}, System(oscillator()), nullptr)); });
     for (const auto& [kind, index] : wrong_indices(1)) {
         wrong("coordinates_of_point_" + kind, [i = index] {
             StudyRun one;
-            one.axes = {{.name = "amplitude", .unit = "", .values = {0.5}}};
+            one.motion().axes = {{.name = "amplitude", .unit = "", .values = {0.5}}};
             keep(coordinates_of(one, i));
         });
         wrong("direction_of_point_" + kind, [i = index] {
             StudyRun one;
-            one.axes = {{.name = "amplitude", .unit = "", .values = {0.5}}};
+            one.motion().axes = {{.name = "amplitude", .unit = "", .values = {0.5}}};
             keep(direction_of(one, i));
         });
     }

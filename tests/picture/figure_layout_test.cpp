@@ -50,11 +50,13 @@ FigurePanel panel_with(std::size_t points) {
 Study quick(const std::string& name) {
     Study study = load_study(name);
     for (StudyRun& run : study.runs) {
-        run.draws = std::min<std::size_t>(run.draws, 6);
         constexpr std::size_t large = 15, enough = 40; // number of states; steps of branches of such models
-        if (run.model.states.size() > large)
-            run.branch.settings.steps = std::min(run.branch.settings.steps, enough);
-        for (Variation& axis : run.axes) {
+        if (run.is_branch() && run.model.states.size() > large)
+            run.branch().settings.steps = std::min(run.branch().settings.steps, enough);
+        if (!run.has_motions())
+            continue;
+        run.motion().draws = std::min<std::size_t>(run.motion().draws, 6);
+        for (Variation& axis : run.motion().axes) {
             constexpr std::size_t every = 68, few = 60; // keeps 4.84 V, where a branch starts
             std::vector<double> kept;
             for (std::size_t i = 0; i<axis.values.size(); i += axis.values.size()> few ? every : 1)

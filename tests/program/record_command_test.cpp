@@ -1,9 +1,11 @@
+#include "graze/study/runner.hpp"
 #include "run_graze.hpp"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <fmt/format.h>
+#include <optional>
 
 namespace graze::testing {
 
@@ -98,6 +100,57 @@ TEST_F(RecordCommand, WritesAProcessedRecord) {
     EXPECT_EQ(table.text(1, "channel"), "V_rate");
     EXPECT_NEAR(table.number(1, "greatest"), 2000 * turn, 1);
     EXPECT_EQ(run_graze("record " + run + " --write " + run).code, 2) << "onto itself";
+}
+
+TEST_F(RecordCommand, FindsWhatARunOfAStudyFindsToTheBit) {
+    const std::string run = file("run.csv");
+    std::ofstream(folder / "s.toml") << R"(name = "s"
+[runs.all]
+kind = "record"
+files = "run.csv"
+reference = "V"
+[runs.all.sample]
+quarter = { section = 0.25 }
+image = { section = 0.25, image = ["V"] }
+span = { peak_to_peak = true }
+size = { amplitude = true }
+hits = { impacts = "v", window = 20 }
+)";
+    ResultFile results(folder / "out.sqlite", ResultFile::Access::write);
+    ASSERT_TRUE(run_study(read_study(folder / "s.toml"), results, {}).at(0).complete());
+    const auto point = results.point("all", 0);
+    ASSERT_TRUE(point);
+    const SampleSet& samples = point->result.samples;
+    /// Of one sampling the times, and those of one value: V or v.
+    const auto column = [&](std::size_t sampling, std::optional<std::size_t> value) {
+        std::vector<double> found;
+        for (std::size_t s = 0; s < samples.size(); ++s)
+            if (samples.samplings[s] == sampling)
+                found.push_back(value ? samples.values[2 * s + *value] : samples.times[s]);
+        return found;
+    };
+    /// Rows of the command whose cell is that text, or all.
+    const auto told = [&](const std::string& what, const std::string& name, const std::string& image = "") {
+        const Csv table(run_graze("record " + run + " --what " + what + " --format csv").out);
+        std::vector<double> found;
+        for (std::size_t row = 0; row < table.rows.size(); ++row)
+            if (image.empty() || table.text(row, "image") == image)
+                found.push_back(table.number(row, name));
+        return found;
+    };
+    const std::string sections = "sections --reference V --phase 0.25 --negate V",
+                      hits = "impacts --channel v --window 20";
+    EXPECT_EQ(told(sections, "time", "no"), column(0, std::nullopt));
+    EXPECT_EQ(told(sections, "V", "no"), column(0, 0));
+    EXPECT_EQ(told(sections, "V", "yes"), column(1, 0));
+    EXPECT_EQ(told(sections, "v", "yes"), column(1, 1));
+    EXPECT_EQ(told(sections, "V_amplitude", "no").front(), point->coordinates.at(0));
+    EXPECT_EQ(told("extremes --reference V", "v_peak_to_peak"), column(2, 1));
+    EXPECT_EQ(told("periods --reference V", "V_amplitude"), column(3, 0));
+    EXPECT_EQ(told(hits, "time"), column(4, std::nullopt));
+    EXPECT_EQ(told(hits, "before"), column(4, 1));
+    EXPECT_EQ(told(hits, "after"), column(5, 1));
+    EXPECT_EQ(column(0, 0).size(), 5U);
 }
 
 TEST_F(RecordCommand, DrawsTables) {

@@ -87,7 +87,7 @@ protected:
     std::string path_;
 };
 
-TEST_F(BranchRun, tells_what_becomes_of_touches_and_follows_the_boundary_between_the_answers) {
+TEST_F(BranchRun, TellsWhatBecomesOfTouchesAndFollowsTheBoundaryBetweenVerdicts) {
     const std::string text = R"(
 name = "classes"
 model = "impact-oscillator"
@@ -156,7 +156,7 @@ free = ["amplitude"]
                 HasSubstr("two further parameters are free"));
 }
 
-TEST_F(BranchRun, goes_from_rest_across_grazing_to_a_flip) {
+TEST_F(BranchRun, GoesFromRestAcrossGrazingToAFlip) {
     const auto reports = run(study_text);
     ASSERT_EQ(reports.size(), 6u);
     const ResultFile file(path_, ResultFile::Access::read);
@@ -209,7 +209,7 @@ along = { omega = [2.2, 4.5], amplitude = [0.1, 5] }
 monitors = { speed = { value = "v", at = "impact", fixed = true } }
 )";
 
-TEST_F(BranchRun, curves_are_chosen_where_several_meet) {
+TEST_F(BranchRun, CurvesAreChosenWhereSeveralMeet) {
     const std::string onto = "point = \"PD1\", onto = \"";
     const auto with = [&](const std::string& which) {
         std::string text = curves_text;
@@ -235,7 +235,7 @@ TEST_F(BranchRun, curves_are_chosen_where_several_meet) {
         EXPECT_EQ(report.outcome == RunOutcome::failed, report.name == "flips") << report.name << report.problem;
 }
 
-TEST_F(BranchRun, curves_go_on_from_resonances) {
+TEST_F(BranchRun, CurvesGoOnFromResonances) {
     // Henon's map x -> y, y -> a - b x - y^2: folds a = -(1 + b)^2/4, and b = 1 along the torus points.
     const std::string model = (folder_ / "henon.toml").string();
     std::ofstream(model) << R"([parameters]
@@ -302,7 +302,7 @@ start = { run = "folds", point = "R1-1")" +
     EXPECT_THAT(refusal(study("")), HasSubstr("onto = \"SN\" or onto = \"NS\""));
 }
 
-TEST_F(BranchRun, follows_special_points_in_two_parameters) {
+TEST_F(BranchRun, FollowsSpecialPointsInTwoParameters) {
     for (const RunReport& report : run(curves_text))
         EXPECT_EQ(report.problem, "") << report.name;
     const ResultFile file(path_, ResultFile::Access::read);
@@ -332,7 +332,7 @@ TEST_F(BranchRun, follows_special_points_in_two_parameters) {
         EXPECT_NEAR(one.point.monitors[0], 0.5, 1e-10);
 }
 
-TEST_F(BranchRun, curves_say_what_they_need) {
+TEST_F(BranchRun, CurvesWithoutAStartAreRefusedWithARemedy) {
     const auto with = [&](const std::string& more) {
         return refusal(study_text + "[runs.curve]\nkind = \"curve\"\n" + more);
     };
@@ -348,7 +348,7 @@ TEST_F(BranchRun, curves_say_what_they_need) {
                 HasSubstr("two further parameters are free, and points of type PD"));
 }
 
-TEST_F(BranchRun, what_is_read_is_what_was_written) {
+TEST_F(BranchRun, OrbitsAreReadAsTheyWereWritten) {
     std::vector<OrbitRecord> written, all;
     RunnerOptions options;
     options.only = {"impacting"};
@@ -403,7 +403,7 @@ TEST_F(BranchRun, what_is_read_is_what_was_written) {
     EXPECT_FALSE(file.point("impacting", 0)) << "points belong to other kinds";
 }
 
-TEST_F(BranchRun, is_done_once_and_begun_again_when_interrupted) {
+TEST_F(BranchRun, IsComputedOnceAndBeginsAgainWhenInterrupted) {
     RunnerOptions options;
     std::size_t orbits = 0;
     options.only = {"impacting"};
@@ -430,7 +430,7 @@ TEST_F(BranchRun, is_done_once_and_begun_again_when_interrupted) {
     EXPECT_EQ(rows.integer(0), 0);
 }
 
-TEST_F(BranchRun, keeps_what_fails) {
+TEST_F(BranchRun, StoresOrbitsThatWereNotFound) {
     std::ofstream(folder_ / "far.csv") << "segment,t,x,v,theta\n1,0,0.1,-100,0\n1,0.01,0.1,1.2,6.28\n";
     const std::string text = "name = \"s\"\nmodel = \"impact-oscillator\"\n[runs.a]\nkind = \"orbit\"\ntable = \"" +
                              (folder_ / "far.csv").string() + "\"\nsignature = \"impact\"\n";
@@ -453,7 +453,7 @@ TEST_F(BranchRun, keeps_what_fails) {
     EXPECT_EQ(reports[2].outcome, RunOutcome::complete) << "it does not depend on the others";
 }
 
-TEST_F(BranchRun, an_orbit_needs_no_parameter) {
+TEST_F(BranchRun, AnOrbitNeedsNoParameter) {
     std::ofstream(folder_ / "free.toml") << "name = \"free\"\n[states]\nx = 2\ny = 0\n[modes.only]\n"
                                             "rates = { x = \"y\", y = \"(1 - x^2)*y - x\" }\n"
                                             "[sections.top]\nfunction = \"y\"\ndirection = \"falling\"\n";
@@ -467,7 +467,7 @@ TEST_F(BranchRun, an_orbit_needs_no_parameter) {
 }
 
 /// A branch that has one orbit only, because it cannot go on from that, is no result to be content with.
-TEST_F(BranchRun, that_does_not_leave_its_first_orbit_has_failed) {
+TEST_F(BranchRun, FailsWhereItDoesNotLeaveItsFirstOrbit) {
     const std::string rest = "name = \"s\"\nmodel = \"impact-oscillator\"\n[runs.rest]\nkind = \"orbit\"\n"
                              "set = { omega = 4 }\nfrom = { x = -0.07 }\n[runs.a]\nkind = \"continue\"\n"
                              "start = { run = \"rest\" }\nalong = { omega = [3.9, 4] }\ndirection = \"up\"\n";
@@ -486,7 +486,7 @@ TEST_F(BranchRun, that_does_not_leave_its_first_orbit_has_failed) {
 }
 
 /// Failures at every place of a chain of runs: all that do not depend on one are done, all others say why not.
-TEST_F(BranchRun, what_does_not_depend_on_a_failure_is_done) {
+TEST_F(BranchRun, RunsThatDoNotNeedAFailedRunAreComputed) {
     const std::string head = "name = \"s\"\nmodel = \"impact-oscillator\"\n";
     for (int broken = 0; broken < 4; ++broken) {
         std::string text = head;
@@ -515,7 +515,7 @@ TEST_F(BranchRun, what_does_not_depend_on_a_failure_is_done) {
 }
 
 /// Runs of every kind begin with the parameters of the point that they start from, except those that they set.
-TEST_F(BranchRun, parameters_come_with_the_point) {
+TEST_F(BranchRun, BeginsAtTheParametersOfThePoint) {
     const std::string text = R"(
 name = "s"
 model = "impact-oscillator"
@@ -573,7 +573,7 @@ values = ["omega", "e", "zeta", "x"]
     expect("after", 0, 0.5);
 }
 
-TEST_F(BranchRun, multipliers_are_reported_and_bounded) {
+TEST_F(BranchRun, MultipliersAreReportedAndBounded) {
     const std::string head = R"(
 name = "s"
 model = "impact-oscillator"
@@ -608,7 +608,7 @@ direction = "down"
 }
 
 /// The orbit from which a branch is followed both ways is listed once, and images of other points are said to be such.
-TEST_F(BranchRun, nothing_is_listed_twice) {
+TEST_F(BranchRun, ListsEachSpecialPointOnce) {
     run(R"(
 name = "s"
 model = "impact-oscillator"
@@ -632,7 +632,7 @@ direction = "both"
     EXPECT_EQ(at_start, 1u);
 }
 
-TEST_F(BranchRun, mistakes_are_told_with_their_place_and_remedy) {
+TEST_F(BranchRun, MistakesAreReportedWithPlaceAndRemedy) {
     const std::string head = "name = \"s\"\nmodel = \"impact-oscillator\"\n",
                       orbit = head + "[runs.a]\nkind = \"orbit\"\n",
                       both = orbit + "set = { omega = 2.2 }\n[runs.b]\nkind = \"continue\"\nstart = { run = \"a\" }\n";
@@ -664,7 +664,7 @@ TEST_F(BranchRun, mistakes_are_told_with_their_place_and_remedy) {
                 HasSubstr("no other branch leaves from a point of type BD"));
 }
 
-TEST_F(BranchRun, what_is_its_own_image_is_followed_as_such_wherever_it_comes_from) {
+TEST_F(BranchRun, FollowsSymmetricOrbitsByTheirHalfWhereverTheyComeFrom) {
     const std::string head = "name = \"s\"\nmodel = \"impact-oscillator-two-stops\"\n";
     run(head + "[runs.asked]\nkind = \"orbit\"\nsignature = \"R L\"\n[runs.settled]\nkind = \"orbit\"\n");
     const ResultFile file(path_, ResultFile::Access::read);

@@ -14,22 +14,20 @@ using ::testing::HasSubstr;
 
 /// x'' = -k x from x(0) = 1 at rest, with k = 4.
 StudyRun swing() {
-    StudyRun run;
+    StudyRun run(RunKind::identify);
     run.model = parse_model("name = \"swing\"\ntime_unit = \"s\"\n[parameters]\nk = 3.9\n"
                             "[states]\nx = { initial = 1, unit = \"m\" }\nv = 0\n"
                             "[modes.swing]\nrates = { x = \"v\", v = \"-k*x\" }\n",
                             "swing");
-    run.kind = RunKind::identify;
-    run.simulation = FitSettings().simulation;
     run.place = {"s.toml", 7, 1};
-    run.identify.what = IdentifyRequest::What::fit;
-    run.identify.unknowns = {{"k", "", "", "", {}}};
+    run.identify().what = IdentifyRequest::What::fit;
+    run.identify().unknowns = {{"k", "", "", "", {}}};
     for (const char* name : {"x", "v"}) {
-        IdentifyRequest::Reading& reading = run.identify.readings.emplace_back();
+        IdentifyRequest::Reading& reading = run.identify().readings.emplace_back();
         reading.channel = reading.value = name;
         reading.may_lack = true;
     }
-    run.identify.all_known = true;
+    run.identify().all_known = true;
     return run;
 }
 
@@ -54,21 +52,21 @@ std::string refusal(const StudyRun& run, const std::vector<KeptRecord>& records)
     return "";
 }
 
-TEST(FitRecords, records_need_not_have_the_same_channels) {
+TEST(FitRecords, RecordsNeedNotHaveTheSameChannels) {
     const FitOfRecords found = fit_records(swing(), {record("x", "m"), record("v", "m/s")});
     ASSERT_EQ(found.fit.numbers.size(), 1U);
     EXPECT_NEAR(found.fit.numbers[0].estimate.value, 4, 1e-9); // the records are exact
     EXPECT_EQ(found.channels[1].unit, "m/s");
     EXPECT_EQ(found.task.records[1].readings.front().output, 1U);
     StudyRun strict = swing();
-    strict.identify.readings.back().may_lack = false;
+    strict.identify().readings.back().may_lack = false;
     EXPECT_THAT(refusal(strict, {record("x", "m")}), HasSubstr("the record has no channel 'v'"));
 }
 
-TEST(FitRecords, motions_are_integrated_with_the_tolerance_of_the_run) {
+TEST(FitRecords, MotionsAreIntegratedWithTheToleranceOfTheRun) {
     const auto k_at = [](double tolerance) {
         StudyRun run = swing();
-        run.simulation.tolerance = tolerance;
+        run.identify().simulation.tolerance = tolerance;
         return fit_records(run, {record("x", "m")}).fit.numbers[0].estimate.value;
     };
     const double fine = std::abs(k_at(1e-13) - 4), coarse = std::abs(k_at(1e-4) - 4);
@@ -77,25 +75,25 @@ TEST(FitRecords, motions_are_integrated_with_the_tolerance_of_the_run) {
     EXPECT_LT(coarse, 1e-3);
 }
 
-TEST(FitRecords, units_that_do_not_agree_are_refused_in_the_words_of_who_asks) {
+TEST(FitRecords, RefusesUnitsThatDoNotAgreeInTheWordsOfTheCaller) {
     StudyRun run = swing();
     const std::vector<KeptRecord> millimetres{record("x", "mm", 1000)};
     EXPECT_EQ(refusal(run, millimetres),
               "s.toml:7:1: x.csv: channel 'x' is in mm, and what it measures in m; convert it in the run that has the "
               "record: scale = { x = { factor = 0.001, unit = \"m\" } }");
     run.place = {};
-    run.identify.asked_as = "--";
+    run.identify().asked_as = "--";
     EXPECT_EQ(refusal(run, millimetres),
               "x.csv: channel 'x' is in mm, and what it measures in m; convert it by --scale x=0.001:m");
     EXPECT_THAT(refusal(run, {record("x", "m"), millimetres.front()}), HasSubstr("that of another record in m"));
-    run.identify.readings.front().gain_unknown = true; // which converts
+    run.identify().readings.front().gain_unknown = true; // which converts
     EXPECT_EQ(refusal(run, millimetres), "");
     KeptRecord ticks = record("x", "m");
     ticks.header.time.unit = "ticks";
     EXPECT_THAT(refusal(run, {ticks}), HasSubstr("the unit of its time, 'ticks', is not known"));
 }
 
-TEST(FitRecords, what_is_no_record_is_refused) {
+TEST(FitRecords, RefusesWhatIsNoRecord) {
     EXPECT_THAT(refusal(swing(), {record("x", "m", 1, 1)}), HasSubstr("it has fewer than two rows"));
     KeptRecord hollow = record("x", "m");
     hollow.samples.values.clear();

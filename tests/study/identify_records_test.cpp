@@ -11,11 +11,10 @@ namespace {
 constexpr double gap = 4.8e-3, beta1 = 1.9e-5, beta2 = 1.6e-3, stiffness = 6000;
 
 StudyRun coupling_run() {
-    StudyRun run;
-    run.kind = RunKind::identify;
-    run.identify.what = IdentifyRequest::What::coupling;
-    run.identify.gap = "4.8e-3";
-    run.identify.stiffness = "6000";
+    StudyRun run(RunKind::identify);
+    run.identify().what = IdentifyRequest::What::coupling;
+    run.identify().gap = "4.8e-3";
+    run.identify().stiffness = "6000";
     return run;
 }
 
@@ -38,30 +37,30 @@ Identification found_with(const StudyRun& run) {
     return identify_records(run, records, 2);
 }
 
-TEST(IdentifyRecords, each_row_of_several_records_may_be_an_equilibrium) {
+TEST(IdentifyRecords, EachRowOfSeveralRecordsMayBeAnEquilibrium) {
     StudyRun run = coupling_run();
-    run.identify.each_row = true;
+    run.identify().each_row = true;
     const Identification found = found_with(run);
     EXPECT_EQ(found.shown.front().measured.x.size(), 12U);
     EXPECT_NEAR(found.values[0].estimate.value, beta1, 0.02 * beta1); // displacements are off by 1e-3
-    run.identify.each_row = false;
+    run.identify().each_row = false;
     EXPECT_THROW(found_with(run), InputError); // two means are too few
 }
 
-TEST(IdentifyRecords, errors_of_known_numbers_widen_what_is_found) {
+TEST(IdentifyRecords, ErrorsOfKnownNumbersWidenTheIntervals) {
     StudyRun run = coupling_run();
-    run.identify.each_row = true;
+    run.identify().each_row = true;
     const Identification exact = found_with(run);
-    run.identify.gap_error = 1e-4;
+    run.identify().gap_error = 1e-4;
     const Identification uncertain = found_with(run);
     EXPECT_EQ(exact.values[1].estimate.value, uncertain.values[1].estimate.value);
     // The gap and beta2 appear as their sum alone: an error of the one is one of the other.
     EXPECT_NEAR(uncertain.values[1].estimate.error, std::hypot(exact.values[1].estimate.error, 1e-4), 1e-9);
 }
 
-TEST(IdentifyRecords, fits_need_all_records_at_once) {
+TEST(IdentifyRecords, FitsNeedAllRecordsAtOnce) {
     StudyRun run = coupling_run();
-    run.identify.what = IdentifyRequest::What::fit;
+    run.identify().what = IdentifyRequest::What::fit;
     EXPECT_THROW(found_with(run), InputError);
 }
 

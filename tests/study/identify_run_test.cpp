@@ -104,7 +104,7 @@ gap = 4.8e-3
 stiffness = "m*w0^2"
 )";
 
-TEST_F(IdentifyRunTest, decrement_and_coupling_find_what_the_records_were_made_with) {
+TEST_F(IdentifyRunTest, DecrementAndCouplingFindWhatTheRecordsWereMadeWith) {
     for (const char* name : {"r1.csv", "r2.csv", "r3.csv"})
         write_release(name);
     const auto loads = write_loads("loads.csv");
@@ -138,7 +138,7 @@ TEST_F(IdentifyRunTest, decrement_and_coupling_find_what_the_records_were_made_w
 }
 
 // The same release and loads as above, written in other units: the same parameters of the model come out.
-TEST_F(IdentifyRunTest, what_is_found_gets_the_units_of_the_model) {
+TEST_F(IdentifyRunTest, EstimatesHaveTheUnitsOfTheModel) {
     const double wd = w0 * std::sqrt(1 - zeta * zeta);
     std::string release = "t [ms], v [um/s]\n", loads = "n, q [m], I [mA]\n", held = "t [us], V [uV], I [MA]\n";
     for (int i = 0; i < 1500; ++i)
@@ -188,7 +188,7 @@ gives = { resistance = "R", inductance = "Ll", frequency = "f" }
 }
 
 // Minutes and words for units are known; an unknown unit beside a known one is refused.
-TEST_F(IdentifyRunTest, usual_units_of_time_are_known_and_others_refused) {
+TEST_F(IdentifyRunTest, UsualUnitsOfTimeAreKnownAndOthersRefused) {
     const double wd = w0 * std::sqrt(1 - zeta * zeta);
     const auto write = [&](const char* unit, double by) {
         std::string release = fmt::format("t [{}], v [m/s]\n", unit);
@@ -209,7 +209,7 @@ TEST_F(IdentifyRunTest, usual_units_of_time_are_known_and_others_refused) {
 }
 
 // Two runs that keep records in other units.
-TEST_F(IdentifyRunTest, records_of_several_runs_are_put_together_in_one_unit) {
+TEST_F(IdentifyRunTest, RecordsOfSeveralRunsArePutTogetherInOneUnit) {
     write_release("r1.csv");
     std::string text = "t [ms], v [mm/s]\n";
     const double wd = w0 * std::sqrt(1 - zeta * zeta);
@@ -225,7 +225,7 @@ TEST_F(IdentifyRunTest, records_of_several_runs_are_put_together_in_one_unit) {
     EXPECT_NEAR(estimate("decay", "w0").estimate.value, w0, 1e-5 * w0);
 }
 
-TEST_F(IdentifyRunTest, units_that_do_not_agree_are_refused) {
+TEST_F(IdentifyRunTest, UnitsThatDoNotAgreeAreRefused) {
     write_release("r1.csv");
     folder_.write("loads.csv", "n, q [mm], I [A]\n1, 0.1, 1\n2, 0.2, 1.4\n3, 0.3, 1.7\n4, 0.4, 2\n");
     EXPECT_THAT(refusal(std::string(head) + loads_text),
@@ -237,7 +237,7 @@ TEST_F(IdentifyRunTest, units_that_do_not_agree_are_refused) {
 }
 
 // A ratio has no unit, and no frequency is one; a length is given by a parameter that is one.
-TEST_F(IdentifyRunTest, parameters_of_another_kind_are_refused) {
+TEST_F(IdentifyRunTest, ParametersOfAnotherKindAreRefused) {
     write_release("r1.csv");
     std::string swapped = head;
     swapped.replace(swapped.find("natural_frequency = \"w0\", damping_ratio = \"zeta\""), 48, "damping_ratio = \"w0\"");
@@ -255,7 +255,7 @@ TEST_F(IdentifyRunTest, parameters_of_another_kind_are_refused) {
     EXPECT_EQ(with_gap("d"), "");
 }
 
-TEST_F(IdentifyRunTest, other_runs_take_what_was_found) {
+TEST_F(IdentifyRunTest, OtherRunsUseTheEstimates) {
     write_release("r1.csv");
     const std::string later = R"([runs.motion]
 kind = "simulate"
@@ -296,7 +296,7 @@ time = 1
         EXPECT_GT(report.computed, 0) << report.name;
 }
 
-TEST_F(IdentifyRunTest, a_fit_is_that_of_the_library) {
+TEST_F(IdentifyRunTest, AFitIsThatOfTheLibrary) {
     // A swing whose square of frequency is sought; readings are its motion with an alternating error.
     folder_.write("swing.toml", "name = \"swing\"\n[parameters]\nk = 4\n[states]\nx = { initial = 1 }\n"
                                 "v = { initial = 0 }\n[modes.swing]\nrates = { x = \"v\", v = \"-k*x\" }\n");
@@ -355,7 +355,7 @@ known = ["v"]
     EXPECT_EQ(fit.ending == FitEnding::converged, reports.back().complete()) << reports.back().problem;
 }
 
-TEST_F(IdentifyRunTest, what_must_not_be_gone_on_with_is_kept_to_be_looked_at) {
+TEST_F(IdentifyRunTest, EstimatesThatMustNotBeUsedAreStored) {
     write_release("r1.csv");
     // The current leads the voltage, as that of no coil does.
     std::string text = "t [s], V [V], I [A]\n";
@@ -376,7 +376,7 @@ TEST_F(IdentifyRunTest, what_must_not_be_gone_on_with_is_kept_to_be_looked_at) {
     EXPECT_EQ(file.point_count("coil"), 1);
 }
 
-TEST_F(IdentifyRunTest, what_cannot_be_found_fails_with_all_that_needs_it) {
+TEST_F(IdentifyRunTest, FailsWithAllRunsThatNeedItWhereNothingIsFound) {
     folder_.write("r1.csv", "t [s], v [m/s]\n0,1\n1,1\n2,1\n3,1\n4,1\n5,1\n6,1\n7,1\n8,1\n9,1\n10,1\n11,1\n");
     const auto reports =
         run(std::string(head) + "[runs.motion]\nkind = \"simulate\"\nparameters = \"decay\"\ntime = 1\n");
@@ -387,7 +387,7 @@ TEST_F(IdentifyRunTest, what_cannot_be_found_fails_with_all_that_needs_it) {
     EXPECT_THAT(reports[2].problem, HasSubstr("'decay', which it needs, failed"));
 }
 
-TEST_F(IdentifyRunTest, a_parameter_is_found_once_or_refined) {
+TEST_F(IdentifyRunTest, AParameterIsFoundOnceOrRefined) {
     write_release("r1.csv");
     const auto study = [&](const std::string& second, const std::string& taken) {
         return std::string(head) + "[runs.again]\nkind = \"identify\"\nwhat = \"decrement\"\nrecords = \"releases\"\n" +
@@ -401,7 +401,7 @@ TEST_F(IdentifyRunTest, a_parameter_is_found_once_or_refined) {
     EXPECT_EQ(refusal(study("parameters = \"decay\"\n", R"(["decay", "again"])")), "");
 }
 
-TEST_F(IdentifyRunTest, studies_without_sense_are_refused) {
+TEST_F(IdentifyRunTest, RefusesInvalidStudies) {
     write_release("r1.csv");
     const std::string records = "name = \"s\"\nmodel = \"electromagnetic-testbed\"\n[runs.a]\nkind = \"record\"\n"
                                 "files = \"r1.csv\"\n[runs.b]\nkind = \"identify\"\n";

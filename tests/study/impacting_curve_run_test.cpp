@@ -54,7 +54,7 @@ protected:
     std::string path_;
 };
 
-TEST_F(ImpactingCurveRun, goes_on_along_folds_and_flips) {
+TEST_F(ImpactingCurveRun, FollowsFoldsAndFlipsBeyondATouch) {
     for (const char* type : {"SN", "PD"}) {
         for (const RunReport& report : run(std::string(", onto = \"") + type + "\""))
             EXPECT_EQ(report.problem, "") << report.remedy;
@@ -74,7 +74,7 @@ TEST_F(ImpactingCurveRun, goes_on_along_folds_and_flips) {
     }
 }
 
-TEST_F(ImpactingCurveRun, says_what_can_be_asked) {
+TEST_F(ImpactingCurveRun, TellsWhichCurvesBeginAtAPoint) {
     const auto refusal = [&](const std::string& onto) {
         for (const RunReport& report : run(onto))
             if (!report.problem.empty())

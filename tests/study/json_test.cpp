@@ -11,7 +11,7 @@ namespace {
 
 const Place place{"settings", 0, 0};
 
-TEST(Json, reads_what_it_writes) {
+TEST(Json, ReadsWhatItWrites) {
     const std::string strange = "a \"quoted\" \\ text,\n\twith [brackets] and \x01";
     const Json json = parse_json("{\"t\":" + json_text(strange) + R"(, "n": [1, -2.5e-300, 18446744073709551615],
                                  "b": true, "f": false, "z": null, "o": {}, "l": []})",
@@ -27,7 +27,7 @@ TEST(Json, reads_what_it_writes) {
     EXPECT_EQ(json.find("none"), nullptr);
 }
 
-TEST(Json, refuses_what_is_none) {
+TEST(Json, RefusesTextsThatAreNoJson) {
     for (const char* text : {"", "{", "[1,]", "{\"a\"}", "{\"a\":}", "{a:1}", "\"open", "\"\\u00zz\"", "\"\\", "1 2",
                              "tru", "{\"a\":1,}", "\"\\u0fff\"", "[1 2]"})
         EXPECT_THROW(parse_json(text, place), InputError) << text;

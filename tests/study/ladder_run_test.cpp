@@ -1,6 +1,7 @@
 #include "graze/base/input_error.hpp"
 #include "graze/branch/ladder.hpp"
 #include "graze/study/runner.hpp"
+#include "graze/study/stored_ladder.hpp"
 
 #include "refusal.hpp"
 
@@ -62,7 +63,7 @@ protected:
     std::string path_;
 };
 
-TEST_F(LadderRun, keeps_all_grazings_and_where_they_lead) {
+TEST_F(LadderRun, KeepsAllGrazingsAndWhereTheyLead) {
     run(free_text + ladder_text);
     const ResultFile file(path_, ResultFile::Access::read);
     ASSERT_EQ(file.find_run("ladder")->status, RunStatus::complete);
@@ -89,7 +90,38 @@ TEST_F(LadderRun, keeps_all_grazings_and_where_they_lead) {
     EXPECT_NEAR(limit->point.solution.orbit.period(), 2 * std::numbers::pi / 0.3, 1e-9);
 }
 
-TEST_F(LadderRun, its_limit_is_followed_in_two_parameters) {
+// The settings of the run of the first grazing and those of the ladder's run are the same here.
+TEST_F(LadderRun, ALadderFromAStoredPointIsTheSameToTheBit) {
+    run(free_text + ladder_text);
+    const ResultFile file(path_, ResultFile::Access::read);
+    LadderRequest request;
+    request.point = "free:GR1";
+    request.grazings = 6;
+    std::vector<std::size_t> told;
+    request.progress = [&](std::size_t grazing) { told.push_back(grazing); };
+    const StoredLadder found = stored_ladder(file, request);
+    EXPECT_EQ(told, (std::vector<std::size_t>{2, 3, 4, 5, 6}));
+    ASSERT_EQ(found.ladder.grazings().size(), 6U);
+    for (std::size_t k = 0; k < 6; ++k) {
+        const SpecialPoint& here = found.ladder.grazings()[k];
+        const auto there = file.orbit("ladder", "GR" + std::to_string(k + 1));
+        ASSERT_TRUE(there);
+        EXPECT_EQ(here.parameter, there->point.parameter) << k;
+        EXPECT_EQ(here.solution.orbit.starts, there->point.solution.orbit.starts) << k;
+    }
+    const auto limit = file.orbit("ladder", std::string("CH1"));
+    ASSERT_TRUE(limit && found.limit.direct);
+    EXPECT_EQ(found.limit.direct->first, limit->point.parameter);
+    request.parameter = "none";
+    EXPECT_THROW(stored_ladder(file, request), InputError);
+    request.parameter.clear();
+    request.interrupted = [] { return true; };
+    const StoredLadder stopped = stored_ladder(file, request);
+    EXPECT_TRUE(stopped.interrupted);
+    EXPECT_EQ(stopped.ladder.grazings().size(), 1U);
+}
+
+TEST_F(LadderRun, ItsLimitIsFollowedInTwoParameters) {
     const std::string curve = R"(
 [runs.onset]
 kind = "curve"
@@ -132,7 +164,7 @@ direction = "both"
 class LadderRunSlow : public LadderRun {};
 
 /// A restitution that depends on the square of a parameter: whatever the first one is, it turns where that is zero.
-TEST_F(LadderRunSlow, its_limit_is_followed_past_a_turn) {
+TEST_F(LadderRunSlow, ItsLimitIsFollowedPastATurn) {
     const std::string model_path = path_ + ".toml";
     std::ofstream(model_path) << R"(
 name = "even"
@@ -191,7 +223,7 @@ direction = "both"
     EXPECT_GT(least, 0.883314285620 - 1e-10);
 }
 
-TEST_F(LadderRun, of_few_contacts_has_a_limit_or_says_why_not) {
+TEST_F(LadderRun, OfFewContactsHasALimitOrTellsWhyNot) {
     // A fast force: contacts do not accumulate, though one grazing follows the other.
     run(R"(
 name = "s"
@@ -216,7 +248,7 @@ along = { sigma = [-1, 1] }
         EXPECT_THAT(orbits.back().point.detail, HasSubstr("no limit: "));
 }
 
-TEST_F(LadderRun, onset_is_followed_until_there_is_none_or_it_is_not_found) {
+TEST_F(LadderRun, OnsetIsFollowedUntilThereIsNoneOrItIsNotFound) {
     const std::string curve = R"(
 [runs.onset]
 kind = "curve"
@@ -253,7 +285,7 @@ along = { sigma = [0.1, 3] }
                 HasSubstr("no orbit begins there"));
 }
 
-TEST_F(LadderRun, says_what_it_needs_and_what_it_cannot_do) {
+TEST_F(LadderRun, IsRefusedWithoutAGrazing) {
     const auto with = [&](const std::string& text) {
         return refusal(free_text + "[runs.l]\nkind = \"ladder\"\n" + text);
     };

@@ -125,18 +125,18 @@ Counts expect_all_closed(bool large) {
     return counts;
 }
 
-TEST(OrbitMotion, of_every_orbit_of_the_shipped_studies_starts_where_stored_and_closes) {
+TEST(OrbitMotion, OfAllShippedStudiesStartsAtTheStoredStateAndCloses) {
     const Counts counts = expect_all_closed(false);
     EXPECT_GT(counts.orbits, 50u);
     EXPECT_GT(counts.halves, 5u);
 }
 
-TEST(OrbitMotionSlow, of_orbits_of_large_models_starts_where_stored_and_closes) {
+TEST(OrbitMotionSlow, OfLargeModelsStartsAtTheStoredStateAndCloses) {
     EXPECT_GT(expect_all_closed(true).orbits, 8u);
 }
 
 /// As a damaged file may have it.
-TEST(OrbitMotion, of_a_segment_without_end_is_broken_off) {
+TEST(OrbitMotion, OfASegmentWithoutEndIsInterrupted) {
     Model model = load_model("impact-oscillator");
     for (const auto& [name, value] : {std::pair{"sigma", 0.5}, {"omega", 1.2}, {"amplitude", 0.1}})
         model.set_parameter(name, value);

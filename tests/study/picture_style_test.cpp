@@ -34,7 +34,7 @@ std::string problem_of(const std::string& keys) {
 
 } // namespace
 
-TEST(PictureStyle, IsAsTheStudySays) {
+TEST(PictureStyle, HasTheSizeAndFontOfTheStudy) {
     const StudyPicture usual = picture_with("");
     EXPECT_EQ(usual.style.width, 0);
     EXPECT_EQ(usual.style.font_size, 0);
@@ -56,7 +56,7 @@ TEST(PictureStyle, IsAsTheStudySays) {
     EXPECT_THAT(picture_with("y_label = \"height\"").y_labels, ElementsAre("height"));
 }
 
-TEST(PictureStyle, WhatCannotBeDrawnIsRefused) {
+TEST(PictureStyle, RefusesSizesThatCannotBeDrawn) {
     EXPECT_THAT(problem_of("size = \"250x140\""), HasSubstr("is a text, not a width"));
     EXPECT_THAT(problem_of("size = 5"), HasSubstr("width of 5 mm"));
     EXPECT_THAT(problem_of("size = [85, 5000]"), HasSubstr("height of 5000 mm"));
@@ -68,7 +68,7 @@ TEST(PictureStyle, WhatCannotBeDrawnIsRefused) {
     EXPECT_NE(problem_of("x_label = 3"), "");
 }
 
-TEST(PictureStyle, ChangesWhatAPictureIsMadeOf) {
+TEST(PictureStyle, IsPartOfThePicturesSettings) {
     const std::string usual = settings_of(picture_with(""));
     for (const char* keys : {"size = 85", "size = [170, 85]", "font = 8", "font = \"Times\"", "x_label = \"a\"",
                              "y_label = \"a\"", "names = { r = \"a\" }"})

@@ -81,7 +81,7 @@ protected:
     testing::TemporaryFolder folder_;
 };
 
-TEST_F(RecordRunTest, what_is_taken_has_its_closed_form) {
+TEST_F(RecordRunTest, SamplesHaveTheirClosedForm) {
     folder_.write("a.csv", waves(2, 2));
     run(std::string(head) + R"(files = "a.csv"
 reference = "V"
@@ -142,7 +142,7 @@ size = { amplitude = true }
     }
 }
 
-TEST_F(RecordRunTest, impacts_have_velocities_before_and_after) {
+TEST_F(RecordRunTest, ImpactsHaveVelocitiesBeforeAndAfter) {
     // A ball that is thrown up again and again: 1 m/s after each impact, 10 m/s^2.
     std::string text = "t,v\n";
     for (int i = 0; i < 1000; ++i) {
@@ -162,7 +162,7 @@ TEST_F(RecordRunTest, impacts_have_velocities_before_and_after) {
     }
 }
 
-TEST_F(RecordRunTest, other_channels_at_impacts_are_those_of_the_impact_itself) {
+TEST_F(RecordRunTest, OtherChannelsAtImpactsAreThoseOfTheImpactItself) {
     // A ball that loses speed, e = 0.7, with rows at other times than impacts are: it lies at the ground at each.
     const double gravity = 9.81, e = 0.7;
     std::string text = "t [s],q [m],v [m/s],i [A]\n";
@@ -197,7 +197,7 @@ TEST_F(RecordRunTest, other_channels_at_impacts_are_those_of_the_impact_itself) 
     }
 }
 
-TEST_F(RecordRunTest, processing_comes_first) {
+TEST_F(RecordRunTest, SamplesAreTakenAfterProcessing) {
     folder_.write("a.csv", waves(2, 1));
     run(std::string(head) + R"(files = "a.csv"
 channels = { U = "V", x = "q", slope = "q_rate" }
@@ -219,7 +219,7 @@ derivative = "q"
     EXPECT_EQ(file.find_run("r")->values[1].unit, "m");
 }
 
-TEST_F(RecordRunTest, records_longer_than_is_kept_leave_what_was_taken_and_their_hash) {
+TEST_F(RecordRunTest, OfLongRecordsSamplesAndTheHashAreStored) {
     folder_.write("a.csv", waves(2, 2));
     run(std::string(head) + "files = \"a.csv\"\nreference = \"V\"\nkeep = 2000\n");
     EXPECT_TRUE(samples("record").empty());
@@ -229,7 +229,7 @@ TEST_F(RecordRunTest, records_longer_than_is_kept_leave_what_was_taken_and_their
     EXPECT_THAT(file.find_run("r")->settings, HasSubstr("\"hash\":\""));
 }
 
-TEST_F(RecordRunTest, a_diagram_has_a_point_for_each_record_and_a_direction) {
+TEST_F(RecordRunTest, ADiagramHasAPointForEachRecordAndADirection) {
     std::filesystem::create_directory(folder_ / "up");
     for (int i = 1; i <= 3; ++i) {
         folder_.write(fmt::format("up/{}.csv", i), waves(i, 1));
@@ -250,7 +250,7 @@ TEST_F(RecordRunTest, a_diagram_has_a_point_for_each_record_and_a_direction) {
     EXPECT_THAT(directions, ElementsAre("up", "up", "up", "down", "down", "down"));
 }
 
-TEST(RecordRun, channels_of_a_bench_are_what_its_model_says) {
+TEST(RecordRun, ChannelsOfABenchHaveTheDescriptionsOfItsModel) {
     const Study study = parse_study(R"(name = "s"
 model = "ball-and-shaker"
 [runs.r]
@@ -271,14 +271,14 @@ time = 1
     EXPECT_EQ(model.parameters.at(0).text, "amplitude of s");
 }
 
-TEST_F(RecordRunTest, scatters_have_nothing_drawn_over_them) {
+TEST_F(RecordRunTest, NothingIsDrawnOverScatterPlots) {
     folder_.write("1.csv", waves(1, 1));
     EXPECT_THAT(refusal(std::string(head) + "files = \"1.csv\"\n[pictures.p]\nkind = \"scatter\"\nrun = \"r\"\n"
                                             "over = \"r\"\n"),
                 HasSubstr("have no `over`"));
 }
 
-TEST_F(RecordRunTest, records_stay_in_the_folder_of_the_study) {
+TEST_F(RecordRunTest, RecordsStayInTheFolderOfTheStudy) {
     testing::TemporaryFolder elsewhere;
     elsewhere.write("a.csv", waves(2, 1));
     std::filesystem::create_symlink(elsewhere / "a.csv", folder_ / "link.csv");
@@ -307,7 +307,7 @@ TEST_F(RecordRunTest, records_stay_in_the_folder_of_the_study) {
     EXPECT_EQ(told("inside/link.csv"), "");
 }
 
-TEST_F(RecordRunTest, rows_with_missing_values_are_left_out_and_told) {
+TEST_F(RecordRunTest, RowsWithMissingValuesAreLeftOutAndCounted) {
     folder_.write("nan.csv", "t,V\n0,1\n1,nan\n2,3\n");
     for (const RunReport& report : run(std::string(head) + "files = \"nan.csv\"\n"))
         EXPECT_TRUE(report.complete()) << report.problem;
@@ -320,7 +320,7 @@ TEST_F(RecordRunTest, rows_with_missing_values_are_left_out_and_told) {
     EXPECT_EQ(times, (std::vector<double>{0, 2}));
 }
 
-TEST_F(RecordRunTest, an_instruments_text_is_read_from_the_lines_that_are_told) {
+TEST_F(RecordRunTest, AnInstrumentsTextIsReadFromTheGivenLines) {
     // Units above names, and a line of numbers before both, which would pass for the first row.
     std::string text = "1, 2\n3, 4\ns, mm\nt, q\n";
     for (int i = 0; i < 50; ++i)
@@ -338,7 +338,7 @@ TEST_F(RecordRunTest, an_instruments_text_is_read_from_the_lines_that_are_told) 
     EXPECT_THAT(refusal(std::string(head) + "files = \"a.csv\"\nlines = { names = 0 }\n"), HasSubstr("s.toml:5:"));
 }
 
-TEST_F(RecordRunTest, what_is_no_record_is_told_with_its_place) {
+TEST_F(RecordRunTest, RefusesWhatIsNoRecordWithItsPlace) {
     folder_.write("a.csv", waves(2, 1));
     folder_.write("word.csv", "t,V\n0,1\n1,high\n");
     folder_.write("huge.csv", "t,V\n0,1\n1,1e999\n");
@@ -374,7 +374,7 @@ TEST_F(RecordRunTest, what_is_no_record_is_told_with_its_place) {
     EXPECT_THAT(told("files = \"a.csv\"\npart = [5, 6]\n"), HasSubstr("a.csv"));
 }
 
-TEST_F(RecordRunTest, a_record_that_changes_makes_the_run_anew) {
+TEST_F(RecordRunTest, ARunIsRepeatedWhenItsRecordHasChanged) {
     folder_.write("a.csv", waves(2, 1));
     const std::string text = std::string(head) + "files = \"a.csv\"\n";
     EXPECT_EQ(run(text).front().computed, 1);
@@ -388,7 +388,7 @@ TEST_F(RecordRunTest, a_record_that_changes_makes_the_run_anew) {
     EXPECT_THAT(run_study(study, file, {}).front().problem, HasSubstr("has changed since"));
 }
 
-TEST_F(RecordRunTest, results_hold_the_whole_study) {
+TEST_F(RecordRunTest, ResultsHoldTheWholeStudy) {
     folder_.write("a.csv", waves(2, 1));
     run(std::string(head) + "files = \"a.csv\"\nreference = \"V\"\nvalues = [\"twice = 2*q\"]\n");
     std::filesystem::remove(folder_ / "a.csv");
@@ -420,7 +420,7 @@ void run_in_pieces(const Study& study, const std::string& path, int questions) {
     FAIL() << "it never ends";
 }
 
-TEST_F(RecordRunTest, what_is_broken_off_and_gone_on_with_has_the_same_bits) {
+TEST_F(RecordRunTest, AnInterruptedRunContinuesToTheSameBits) {
     for (int i = 1; i <= 6; ++i)
         folder_.write(fmt::format("{}.csv", i), waves(i, 1));
     const std::string text = std::string(head) + "files = \"*.csv\"\nreference = \"V\"\n";
@@ -446,7 +446,7 @@ settle = 30
 time = 20
 )#";
 
-TEST_F(RecordRunTest, a_bench_gives_the_same_records_whenever_it_is_broken_off) {
+TEST_F(RecordRunTest, ABenchGivesTheSameRecordsWheneverItIsInterrupted) {
     std::string text = bench;
     const Model model = load_model("impact-oscillator");
     std::string phase;
@@ -467,7 +467,7 @@ TEST_F(RecordRunTest, a_bench_gives_the_same_records_whenever_it_is_broken_off) 
     EXPECT_THAT(levels, ElementsAre(0.8, 0.9, 1, 1, 0.9, 0.8));
 }
 
-TEST_F(RecordRunTest, benches_without_sense_are_refused) {
+TEST_F(RecordRunTest, RefusesInvalidBenches) {
     const auto told = [&](const std::string& rest, const std::string& bench_keys) {
         return refusal("name = \"s\"\nmodel = \"impact-oscillator\"\n[runs.r]\nkind = \"record\"\n" + rest +
                        "[runs.r.bench]\n" + bench_keys);

@@ -37,7 +37,7 @@ struct Log {
     }
 };
 
-TEST(RunSchedule, one_job_does_runs_in_their_order) {
+TEST(RunSchedule, OneJobDoesRunsInTheirOrder) {
     Log log;
     run_side_by_side({{}, {.after = {0}}, {.threads = 9}}, 1, never, [&](std::size_t run, int threads) {
         log.begin(run, threads);
@@ -48,7 +48,7 @@ TEST(RunSchedule, one_job_does_runs_in_their_order) {
     EXPECT_EQ(log.most_going, 1);
 }
 
-TEST(RunSchedule, runs_that_do_not_wait_for_one_another_meet) {
+TEST(RunSchedule, IndependentRunsGoOnSideBySide) {
     // Each waits until all three are there: one after the other this would never end.
     std::atomic<int> there{0};
     run_side_by_side({{}, {}, {}}, 3, never, [&](std::size_t, int) {
@@ -59,7 +59,7 @@ TEST(RunSchedule, runs_that_do_not_wait_for_one_another_meet) {
     EXPECT_EQ(there, 3);
 }
 
-TEST(RunSchedule, a_run_begins_after_the_one_that_it_starts_from) {
+TEST(RunSchedule, ARunBeginsAfterTheOneThatItStartsFrom) {
     std::mt19937 random(3);
     for (int trial = 0; trial < 50; ++trial) {
         std::vector<ScheduledRun> runs(8);
@@ -83,7 +83,7 @@ TEST(RunSchedule, a_run_begins_after_the_one_that_it_starts_from) {
     }
 }
 
-TEST(RunSchedule, a_run_waits_for_all_that_it_needs) {
+TEST(RunSchedule, ARunWaitsForAllThatItNeeds) {
     Log log;
     run_side_by_side({{}, {}, {.after = {0, 1}}}, 3, never, [&](std::size_t run, int threads) {
         log.begin(run, threads);
@@ -93,7 +93,7 @@ TEST(RunSchedule, a_run_waits_for_all_that_it_needs) {
     EXPECT_EQ(log.ended.back(), 2);
 }
 
-TEST(RunSchedule, threads_are_those_that_a_run_can_use) {
+TEST(RunSchedule, ARunGetsTheThreadsThatItCanUse) {
     Log log;
     std::vector<int> given(4);
     run_side_by_side({{.threads = 1}, {.threads = 100}, {.threads = 3}, {.threads = 0}}, 4, never,
@@ -104,7 +104,7 @@ TEST(RunSchedule, threads_are_those_that_a_run_can_use) {
     EXPECT_THAT(given, ElementsAre(1, 4, 3, 1));
 }
 
-TEST(RunSchedule, nothing_begins_when_it_has_been_stopped) {
+TEST(RunSchedule, NoRunBeginsAfterAStop) {
     for (const int jobs : {1, 2}) {
         std::atomic<bool> stopped{false};
         std::atomic<int> done{0};
@@ -121,7 +121,7 @@ TEST(RunSchedule, nothing_begins_when_it_has_been_stopped) {
     }
 }
 
-TEST(RunSchedule, an_error_is_thrown_after_all_have_ended) {
+TEST(RunSchedule, AnErrorIsThrownAfterAllRunsHaveEnded) {
     for (const int jobs : {1, 3}) {
         std::atomic<int> going{0}, begun{0};
         std::vector<ScheduledRun> runs(6);

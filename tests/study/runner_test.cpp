@@ -68,7 +68,7 @@ std::string contents(const ResultFile& file) {
     return all;
 }
 
-TEST_F(RunnerTest, does_once_what_is_asked_for) {
+TEST_F(RunnerTest, ComputesEachRunOnce) {
     const Study study = parse_study(text, "s.toml");
     ResultFile file(path_, ResultFile::Access::write);
     const auto first = run_study(
@@ -84,21 +84,21 @@ TEST_F(RunnerTest, does_once_what_is_asked_for) {
     EXPECT_TRUE(second[1].complete());
 }
 
-TEST_F(RunnerTest, only_what_changed_is_done_again) {
+TEST_F(RunnerTest, RepeatsOnlyRunsThatHaveChanged) {
     Study study = parse_study(text, "s.toml");
     ResultFile file(path_, ResultFile::Access::write);
     run_study(study, file, {});
-    study.runs[1].attractor.cycles = 61;
+    study.runs[1].attractor().cycles = 61;
     auto reports = run_study(study, file, {});
     EXPECT_EQ(reports[0].computed, 0u);
     EXPECT_EQ(reports[1].computed, 9u);
-    study.runs[0].simulation.tolerance = 1e-11; // the basin starts from the sweep
+    study.runs[0].motion().simulation.tolerance = 1e-11; // the basin starts from the sweep
     reports = run_study(study, file, {});
     EXPECT_EQ(reports[0].computed, 22u);
     EXPECT_EQ(reports[1].computed, 9u);
 }
 
-TEST_F(RunnerTest, goes_on_anywhere_and_gives_the_same_bits) {
+TEST_F(RunnerTest, ContinuesFromAnyPointToTheSameBits) {
     const Study study = parse_study(text, "s.toml");
     std::string whole;
     {
@@ -124,7 +124,7 @@ TEST_F(RunnerTest, goes_on_anywhere_and_gives_the_same_bits) {
     EXPECT_EQ(contents(file), whole);
 }
 
-TEST_F(RunnerTest, says_where_a_run_cannot_start) {
+TEST_F(RunnerTest, TellsWhereARunCannotStart) {
     Study study = parse_study(text, "s.toml");
     study.runs[1].start->coordinate = "e";
     ResultFile file(path_, ResultFile::Access::write);

@@ -99,7 +99,7 @@ Bits all_of(const System& system) {
 constexpr auto model_name = "impact-oscillator";
 constexpr int threads = 4;
 
-TEST(SharedModel, threads_that_compile_it_get_the_bits_of_one) {
+TEST(SharedModel, ThreadsThatCompileItGetTheBitsOfOneThread) {
     const Model model = load_model(model_name);
     const Bits alone = all_of(System(load_model(model_name)));
     ASSERT_GT(alone.size(), 20u);
@@ -110,7 +110,7 @@ TEST(SharedModel, threads_that_compile_it_get_the_bits_of_one) {
         EXPECT_EQ(result.get(), alone);
 }
 
-TEST(SharedModel, threads_share_what_is_compiled_and_the_last_one_keeps_it) {
+TEST(SharedModel, ThreadsShareTapesWhichLiveUntilTheLastOneEnds) {
     std::vector<std::future<Bits>> results;
     const Bits alone = all_of(System(load_model(model_name)));
     std::promise<void> others_are_done;
@@ -133,7 +133,7 @@ TEST(SharedModel, threads_share_what_is_compiled_and_the_last_one_keeps_it) {
     EXPECT_EQ(results[0].get(), alone);
 }
 
-TEST(SharedModel, copies_may_grow_while_others_compile) {
+TEST(SharedModel, CopiesMayGrowWhileOthersCompile) {
     const Model model = load_model(model_name);
     const Bits alone = all_of(System(model));
     std::vector<std::future<Bits>> results;

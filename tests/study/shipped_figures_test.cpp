@@ -75,7 +75,7 @@ private:
     void expect_end(const std::string& name) const {
         const auto run =
             std::find_if(study.runs.begin(), study.runs.end(), [&](const StudyRun& one) { return one.name == name; });
-        if (run == study.runs.end() || !run->is_branch() || run->branch.settings.steps != BranchSettings().steps)
+        if (run == study.runs.end() || !run->is_branch() || run->branch().settings.steps != BranchSettings().steps)
             return;
         for (const OrbitRecord& record : file_->orbits(name, true))
             EXPECT_NE(record.point.detail, name_of(BranchOutcome::steps)) << name;
@@ -108,7 +108,7 @@ void expect_ladder(const ShippedResults& results, const std::string& name, const
         EXPECT_TRUE(table.is_missing(row, voltage + 1));
 }
 
-TEST(ShippedFigures, ladders_of_grazings_of_the_microactuator) {
+TEST(ShippedFigures, LaddersOfGrazingsOfTheMicroactuatorAreThePublishedOnes) {
     ShippedResults results("microactuator");
     results.run({"five_impacts", "fast_ladder"});
     const std::vector<double> computed{0.5876212422746997, 0.7304755333366196, 0.8095127614194632, 0.8558788675649937,
@@ -139,7 +139,7 @@ std::size_t end_parameter(const ShippedResults& results, const char* name) {
     return results.study.runs.front().model.independent_parameter(name).place();
 }
 
-TEST(ShippedFigures, map_of_the_microactuator) {
+TEST(ShippedFigures, MapOfTheMicroactuatorIsThePublishedOne) {
     ShippedResults results("microactuator");
     results.run({"touches_1", "touches_2", "touches_3", "flips_1", "joining_folds_1", "slow_flips_1"});
     const Table joints = make_table(results.table("joints"), results.file());
@@ -186,7 +186,7 @@ TEST(ShippedFigures, map_of_the_microactuator) {
     }
 }
 
-TEST(ShippedFigures, maps_of_the_microbeam) {
+TEST(ShippedFigures, MapsOfTheMicrobeamAreThePublishedOnes) {
     ShippedResults results("microbeam");
     results.run({"no_stop", "folds_low_stiffness", "folds_high_stiffness", "folds_low_damping", "folds_high_damping"});
     // Without a stop the curves come to the folds of a branch that has none.
@@ -201,9 +201,9 @@ TEST(ShippedFigures, maps_of_the_microbeam) {
 }
 
 /// The clamped beam's mode i in terms of its middle: even or odd functions, in which nothing cancels.
-class ClampedMode {
+class BeamMode {
 public:
-    explicit ClampedMode(int i) : even_(i % 2 == 1) {
+    explicit BeamMode(int i) : even_(i % 2 == 1) {
         // tan(k/2) = -tanh(k/2) or tanh(k/2), which together are cos(k) cosh(k) = 1; by bisection.
         const long double pi = std::numbers::pi_v<long double>;
         long double low = (static_cast<long double>(i) + 0.25L) * pi, high = low + 0.5L * pi;
@@ -244,7 +244,7 @@ long double integral(Integrand integrand) {
     return sum / (3 * intervals);
 }
 
-TEST(ShippedFigures, modal_frequencies_and_slopes_of_the_microbeam) {
+TEST(ShippedFigures, ModalFrequenciesAndSlopesOfTheMicrobeamAreThePublishedOnes) {
     ShippedResults results("microbeam-modes");
     results.run({});
     const Table table = make_table(results.table("table-3-1"), results.file());
@@ -252,10 +252,10 @@ TEST(ShippedFigures, modal_frequencies_and_slopes_of_the_microbeam) {
     const double computed[] = {22.37328544806, 61.67282286792, 120.9033917271, 199.8594481272, 298.5555352982,
                                416.9907858354, 555.1652475668, 713.0789179784, 890.7317971983};
     const double printed[] = {22.4, 61.7, 121, 200, 299, 417, 555, 713, 891};
-    std::vector<ClampedMode> modes;
+    std::vector<BeamMode> modes;
     std::vector<long double> sizes;
     for (int i = 1; i <= 9; ++i) {
-        const ClampedMode mode(i);
+        const BeamMode mode(i);
         modes.push_back(mode);
         sizes.push_back(std::sqrt(integral([&](long double s) { return mode.shape(s) * mode.shape(s); })));
     }
@@ -298,7 +298,7 @@ TEST(ShippedFigures, modal_frequencies_and_slopes_of_the_microbeam) {
         EXPECT_NEAR(table.number(static_cast<std::size_t>(i) - 1, 1 + static_cast<std::size_t>(j)), value, 1e-9);
 }
 
-TEST(ShippedFigures, orbits_and_branches_of_the_microbeam) {
+TEST(ShippedFigures, OrbitsAndBranchesOfTheMicrobeamAreThePublishedOnes) {
     ShippedResults results("microbeam");
     results.run({"grazing", "high_penetration", "contact", "no_stop", "one_mode_contact", "one_mode_high_penetration"});
     EXPECT_NEAR(results.point("no_contact", "GR1").parameter, 0.030040810557599, 1e-13);
@@ -321,7 +321,7 @@ TEST(ShippedFigures, orbits_and_branches_of_the_microbeam) {
 }
 
 /// Fig. 3.5: a sweep and the equations of the orbit agree on the speed at which the stop is met.
-TEST(ShippedFigures, contact_speed_of_the_microbeam) {
+TEST(ShippedFigures, ContactSpeedOfTheMicrobeamIsThePublishedOne) {
     ShippedResults results("microbeam");
     results.run({"penetration", "high_penetration"});
     const StoredRun sweep(results.file(), "penetration", {});
@@ -359,7 +359,7 @@ TEST(ShippedFigures, contact_speed_of_the_microbeam) {
     EXPECT_NEAR(std::abs(approach), at_033, 1e-8);
 }
 
-TEST(ShippedFigures, nine_modes_against_a_stiff_stop) {
+TEST(ShippedFigures, NineModesMeetAStiffStopAsPublished) {
     ShippedResults results("microbeam");
     results.run({"one_mode", "nine_modes"});
     const Table table = make_table(results.table("modal-amplitudes"), results.file());
@@ -372,7 +372,7 @@ TEST(ShippedFigures, nine_modes_against_a_stiff_stop) {
 }
 
 /// Section 3.4: how much higher modes have of the motion, and how many of them it takes to tell that of the first.
-TEST(ShippedFigures, amplitudes_of_modes_against_three_stops) {
+TEST(ShippedFigures, AmplitudesOfModesAgainstThreeStopsAreThePublishedOnes) {
     ShippedResults results("microbeam-amplitudes");
     results.run({});
     const Table nine = make_table(results.table("modes-9"), results.file());
@@ -402,7 +402,7 @@ TEST(ShippedFigures, amplitudes_of_modes_against_three_stops) {
 }
 
 /// Figs 3.4 and 3.5 with the unstable branches between the folds, for three stops.
-TEST(ShippedFigures, stops_of_three_stiffnesses) {
+TEST(ShippedFigures, StopsOfThreeStiffnessesGiveThePublishedBranches) {
     ShippedResults results("microbeam-stops");
     results.run({"contact_100", "contact_500", "contact_5000", "polynomial_contact"});
     EXPECT_NEAR(results.point("contact_100", "SN1").parameter, 0.032825650930776, 1e-13);
@@ -437,7 +437,7 @@ TEST(ShippedFigures, stops_of_three_stiffnesses) {
 }
 
 /// The static pull-in curve: w and V at its fold by the balance of forces alone, V^2 = elastic(q)/attraction(q).
-TEST(ShippedFigures, pull_in_under_a_steady_voltage) {
+TEST(ShippedFigures, PullInUnderASteadyVoltageIsAsPublished) {
     ShippedResults results("microbeam-stops");
     results.run({"equilibria", "oscillations"});
     const Model model = load_model("microbeam-steady");
@@ -469,7 +469,7 @@ TEST(ShippedFigures, pull_in_under_a_steady_voltage) {
 }
 
 /// Eq. (3.29): the fold is where its root manifold turns, the better the stiffer the stop.
-TEST(ShippedFigures, distance_of_the_fold_from_the_touch) {
+TEST(ShippedFigures, DistanceOfTheFoldFromTheTouchIsAsPublished) {
     ShippedResults results("microbeam-stops");
     double before = 0, alpha_before = 0, stiffness_before = 0;
     for (const int stiffness : {500, 1000, 2000, 5000, 10000}) {
@@ -515,7 +515,7 @@ TEST(ShippedFigures, distance_of_the_fold_from_the_touch) {
 
 /// Fig. 3.2: between touch and fold, and beyond it, contacts are roots of one cubic. In units of its fold it is
 /// beta = 3 tau^2 - 2 tau^3, whatever alpha is.
-TEST(ShippedFigures, root_manifold_of_a_compliant_contact) {
+TEST(ShippedFigures, RootManifoldOfACompliantContactIsAsPublished) {
     ShippedResults results("microbeam-stops");
     double before = 0;
     for (const int stiffness : {1000, 2000, 5000, 10000}) {
@@ -544,7 +544,7 @@ TEST(ShippedFigures, root_manifold_of_a_compliant_contact) {
 }
 
 /// Fig. 3.2, the other sign: where alpha is negative the orbit goes on into contact, without a fold.
-TEST(ShippedFigures, contact_that_does_not_fold) {
+TEST(ShippedFigures, AContactThatDoesNotFoldIsAsPublished) {
     ShippedResults results("microbeam-stops");
     results.run({"persisting"});
     const StoredRun run(results.file(), "no_contact_20", {});
@@ -569,7 +569,7 @@ TEST(ShippedFigures, contact_that_does_not_fold) {
 }
 
 /// Pull-in by the gap: static equilibria by the balance of forces alone, whose voltage is greatest at the fold.
-TEST(ShippedFigures, pull_in_by_the_gap) {
+TEST(ShippedFigures, PullInByTheGapIsAsPublished) {
     ShippedResults results("microbeam-stops");
     results.run({"static_pull_in", "dynamic_pull_in"});
     Model model = load_model("microbeam-steady");
@@ -603,7 +603,7 @@ TEST(ShippedFigures, pull_in_by_the_gap) {
         0.036662363851355, 1e-11);
 }
 
-TEST(ShippedFiguresSlow, stops_of_three_stiffnesses_and_nine_modes) {
+TEST(ShippedFiguresSlow, StopsOfThreeStiffnessesAndNineModesGiveThePublishedBranches) {
     ShippedResults results("microbeam-stops");
     results.run({"nine_contact_100", "nine_contact_500", "nine_contact_5000"});
     // Both folds that one mode has at the published voltages: the higher modes are small.
@@ -619,7 +619,7 @@ TEST(ShippedFiguresSlow, stops_of_three_stiffnesses_and_nine_modes) {
     EXPECT_LT(stiff, 1.001 * touch);
 }
 
-TEST(ShippedFiguresSlow, nine_modes_up_to_their_fold) {
+TEST(ShippedFiguresSlow, NineModesAreFollowedUpToTheirFold) {
     ShippedResults results("microbeam");
     results.run({"nine_modes_contact", "nine_modes_high_penetration"});
     const SpecialPoint grazing = results.point("nine_modes_no_contact", "GR1");
@@ -636,7 +636,7 @@ TEST(ShippedFiguresSlow, nine_modes_up_to_their_fold) {
 }
 
 /// Fig. 5.14 (d), of a sweep that is only as long as the figure needs.
-TEST(ShippedFigures, motions_on_both_sides_of_the_onset_at_7_Hz) {
+TEST(ShippedFigures, MotionsOnBothSidesOfTheOnsetAt7HzAreAsPublished) {
     const std::string whole = "from = 3.0, to = 5.5", part = "from = 3.66, to = 3.68";
     std::string text = shipped_study_text("electromagnetic-testbed");
     ASSERT_NE(text.find(whole), std::string::npos);

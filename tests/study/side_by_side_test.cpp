@@ -92,7 +92,7 @@ protected:
     std::string path_;
 };
 
-TEST_F(SideBySide, bits_and_order_do_not_depend_on_it) {
+TEST_F(SideBySide, ResultsAndTheirOrderDoNotDependOnThreads) {
     const Study study = parse_study(text, "s.toml");
     std::string alone;
     std::vector<std::string> outcomes;
@@ -118,7 +118,7 @@ TEST_F(SideBySide, bits_and_order_do_not_depend_on_it) {
     }
 }
 
-TEST_F(SideBySide, interrupted_anywhere_it_goes_on_to_the_same) {
+TEST_F(SideBySide, ContinuesToTheSameResultsWhereverItIsInterrupted) {
     const Study study = parse_study(text, "s.toml");
     std::string whole;
     {
@@ -146,7 +146,7 @@ TEST_F(SideBySide, interrupted_anywhere_it_goes_on_to_the_same) {
     EXPECT_EQ(contents(file), whole);
 }
 
-TEST_F(SideBySide, callers_are_told_one_at_a_time_and_counts_are_right) {
+TEST_F(SideBySide, ReportsProgressFromOneThreadAtATimeWithRightCounts) {
     const Study study = parse_study(text, "s.toml");
     ResultFile file(path_, ResultFile::Access::write);
     std::mutex alone;
@@ -177,7 +177,7 @@ TEST_F(SideBySide, callers_are_told_one_at_a_time_and_counts_are_right) {
     EXPECT_EQ(last.branches_left <= 2, true);
 }
 
-TEST_F(SideBySide, what_the_caller_throws_ends_all) {
+TEST_F(SideBySide, AnExceptionOfTheCallerEndsAllRuns) {
     const Study study = parse_study(text, "s.toml");
     ResultFile file(path_, ResultFile::Access::write);
     RunnerOptions options;

@@ -43,7 +43,7 @@ std::string contents(const ResultFile& file) {
     return all;
 }
 
-TEST_F(StoredStudyTest, a_file_alone_gives_back_every_run) {
+TEST_F(StoredStudyTest, EveryRunIsReadFromTheFileAlone) {
     run_and_forget();
     const ResultFile file(path("results.sqlite"), ResultFile::Access::read);
     const Study study = stored_study(file);
@@ -57,7 +57,7 @@ TEST_F(StoredStudyTest, a_file_alone_gives_back_every_run) {
     EXPECT_EQ(study.runs[0].value_units, (std::vector<std::string>{"", ""}));
 }
 
-TEST_F(StoredStudyTest, what_is_there_is_not_done_again) {
+TEST_F(StoredStudyTest, CompleteRunsAreNotRepeated) {
     run_and_forget();
     ResultFile file(path("results.sqlite"), ResultFile::Access::write);
     for (const RunReport& report : run_study(stored_study(file), file, {})) {
@@ -66,7 +66,7 @@ TEST_F(StoredStudyTest, what_is_there_is_not_done_again) {
     }
 }
 
-TEST_F(StoredStudyTest, every_run_can_be_repeated_elsewhere_bit_for_bit) {
+TEST_F(StoredStudyTest, EveryRunIsRepeatedBitForBitInAnotherFile) {
     run_and_forget();
     const ResultFile file(path("results.sqlite"), ResultFile::Access::read);
     ResultFile again(path("again.sqlite"), ResultFile::Access::write);
@@ -81,7 +81,7 @@ TEST_F(StoredStudyTest, every_run_can_be_repeated_elsewhere_bit_for_bit) {
     EXPECT_EQ(words_and_pictures(again), words_and_pictures(file));
 }
 
-TEST_F(StoredStudyTest, runs_that_were_never_begun_are_there_too) {
+TEST_F(StoredStudyTest, HasRunsThatWereNeverBegun) {
     run_and_forget();
     const ResultFile whole(path("results.sqlite"), ResultFile::Access::read);
     const Study study = stored_study(whole);
@@ -115,7 +115,7 @@ TEST_F(StoredStudyTest, runs_that_were_never_begun_are_there_too) {
     }
 }
 
-TEST_F(StoredStudyTest, an_interrupted_sweep_goes_on) {
+TEST_F(StoredStudyTest, AnInterruptedSweepContinues) {
     run_and_forget();
     std::string whole;
     {
@@ -139,7 +139,7 @@ TEST_F(StoredStudyTest, an_interrupted_sweep_goes_on) {
     EXPECT_EQ(contents(half), whole);
 }
 
-TEST_F(StoredStudyTest, a_branch_is_continued_from_its_last_point) {
+TEST_F(StoredStudyTest, ABranchIsContinuedFromItsLastPoint) {
     run_and_forget();
     ResultFile file(path("results.sqlite"), ResultFile::Access::write);
     Study study = stored_study(file);
@@ -149,8 +149,8 @@ TEST_F(StoredStudyTest, a_branch_is_continued_from_its_last_point) {
     longer.name = "longer";
     longer.start->run = "chain";
     longer.start->point = std::to_string(before.back().number);
-    longer.branch.settings.greatest = 3.0;
-    longer.branch.settings.least = 2.6;
+    longer.branch().settings.greatest = 3.0;
+    longer.branch().settings.least = 2.6;
     study.runs.push_back(longer);
     const auto reports = run_study(study, file, {});
     EXPECT_TRUE(reports.back().complete()) << reports.back().problem;
@@ -160,7 +160,7 @@ TEST_F(StoredStudyTest, a_branch_is_continued_from_its_last_point) {
     EXPECT_NEAR(after.front().point.parameter, before.back().point.parameter, 1e-9);
 }
 
-TEST_F(StoredStudyTest, shipped_studies_are_stored_whole) {
+TEST_F(StoredStudyTest, ShippedStudiesAreStoredWhole) {
     for (const std::string& name : shipped_studies()) {
         const Study study = load_study(name);
         ResultFile file(path(name), ResultFile::Access::write);
@@ -186,7 +186,7 @@ std::string refusal(const RunRecord& record) {
     return "";
 }
 
-TEST_F(StoredStudyTest, says_what_is_wrong_with_settings) {
+TEST_F(StoredStudyTest, TellsWhatIsWrongWithSettings) {
     run_and_forget();
     const ResultFile file(path("results.sqlite"), ResultFile::Access::read);
     const RunRecord good = *file.find_run("sweep");

@@ -39,7 +39,7 @@ std::string sweep_with(const std::string& line) {
            line + "\n";
 }
 
-TEST(StudyKeys, each_is_listed_once_with_a_meaning) {
+TEST(StudyKeys, EachIsListedOnceWithAMeaning) {
     for (const RunKind kind : all_kinds()) {
         std::set<std::string> names;
         for (const StudyKey& key : study_keys(kind)) {
@@ -51,14 +51,14 @@ TEST(StudyKeys, each_is_listed_once_with_a_meaning) {
     }
 }
 
-TEST(StudyKeys, are_those_of_the_kind) {
+TEST(StudyKeys, AreThoseOfTheKind) {
     EXPECT_THAT(study_keys(RunKind::sweep), Contains(Field(&StudyKey::name, "chaos_cycles")));
     EXPECT_THAT(study_keys(RunKind::orbit), Not(Contains(Field(&StudyKey::name, "chaos_cycles"))));
     EXPECT_THAT(study_keys(RunKind::ladder), Contains(Field(&StudyKey::name, "rungs")));
     EXPECT_THAT(study_keys(RunKind::identify), Not(Contains(Field(&StudyKey::name, "vary"))));
 }
 
-TEST(StudyKeys, tell_what_holds_without_them) {
+TEST(StudyKeys, TellTheirDefaults) {
     EXPECT_EQ(standard_of(RunKind::sweep, "cycles"), "150");
     EXPECT_EQ(standard_of(RunKind::sweep, "direction"), "up");
     EXPECT_EQ(standard_of(RunKind::follow, "direction"), "both");
@@ -67,7 +67,7 @@ TEST(StudyKeys, tell_what_holds_without_them) {
     EXPECT_EQ(standard_of(RunKind::simulate, "time"), ""); // without end
 }
 
-TEST(StudyKeys, no_other_kind_takes_a_key) {
+TEST(StudyKeys, AreRefusedInRunsOfOtherKinds) {
     for (const StudyKey& key : study_keys(RunKind::record)) {
         const std::vector<StudyKey> of_sweeps = study_keys(RunKind::sweep);
         if (std::any_of(of_sweeps.begin(), of_sweeps.end(), [&](const auto& one) { return one.name == key.name; }))
@@ -81,7 +81,7 @@ TEST(StudyKeys, no_other_kind_takes_a_key) {
 }
 
 // What is listed is what the reader does: it takes the ends of each range, and nothing beyond.
-TEST(StudyKeys, of_a_sweep_are_taken_in_their_ranges_and_refused_beyond) {
+TEST(StudyKeys, OfASweepAreTakenInTheirRangesAndRefusedBeyond) {
     const std::set<std::string> needs_others{"draws", "seed"};
     for (const StudyKey& key : study_keys(RunKind::sweep)) {
         const auto takes = [&](const std::string& value) {
@@ -117,7 +117,7 @@ TEST(StudyKeys, of_a_sweep_are_taken_in_their_ranges_and_refused_beyond) {
     }
 }
 
-TEST(StudySchema, has_the_keys_of_every_kind) {
+TEST(StudySchema, HasTheKeysOfEveryKind) {
     const Json schema = parse_json(study_schema(), Place{"schema", 0, 0});
     const Json* run = schema.find("properties")->find("runs")->find("additionalProperties");
     ASSERT_NE(run, nullptr);

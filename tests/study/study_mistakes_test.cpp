@@ -36,7 +36,7 @@ std::vector<std::string> mistakes_in(const std::string& text) {
 
 const std::string head = "name = \"s\"\nmodel = \"impact-oscillator\"\n";
 
-TEST(StudyMistakes, are_told_of_each_run_picture_and_table) {
+TEST(StudyMistakes, AreReportedOfEachRunPictureAndTable) {
     EXPECT_THAT(mistakes_in(head + R"(colour = 1
 [runs.a]
 kind = "simulate"
@@ -70,7 +70,7 @@ columns = ["x", "x"]
                             "22: the study has no run 'e'", "26: there is another column 'x'"));
 }
 
-TEST(StudyMistakes, of_a_run_do_not_follow_those_who_refer_to_it) {
+TEST(StudyMistakes, OfARunAreNotRepeatedForRunsThatReferToIt) {
     EXPECT_THAT(mistakes_in(head + R"([runs.a]
 kind = "sweep"
 vary = { omega = [] }
@@ -90,7 +90,7 @@ samples = ["s"]
                 ElementsAre(HasSubstr("5: runs.a.vary.omega is empty")));
 }
 
-TEST(StudyMistakes, of_the_model_or_its_name_are_told_once) {
+TEST(StudyMistakes, OfTheModelOrItsNameAreReportedOnce) {
     const std::string runs = "[runs.a]\nkind = \"simulate\"\ntime = 1\n[runs.b]\nkind = \"simulate\"\ntime = 2\n";
     EXPECT_THAT(mistakes_in("name = \"s\"\nmodel = \"nothing\"\n" + runs), SizeIs(1));
     EXPECT_THAT(mistakes_in("name = \"s\"\nmodle = \"impact-oscillator\"\n" + runs),
@@ -101,7 +101,7 @@ TEST(StudyMistakes, of_the_model_or_its_name_are_told_once) {
                 ElementsAre("1: name must be a string, not a number", "2: model must be a string, not a number"));
 }
 
-TEST(StudyMistakes, what_is_missing_is_not_told_beside_a_misspelt_key) {
+TEST(StudyMistakes, OfMissingKeysAreNotReportedBesideAMisspeltKey) {
     EXPECT_THAT(mistakes_in(head + "[runs.a]\nknd = \"simulate\"\ntime = 1\n"),
                 ElementsAre("4: unknown key 'knd' in runs.a"));
     EXPECT_THAT(mistakes_in(head + "[runs.a]\nkind = \"continue\"\nalogn = { omega = [2, 3] }\n"),
@@ -113,7 +113,7 @@ TEST(StudyMistakes, what_is_missing_is_not_told_beside_a_misspelt_key) {
                 ElementsAre("1: unknown key 'nme'", "3: unknown key 'rns'"));
 }
 
-TEST(StudyMistakes, of_branches_are_told_for_each_key) {
+TEST(StudyMistakes, OfBranchesAreReportedForEachKey) {
     EXPECT_THAT(mistakes_in(head + R"([runs.a]
 kind = "continue"
 along = { omga = [2, 3] }
@@ -129,14 +129,14 @@ monitors = { m = { maximum = "q" }, n = { minimum = "x", mean = "x" }, o = { lar
                             "9: unknown key 'largest' in runs.a.monitors.o"));
 }
 
-TEST(StudyMistakes, of_draws_are_told_beside_others) {
+TEST(StudyMistakes, OfDrawsAreReportedBesideOthers) {
     EXPECT_THAT(mistakes_in(head + "[runs.a]\nkind = \"basin\"\ncycles = 0\nvary = { x = { random = [0, 1] } }\n"),
                 ElementsAre("5: runs.a.cycles is 0", "6: runs.a does not say how many values to draw"));
     EXPECT_THAT(mistakes_in(head + "[runs.a]\nkind = \"basin\"\ndraws = 3\nvary = { q = { random = [0, 1] } }\n"),
                 ElementsAre(HasSubstr("6: the model has no parameter or state 'q'")));
 }
 
-TEST(StudyMistakes, of_records_are_told_beside_their_files) {
+TEST(StudyMistakes, OfRecordsAreReportedBesideThoseOfFiles) {
     EXPECT_THAT(mistakes_in(head + "[runs.a]\nkind = \"record\"\nfiles = \"none.csv\"\nevery = 0\nkeep = -1\n"),
                 ElementsAre(HasSubstr("5: "), "6: runs.a.every is 0", "7: runs.a.keep is -1"));
     EXPECT_THAT(mistakes_in(head + "[runs.a]\nkind = \"record\"\nseed = -1\nkeep = -1\n"
@@ -144,21 +144,21 @@ TEST(StudyMistakes, of_records_are_told_beside_their_files) {
                 ElementsAre("5: runs.a.seed is -1", "6: runs.a.keep is -1"));
 }
 
-TEST(StudyMistakes, runs_that_start_from_each_other_are_told) {
+TEST(StudyMistakes, OfRunsThatStartFromEachOtherAreReported) {
     const std::string run = "kind = \"simulate\"\ntime = 1\n";
     EXPECT_THAT(mistakes_in(head + "[runs.a]\n" + run + "start = { run = \"b\" }\n[runs.b]\n" + run +
                             "start = { run = \"a\" }\n"),
                 ElementsAre(HasSubstr("starts from itself, by way of others")));
 }
 
-TEST(StudyMistakes, are_capped) {
+TEST(StudyMistakes, AreLimitedInNumber) {
     std::string text = head;
     for (int i = 0; i < 300; ++i)
         text += "[runs.r" + std::to_string(i) + "]\nkind = \"none\"\n";
     EXPECT_EQ(mistakes_in(text).size(), Mistakes::most);
 }
 
-TEST(StudyMistakes, names_that_a_picture_does_not_show) {
+TEST(StudyMistakes, OfNamesThatAPictureDoesNotShowAreReported) {
     const std::string study = head + R"toml([runs.a]
 kind = "sweep"
 vary = { omega = [2, 3] }

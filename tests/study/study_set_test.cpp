@@ -36,7 +36,7 @@ double value(const StudyRun& run, const std::string& name) {
     return run.model.parameter_values()[run.model.independent_parameter(name).place()];
 }
 
-TEST(StudySet, what_the_study_computes_from_a_parameter_follows) {
+TEST(StudySet, ExpressionsOfTheStudySeeTheValue) {
     const Study own = parse_study(text, "s.toml"), set = parse_study(text, "s.toml", {{"omega", 3}});
     EXPECT_EQ(value(own.runs[0], "omega"), 1.5);
     EXPECT_TRUE(own.set.empty());
@@ -44,13 +44,13 @@ TEST(StudySet, what_the_study_computes_from_a_parameter_follows) {
     for (const StudyRun& run : set.runs)
         EXPECT_EQ(value(run, "omega"), 3) << run.name; // also where the run itself sets it
     EXPECT_EQ(value(set.runs[2], "amplitude"), 1);
-    EXPECT_EQ(set.runs[0].axes[0].values.front(), 0.3);
-    EXPECT_EQ(set.runs[0].axes[0].values.back(), 3);
+    EXPECT_EQ(set.runs[0].motion().axes[0].values.front(), 0.3);
+    EXPECT_EQ(set.runs[0].motion().axes[0].values.back(), 3);
     EXPECT_EQ(value(set.runs[1], "sigma"), 6);
-    EXPECT_DOUBLE_EQ(set.runs[1].transient.time, 2 * 3.14159265358979323846 / 3);
+    EXPECT_DOUBLE_EQ(set.runs[1].motion().transient.time, 2 * 3.14159265358979323846 / 3);
 }
 
-TEST(StudySet, gives_what_a_study_with_that_value_gives) {
+TEST(StudySet, GivesTheResultsOfAStudyWithThatValue) {
     std::string other = text;
     other.replace(other.find("omega = 1.5"), 11, "omega = 2.5");
     other.replace(other.find(", omega = 2 }"), 13, ", omega = 2.5 }");
@@ -62,7 +62,7 @@ TEST(StudySet, gives_what_a_study_with_that_value_gives) {
     }
 }
 
-TEST(StudySet, values_that_change_nothing_are_refused) {
+TEST(StudySet, RefusesValuesThatChangeNothing) {
     const auto message = [](const ParameterValues& set) {
         try {
             parse_study(text, "s.toml", set);
@@ -78,7 +78,7 @@ TEST(StudySet, values_that_change_nothing_are_refused) {
     EXPECT_EQ(message({{"amplitude", 1}}), ""); // of use to the others
 }
 
-TEST(StudySet, results_remember_it) {
+TEST(StudySet, IsStoredWithTheResults) {
     const std::string path =
         (std::filesystem::temp_directory_path() / ("graze-study-set-" + std::to_string(getpid()))).string();
     {

@@ -104,7 +104,7 @@ const StudyTable& table_named(const Study& study, const std::string& name) {
     throw std::out_of_range(name);
 }
 
-TEST(StudyTable, has_rows_of_special_points) {
+TEST(StudyTable, HasRowsOfSpecialPoints) {
     const Study study = parse_study(runs + R"(
 [tables.grazings]
 runs = ["up", "hits"]
@@ -132,7 +132,7 @@ columns = ["amplitude"]
     EXPECT_EQ(make_table(table_named(study, "all"), results.file()).rows(), results.file().orbits("up", true).size());
 }
 
-TEST(StudyTable, has_rows_of_samples_or_of_points) {
+TEST(StudyTable, HasRowsOfSamplesOrOfPoints) {
     const Study study = parse_study(runs + R"(
 [tables.lows]
 run = "motion"
@@ -157,7 +157,7 @@ columns = ["ending_time"]
     EXPECT_EQ(points.number(0, 0), 30);
 }
 
-TEST(StudyTable, has_ratios_of_successive_distances) {
+TEST(StudyTable, HasRatiosOfSuccessiveDistances) {
     const Study study = parse_study(R"toml(name = "s"
 model = "impact-oscillator"
 [runs.times]
@@ -185,7 +185,7 @@ ratios = { of_sigma = "sigma", of_third = "third", of_none = "constant", of_word
             EXPECT_TRUE(table.is_missing(r, column(table, none))) << none;
 }
 
-TEST(StudyTable, says_what_the_results_do_not_have) {
+TEST(StudyTable, TellsWhatTheResultsDoNotHave) {
     const Study study = parse_study(runs + "[tables.t]\nrun = \"up\"\ncolumns = [\"speed\"]\n", "s.toml");
     const Results results(study, {"up"});
     try {
@@ -196,7 +196,7 @@ TEST(StudyTable, says_what_the_results_do_not_have) {
     }
 }
 
-TEST(StudyTable, is_kept_with_the_results) {
+TEST(StudyTable, IsStoredWithTheResults) {
     const Study study = parse_study(
         runs +
             "[tables.t]\ntext = \"why\"\nruns = [\"up\", \"hits\"]\npoints = \"GR1\"\ncolumns = [\"a = amplitude\"]\n"
@@ -217,7 +217,7 @@ TEST(StudyTable, is_kept_with_the_results) {
     EXPECT_EQ(make_table(one, results.file()).number(0, 2), make_table(given, results.file()).number(0, 2));
 }
 
-TEST(StudyTable, mistakes_are_told_with_their_place_and_remedy) {
+TEST(StudyTable, MistakesAreReportedWithPlaceAndRemedy) {
     struct Case {
         std::string table, message;
     };

@@ -5,6 +5,7 @@
 #include "graze/study/stored_study.hpp"
 #include "graze/study/study_catalogue.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -31,26 +32,26 @@ StudyRun only_run(const std::string& text) {
     return parse_study(head + text, "s.toml").runs.at(0);
 }
 
-TEST(Study, steps_are_the_decimals_that_one_means) {
+TEST(Study, StepsOfDecimalsAreDecimals) {
     const StudyRun run =
         only_run("[runs.a]\nkind = \"sweep\"\nvary = { omega = { from = 4.5, to = 5.5, step = 0.001 } }");
-    ASSERT_EQ(run.axes.at(0).values.size(), 1001u);
-    EXPECT_EQ(run.axes[0].values[333], 4.833);
-    EXPECT_EQ(run.axes[0].values[1000], 5.5);
+    ASSERT_EQ(run.motion().axes.at(0).values.size(), 1001u);
+    EXPECT_EQ(run.motion().axes[0].values[333], 4.833);
+    EXPECT_EQ(run.motion().axes[0].values[1000], 5.5);
 }
 
-TEST(Study, varies_by_lists_points_logarithms_and_draws) {
+TEST(Study, VariesByListsPointsLogarithmsAndDraws) {
     const StudyRun run = only_run(R"([runs.a]
 kind = "basin"
 draws = 3
 seed = 7
 vary = { omega = [3, 2.5], x = { from = 0, to = 1, points = 5 }, e = { from = 0.01, to = 1, points = 3, scale = "log" }, v = { random = [2, 3] } }
 )");
-    ASSERT_EQ(run.axes.size(), 4u);
-    EXPECT_THAT(run.axes[0].values, ElementsAre(2.5, 3));
-    EXPECT_THAT(run.axes[1].values, ElementsAre(0, 0.25, 0.5, 0.75, 1));
-    EXPECT_TRUE(run.axes[1].state);
-    EXPECT_NEAR(run.axes[2].values[1], 0.1, 1e-16);
+    ASSERT_EQ(run.motion().axes.size(), 4u);
+    EXPECT_THAT(run.motion().axes[0].values, ElementsAre(2.5, 3));
+    EXPECT_THAT(run.motion().axes[1].values, ElementsAre(0, 0.25, 0.5, 0.75, 1));
+    EXPECT_TRUE(run.motion().axes[1].state);
+    EXPECT_NEAR(run.motion().axes[2].values[1], 0.1, 1e-16);
     const Plan plan = plan_of(run, System(run.model), nullptr);
     EXPECT_EQ(plan.points(), 2u * 5 * 3 * 3);
     for (std::size_t point = 0; point < plan.points(); ++point) {
@@ -58,14 +59,14 @@ vary = { omega = [3, 2.5], x = { from = 0, to = 1, points = 5 }, e = { from = 0.
         EXPECT_GE(at[3], 2);
         EXPECT_LT(at[3], 3);
         const PointStart start = plan.start(point);
-        EXPECT_EQ(start.state[*run.axes[1].state], at[1]);
-        EXPECT_EQ(start.parameters[run.axes[0].parameter.place()], at[0]);
+        EXPECT_EQ(start.state[*run.motion().axes[1].state], at[1]);
+        EXPECT_EQ(start.parameters[run.motion().axes[0].parameter.place()], at[0]);
         EXPECT_EQ(coordinates_of(run, point), at);
     }
     EXPECT_NE(coordinates_of(run, 0)[3], coordinates_of(run, 1)[3]);
 }
 
-TEST(Study, sweeps_go_up_down_or_both_ways) {
+TEST(Study, SweepsGoUpDownOrBothWays) {
     const auto values = [](const char* direction) {
         const StudyRun run = only_run("[runs.a]\nkind = \"sweep\"\nvary = { omega = [1, 2, 3] }\ndirection = \"" +
                                       std::string(direction) + '"');
@@ -79,21 +80,50 @@ TEST(Study, sweeps_go_up_down_or_both_ways) {
     EXPECT_THAT(values("both"), ElementsAre(1, 2, 3, 3, 2, 1));
 }
 
-TEST(Study, branches_and_curves_go_both_ways_unless_told) {
+TEST(StudyRun, HasTheRequestOfItsKindAlone) {
+    for (std::size_t kind = 0; kind < kinds_of_runs().size(); ++kind) {
+        StudyRun run(static_cast<RunKind>(kind));
+        run.name = "a";
+        const auto refused = [&run](auto ask) {
+            try {
+                ask(run);
+                return 0;
+            } catch (const InputError& error) {
+                EXPECT_THAT(error.problem(), HasSubstr(fmt::format("run 'a' of kind \"{}\"", name_of(run.kind))));
+                return 1;
+            }
+        };
+        EXPECT_EQ(refused([](StudyRun& one) { one.motion(); }) + refused([](StudyRun& one) { one.branch(); }) +
+                      refused([](StudyRun& one) { one.record(); }) + refused([](StudyRun& one) { one.identify(); }),
+                  3);
+    }
+}
+
+TEST(StudyRun, KeepsItsRequestWhereAnotherKindHasTheSame) {
+    StudyRun run(RunKind::follow);
+    run.branch().rungs = 3;
+    run.set_kind(RunKind::ladder);
+    EXPECT_EQ(run.branch().rungs, 3U);
+    run.set_kind(RunKind::record);
+    EXPECT_THROW(run.branch(), InputError);
+    EXPECT_EQ(run.record().records(), 0U);
+}
+
+TEST(Study, BranchesAndCurvesGoBothWaysUnlessTold) {
     const std::string branch = "[runs.a]\nkind = \"continue\"\nalong = { omega = [4, 5] }\n";
-    EXPECT_EQ(only_run(branch).direction, SweepDirection::both);
-    EXPECT_EQ(only_run(branch + "direction = \"down\"\n").direction, SweepDirection::down);
+    EXPECT_EQ(only_run(branch).branch().direction, SweepDirection::both);
+    EXPECT_EQ(only_run(branch + "direction = \"down\"\n").branch().direction, SweepDirection::down);
     const std::string curve = "[runs.b]\nkind = \"curve\"\nstart = { run = \"a\", point = \"GR1\" }\n"
                               "along = { omega = [4, 5], zeta = [0.1, 0.2] }\n";
     const Study study =
         parse_study(head + branch + curve + "[runs.c]" + curve.substr(8) + "direction = \"up\"\n", "s.toml");
-    EXPECT_EQ(study.runs.at(1).direction, SweepDirection::both);
-    EXPECT_EQ(study.runs.at(2).direction, SweepDirection::up);
+    EXPECT_EQ(study.runs.at(1).branch().direction, SweepDirection::both);
+    EXPECT_EQ(study.runs.at(2).branch().direction, SweepDirection::up);
     // A motion goes one way.
-    EXPECT_EQ(only_run("[runs.a]\nkind = \"sweep\"\nvary = { omega = [4, 5] }").direction, SweepDirection::up);
+    EXPECT_EQ(only_run("[runs.a]\nkind = \"sweep\"\nvary = { omega = [4, 5] }").motion().direction, SweepDirection::up);
 }
 
-TEST(Study, runs_come_after_those_they_start_from) {
+TEST(Study, RunsFollowThoseThatTheyStartFrom) {
     const Study study = parse_study(head + R"(
 [runs.second]
 kind = "simulate"
@@ -105,12 +135,12 @@ time = "2*pi"
 )",
                                     "s.toml");
     EXPECT_EQ(study.runs[0].name, "first");
-    EXPECT_NEAR(study.runs[0].transient.time, 6.283185307179586, 1e-15);
+    EXPECT_NEAR(study.runs[0].motion().transient.time, 6.283185307179586, 1e-15);
     EXPECT_EQ(study.runs[1].name, "second");
 }
 
 /// Each key for each kind of run: it changes what is computed, or it is refused.
-TEST(Study, no_key_is_accepted_and_ignored) {
+TEST(Study, NoKeyIsAcceptedAndIgnored) {
     const std::string parent = "[runs.p]\nkind = \"simulate\"\nperiods = 1\n";
     struct Kind {
         std::string name, needs; ///< what a run of this kind cannot do without
@@ -170,7 +200,7 @@ TEST(Study, no_key_is_accepted_and_ignored) {
         for (const double value : run.model.initial_state())
             numbers += std::to_string(value) + ' ';
         return settings_of(run) + numbers + run.model.name + run.model.modes[run.model.initial_mode].name +
-               run.branch.table;
+               (run.is_branch() ? run.branch().table : "");
     };
     std::size_t used = 0, refused = 0;
     for (const Kind& kind : kinds)
@@ -199,7 +229,7 @@ TEST(Study, no_key_is_accepted_and_ignored) {
     EXPECT_GT(refused, 40u);
 }
 
-TEST(Study, pictures_have_no_keys_that_are_ignored) {
+TEST(Study, PicturesHaveNoKeysThatAreIgnored) {
     const std::string run = "[runs.a]\nkind = \"simulate\"\nperiods = 1\n[pictures.p]\nrun = \"a\"\n";
     for (const std::string kind :
          {"bifurcation", "basin", "spectrum", "history", "portrait", "regression", "scatter", "branch"})
@@ -214,24 +244,24 @@ TEST(Study, pictures_have_no_keys_that_are_ignored) {
         }
 }
 
-TEST(Study, accuracy_reaches_the_continuation) {
+TEST(Study, AccuracyReachesTheContinuation) {
     const StudyRun run = only_run("[runs.a]\nkind = \"continue\"\nalong = \"omega\"\naccuracy = 1e-7");
-    EXPECT_EQ(run.branch.settings.orbit.accuracy, 1e-7);
-    EXPECT_EQ(run.branch.settings.continuation.accuracy, 1e-7);
+    EXPECT_EQ(run.branch().settings.orbit.accuracy, 1e-7);
+    EXPECT_EQ(run.branch().settings.continuation.accuracy, 1e-7);
 }
 
-TEST(Study, what_a_branch_frees_may_have_bounds) {
+TEST(Study, FreeParametersMayHaveBounds) {
     const std::string follow = "[runs.a]\nkind = \"continue\"\nalong = { omega = [1, 2] }\n"
                                "monitors = { reach = { maximum = \"x\", fixed = true } }\n";
     const StudyRun run = only_run(follow + "free = { amplitude = [0.1, \"10*e\"] }");
-    ASSERT_EQ(run.branch.settings.free.size(), 1u);
-    ASSERT_EQ(run.branch.settings.free_bounds.size(), 1u);
-    EXPECT_EQ(run.branch.settings.free[0], run.model.independent_parameter("amplitude"));
-    const FreeBounds& bounds = run.branch.settings.free_bounds[0];
-    EXPECT_EQ(bounds.parameter, run.branch.settings.free[0]);
+    ASSERT_EQ(run.branch().settings.free.size(), 1u);
+    ASSERT_EQ(run.branch().settings.free_bounds.size(), 1u);
+    EXPECT_EQ(run.branch().settings.free[0], run.model.independent_parameter("amplitude"));
+    const FreeBounds& bounds = run.branch().settings.free_bounds[0];
+    EXPECT_EQ(bounds.parameter, run.branch().settings.free[0]);
     EXPECT_EQ(bounds.least, 0.1);
     EXPECT_EQ(bounds.greatest, 10 * run.model.parameter_values()[run.model.independent_parameter("e").place()]);
-    EXPECT_TRUE(only_run(follow + "free = [\"amplitude\"]").branch.settings.free_bounds.empty());
+    EXPECT_TRUE(only_run(follow + "free = [\"amplitude\"]").branch().settings.free_bounds.empty());
     // As a result file keeps them.
     RunRecord record;
     record.name = "a";
@@ -243,22 +273,22 @@ TEST(Study, what_a_branch_frees_may_have_bounds) {
     for (const Mode& mode : run.model.modes)
         record.modes.push_back(mode.name);
     const StudyRun again = stored_run(record);
-    EXPECT_EQ(again.branch.settings.free_bounds.at(0).parameter, bounds.parameter);
-    EXPECT_EQ(again.branch.settings.free_bounds.at(0).greatest, bounds.greatest);
+    EXPECT_EQ(again.branch().settings.free_bounds.at(0).parameter, bounds.parameter);
+    EXPECT_EQ(again.branch().settings.free_bounds.at(0).greatest, bounds.greatest);
     EXPECT_THAT(refusal(head + follow + "free = { amplitude = [2, 1] }"), HasSubstr("give the smaller number first"));
     EXPECT_THAT(refusal(head + follow + "free = { amplitude = 1 }"), HasSubstr("runs.a.free.amplitude"));
     EXPECT_THAT(refusal(head + follow + "free = { ampltude = [1, 2] }"), HasSubstr("did you mean 'amplitude'?"));
     EXPECT_THAT(refusal(head + follow + "free = { omega = [1, 2] }"), HasSubstr("a free parameter is not one"));
 }
 
-TEST(Study, runs_have_names_that_a_result_file_tells_apart) {
+TEST(Study, RunsHaveNamesThatAResultFileDistinguishes) {
     const std::string settings = "kind = \"orbit\"\n";
     EXPECT_THAT(refusal(head + "[runs.a]\n" + settings + "[runs.A]\n" + settings), HasSubstr("differ in case only"));
     EXPECT_THAT(refusal(head + "[runs.points]\n" + settings), HasSubstr("give it another name"));
     EXPECT_EQ(refusal(head + "[runs.points]\nkind = \"simulate\"\ntime = 1\n"), "");
 }
 
-TEST(Study, of_two_keys_that_contradict_none_is_ignored) {
+TEST(Study, NoneOfTwoContradictingKeysIsIgnored) {
     const std::string p = "[runs.p]\nkind = \"sweep\"\nvary = { omega = [2, 3] }\n", q = "[runs.q]\nkind = \"orbit\"\n",
                       simulated = "[runs.q]\nkind = \"simulate\"\ntime = 1\n", start = "start = { run = \"p\" }\n";
     for (const std::string& wrong : std::vector<std::string>{
@@ -278,7 +308,7 @@ TEST(Study, of_two_keys_that_contradict_none_is_ignored) {
         EXPECT_THAT(refusal(head + wrong), ::testing::HasSubstr("; ")) << wrong;
 }
 
-TEST(Study, shipped_ones_can_be_read) {
+TEST(Study, ShippedStudiesCanBeRead) {
     EXPECT_THAT(shipped_studies(),
                 ElementsAre("ball-and-shaker", "electromagnetic-testbed", "mems-switch", "microactuator", "microbeam",
                             "microbeam-amplitudes", "microbeam-modes", "microbeam-stops", "testbed-experiment"));
@@ -286,7 +316,7 @@ TEST(Study, shipped_ones_can_be_read) {
         EXPECT_FALSE(load_study(name).runs.empty()) << name;
 }
 
-TEST(Study, mistakes_are_told_with_their_place_and_remedy) {
+TEST(Study, MistakesAreReportedWithPlaceAndRemedy) {
     struct Case {
         std::string text, message;
     };
@@ -332,12 +362,12 @@ TEST(Study, mistakes_are_told_with_their_place_and_remedy) {
 }
 
 } // namespace
-TEST(StudyTest, initial_states_may_follow_from_what_varies) {
+TEST(StudyTest, InitialStatesMayFollowFromWhatVaries) {
     const std::string begin = "name = \"s\"\n[runs.a]\nmodel = \"impact-oscillator\"\nkind = \"basin\"\n"
                               "vary = { x = [-1, -0.5], omega = [2, 3] }\n";
     const Study study = parse_study(begin + "from = { v = \"0.5*x + omega\", theta = \"pi\" }\n", "s.toml");
     const StudyRun& run = study.runs[0];
-    ASSERT_EQ(run.following.size(), 1U);
+    ASSERT_EQ(run.motion().following.size(), 1U);
     const Plan plan = plan_of(run, System(run.model), nullptr);
     const std::size_t x = *run.model.find_state("x"), v = *run.model.find_state("v");
     for (std::size_t point = 0; point < 4; ++point) {

@@ -18,7 +18,7 @@ namespace {
 /// Of the benches of the study: each run of kind record has those that matter to it.
 std::map<std::string, double> hidden_of(const Study& study) {
     std::map<std::string, double> hidden;
-    const Model& bench = study.find_run("sweep")->record.bench->model;
+    const Model& bench = study.find_run("sweep")->record().bench->model;
     for (const char* name : {"w0", "zeta", "e", "beta1", "beta2", "R", "Ll"})
         hidden[name] = bench.parameter_values()[bench.independent_parameter(name).place()];
     return hidden;
@@ -41,7 +41,7 @@ RunnerOptions with_two_threads(std::vector<std::string> only) {
     return options;
 }
 
-TEST(TestbedExperimentSlow, hidden_parameters_are_found_and_predict_what_is_measured) {
+TEST(TestbedExperimentSlow, HiddenParametersAreFoundAndPredictMeasurements) {
     const Study study = load_study("testbed-experiment");
     const auto hidden = hidden_of(study);
     testing::TemporaryFolder folder;
@@ -77,7 +77,7 @@ TEST(TestbedExperimentSlow, hidden_parameters_are_found_and_predict_what_is_meas
         EXPECT_NEAR(mean("sweep", "rising", level), mean("predicted", "rising", level), 5e-4) << level;
 }
 
-TEST(TestbedExperimentSlow, intervals_hold_what_is_hidden_whatever_the_noise) {
+TEST(TestbedExperimentSlow, IntervalsHoldTheHiddenValuesWhateverTheNoise) {
     Study study = load_study("testbed-experiment");
     const auto hidden = hidden_of(study);
     testing::TemporaryFolder folder;
@@ -85,8 +85,8 @@ TEST(TestbedExperimentSlow, intervals_hold_what_is_hidden_whatever_the_noise) {
     constexpr int trials = 20;
     for (std::uint64_t trial = 0; trial < trials; ++trial) {
         for (StudyRun& run : study.runs)
-            if (run.record.bench)
-                run.record.bench->seed += 1000;
+            if (run.kind == RunKind::record && run.record().bench)
+                run.record().bench->seed += 1000;
         ResultFile file(folder / "r" + std::to_string(trial), ResultFile::Access::write);
         run_study(study, file, with_two_threads({"decay", "impacts", "coupling", "coil"}));
         for (const auto& [name, estimate] : found_in(file, hidden)) {

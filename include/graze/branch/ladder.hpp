@@ -15,8 +15,8 @@ namespace graze {
 /// again, and so on (W. Chin, E. Ott, H. E. Nusse and C. Grebogi, "Grazing bifurcations in impact oscillators", Phys.
 /// Rev. E 50, 1994).
 ///
-/// The caller follows the branches: `next` returns the start of one, and `take` is told where it ended. `climb` does
-/// both.
+/// The caller follows the branches: `next` gives the start of one, `take` is told where it has ended; `climb` does both
+/// in turn.
 class Ladder {
 public:
     /// @param grazing a grazing inside an arc, or any point of a curve of grazings
@@ -48,6 +48,19 @@ private:
     std::vector<SpecialPoint> grazings_;
     std::string why_;
 };
+
+/// Where a branch that leaves a grazing has ended.
+struct RungEnd {
+    std::optional<SpecialPoint> point; ///< the special point in which it has ended; none: it has not ended in one
+    std::string outcome;               ///< in words
+    bool wanted = true;                ///< whether the next branch is to be followed
+};
+/// Follows a branch that leaves a grazing. @param number of the grazing that it may lead to: 2 for the first branch
+/// @return none when interrupted
+using RungFollower = std::function<std::optional<RungEnd>(std::size_t number, const BranchStart& start)>;
+/// Climbs until the ladder ends or has so many grazings, the first one included.
+/// @return false when a branch was interrupted
+bool climb(Ladder& ladder, std::size_t grazings, const RungFollower& follow);
 
 /// Climbs a ladder. @param grazings largest number of grazings, including the first
 /// @param visit called with the number of each grazing reached (2 for the first branch) and its branch; returns false

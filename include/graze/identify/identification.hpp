@@ -1,7 +1,7 @@
 #pragma once
 
 #include "graze/identify/estimate.hpp"
-#include "graze/record/samples.hpp"
+#include "graze/record/impacts.hpp"
 
 #include <cstddef>
 #include <functional>
@@ -19,8 +19,7 @@ struct IdentificationSettings {
     std::string displacement = "";
     std::string voltage = "V", current = "I";  ///< voltage (impedance) and current (impedance, coupling) channels
     std::size_t peaks = 10;                    ///< largest number of peaks of each release (decrement)
-    std::size_t window = 12, transition = 0;   ///< restitution, see ImpactSettings
-    double least_jump = 0;                     ///< restitution, see ImpactSettings
+    ImpactWindow impacts{};                    ///< restitution, see ImpactSettings
     std::optional<double> gap{}, stiffness{};  ///< coupling, see CouplingSettings; the gap also for leakage inductance
     double gap_error = 0, stiffness_error = 0; ///< standard errors of gap and stiffness
     double displacement_noise = 0, current_noise = 0; ///< coupling, see CouplingSettings

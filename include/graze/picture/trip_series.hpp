@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graze/picture/figure.hpp"
+#include "graze/trip/overshoot_trip.hpp"
 #include "graze/trip/trip_time.hpp"
 
 #include <utility>
@@ -15,5 +16,9 @@ namespace graze {
 /// @param symbol see FigureSeries::symbol
 void add_trips(FigurePanel& panel, const std::vector<std::pair<double, TripTime>>& trips, const std::string& title,
                std::size_t colour, int symbol, bool at_fold = false);
+
+/// Times of trips over their overshoots, of one point or of several.
+/// @throws InputError without any point
+Figure trip_figure(const std::vector<OvershootTrips>& all);
 
 } // namespace graze

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace graze {
@@ -17,18 +18,29 @@ struct RecordedImpact {
     double covariance = 0; ///< covariance of both velocities, from the error of the time, which shifts both
 };
 
-/// Options of `ImpactFinder`.
-struct ImpactSettings {
-    std::size_t velocity = 0;                  ///< velocity channel
-    std::optional<std::size_t> displacement{}; ///< displacement channel; if given, impacts are timed by its corners
-    /// Samples before and after an impact to which velocities are fitted, 5 or more; fewer find impacts that follow one
-    /// another closely, more reduce noise.
+/// The part of ImpactSettings that does not depend on the channels of a record.
+struct ImpactWindow {
+    /// Samples before and after an impact to which velocities are fitted, least_window ... most_window; fewer find
+    /// impacts that follow one another closely, more reduce noise.
     std::size_t window = 12;
     /// Samples before and after an impact that are ignored, as the impact itself disturbs them.
     std::size_t transition = 0;
-    double least_jump = 0;   ///< smaller jumps of the velocity are ignored
+    double least_jump = 0; ///< smaller jumps of the velocity are ignored
+
+    static constexpr std::size_t least_window = 5, most_window = 100'000;
+};
+
+/// Options of `ImpactFinder`.
+struct ImpactSettings : ImpactWindow {
+    std::size_t velocity = 0;                  ///< velocity channel
+    std::optional<std::size_t> displacement{}; ///< displacement channel; if given, impacts are timed by its corners
     double significance = 6; ///< a jump must exceed its standard error by this factor; raise it against false impacts
 };
+/// The settings for a record's channels of these names. @param displacement its name; empty: there is none
+/// @param asked_as what stands before names of settings in messages, such as "--"
+/// @throws InputError when the record has no channel of that name
+ImpactSettings impact_settings(const RecordHeader& header, const std::string& velocity, const std::string& displacement,
+                               const ImpactWindow& window, const std::string& asked_as = "");
 
 /// Finds impacts, which are jumps of a noisy velocity. At each place parabolas are fitted by least squares to the
 /// samples on both sides. An impact is where their values differ by more than noise and misfit explain, and by more

@@ -29,6 +29,8 @@ struct RecordProcessing {
     std::string derivative{};   ///< channel whose derivative is added; empty: none
     std::size_t half_width = 0; ///< see DerivativeSettings
     std::string asked_as{};     ///< prefix of option names in messages, such as "--"
+
+    static constexpr std::size_t most_every = 1'000'000, least_half_width = 4, most_half_width = 100'000;
 };
 
 /// A source with all its processing. Reading it to the end throws if it has no rows.
@@ -36,6 +38,9 @@ class ProcessedRecord {
 public:
     /// @throws InputError for unknown channels, and invalid settings
     ProcessedRecord(std::shared_ptr<SampleSource> source, const RecordProcessing& processing);
+    /// The record of a file. @throws InputError also when it cannot be read
+    ProcessedRecord(const std::string& path, const RecordProcessing& processing)
+        : ProcessedRecord(open_record(path, processing.layout), processing) {}
     /// Its last stage, which exists as long as this object.
     SampleSource& source() { return *source_; }
     const RecordHeader& header() const { return source_->header(); }

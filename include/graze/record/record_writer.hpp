@@ -2,8 +2,11 @@
 
 #include "graze/record/samples.hpp"
 
+#include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace graze {
 
@@ -28,5 +31,12 @@ private:
     std::unique_ptr<Target> target_; ///< null once it is closed
     std::size_t channels_ = 0;
 };
+
+/// Writes channels of a record to a file. @param channels their indices
+/// @param interrupted asked after each part that is read
+/// @return false when it was interrupted: the file then has a part of the record
+/// @throws InputError as RecordWriter and the source do
+bool write_record(SampleSource& source, const std::vector<std::size_t>& channels, const std::string& path,
+                  const std::function<bool()>& interrupted = {});
 
 } // namespace graze

@@ -22,6 +22,8 @@ struct RecordHeader {
     /// Returns the index of a channel. @param asked the option that names it, such as "--reference", for messages
     /// @throws InputError for an unknown channel, with the nearest name
     std::size_t channel(std::string_view name, std::string_view asked) const;
+    /// Indices of the channels of these names; of all channels where there are no names. @throws InputError likewise
+    std::vector<std::size_t> chosen_channels(const std::vector<std::string>& names, std::string_view asked) const;
 };
 
 /// Rows of a record, column by column: all of them, or a part.

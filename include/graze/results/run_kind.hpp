@@ -29,6 +29,8 @@ std::optional<RunKind> run_kind(std::string_view name);
 
 /// Whether the points of runs of this kind are simulated motions.
 bool has_motions(RunKind kind);
+/// Whether each of these motions is followed until it has settled on an attractor, rather than for a given time.
+bool seeks_attractors(RunKind kind);
 /// Whether runs of this kind follow orbits along a branch, a curve or a ladder.
 bool is_followed(RunKind kind);
 /// Whether the points of runs of this kind are periodic orbits.

@@ -8,19 +8,20 @@
 
 namespace graze {
 
-/// How motions of a run that have the same parameters leave a chaotic transient.
+/// The law by which motions of a run leave a chaotic transient, at one set of parameter values.
 struct EscapeRate {
-    std::vector<double> parameters; ///< those that the run varies, in their order
+    std::vector<double> parameters; ///< values of the parameters that the run varies, in their order
     EscapeLaw law;
-    std::vector<std::size_t> chaotic; ///< numbers of points that are chaotic so far, but bound to leave by that law
+    std::vector<std::size_t> chaotic; ///< numbers of points labelled chaotic that, by this law, will leave as well
 };
 
-/// Of a run whose points begin at many states: a basin, or simulations that count the passages of a section. A motion
-/// has left when it has settled on something regular, or has escaped or ended. Only parameters at which there is a law.
+/// Escape rates of a run whose points begin at many states: a basin, or simulations that count the passages of a
+/// section. A motion has left when it has settled on a regular attractor, or has escaped or ended. Parameter values at
+/// which no law holds are left out.
 std::vector<EscapeRate> escape_rates(const StoredRun& run);
 
-/// Labels as `transient` those points of a run that were called chaotic, where others leave by a law that these agree
-/// with too.
+/// Changes the label of points of a run from `chaotic` to `transient` where other points leave by a law that these
+/// points obey too.
 void label_transients(ResultFile& file, const std::string& run);
 
 } // namespace graze

@@ -4,12 +4,12 @@
 
 namespace graze {
 
-/// How large a picture is on paper, and its letters.
+/// Size of a picture on paper, and its font.
 struct FigureStyle {
-    double width = 0, height = 0; ///< in mm; 0: as usual, and as high as fits
-    double font_size = 0;         ///< in points; 0: by the width
-    std::string font;             ///< its name; empty: without serifs
-    bool grey = false;            ///< without colours: shades, and symbols along the lines
+    double width = 0, height = 0; ///< in mm; 0: the usual width, and the height that fits the panels
+    double font_size = 0;         ///< in points; 0: chosen by the width
+    std::string font;             ///< its name; empty: one without serifs
+    bool grey = false;            ///< shades of grey, and symbols along lines, instead of colours
 };
 
 } // namespace graze

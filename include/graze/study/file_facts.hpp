@@ -10,26 +10,26 @@
 
 namespace graze {
 
-/// Something that is known of what is in a file: of the study's run "free", say, that its kind is "continue".
+/// One property of something in a file, for example that the kind of the study's run "free" is "continue".
 struct Fact {
     std::string item, name, property;
-    std::optional<double> number; ///< none: it is a text
+    std::optional<double> number; ///< none: the value is a text
     std::string text, unit;
 };
 
-/// What is known of a file, fact by fact.
+/// A list of facts about a file.
 class Facts {
 public:
     void add(const std::string& item, const std::string& name, const std::string& property, const std::string& text);
     void add(const std::string& item, const std::string& name, const std::string& property, double number,
              const std::string& unit = "");
     const std::vector<Fact>& all() const { return all_; }
-    /// The text of the first such fact; empty if there is none.
+    /// The text of the first fact with this item, name and property; empty if there is none.
     std::string text(const std::string& item, const std::string& name, const std::string& property) const;
-    /// The texts of all such facts.
+    /// The texts of all facts with this item, name and property.
     std::vector<std::string> texts(const std::string& item, const std::string& name, const std::string& property) const;
     std::optional<double> number(const std::string& item, const std::string& name, const std::string& property) const;
-    /// Names of all items of one kind, in their order.
+    /// Names of all items of this kind, in the order in which they were added.
     std::vector<std::string> names(const std::string& item) const;
 
 private:
@@ -37,7 +37,7 @@ private:
     std::vector<Fact> all_;
 };
 
-/// Its size, and when it was written. @param path empty: it comes with graze
+/// Adds the size of a file, and when it was written. @param path empty: the file comes with graze
 void add_file_facts(Facts& facts, const std::string& path, const std::string& kind);
 void add_facts(Facts& facts, const Model& model);
 void add_facts(Facts& facts, const Study& study);

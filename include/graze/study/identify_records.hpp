@@ -9,11 +9,12 @@
 
 namespace graze {
 
-/// What a run of kind identify that is no fit finds in records, in their units. Records are read part by part.
-/// @param count how many records there are
-/// @param found by the runs of StudyRun::parameters: their errors count in numbers that depend on them
-/// @throws InputError for records from which it cannot be found, and for those whose units do not agree with the
-///         model's
+/// The estimates of a run of kind identify other than a fit, in the units of the records. Records are read part by
+/// part.
+/// @param count number of records
+/// @param found estimates of the runs StudyRun::parameters, whose errors propagate to numbers that depend on them
+/// @throws InputError for records from which the estimate cannot be made, and for units that do not agree with those of
+///         the model
 Identification identify_records(const StudyRun& run, const EachRecord& records, std::size_t count,
                                 const std::vector<EstimateRecords>& found = {});
 

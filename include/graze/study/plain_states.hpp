@@ -7,12 +7,12 @@
 
 namespace graze {
 
-// What of a model's state is drawn when nothing is said.
+// States that are drawn when the user names none.
 
-/// A displacement and its velocity: the first plain state whose rate is another one, or else the first two. Empty where
-/// there are fewer than two.
+/// Names of a displacement and its velocity: the first state, neither cyclic nor drifting, whose rate is another such
+/// state; otherwise the first two. Empty where there are fewer than two.
 std::vector<std::string> default_portrait(const Model& model);
-/// The first states that are neither cyclic nor drifting, as many as are shown over time.
+/// Names of the first states that are neither cyclic nor drifting, as many as pictures show over time.
 std::vector<std::string> plain_states(const Model& model);
 
 } // namespace graze

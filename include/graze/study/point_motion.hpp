@@ -8,33 +8,33 @@
 
 namespace graze {
 
-/// The point of a run (which is no branch) whose coordinates are nearest to those asked for, of some directions only
-/// unless there are none; the last one if no coordinates are asked for.
+/// The point of a run, not of a branch, whose coordinates are nearest to the given ones; the last point if none are
+/// given.
+/// @param directions only points of these directions count; empty: all
 /// @param place for messages
 /// @throws InputError when there is none
 PointRecord chosen_point(const StoredRun& run, const std::vector<std::pair<std::string, double>>& at,
                          const std::vector<std::string>& directions, const Place& place);
 
-/// A motion, with rows so near to one another that a line through them is the curve.
+/// A motion, with rows so close together that straight lines between them look like the curve.
 struct DenseMotion {
     std::vector<std::vector<double>> values; ///< for each name that was asked for
-    std::vector<std::size_t> begins; ///< rows at which a new arc begins, behind a jump; the first is not among them
-    std::vector<std::size_t>
-        impacts; ///< rows just before and just after contacts, but not of switches that a clock operates
-    std::vector<double> periods; ///< of values that are cyclic states; 0 for others
+    std::vector<std::size_t> begins;         ///< rows at which a new arc begins after a jump; row 0 is not among them
+    std::vector<std::size_t> impacts;        ///< rows just before and just after contacts, except events of time alone
+    std::vector<double> periods;             ///< of values that are cyclic states; 0 for others
     double start = 0; ///< time of the first row: later than that of the motion if it was too long to be kept whole
 };
 
-/// What becomes of a motion that has more than a million rows.
+/// How a motion with more than a million rows is shortened.
 enum class WhenLong {
-    coarser, ///< it is kept whole, with fewer rows in each step
-    last     ///< its end is kept
+    coarser, ///< all of it is kept, with fewer rows in each step
+    last     ///< only its end is kept
 };
 
-/// Whether an event is met by the motion, rather than a switch that a clock operates.
+/// True when an event depends on states other than phases: the motion meets it, rather than the clock.
 bool is_met_by_motion(const Model& model, const Event& event);
 
-/// A point's motion recomputed densely, step by step: of an orbit one period, of a simulation all of it.
+/// Computes the motion of a point again, with several rows in each step: of an orbit one period, of a simulation all.
 /// @param names of values or expressions; "t" is the time
 /// @throws InputError when the file does not say where the motion began
 DenseMotion dense_motion(const StoredRun& run, const PointRecord& point, const std::vector<std::string>& names,

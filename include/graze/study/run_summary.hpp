@@ -10,15 +10,16 @@
 
 namespace graze {
 
-/// How many points have which label, such as "periodic", or of branches of which type special points are, such as "GR".
+/// Number of points with each label, such as "periodic"; of branches number of special points of each type, such as
+/// "GR".
 using LabelCounts = std::vector<std::pair<std::string, std::size_t>>;
 
-/// What there is to say of a run that has been carried out.
+/// A summary of a run that has been carried out.
 struct RunSummary {
     LabelCounts labels;
-    std::string remedy;                                    ///< or what went wrong
-    std::vector<std::pair<std::string, std::string>> ends; ///< of the parts of a branch: what their last points say
-    std::string escapes; ///< the rate at which motions leave a transient, if there is one
+    std::string remedy; ///< what to do about points that failed; of a failed run its problem
+    std::vector<std::pair<std::string, std::string>> ends; ///< of each part of a branch: name, and why it ends
+    std::string escapes; ///< the rate at which motions leave a chaotic transient; empty: there is none
 };
 
 RunSummary summary_of(const RunReport& report, const ResultFile& file);

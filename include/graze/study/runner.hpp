@@ -12,39 +12,39 @@
 
 namespace graze {
 
-/// How far a study has come.
+/// Progress of a study.
 struct StudyProgress {
-    std::string run;                              ///< of which a point has been computed,
-    std::size_t done = 0, points = 0;             ///< and how many of its points there are now, and will be
-    std::size_t study_done = 0, study_points = 0; ///< the same of all runs but branches
-    std::size_t computed = 0;                     ///< of `study_done`, those that were not in the file before
-    /// Runs of kind orbit and continue that have not ended: nobody knows how long they take.
+    std::string run;                              ///< the run of which a point has just been computed
+    std::size_t done = 0, points = 0;             ///< points of this run: computed, planned
+    std::size_t study_done = 0, study_points = 0; ///< the same for all runs except branches
+    std::size_t computed = 0;                     ///< those of `study_done` that were not in the file before
+    /// Runs of orbits and branches that have not ended. Their number of points is not known beforehand.
     std::size_t branches_left = 0;
 };
 
 struct RunnerOptions {
-    int jobs = 1;                  ///< threads: of one run, and runs that do not start from one another side by side
-    bool one_by_one = false;       ///< runs wait for one another, though each uses all threads that it can
-    std::vector<std::string> only; ///< names of runs, with those they start from; empty: all
-    std::function<bool()> interrupted;
-    /// After each point.
+    int jobs = 1;                      ///< threads, shared by runs that are independent and by the chains of each run
+    bool one_by_one = false;           ///< runs follow one another, each with all threads that it can use
+    std::vector<std::string> only;     ///< names of runs; those that they need are done as well; empty: all runs
+    std::function<bool()> interrupted; ///< true stops the study
+    /// Called after each point.
     std::function<void(const StudyProgress& progress)> progress;
-    /// Each orbit of a run of kind orbit or continue, as it is found; those of different runs may take turns.
+    /// Called with each orbit of a branch as it is found. Orbits of runs that go on side by side alternate.
     std::function<void(const std::string& run, const OrbitRecord& orbit)> orbit;
 };
 
 enum class RunOutcome {
     complete,
     interrupted,
-    failed,  ///< nothing to start from, or no orbit found: `problem` says what, and `remedy` what to do
-    skipped, ///< the run that it starts from failed
+    failed,  ///< for example no orbit was found: `problem` says why, `remedy` what to do
+    skipped, ///< a run that it needs failed
 };
 
-/// What has become of one run.
+/// The outcome of one run.
 struct RunReport {
     std::string name, kind;
-    std::size_t points = 0, computed = 0; ///< planned; computed now rather than found in the file
-    std::size_t returns = 0;              ///< simulated now
+    std::size_t points = 0, computed = 0; ///< planned points; points computed now rather than found in the file
+    std::size_t returns = 0;              ///< returns to the section that were simulated now
     double seconds = 0;
     RunOutcome outcome = RunOutcome::complete;
     std::string problem, remedy; ///< of a run that failed or was skipped
@@ -52,25 +52,25 @@ struct RunReport {
     bool complete() const { return outcome == RunOutcome::complete; }
 };
 
-/// How many points a run has.
+/// Number of points of a run of motions. @throws InputError here and below for other runs
 std::size_t points_of(const StudyRun& run);
-/// In how many chains, which can be computed side by side.
+/// Number of chains of points, which can be computed side by side.
 std::size_t chains_of(const StudyRun& run);
-/// Points of a run: chains along its first axis, one for each combination of the others.
+/// The points of a run: chains along its first axis, one for each combination of the values of the other axes.
 /// @param run is copied
 /// @param system of the run's model
-/// @param start where the run begins, instead of at the model's initial state; may be null
+/// @param start at which the run begins; null: it begins at the model's initial state
 Plan plan_of(const StudyRun& run, const System& system, const PointRecord* start);
-/// Coordinates and direction of a point of that plan: what its axes have there.
+/// Coordinates of a point of the plan, which are the values of the axes, and its direction (0: the first one).
 std::vector<double> coordinates_of(const StudyRun& run, std::size_t point);
 std::size_t direction_of(const StudyRun& run, std::size_t point);
 
-/// Does what a study asks for, and keeps it. Complete runs whose settings have not changed are left as they are,
-/// unfinished ones are gone on with (branches, which take little time, begun again), and others are done anew.
-/// The file then has all that is needed to do so again (`stored_study`). Runs that fail do not keep those from being
-/// done that do not start from them.
+/// Carries out a study and stores its results. Complete runs whose settings have not changed are kept, unfinished runs
+/// are continued (branches, which take little time, begin again), and others are computed anew. The file then has all
+/// that is needed to repeat the study (`stored_study`). A run that fails does not stop runs that do not need it.
 /// Results, and their order in the file, do not depend on the number of threads.
-/// @return reports of the runs, in the order of the study; when it was interrupted, some may be unfinished, and those
+/// @return reports of the runs, in the order of the study; of an interrupted study some runs may be unfinished, and
+/// runs
 ///         that were not begun are missing
 /// @throws InputError when the file cannot be written; what a callback throws
 std::vector<RunReport> run_study(const Study& study, ResultFile& file, const RunnerOptions& options);

@@ -8,21 +8,21 @@
 
 namespace graze {
 
-/// What a picture may show by a name, for which it can be given another one (StudyPicture::names).
+/// The names that a picture may show, and that StudyPicture::names may therefore replace.
 class ShowableNames {
 public:
-    /// What the picture itself names, and what all results have.
+    /// Begins with the names in the picture itself, and those that all results have.
     explicit ShowableNames(const StudyPicture& picture);
-    /// What a run of the picture has: as it is asked for, or as a file has it.
+    /// Adds the names of a run of the picture: as a study asks for it, or as a file has it.
     void add(const StudyRun& run);
     void add(const RunRecord& run);
-    /// @param subject what gives the name, for the message
-    /// @throws InputError for a name of nothing, with those that the runs have themselves
+    /// @param subject what uses the name, for the message
+    /// @throws InputError for an unknown name, listing those that the study itself has given
     void require(const std::string& name, const Place& place, const std::string& subject) const;
 
 private:
     void add_model(const Model& model);
-    std::vector<std::string> own_, others_; ///< own: what a study calls something
+    std::vector<std::string> own_, others_; ///< own: names that the study gives
 };
 
 } // namespace graze

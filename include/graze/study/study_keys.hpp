@@ -8,15 +8,15 @@
 
 namespace graze {
 
-/// A key that a run of some kind may have.
+/// A key that runs of one kind may have in a study file.
 struct StudyKey {
     std::string name;
     std::string type; ///< "number", "whole number", "true or false", "text", "texts", "one of", or how it is written
-    std::string standard; ///< what holds where it is left out; empty: it depends, as `meaning` says
+    std::string standard; ///< its default; empty: `meaning` tells what holds where the key is left out
     std::string meaning;
-    std::optional<double> least, most; ///< of numbers
+    std::optional<double> least, most; ///< range of a number
     bool includes_least = true;
-    std::vector<std::string> words; ///< of which it is one
+    std::vector<std::string> words; ///< of type "one of": the possible values
 };
 
 /// The keys of runs of a kind, in the order in which they are described. @throws InputError for what is no kind

@@ -3,6 +3,10 @@
 #include "graze/trip/simulated_trip.hpp"
 #include "graze/trip/trip_origin.hpp"
 
+#include <optional>
+#include <string>
+#include <vector>
+
 namespace graze {
 
 /// Returns a parameter value at which a ramp may begin: so far before the loss point that the initial transient has
@@ -30,5 +34,26 @@ double delay_of_ramp(const FoldPassage& fold, double rate);
 /// @throws InputError unless the period is positive, and as drive_parameter does
 TripTime swung_trip(const System& system, const TripOrigin& origin, double amplitude, double period, const TripEnd& end,
                     const TripOptions& options = {});
+
+/// A ramp of one rate, until its end.
+struct RampRow {
+    double rate = 0, from = 0; ///< of the parameter: by time, and where it begins
+    RampedTrip ramped;
+    std::optional<double> delay;           ///< of the end beyond the point, in the parameter; none: it has not ended
+    std::optional<double> predicted_delay; ///< of a fold: see delay_of_ramp
+};
+/// @param from where all ramps begin; none: see beginning_of_ramp
+/// @param asked_as what stands before names of settings in messages, such as "--"
+/// @return a row for each rate, until options.interrupted
+/// @throws InputError for a rate that leads away from the point, and as trip_origin and ramped_trip do
+std::vector<RampRow> ramped_trips(const LossPoint& point, const std::vector<double>& rates, std::optional<double> from,
+                                  const TripEnd& end, const TripOptions& options = {},
+                                  const std::string& asked_as = "");
+
+/// Trips about one value of the parameter, at which the motion rests. @return for each amplitude, until
+/// options.interrupted
+std::vector<TripTime> swung_trips(const LossPoint& point, const TripOrigin& origin,
+                                  const std::vector<double>& amplitudes, double period, const TripEnd& end,
+                                  const TripOptions& options = {});
 
 } // namespace graze

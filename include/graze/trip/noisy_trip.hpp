@@ -49,4 +49,10 @@ struct NoisyTrips {
 NoisyTrips noisy_trips(const System& system, const TripOrigin& origin, double level, const TripEnd& end,
                        const NoiseSettings& settings = {});
 
+/// The same at several levels. @param progress called with the level's number, from 0 on, and the motions that are done
+/// @return for each level, until settings.interrupted
+std::vector<NoisyTrips> noisy_trips(const LossPoint& point, const TripOrigin& origin, const std::vector<double>& levels,
+                                    const TripEnd& end, const NoiseSettings& settings,
+                                    const std::function<void(std::size_t level, std::size_t motions)>& progress = {});
+
 } // namespace graze

@@ -3,7 +3,10 @@
 #include "graze/trip/loss_point.hpp"
 #include "graze/trip/simulated_trip.hpp"
 
+#include <cstddef>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace graze {
 
@@ -18,6 +21,19 @@ struct OvershootTrip {
     /// Returns the most accurate of these trips that reached the requested end; null if none did.
     const TripTime* best() const;
 };
+
+/// What ends the trips from a point, with how people call it.
+struct NamedEnd {
+    TripEnd end;
+    std::string words;
+    bool given = false; ///< somebody has chosen it; otherwise it is the usual one of the point
+};
+/// The usual end: of a touch the approach speed up to which the map tells of contacts, of a fold its passage.
+NamedEnd usual_end(const LossPoint& point);
+/// An approach speed at the touched surface.
+/// @param asked_as here and below what stands before names of settings in messages, such as "--"
+/// @throws InputError for a fold, which has no contact of its own
+NamedEnd end_at_speed(const LossPoint& point, double speed, const std::string& asked_as = "");
 
 /// Returns the approach speed until which the map predicts a trip: that of the requested end, bounded by the map's
 /// validity.
@@ -40,5 +56,29 @@ struct FoldTrip {
 /// Computes the passage of a fold. @throws InputError as cycles_of_passage and simulated_passage do
 FoldTrip trip_of_fold(const System& system, const FoldPassage& fold, double overshoot, const TripEnd& end,
                       bool until_passed, const TripOptions& options = {});
+
+/// What touches and folds have in common of a trip; NaN where an end has not come.
+struct TripSummary {
+    double overshoot;
+    double cycles, time; ///< by the map or the normal form
+    double end_time;     ///< until the end that was asked for, by simulation
+};
+
+/// Trips from one point at several overshoots.
+struct OvershootTrips {
+    LossPoint point;
+    NamedEnd end;
+    std::vector<OvershootTrip> of_touch{}; ///< where the point is a touch,
+    std::vector<FoldTrip> of_fold{};       ///< and where it is a fold
+    bool interrupted = false;              ///< further overshoots have no trips
+
+    std::size_t size() const { return of_touch.size() + of_fold.size(); }
+    std::vector<TripSummary> summaries() const;
+    /// The simulation of a trip that has not come to its end; null when it has. @throws InputError for another index
+    const TripTime* unfinished(std::size_t index) const;
+};
+/// @throws InputError as trip_of_touch and trip_of_fold do, and for a disturbance of a fold
+OvershootTrips overshoot_trips(const LossPoint& point, const NamedEnd& end, const std::vector<double>& overshoots,
+                               const TripOptions& options = {}, const std::string& asked_as = "");
 
 } // namespace graze

@@ -1,36 +1,36 @@
-#include "graze/record/record_periods.hpp"
-#include "graze/base/input_error.hpp"
+#include "picture/period_table.hpp"
+
 #include "graze/record/extremes.hpp"
 #include "graze/record/harmonic.hpp"
+#include "graze/record/record_periods.hpp"
 #include "graze/record/section.hpp"
-#include "program/record_tables.hpp"
-#include "program/values.hpp"
 
 #include <fmt/format.h>
 
-#include <charconv>
+#include <string>
+#include <vector>
 
 namespace graze {
 
 namespace {
 
-/// Tables with rows for each period of the reference.
+/// Base of tables whose rows are periods of the reference.
 class PeriodTable : public RecordTable {
 public:
-    using RecordTable::RecordTable;
-    void add(const std::string& file, RecordStages& stages) override {
-        header_ = stages.header();
-        channels_ = stages.channels(arguments().channels);
+    PeriodTable(const RecordTableRequest& request, bool several) : RecordTable(request, several) {}
+    void add(const std::string& file, ProcessedRecord& record) override {
+        header_ = record.header();
+        channels_ = channels_of(header_);
         PeriodSettings settings;
-        settings.reference = reference_ = header_.channel(arguments().reference, "--reference");
-        settings.level = arguments().level;
-        settings.hysteresis = arguments().hysteresis;
+        settings.reference = reference_ = header_.channel(request().reference, option("reference"));
+        settings.level = request().level;
+        settings.hysteresis = request().hysteresis;
         begin_record(file);
         const auto add = [&](const Period& period) {
-            require_few_rows(rows());
+            require_few_rows(rows(), request().asked_as);
             add_period(file, period);
         };
-        end_record(file, each_period(stages.source(), settings, add, "--").amplitude);
+        end_record(file, each_period(record.source(), settings, add, request().asked_as).amplitude);
     }
 
 protected:
@@ -49,7 +49,7 @@ private:
     std::size_t reference_ = 0;
 };
 
-/// When periods begin, how long they are, amplitudes of all channels.
+/// Begin and duration of periods, and the amplitude of each channel.
 class Periods : public PeriodTable {
 public:
     using PeriodTable::PeriodTable;
@@ -86,43 +86,26 @@ private:
     std::vector<PlanePoint> points_;
 };
 
-std::vector<double> phases_of(const std::vector<std::string>& asked) {
-    std::vector<double> phases;
-    for (const std::string& text : split_list(asked)) {
-        double value = 0;
-        const char* const end = text.data() + text.size();
-        const auto [next, error] = std::from_chars(text.data(), end, value);
-        if (error != std::errc() || next != end || !(value >= 0 && value < 1))
-            throw InputError(Place{"--phase " + text, 0, 0}, "it is no part of a period",
-                             "give numbers from 0 to less than 1, such as 0,0.25,0.5");
-        phases.push_back(value);
-    }
-    if (phases.empty())
-        phases.push_back(0);
-    return phases;
-}
-
-/// Points of sections, with the mean amplitude of the reference in the whole record: what a diagram is drawn over.
+/// Points of sections. Diagrams are drawn over the amplitude of the reference, averaged over the record.
 class Sections : public PeriodTable {
 public:
-    Sections(const RecordArguments& given, bool many)
-        : PeriodTable(given, many), phases_(phases_of(given.phases)), negated_(split_list(given.negated)) {}
+    using PeriodTable::PeriodTable;
     Figure figure() const override {
         Figure figure;
         for (const std::size_t c : channels()) {
             FigurePanel panel;
             if (several())
-                label_x(panel, {"amplitude of " + arguments().reference, header().channels[reference()].unit});
+                label_x(panel, {"amplitude of " + request().reference, header().channels[reference()].unit});
             else
                 label_x(panel, header().time);
             label_y(panel, header().channels[c]);
             panel.roomy_y = panel.roomy_x = true;
-            for (std::size_t phase = 0; phase < phases_.size(); ++phase)
+            for (std::size_t phase = 0; phase < request().phases.size(); ++phase)
                 for (const bool image : {false, true}) {
                     FigureSeries series;
                     series.colour = 2 * phase + (image ? 1 : 0);
-                    if (phases_.size() > 1 || !negated_.empty())
-                        series.title = fmt::format("phase {}{}", phases_[phase], image ? ", image" : "");
+                    if (request().phases.size() > 1 || !request().negated.empty())
+                        series.title = fmt::format("phase {}{}", request().phases[phase], image ? ", image" : "");
                     for (const Drawn& point : drawn_)
                         if (point.section.image == image && point.phase == phase)
                             series.points.push_back(
@@ -138,24 +121,24 @@ public:
 protected:
     void begin_record(const std::string&) override {
         std::vector<Table::Column> columns{{"period", ""}, {"phase", ""}};
-        if (!negated_.empty())
+        if (!request().negated.empty())
             columns.push_back({"image", ""});
         columns.push_back({"time", time_unit()});
-        columns.push_back({arguments().reference + "_amplitude", header().channels[reference()].unit});
+        columns.push_back({request().reference + "_amplitude", header().channels[reference()].unit});
         for (const std::size_t c : channels())
             columns.push_back({header().channels[c].name, header().channels[c].unit});
         begin(columns);
         symmetry_ = {};
-        for (const std::string& name : negated_)
-            symmetry_.negated.push_back(header().channel(name, "--negate"));
+        for (const std::string& name : request().negated)
+            symmetry_.negated.push_back(header().channel(name, option("negate")));
         first_ = drawn_.size();
     }
     void add_period(const std::string&, const Period& period) override {
-        for (std::size_t phase = 0; phase < phases_.size(); ++phase) {
-            drawn_.push_back({section(period, phases_[phase]), phase, 0});
-            if (negated_.empty())
+        for (std::size_t phase = 0; phase < request().phases.size(); ++phase) {
+            drawn_.push_back({section(period, request().phases[phase]), phase, 0});
+            if (request().negated.empty())
                 continue;
-            drawn_.push_back({image_section(period, phases_[phase], symmetry_), phase, 0});
+            drawn_.push_back({image_section(period, request().phases[phase], symmetry_), phase, 0});
         }
     }
     void end_record(const std::string& file, double amplitude) override {
@@ -164,8 +147,8 @@ protected:
             point.amplitude = amplitude;
             begin_row(file);
             rows().add(static_cast<double>(point.section.period));
-            rows().add(phases_[point.phase]);
-            if (!negated_.empty())
+            rows().add(request().phases[point.phase]);
+            if (!request().negated.empty())
                 rows().add(point.section.image ? "yes" : "no");
             rows().add(point.section.time);
             rows().add(point.amplitude);
@@ -180,8 +163,6 @@ private:
         std::size_t phase = 0; ///< index
         double amplitude = 0;
     };
-    std::vector<double> phases_;
-    std::vector<std::string> negated_;
     RecordSymmetry symmetry_;
     std::vector<Drawn> drawn_;
     std::size_t first_ = 0;
@@ -241,13 +222,12 @@ private:
 
 } // namespace
 
-std::unique_ptr<RecordTable> period_table(const RecordArguments& arguments) {
-    const bool several = arguments.files.size() > 1;
-    if (arguments.what == "periods")
-        return std::make_unique<Periods>(arguments, several);
-    if (arguments.what == "sections")
-        return std::make_unique<Sections>(arguments, several);
-    return std::make_unique<ExtremeTable>(arguments, several);
+std::unique_ptr<RecordTable> period_table(const RecordTableRequest& request, bool several) {
+    if (request.what == RecordTableRequest::What::periods)
+        return std::make_unique<Periods>(request, several);
+    if (request.what == RecordTableRequest::What::sections)
+        return std::make_unique<Sections>(request, several);
+    return std::make_unique<ExtremeTable>(request, several);
 }
 
 } // namespace graze

@@ -1,25 +1,28 @@
-#include "program/record_tables.hpp"
+#include "graze/picture/record_table.hpp"
 
 #include "graze/base/input_error.hpp"
 #include "graze/record/impacts.hpp"
 #include "graze/record/spectrum.hpp"
-#include "program/empty_cell.hpp"
+#include "picture/period_table.hpp"
 #include "record/even_clock.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <utility>
 
 namespace graze {
 
 namespace {
 
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); ///< an empty cell
 constexpr std::size_t most_rows = 2'000'000;
 constexpr std::size_t most_drawn = 4000; ///< pairs of least and greatest values of a curve
 
-/// A curve with so many samples that they would not be told apart: of each part its least and greatest.
+/// Thins a curve with more samples than can be distinguished: keeps the least and the greatest value of each part.
 class CurveThinner {
 public:
     void add(double time, double value) {
@@ -64,7 +67,7 @@ private:
     std::size_t part_ = 1, in_part_ = 0;
 };
 
-/// Channels over time, one panel each.
+/// The figure of channels over time, one panel each.
 class Histories {
 public:
     void add(const std::string& file, const RecordHeader& header, const std::vector<std::size_t>& channels,
@@ -106,13 +109,13 @@ private:
     std::map<std::string, std::map<std::string, CurveThinner>> curves_;
 };
 
-/// Numbers of each channel as a whole.
+/// Statistics of each channel.
 class ChannelTable : public RecordTable {
 public:
-    using RecordTable::RecordTable;
-    void add(const std::string& file, RecordStages& stages) override {
-        const RecordHeader& header = stages.header();
-        const std::vector<std::size_t> channels = stages.channels(arguments().channels);
+    ChannelTable(const RecordTableRequest& request, bool several) : RecordTable(request, several) {}
+    void add(const std::string& file, ProcessedRecord& record) override {
+        const RecordHeader& header = record.header();
+        const std::vector<std::size_t> channels = channels_of(header);
         begin({{"channel", ""},
                {"unit", ""},
                {"least", ""},
@@ -128,7 +131,7 @@ public:
         Numbers steps;
         double first = 0, last = 0, count = 0;
         Samples samples;
-        while (stages.source().read(samples)) {
+        while (record.source().read(samples)) {
             if (count == 0)
                 first = last = samples.times.front();
             for (std::size_t i = 0; i < samples.rows(); last = samples.times[i++], ++count)
@@ -137,7 +140,7 @@ public:
             for (std::size_t c = 0; c < channels.size(); ++c)
                 for (const double value : samples.values[channels[c]])
                     numbers[c].add(value);
-            if (!arguments().plot.empty())
+            if (request().drawn)
                 histories_.add(file, header, channels, samples);
         }
         for (std::size_t c = 0; c < channels.size(); ++c) {
@@ -173,24 +176,24 @@ private:
     Histories histories_;
 };
 
-/// All rows.
+/// All rows of the records.
 class SampleTable : public RecordTable {
 public:
-    using RecordTable::RecordTable;
-    void add(const std::string& file, RecordStages& stages) override {
-        const RecordHeader& header = stages.header();
-        const std::vector<std::size_t> channels = stages.channels(arguments().channels);
+    SampleTable(const RecordTableRequest& request, bool several) : RecordTable(request, several) {}
+    void add(const std::string& file, ProcessedRecord& record) override {
+        const RecordHeader& header = record.header();
+        const std::vector<std::size_t> channels = channels_of(header);
         std::vector<Table::Column> columns{{header.time.name, header.time.unit}};
         for (const std::size_t c : channels)
             columns.push_back({header.channels[c].name, header.channels[c].unit});
         begin(columns);
         Samples samples;
-        while (stages.source().read(samples)) {
-            if (!arguments().plot.empty()) {
+        while (record.source().read(samples)) {
+            if (request().drawn) {
                 histories_.add(file, header, channels, samples);
                 continue;
             }
-            require_few_rows(rows());
+            require_few_rows(rows(), request().asked_as);
             for (std::size_t i = 0; i < samples.rows(); ++i) {
                 begin_row(file);
                 rows().add(samples.times[i]);
@@ -207,20 +210,20 @@ private:
 
 class SpectrumTable : public RecordTable {
 public:
-    using RecordTable::RecordTable;
-    void add(const std::string& file, RecordStages& stages) override {
-        const RecordHeader header = stages.header();
-        const std::vector<std::size_t> channels = stages.channels(arguments().channels);
+    SpectrumTable(const RecordTableRequest& request, bool several) : RecordTable(request, several) {}
+    void add(const std::string& file, ProcessedRecord& record) override {
+        const RecordHeader header = record.header();
+        const std::vector<std::size_t> channels = channels_of(header);
         if (channels.size() != 1)
-            throw InputError("a spectrum is that of one channel", "name it by --channel");
+            throw InputError("a spectrum is that of one channel", "name it by " + option("channel"));
         const Channel& channel = header.channels[channels.front()];
         begin({{"frequency", inverse(header.time.unit)}, {"amplitude", channel.unit}});
         Spectrum found;
-        if (arguments().part > 0) {
-            found = averaged_spectrum(stages.source(), channels.front(), arguments().part);
+        if (request().part > 0) {
+            found = averaged_spectrum(record.source(), channels.front(), request().part);
         } else {
             constexpr std::size_t most = 4'000'000;
-            const Samples all = read_all(stages.source(), most);
+            const Samples all = read_all(record.source(), most);
             found = spectrum(all.values[channels.front()], even_sampling_frequency(all.times));
         }
         FigureSeries series;
@@ -254,12 +257,12 @@ private:
 
 class ImpactTable : public RecordTable {
 public:
-    using RecordTable::RecordTable;
-    void add(const std::string& file, RecordStages& stages) override {
-        const RecordHeader header = stages.header();
-        const std::vector<std::size_t> channels = stages.channels(arguments().channels);
+    ImpactTable(const RecordTableRequest& request, bool several) : RecordTable(request, several) {}
+    void add(const std::string& file, ProcessedRecord& record) override {
+        const RecordHeader header = record.header();
+        const std::vector<std::size_t> channels = channels_of(header);
         if (channels.size() != 1)
-            throw InputError("impacts are jumps of one channel, a velocity", "name it by --channel");
+            throw InputError("impacts are jumps of one channel, a velocity", "name it by " + option("channel"));
         velocity_ = header.channels[channels.front()];
         begin({{"time", header.time.unit},
                {"time_error", header.time.unit},
@@ -268,14 +271,8 @@ public:
                {"after", velocity_.unit},
                {"after_error", velocity_.unit},
                {"ratio", ""}});
-        ImpactSettings settings;
-        settings.velocity = channels.front();
-        if (!arguments().displacement.empty())
-            settings.displacement = header.channel(arguments().displacement, "--displacement");
-        settings.window = arguments().window;
-        settings.transition = arguments().transition;
-        settings.least_jump = arguments().least_jump;
-        ImpactFinder finder(borrowed(stages.source()), settings);
+        ImpactFinder finder(borrowed(record.source()), impact_settings(header, velocity_.name, request().displacement,
+                                                                       request().impacts, request().asked_as));
         std::vector<RecordedImpact> impacts;
         while (finder.next(impacts))
             for (const RecordedImpact& impact : impacts) {
@@ -285,7 +282,7 @@ public:
                     rows().add(value);
             }
     }
-    /// Velocities after impacts over those before.
+    /// Velocities after impacts over velocities before.
     Figure figure() const override {
         FigurePanel panel;
         panel.x_label = velocity_.name + " before an impact";
@@ -308,7 +305,9 @@ private:
 
 } // namespace
 
-RecordTable::RecordTable(const RecordArguments& arguments, bool several) : arguments_(&arguments), several_(several) {}
+std::vector<std::string> record_table_names() {
+    return {"channels", "samples", "periods", "sections", "extremes", "spectrum", "impacts"};
+}
 
 void RecordTable::begin(const std::vector<Table::Column>& columns) {
     std::vector<Table::Column> all;
@@ -321,8 +320,9 @@ void RecordTable::begin(const std::vector<Table::Column>& columns) {
                          [](const Table::Column& one, const Table::Column& other) {
                              return one.name == other.name && one.unit == other.unit;
                          }))
-        throw InputError("this record has other channels or units than those before",
-                         "look at records of one kind together, or choose --channel that all of them have");
+        throw InputError(
+            "this record has other channels or units than those before",
+            fmt::format("look at records of one kind together, or choose {} that all of them have", option("channel")));
     begun_ = true;
 }
 
@@ -341,26 +341,34 @@ void label_y(FigurePanel& panel, const Channel& channel) {
     panel.y_unit = channel.unit;
 }
 
-void require_few_rows(const Table& table) {
+void require_few_rows(const Table& table, const std::string& asked_as) {
     if (table.rows() > most_rows)
-        throw InputError(fmt::format("the table has more than {} rows", most_rows),
-                         "write the record to a file by --write, or take a part of it by --from and --to");
+        throw InputError(
+            fmt::format("the table has more than {} rows", most_rows),
+            fmt::format("write the record to a file by {0}write, or take a part of it by {0}from and {0}to", asked_as));
 }
 
-std::unique_ptr<RecordTable> record_table(const RecordArguments& arguments) {
-    const bool several = arguments.files.size() > 1;
-    if (arguments.what == "channels")
-        return std::make_unique<ChannelTable>(arguments, several);
-    if (arguments.what == "samples")
-        return std::make_unique<SampleTable>(arguments, several);
-    if (arguments.what == "spectrum")
-        return std::make_unique<SpectrumTable>(arguments, several);
-    if (arguments.what == "impacts")
-        return std::make_unique<ImpactTable>(arguments, several);
-    if (arguments.reference.empty())
-        throw InputError(fmt::format("nothing says what begins the periods of which {} are asked for", arguments.what),
-                         "name the channel of the input by --reference");
-    return period_table(arguments);
+std::unique_ptr<RecordTable> record_table(const RecordTableRequest& request, bool several) {
+    using What = RecordTableRequest::What;
+    switch (request.what) {
+    case What::channels:
+        return std::make_unique<ChannelTable>(request, several);
+    case What::samples:
+        return std::make_unique<SampleTable>(request, several);
+    case What::spectrum:
+        return std::make_unique<SpectrumTable>(request, several);
+    case What::impacts:
+        return std::make_unique<ImpactTable>(request, several);
+    case What::periods:
+    case What::sections:
+    case What::extremes:
+        break;
+    }
+    if (request.reference.empty())
+        throw InputError(fmt::format("nothing says what begins the periods of which {} are asked for",
+                                     record_table_names()[static_cast<std::size_t>(request.what)]),
+                         fmt::format("name the channel of the input by {}reference", request.asked_as));
+    return period_table(request, several);
 }
 
 } // namespace graze

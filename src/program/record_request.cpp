@@ -1,12 +1,15 @@
-#include "program/record_stages.hpp"
+#include "program/record_request.hpp"
 
 #include "graze/base/input_error.hpp"
 #include "program/values.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <string>
+#include <vector>
 
 namespace graze {
 
@@ -22,7 +25,7 @@ double number_of(const std::string& text, const Place& place) {
     return value;
 }
 
-/// NAME=FACTOR[+OFFSET][:UNIT]
+/// Reads NAME=FACTOR[+OFFSET][:UNIT].
 RecordProcessing::Scale scale_of(const std::string& text) {
     const Place place{"--scale " + text, 0, 0};
     const std::size_t equals = text.find('=');
@@ -46,7 +49,24 @@ RecordProcessing::Scale scale_of(const std::string& text) {
     return result;
 }
 
-RecordProcessing processing_of(const RecordArguments& arguments, const Console& console) {
+/// Reads phases: parts of a period, 0 without any.
+std::vector<double> phases_of(const std::vector<std::string>& asked) {
+    std::vector<double> phases;
+    for (const std::string& text : split_list(asked)) {
+        double value = 0;
+        const char* const end = text.data() + text.size();
+        const auto [next, error] = std::from_chars(text.data(), end, value);
+        if (error != std::errc() || next != end || !(value >= 0 && value < 1))
+            throw InputError(Place{"--phase " + text, 0, 0}, "it is no part of a period",
+                             "give numbers from 0 to less than 1, such as 0,0.25,0.5");
+        phases.push_back(value);
+    }
+    return phases.empty() ? std::vector<double>{0} : phases;
+}
+
+} // namespace
+
+RecordProcessing record_processing(const RecordArguments& arguments, const Console& console) {
     RecordProcessing processing;
     processing.asked_as = "--";
     processing.layout.columns = arguments.columns;
@@ -70,20 +90,23 @@ RecordProcessing processing_of(const RecordArguments& arguments, const Console& 
     return processing;
 }
 
-} // namespace
-
-RecordStages::RecordStages(const std::string& path, const RecordArguments& arguments, const Console& console) {
-    const RecordProcessing processing = processing_of(arguments, console);
-    record_.emplace(open_record(path, processing.layout), processing);
-}
-
-std::vector<std::size_t> RecordStages::channels(const std::vector<std::string>& asked) const {
-    std::vector<std::size_t> result;
-    for (const std::string& name : split_list(asked))
-        result.push_back(header().channel(name, "--channel"));
-    for (std::size_t c = 0; asked.empty() && c < header().channels.size(); ++c)
-        result.push_back(c);
-    return result;
+RecordTableRequest record_table_request(const RecordArguments& arguments) {
+    RecordTableRequest request;
+    const std::vector<std::string> tables = record_table_names();
+    request.what =
+        static_cast<RecordTableRequest::What>(std::find(tables.begin(), tables.end(), arguments.what) - tables.begin());
+    request.channels = split_list(arguments.channels);
+    request.reference = arguments.reference;
+    request.level = arguments.level;
+    request.hysteresis = arguments.hysteresis;
+    request.phases = phases_of(arguments.phases);
+    request.negated = split_list(arguments.negated);
+    request.displacement = arguments.displacement;
+    request.impacts = arguments.impacts;
+    request.part = arguments.part;
+    request.drawn = !arguments.plot.empty();
+    request.asked_as = "--";
+    return request;
 }
 
 } // namespace graze
