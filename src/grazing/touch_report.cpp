@@ -30,8 +30,7 @@ TouchReport touch_report(const System& system, const CycleMap& map, std::optiona
     TouchReport report;
     report.verdict = verdict_of(map);
     if (verify && !parameter)
-        throw InputError("no parameter is given that moves the orbit from its touch",
-                         "name a parameter by --parameter NAME");
+        throw InputError("no parameter is given that moves the orbit from its touch", "name a parameter that does");
     if (verify)
         report.trial = try_verdict(system, map, report.verdict, *parameter);
     if (parameter)
