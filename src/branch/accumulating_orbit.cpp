@@ -1,6 +1,7 @@
 #include "branch/accumulating_orbit.hpp"
 
 #include "base/linear_systems.hpp"
+#include "base/special_numbers.hpp"
 #include "flow/lie_derivative.hpp"
 #include "orbit/eigen_index.hpp"
 #include "orbit/newton.hpp"
@@ -20,7 +21,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 /// Loosest tolerance of the integration: errors grow with each contact and are not part of the error estimate.
 constexpr double finest = 1e-13;
 /// Share of the period that is integrated from the start before contacts are watched, since the height is of third

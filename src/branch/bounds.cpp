@@ -1,5 +1,6 @@
 #include "branch/bounds.hpp"
 
+#include "base/special_numbers.hpp"
 #include "branch/branch_state.hpp"
 #include "orbit/eigen_index.hpp"
 
@@ -13,8 +14,8 @@ namespace graze {
 
 namespace {
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-constexpr double round_off = 1e-12; // relative to the bounds, or to the scale of a parameter whose bound is zero
+constexpr double round_off_of_bound =
+    1e-12; // relative to the bounds, or to the scale of a parameter whose bound is zero
 
 /// Returns the parameter of a bound test with its bounds, if the test is not about a monitor.
 FreeBounds bounds_of(const BranchSettings& settings, const BranchTest& test) {
@@ -31,10 +32,10 @@ std::vector<BranchTest> tests_of_bounds(const BranchSettings& settings, std::spa
         const bool always = !test.monitor && !test.free;
         const double size = std::max(std::abs(least.value_or(0)), std::abs(greatest.value_or(0)));
         test.type = PointType::bound;
-        test.noise = round_off * (size > 0 ? size : 1);
-        if (test.value = least ? value - *least : nothing; least || always)
+        test.noise = round_off_of_bound * (size > 0 ? size : 1);
+        if (test.value = least ? value - *least : not_a_number; least || always)
             tests.push_back(test);
-        if (test.value = greatest ? *greatest - value : nothing; greatest || always)
+        if (test.value = greatest ? *greatest - value : not_a_number; greatest || always)
             tests.push_back(test);
     };
     add(settings.least, settings.greatest, parameters[settings.parameter.place()], {});
@@ -53,8 +54,8 @@ void test_bounds(const TestedPoint& point, std::vector<BranchTest>& tests) {
         if (!test.monitor) {
             const ParameterId one = bounds_of(point.settings, test).parameter;
             const auto which = static_cast<std::size_t>(std::find(free.begin(), free.end(), one) - free.begin());
-            test.noise =
-                std::min(test.noise, round_off * point.at.scales[index(point.equations.layout().parameter(which))]);
+            test.noise = std::min(test.noise, round_off_of_bound *
+                                                  point.at.scales[index(point.equations.layout().parameter(which))]);
         }
         tests.push_back(test);
     }

@@ -1,5 +1,6 @@
 #include "graze/branch/chatter_curve.hpp"
 
+#include "base/special_numbers.hpp"
 #include "graze/base/input_error.hpp"
 
 #include <fmt/format.h>
@@ -247,7 +248,6 @@ const std::string& ChatterCurve::ending() const {
 }
 
 SpecialPoint ChatterCurve::point() const {
-    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     const ChatterLimit& limit = state_->here;
     SpecialPoint point;
     point.type = PointType::regular;
@@ -258,7 +258,7 @@ SpecialPoint ChatterCurve::point() const {
     point.solution.residual = limit.gap;
     point.solution.certificate.admissible = true;
     point.parameter = limit.orbit.parameters[state_->plane.settings().parameter.place()];
-    point.bracket = {unknown, unknown};
+    point.bracket = {not_a_number, not_a_number};
     point.step = state_->made;
     return point;
 }

@@ -1,5 +1,6 @@
 #include "graze/branch/chatter_limit.hpp"
 
+#include "base/special_numbers.hpp"
 #include "branch/accumulating_orbit.hpp"
 #include "graze/base/input_error.hpp"
 
@@ -31,8 +32,6 @@ SelfSimilarContacts self_similar_contacts(double restitution) {
 }
 
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 struct Extrapolated {
     double value = 0, error = 0;

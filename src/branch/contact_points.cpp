@@ -1,5 +1,6 @@
 #include "branch/contact_points.hpp"
 
+#include "base/special_numbers.hpp"
 #include "branch/branch_state.hpp"
 #include "branch/grazing_switch.hpp"
 #include "branch/orbit_quantity.hpp"
@@ -19,8 +20,6 @@
 namespace graze {
 
 namespace {
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 std::unique_ptr<OrbitCondition> held(OrbitQuantity quantity) {
     return std::make_unique<OrbitQuantity>(std::move(quantity));
@@ -72,7 +71,7 @@ void test_grazing(const TestedPoint& point, std::vector<BranchTest>& tests) {
         tests.push_back({.type = type,
                          .segment = s,
                          .event = own_event(point, s),
-                         .value = event && !kept ? certificate.approach_speeds[s] : nothing,
+                         .value = event && !kept ? certificate.approach_speeds[s] : not_a_number,
                          .noise = noise * point.equations.typical_rate(point.at, s),
                          .time = point.solution.orbit.durations[s],
                          .at_end = true,
@@ -80,7 +79,7 @@ void test_grazing(const TestedPoint& point, std::vector<BranchTest>& tests) {
     }
     for (std::size_t s = 0; s < point.equations.signature().size(); ++s)
         for (const std::size_t event : point.equations.system().mode(point.equations.signature()[s].mode).watched) {
-            BranchTest test{.type = type, .segment = s, .event = event, .value = nothing, .appears = true};
+            BranchTest test{.type = type, .segment = s, .event = event, .value = not_a_number, .appears = true};
             const bool kept = is_kept(point, PointType::grazing, s, event);
             for (const OrbitMinimum& minimum : certificate.minima)
                 if (minimum.segment == s && minimum.event == event && !(minimum.value >= test.value) &&
@@ -182,7 +181,7 @@ void test_vanishing(const TestedPoint& point, std::vector<BranchTest>& tests) {
         tests.push_back({.type = PointType::vanishing,
                          .segment = s,
                          .event = own_event(point, s),
-                         .value = has_zero_duration(point, s) ? nothing : point.solution.orbit.durations[s]});
+                         .value = has_zero_duration(point, s) ? not_a_number : point.solution.orbit.durations[s]});
 }
 
 bool confirm_vanishing(BranchState&, SpecialPoint& special, const BranchTest&) {
@@ -217,7 +216,7 @@ void test_two_events(const TestedPoint& point, std::vector<BranchTest>& tests) {
                          .value = barrier && !is_kept(point, PointType::two_events, end.segment, end.event) &&
                                           !belongs_to_vanishing(point, end)
                                       ? end.value
-                                      : nothing,
+                                      : not_a_number,
                          .rate = end.rate});
     }
 }
@@ -259,7 +258,7 @@ void test_guard(const TestedPoint& point, std::vector<BranchTest>& tests) {
         tests.push_back({.type = PointType::guard,
                          .segment = s,
                          .event = own_event(point, s),
-                         .value = std::isfinite(margin) && !held ? margin : nothing});
+                         .value = std::isfinite(margin) && !held ? margin : not_a_number});
     }
 }
 
@@ -290,7 +289,7 @@ void test_sensitivity(const TestedPoint& point, std::vector<BranchTest>& tests) 
     const auto& kept = point.settings.kept;
     if (!kept || kept->type != PointType::grazing || kept->at_end)
         return;
-    double next = nothing, same = nothing, alternating = nothing, size = 1;
+    double next = not_a_number, same = not_a_number, alternating = not_a_number, size = 1;
     if (!point.settings.kept_too) {
         const CycleMap map = cycle_map_of(point.equations, point.at, {kept->segment, kept->event, kept->time, false},
                                           std::nullopt, AskedContacts::rigid);

@@ -16,7 +16,7 @@ namespace graze {
 namespace {
 
 /// Tolerance of multipliers: a double one is known only to the square root of its uncertainty.
-constexpr double near = 1e-3;
+constexpr double nearness = 1e-3;
 
 /// Returns the multipliers of the half map for half orbits, otherwise of the orbit.
 const std::vector<std::complex<double>>& own_multipliers(const SpecialPoint& point) {
@@ -27,14 +27,14 @@ const std::vector<std::complex<double>>& own_multipliers(const SpecialPoint& poi
 std::size_t multipliers_near(const SpecialPoint& point, double wanted) {
     const auto& all = own_multipliers(point);
     return static_cast<std::size_t>(
-        std::count_if(all.begin(), all.end(), [&](auto one) { return std::abs(one - wanted) < near; }));
+        std::count_if(all.begin(), all.end(), [&](auto one) { return std::abs(one - wanted) < nearness; }));
 }
 
-bool has_pair_on_circle(const SpecialPoint& point) {
+bool begins_with_pair_on_circle(const SpecialPoint& point) {
     const auto& all = own_multipliers(point);
     return multipliers_near(point, 1) >= 2 || multipliers_near(point, -1) >= 2 ||
            std::any_of(all.begin(), all.end(),
-                       [](auto one) { return one.imag() > near && std::abs(std::abs(one) - 1) < near; });
+                       [](auto one) { return one.imag() > nearness && std::abs(std::abs(one) - 1) < nearness; });
 }
 
 /// Returns the touch inside an arc, which points of other types on curves of touches have too; empty if there is none.
@@ -59,7 +59,7 @@ bool satisfies(const SpecialPoint& point, PointType type) {
     case PointType::asymmetry:
         return half && multipliers_near(point, -1) >= 1;
     case PointType::torus:
-        return has_pair_on_circle(point);
+        return begins_with_pair_on_circle(point);
     case PointType::grazing:
         return point.type == PointType::double_grazing || touch_of(point);
     default:

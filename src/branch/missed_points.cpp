@@ -11,7 +11,7 @@ namespace graze {
 
 namespace {
 
-using Multipliers = std::vector<std::complex<double>>;
+using MultiplierList = std::vector<std::complex<double>>;
 
 /// Number of unstable multipliers as an interval: multipliers on the unit circle may count as either.
 struct Count {
@@ -19,7 +19,7 @@ struct Count {
     bool is_certain() const { return least == most; }
 };
 
-Count unstable(const Multipliers& multipliers, double margin) {
+Count unstable(const MultiplierList& multipliers, double margin) {
     Count count;
     for (const std::complex<double> one : multipliers) {
         count.least += std::abs(one) > 1 + margin ? 1 : 0;
@@ -145,7 +145,7 @@ private:
         const Count before = unstable(low.multipliers, margin), after = unstable(high.multipliers, margin);
         const auto rank = static_cast<std::size_t>(std::min(before.most, after.most));
         const auto count = static_cast<std::size_t>(std::abs(after.most - before.most));
-        const Multipliers sorted = by_modulus(low.multipliers);
+        const MultiplierList sorted = by_modulus(low.multipliers);
         if (count == 0 || rank + count > sorted.size())
             return;
         std::size_t ones = 0, minus_ones = 0;
@@ -182,7 +182,7 @@ private:
         constexpr double near = 1e-3;
         return std::abs(multiplier / std::abs(multiplier) - number) < near;
     }
-    static Multipliers by_modulus(Multipliers multipliers) {
+    static MultiplierList by_modulus(MultiplierList multipliers) {
         std::sort(multipliers.begin(), multipliers.end(), [](auto a, auto b) { return std::abs(a) > std::abs(b); });
         return multipliers;
     }

@@ -1,5 +1,6 @@
 #include "branch/multiplier_points.hpp"
 
+#include "base/special_numbers.hpp"
 #include "branch/branch_state.hpp"
 #include "branch/missed_points.hpp"
 #include "branch/normal_form.hpp"
@@ -17,8 +18,6 @@
 namespace graze {
 
 namespace {
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 bool is_flip(PointType type) {
     return type == PointType::flip || type == PointType::asymmetry;
@@ -121,7 +120,7 @@ void test_fold(const TestedPoint& point, std::vector<BranchTest>& tests) {
         test.noise = least_rise * point.at.scales[index(place)];
     } else {
         const bool kept = is_kept(point, PointType::fold) || is_kept(point, PointType::branch_point);
-        test.value = kept ? nothing : point.at.system.periodic_determinant();
+        test.value = kept ? not_a_number : point.at.system.periodic_determinant();
         test.noise = point.at.system.periodic_noise();
     }
     tests.push_back(test);
@@ -169,14 +168,14 @@ std::unique_ptr<OrbitCondition> condition_of_fold(const OrbitEquations& equation
 void test_flip(const TestedPoint& point, std::vector<BranchTest>& tests) {
     const bool tested = !point.equations.symmetry() && !is_kept(point, PointType::flip);
     tests.push_back({.type = where_curves_meet(point, PointType::flip),
-                     .value = tested ? point.at.system.antiperiodic_determinant() : nothing,
+                     .value = tested ? point.at.system.antiperiodic_determinant() : not_a_number,
                      .noise = tested ? point.at.system.antiperiodic_noise() : 0});
 }
 
 void test_asymmetry(const TestedPoint& point, std::vector<BranchTest>& tests) {
     const bool tested = point.equations.symmetry() && !is_kept(point, PointType::asymmetry);
     tests.push_back({.type = where_curves_meet(point, PointType::asymmetry),
-                     .value = tested ? point.at.system.antiperiodic_determinant() : nothing,
+                     .value = tested ? point.at.system.antiperiodic_determinant() : not_a_number,
                      .noise = tested ? point.at.system.antiperiodic_noise() : 0});
 }
 
@@ -203,7 +202,7 @@ std::vector<BranchStart> leave_asymmetry(const System& system, const SpecialPoin
 
 void test_branch_point(const TestedPoint& point, std::vector<BranchTest>& tests) {
     tests.push_back({.type = PointType::branch_point,
-                     .value = is_kept(point, PointType::branch_point) ? nothing : point.determinant,
+                     .value = is_kept(point, PointType::branch_point) ? not_a_number : point.determinant,
                      .singular = true});
 }
 
@@ -222,7 +221,7 @@ std::vector<BranchStart> leave_branch_point(const System& system, const SpecialP
 void test_torus(const TestedPoint& point, std::vector<BranchTest>& tests) {
     constexpr double least_growth = 1e-9; // noise of the product of a pair minus one
     const auto& multipliers = multipliers_followed(point.solution);
-    BranchTest test{.type = where_curves_meet(point, PointType::torus), .value = nothing};
+    BranchTest test{.type = where_curves_meet(point, PointType::torus), .value = not_a_number};
     std::complex<double> product = 1;
     double smallest = 1, others = 1;
     for (std::size_t i = 0; i < multipliers.size(); ++i)

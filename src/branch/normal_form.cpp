@@ -151,7 +151,7 @@ void null_vectors(const MatrixXcd& matrix, VectorXcd& right, VectorXcd& left) {
 }
 
 /// Relative error of values computed from derivatives, against their largest terms.
-constexpr double round_off = 1e-12;
+constexpr double round_off_of_product = 1e-12;
 /// Relative size of the product of both null vectors below which the multiplier counts as multiple; the null vectors of
 /// a located point are less accurate than round-off.
 constexpr double least_product = 1e-9;
@@ -194,7 +194,7 @@ std::optional<Cubic> cubic_coefficient(const OrbitEquations& equations, const Or
     const double spread = 2 * mean_spread.norm() + second_spread.norm();
     const double error = spread * size + with_q.norm() * (second.norm() + 2 * mean.norm()) + parts * q.norm();
     const bool is_simple = std::abs(product) > least_product * left.norm() * (expansion.closing() * q).norm();
-    const Cubic result{-(third + rest) / product, round_off * error / std::abs(product), is_simple};
+    const Cubic result{-(third + rest) / product, round_off_of_product * error / std::abs(product), is_simple};
     if (!std::isfinite(result.value.real()) || !std::isfinite(result.value.imag()) || !std::isfinite(result.error))
         return std::nullopt;
     return result;

@@ -30,8 +30,8 @@ constexpr PeriodsTaken next_period{0, 1};
 constexpr PeriodsTaken all_choices[] = {next_period, {1, 1}, {2, 1}, {1, 2}, {2, 2}};
 
 /// Follows the motion from the middle of the longest segment of an orbit, and returns it as an orbit.
-std::optional<Orbit> followed(const Simulation& simulation, const Orbit& orbit, const PeriodsTaken& periods,
-                              std::string& why) {
+std::optional<Orbit> followed_motion(const Simulation& simulation, const Orbit& orbit, const PeriodsTaken& periods,
+                                     std::string& why) {
     const double period = orbit.return_time() * periods.taken;
     const auto longest = static_cast<std::size_t>(std::max_element(orbit.durations.begin(), orbit.durations.end()) -
                                                   orbit.durations.begin());
@@ -116,7 +116,7 @@ std::optional<Orbit> reordered_beyond(const System& system, const SpecialPoint& 
         there += aside * *off;
     }
     std::string why;
-    auto candidate = followed(simulation, problem.equations().orbit_of(there), next_period, why);
+    auto candidate = followed_motion(simulation, problem.equations().orbit_of(there), next_period, why);
     return candidate && !have_same_segments(*candidate, orbit) ? candidate : std::nullopt;
 }
 
@@ -180,7 +180,7 @@ BranchStart with_events_reordered(const System& system, const SpecialPoint& poin
                     const Eigen::VectorXd there =
                         OrbitProblem::vector_of(u) + side * distance * OrbitProblem::vector_of(tangent);
                     const Orbit beyond = problem.equations().orbit_of(there);
-                    const auto candidate = followed(simulation, beyond, periods, why);
+                    const auto candidate = followed_motion(simulation, beyond, periods, why);
                     if (!candidate || have_same_segments(*candidate, orbit))
                         continue;
                     if (auto start = start_from(simulation, *candidate, settings,

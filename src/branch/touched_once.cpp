@@ -11,8 +11,8 @@ namespace graze {
 
 namespace {
 
-constexpr double touching = 1e-6; // share of the function's size; touches are located far more accurately
-constexpr double slow = 1e-4;     // share of the typical rate
+constexpr double touching = 1e-6;      // share of the function's size; touches are located far more accurately
+constexpr double slow_approach = 1e-4; // share of the typical rate
 
 /// True when a segment ends with a contact of nearly zero speed, or near an extremum of another watched function.
 bool may_touch_at_ends(const Shooting& equations, const OrbitEvaluation& at, const Certificate& certificate) {
@@ -23,7 +23,7 @@ bool may_touch_at_ends(const Shooting& equations, const OrbitEvaluation& at, con
             return true;
     }
     return std::any_of(certificate.end_values.begin(), certificate.end_values.end(), [&](const EndValue& one) {
-        return !(std::abs(one.rate) > slow * equations.typical_rate(at, one.segment, one.event));
+        return !(std::abs(one.rate) > slow_approach * equations.typical_rate(at, one.segment, one.event));
     });
 }
 

@@ -85,7 +85,7 @@ std::vector<FitMismatch> mismatches_of(const FitRows& rows, const std::vector<Pi
     return found;
 }
 
-std::string text_of_mismatches(const std::vector<FitMismatch>& mismatches, const FitTask& task) {
+std::string text_of(const std::vector<FitMismatch>& mismatches, const FitTask& task) {
     std::string text;
     for (const FitMismatch& one : mismatches) {
         text += fmt::format("{}'{}' ", text.empty() ? "" : "; ", task.outputs[one.output].name);

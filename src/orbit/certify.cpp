@@ -1,5 +1,6 @@
 #include "orbit/certify.hpp"
 
+#include "base/special_numbers.hpp"
 #include "graze/flow/roots.hpp"
 #include "orbit/eigen_index.hpp"
 #include "orbit/shooting.hpp"
@@ -156,7 +157,6 @@ private:
     /// may have either sign and falls through zero where a positive maximum precedes a negative minimum, so of the two
     /// the one nearer to zero is listed: its value passes continuously through zero where a fall appears.
     void add_clearances(std::size_t w, double end, std::vector<OrbitMinimum>& result) const {
-        constexpr double infinity = std::numeric_limits<double>::infinity();
         const std::vector<Extremum>& all = extrema_[w];
         const std::size_t event = mode_->watched[w];
         const auto note = [&](const Extremum& one, double value) {
@@ -196,7 +196,6 @@ private:
 /// Returns the margin by which guards choose the alternative that leads to `next`: negative when they do not.
 double guard_margin(const System::CompiledTransition& transition, std::size_t next, std::span<const double> inputs,
                     std::span<double> work) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     double before = infinity, best = -infinity;
     std::vector<double> values;
     for (const auto& alternative : transition.next) {

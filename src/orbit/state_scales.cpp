@@ -1,5 +1,7 @@
 #include "orbit/state_scales.hpp"
 
+#include "base/special_numbers.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,7 +9,6 @@
 namespace graze {
 
 void StateScales::begin() {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     least_.assign(largest_.size(), infinity);
     greatest_.assign(largest_.size(), -infinity);
     sizes_.assign(largest_.size(), 0.0);

@@ -1,3 +1,4 @@
+#include "base/special_numbers.hpp"
 #include "picture/drawn_labels.hpp"
 #include "picture/picture_kinds.hpp"
 
@@ -151,9 +152,8 @@ private:
     /// Ranges of the values over all attractors, as the scale of their differences; unbounded motions do not count.
     std::vector<double> spreads_of_attractors(const std::string& direction) const {
         const std::size_t values = run_->record.values.size();
-        constexpr double none = std::numeric_limits<double>::infinity();
         constexpr double rounding = 1e-6; // for values that are nearly constant
-        std::vector<double> least(values, none), greatest(values, -none), spreads;
+        std::vector<double> least(values, infinity), greatest(values, -infinity), spreads;
         auto rows = run_->rows({.columns = {"label"}, .statistics = run_->value_names(), .directions = {direction}});
         while (rows.next())
             for (std::size_t v = 0; v < values && drawn_as(rows.text(0)) == DrawnAs::attractor; ++v) {

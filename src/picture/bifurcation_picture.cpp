@@ -14,13 +14,13 @@ namespace graze {
 namespace {
 
 constexpr std::size_t most_marks = 8;
-constexpr std::size_t most_circles = 200; ///< in a series drawn over another run; more are drawn as crosses
-constexpr double least_stretch = 0.01;    ///< least fraction of a sweep on either side of a marked change
+constexpr std::size_t most_overlaid_circles = 200; ///< in a series drawn over another run; more are drawn as crosses
+constexpr double least_stretch = 0.01;             ///< least fraction of a sweep on either side of a marked change
 /// Meaning of the dotted lines: consecutive stretches of a sweep differ in one of these.
 constexpr const char* meaning_of_marks = "label, period, signature or symmetry changes";
 
 /// Coordinates at which the kind of attractor changes between two stretches of a sweep that are long enough.
-std::vector<double> changes(const StoredRun& run, const std::string& direction) {
+std::vector<double> places_of_change(const StoredRun& run, const std::string& direction) {
     auto rows = run.rows({.columns = {"label", "period", "symmetric", "chain", "signature"},
                           .quantities = {run.record.coordinates.front().name},
                           .directions = {direction}});
@@ -156,7 +156,7 @@ void add_samples(FigurePanel& panel, const StudyPicture& picture, const StoredRu
     if (!note.empty())
         panel.notes.push_back(named_with(note, over ? shown_name(picture, run.record.name) : ""));
     for (std::size_t s = before; over && s < before + samplings.size(); ++s)
-        if (panel.series[s].points.size() > most_circles)
+        if (panel.series[s].points.size() > most_overlaid_circles)
             mark_by_crosses(panel.series[s], s - before);
 }
 
@@ -221,7 +221,7 @@ Figure bifurcation_picture(const StudyPicture& picture, const ResultFile& file) 
                 if (!panel.x_range && picture.x.empty())
                     panel.x_range = shown_extent(run);
                 if (run.record.kind == "sweep" && picture.x.empty())
-                    panel.marks = changes(run, direction);
+                    panel.marks = places_of_change(run, direction);
                 panel.marks_title = meaning_of_marks;
                 figure.panels.push_back(std::move(panel));
                 shown.push_back({values[v], direction});

@@ -1,3 +1,4 @@
+#include "base/special_numbers.hpp"
 #include "graze/branch/special_point.hpp"
 #include "graze/results/name_advice.hpp"
 #include "graze/results/stored_orbit.hpp"
@@ -26,7 +27,7 @@ constexpr std::size_t most_panels = 4;
 
 /// The property of an orbit that decides how the branch is drawn there.
 enum class Look { stable, unstable, unphysical };
-constexpr std::array<std::pair<Look, const char*>, 3> looks{
+constexpr std::array<std::pair<Look, const char*>, 3> branch_looks{
     {{Look::stable, "stable"}, {Look::unstable, "unstable"}, {Look::unphysical, "unphysical"}}};
 
 struct DrawnPoint {
@@ -108,7 +109,6 @@ std::vector<DrawnPoint> points_of(const StoredRun& run, const StudyPicture& pict
     auto rows = run.rows({.columns = {"part", "label", "type", "stable", "admissible", "step", "arclength"},
                           .quantities = drawn,
                           .directions = picture.directions});
-    constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
     std::vector<DrawnPoint> points;
     while (rows.next()) {
         DrawnPoint& point = points.emplace_back();
@@ -119,7 +119,7 @@ std::vector<DrawnPoint> points_of(const StoredRun& run, const StudyPicture& pict
         point.look = rows.integer(4) == 0 ? Look::unphysical : rows.integer(3) == 0 ? Look::unstable : Look::stable;
         point.step = rows.integer(5);
         const auto number = [&](std::size_t column) { // infinite values cannot be drawn
-            return rows.is_null(column) || std::isinf(rows.number(column)) ? nothing : rows.number(column);
+            return rows.is_null(column) || std::isinf(rows.number(column)) ? not_a_number : rows.number(column);
         };
         point.along = number(6);
         point.x = number(7);
@@ -289,7 +289,7 @@ void add_legend(FigurePanel& panel, const StudyPicture& picture, const std::vect
             if (stretch.points.size() > 1 && (!kept[r] || stretch.look == Look::unphysical))
                 shown.insert(stretch.look);
     const std::size_t colour = runs.size() > 1 ? FigureSeries::black : 0;
-    for (const auto& [look, name] : looks)
+    for (const auto& [look, name] : branch_looks)
         if (shown.contains(look))
             add(name, style_of(look), look == Look::unphysical ? FigureSeries::grey : colour);
     add_symbols(panel, picture, points, colour);

@@ -1,5 +1,7 @@
 #include "picture/contour_lines.hpp"
 
+#include "base/special_numbers.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -42,7 +44,6 @@ std::vector<double> contour_levels(const ContourGrid& grid, std::size_t about) {
 }
 
 std::vector<PlanePoint> contour_line(const ContourGrid& grid, double level) {
-    constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
     const std::size_t across = grid.x.size();
     std::vector<PlanePoint> points;
     for (std::size_t j = 0; j + 1 < grid.y.size(); ++j)
@@ -67,7 +68,7 @@ std::vector<PlanePoint> contour_line(const ContourGrid& grid, double level) {
             }
             // Two crossings, or four at a saddle, where either pairing is valid.
             for (std::size_t k = 0; k + 1 < crossings.size(); k += 2)
-                points.insert(points.end(), {crossings[k], crossings[k + 1], {nothing, nothing}});
+                points.insert(points.end(), {crossings[k], crossings[k + 1], {not_a_number, not_a_number}});
         }
     return points;
 }

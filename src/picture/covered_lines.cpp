@@ -12,11 +12,11 @@ namespace graze {
 
 namespace {
 
-constexpr double side = 0.4;          ///< side of a square in points; lines that are further apart are both visible
-constexpr double together = 30;       ///< least common length in points of covered lines; crossings are shorter
-constexpr double covered_share = 0.7; ///< least covered fraction of a line; otherwise enough of it is visible
+constexpr double square_side = 0.4; ///< side of a square in points; lines that are further apart are both visible
+constexpr double least_common_length = 30; ///< least common length in points of covered lines; crossings are shorter
+constexpr double covered_share = 0.7;      ///< least covered fraction of a line; otherwise enough of it is visible
 constexpr std::size_t most_layers = 2;
-constexpr double longest = 1e5; ///< points; limits the work for lines that leave the page
+constexpr double longest_line = 1e5; ///< points; limits the work for lines that leave the page
 
 using Squares = std::unordered_set<std::uint64_t>;
 
@@ -27,7 +27,7 @@ bool is_line(const FigureSeries& series) {
 
 /// The square of a point of the page; coordinates are not negative.
 std::uint64_t square_at(const PlanePoint& point) {
-    return static_cast<std::uint64_t>(point.x / side) << 32 | static_cast<std::uint64_t>(point.y / side);
+    return static_cast<std::uint64_t>(point.x / square_side) << 32 | static_cast<std::uint64_t>(point.y / square_side);
 }
 
 /// Calls `visit` with points of a line in the frame, at most half a square apart.
@@ -43,8 +43,8 @@ void walk(const FigureSeries& series, const FigurePanel& panel, const PanelLayou
         if (!is_drawn(line[i - 1], panel) || !is_drawn(line[i], panel))
             continue;
         const PlanePoint from = place_of(line[i - 1]), to = place_of(line[i]);
-        const double length = std::min(std::hypot(to.x - from.x, to.y - from.y), longest);
-        const auto steps = static_cast<std::size_t>(length / (side / 2)) + 1;
+        const double length = std::min(std::hypot(to.x - from.x, to.y - from.y), longest_line);
+        const auto steps = static_cast<std::size_t>(length / (square_side / 2)) + 1;
         for (std::size_t k = 0; k < steps; ++k) {
             const double part = static_cast<double>(k) / static_cast<double>(steps);
             const PlanePoint here{from.x + part * (to.x - from.x), from.y + part * (to.y - from.y)};
@@ -73,7 +73,8 @@ std::vector<std::size_t> covering_lines(const FigurePanel& panel, const PanelLay
             const auto is_covered = [&](std::uint64_t square) { return over.contains(square); };
             const Squares& under = squares[colours[below]];
             const auto shared = static_cast<double>(std::count_if(under.begin(), under.end(), is_covered));
-            if (shared * side > together && shared > covered_share * static_cast<double>(under.size()))
+            if (shared * square_side > least_common_length &&
+                shared > covered_share * static_cast<double>(under.size()))
                 ++covering[colours[below]];
         }
     std::vector<std::size_t> counts;

@@ -1,5 +1,6 @@
 #include "graze/picture/design_page.hpp"
 
+#include "base/special_numbers.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/picture/trip_series.hpp"
 #include "graze/picture/yield_picture.hpp"
@@ -15,8 +16,6 @@
 namespace graze {
 
 namespace {
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); // interrupts a line
 
 struct ClassStyle {
     GrazingOutcome outcome;
@@ -117,7 +116,7 @@ private:
             bool any = false, before = false;
             for (const MappedValue& one : curve.points) {
                 const bool usable = one.found && one.admissible, is = usable && one.outcome == style.outcome;
-                series.points.push_back({one.x, usable && (is || before) ? one.value : nothing});
+                series.points.push_back({one.x, usable && (is || before) ? one.value : not_a_number});
                 any = any || is;
                 before = is;
             }
@@ -172,7 +171,7 @@ private:
             grid.y.push_back(plane.points[i * points].y);
         }
         for (const MappedValue& one : plane.points)
-            grid.values.push_back(one.found && one.admissible ? one.value : nothing);
+            grid.values.push_back(one.found && one.admissible ? one.value : not_a_number);
         constexpr std::size_t about = 8; // approximate number of levels
         for (const double level : contour_levels(grid, about)) {
             FigureSeries series;
@@ -229,7 +228,7 @@ private:
         for (const TuningPoint& one : tuning.points)
             line.points.push_back({one.value, one.found && one.value >= tuning.least && one.value <= tuning.greatest
                                                   ? one.position
-                                                  : nothing});
+                                                  : not_a_number});
         panel.series = {line, mark({report_.value, nominal(stop)}, "the device")};
         panel.marks = {tuning.least, tuning.greatest};
         figure_.panels.push_back(std::move(panel));

@@ -12,7 +12,7 @@ namespace {
 constexpr double column_width = 0.42; ///< points
 /// Slant of strokes in points: viewers align exactly vertical lines with pixels, which makes thin curves jagged.
 constexpr double slant = 0.06;
-constexpr double joined = 1; ///< greatest vertical distance of joined dots, in widths
+constexpr double joining_distance = 1; ///< greatest vertical distance of joined dots, in widths
 /// Extension of a stroke beyond the centre of its last dot, in widths: pi/8, so that a single dot keeps its area.
 constexpr double reach_of_dot = 0.39;
 
@@ -76,7 +76,7 @@ std::vector<DotStroke> dot_strokes(std::span<const InterleavedDot> dots, const P
     for (const PageDot& dot : seen) {
         const auto column = static_cast<std::uint64_t>(dot.x / column_width);
         const bool goes_on =
-            run.dots > 0 && column == at && dot.series == run.series && dot.y - run.high < joined * width;
+            run.dots > 0 && column == at && dot.series == run.series && dot.y - run.high < joining_distance * width;
         if (!goes_on && run.dots > 0)
             add(at, run);
         if (!goes_on)

@@ -19,7 +19,7 @@ struct LabelMark {
     MarkOfLabel mark;
 };
 
-constexpr std::array<LabelMark, 8> marks{{
+constexpr std::array<LabelMark, 8> label_marks{{
     {Label::unsettled, {FigureSeries::grey, 2, 4}},
     {Label::transient, {FigureSeries::grey, 6, 3}},
     {Label::escaped, {FigureSeries::grey, 1, 5}},
@@ -62,10 +62,10 @@ std::string note_of_left_out(const StoredRun& run, const std::vector<std::string
 }
 
 MarkOfLabel mark_of_label(std::string_view label) {
-    for (const LabelMark& one : marks)
+    for (const LabelMark& one : label_marks)
         if (label == name_of(one.label))
             return one.mark;
-    return marks.front().mark;
+    return label_marks.front().mark;
 }
 
 } // namespace graze

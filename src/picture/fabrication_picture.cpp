@@ -13,26 +13,27 @@ namespace graze {
 namespace {
 
 // In pixels, like all positions on the page.
-constexpr double page_width = 1000, margin = 20, title_height = 26, section_height = 112, gap = 16, letter = 14;
-constexpr std::size_t columns = 2;
+constexpr double fabrication_width = 1000, page_margin = 20, title_height = 26, section_height = 112, row_gap = 16,
+                 letter_size = 14;
+constexpr std::size_t row_columns = 2;
 
 struct MaterialLook {
     ProcessMaterial material;
     const char *name, *colour;
 };
 /// Materials in drawing order, from the lowest layer upwards; the colours differ in grey too.
-constexpr std::array<MaterialLook, 4> looks{{{ProcessMaterial::silicon, "silicon", "#b8bec6"},
-                                             {ProcessMaterial::epoxy, "epoxy (SU-8)", "#3f7f4f"},
-                                             {ProcessMaterial::resist, "photoresist", "#e8a33d"},
-                                             {ProcessMaterial::aluminium, "aluminium", "#1c2f5c"}}};
+constexpr std::array<MaterialLook, 4> material_looks{{{ProcessMaterial::silicon, "silicon", "#b8bec6"},
+                                                      {ProcessMaterial::epoxy, "epoxy (SU-8)", "#3f7f4f"},
+                                                      {ProcessMaterial::resist, "photoresist", "#e8a33d"},
+                                                      {ProcessMaterial::aluminium, "aluminium", "#1c2f5c"}}};
 
 /// Range of the coordinates of all cross-sections, which have one scale.
-struct Extent {
+struct CrossSection {
     double left = 0, right = 0, low = 0, high = 0;
 };
 
-Extent extent_of(const std::vector<ProcessStep>& steps) {
-    Extent extent;
+CrossSection cross_section_of(const std::vector<ProcessStep>& steps) {
+    CrossSection extent;
     for (const ProcessStep& step : steps)
         for (const ProcessSlab& slab : step.slabs) {
             extent.left = std::min(extent.left, slab.left);
@@ -46,35 +47,36 @@ Extent extent_of(const std::vector<ProcessStep>& steps) {
 class FabricationPicture {
 public:
     explicit FabricationPicture(const std::vector<ProcessStep>& steps)
-        : steps_(&steps), extent_(extent_of(steps)), rows_((steps.size() + columns) / columns),
-          page_height_(static_cast<double>(rows_) * (title_height + section_height + gap) + 2 * margin) {}
+        : steps_(&steps), extent_(cross_section_of(steps)), rows_((steps.size() + row_columns) / row_columns),
+          page_height_(static_cast<double>(rows_) * (title_height + section_height + row_gap) + 2 * page_margin) {}
 
     std::string text(const std::string& ending, const std::string& output) {
         for (std::size_t i = 0; i < steps_->size(); ++i)
             draw((*steps_)[i], i);
         write_legend(steps_->size());
-        const std::string font = fmt::format("font 'sans,{:.3g}'", ending == "pdf" ? 0.75 * letter : letter);
+        const std::string font = fmt::format("font 'sans,{:.3g}'", ending == "pdf" ? 0.75 * letter_size : letter_size);
         const std::string size =
             ending == "pdf"
-                ? fmt::format("pdfcairo noenhanced size {:.3f}in,{:.3f}in", page_width / 96, page_height_ / 96)
-            : ending == "png"
-                ? fmt::format("pngcairo noenhanced size {:.0f},{:.0f} fontscale 1.5", 2 * page_width, 2 * page_height_)
-                : fmt::format("svg noenhanced size {:.0f},{:.0f} background rgb 'white'", page_width, page_height_);
+                ? fmt::format("pdfcairo noenhanced size {:.3f}in,{:.3f}in", fabrication_width / 96, page_height_ / 96)
+            : ending == "png" ? fmt::format("pngcairo noenhanced size {:.0f},{:.0f} fontscale 1.5",
+                                            2 * fabrication_width, 2 * page_height_)
+                              : fmt::format("svg noenhanced size {:.0f},{:.0f} background rgb 'white'",
+                                            fabrication_width, page_height_);
         return fmt::format("set terminal {} {}\nset output {}\nset encoding utf8\nunset key\nunset tics\nunset border\n"
                            "set lmargin at screen 0\nset rmargin at screen 1\nset bmargin at screen 0\nset tmargin at "
                            "screen 1\nset xrange [0:{}]\nset yrange [{}:0]\n{}plot NaN\nset output\n",
-                           size, font, quoted_path(output), page_width, page_height_, commands_);
+                           size, font, quoted_path(output), fabrication_width, page_height_, commands_);
     }
 
 private:
     /// Upper left corner of a step's cross-section.
     std::pair<double, double> corner(std::size_t place) const {
-        const double width = page_width / static_cast<double>(columns);
-        const std::size_t row = place / columns;
-        return {width * static_cast<double>(place % columns) + margin,
-                margin + static_cast<double>(row) * (title_height + section_height + gap)};
+        const double width = fabrication_width / static_cast<double>(row_columns);
+        const std::size_t row = place / row_columns;
+        return {width * static_cast<double>(place % row_columns) + page_margin,
+                page_margin + static_cast<double>(row) * (title_height + section_height + row_gap)};
     }
-    static double section_width() { return page_width / static_cast<double>(columns) - 2 * margin; }
+    static double section_width() { return fabrication_width / static_cast<double>(row_columns) - 2 * page_margin; }
 
     void rectangle(double left, double top, double right, double bottom, const char* colour) {
         // The border has the same colour, so that no seams appear between touching slabs.
@@ -91,7 +93,7 @@ private:
         const double across = section_width() / (extent_.right - extent_.left),
                      up = section_height / (extent_.high - extent_.low), base = top + title_height + section_height;
         write(step.text, left, top + title_height / 2);
-        for (const MaterialLook& look : looks)
+        for (const MaterialLook& look : material_looks)
             for (const ProcessSlab& slab : step.slabs)
                 if (slab.material == look.material)
                     rectangle(left + (slab.left - extent_.left) * across, base - (slab.high - extent_.low) * up,
@@ -104,7 +106,7 @@ private:
         constexpr double box = 18, row = 25;
         const auto [left, top] = corner(place);
         double y = top + title_height / 2;
-        for (const MaterialLook& look : looks) {
+        for (const MaterialLook& look : material_looks) {
             rectangle(left, y - box / 2, left + 2 * box, y + box / 2, look.colour);
             write(look.name, left + 3 * box, y);
             y += row;
@@ -115,7 +117,7 @@ private:
     }
 
     const std::vector<ProcessStep>* steps_;
-    Extent extent_;
+    CrossSection extent_;
     std::size_t rows_;
     double page_height_;
     std::string commands_;

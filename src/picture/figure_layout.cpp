@@ -20,8 +20,8 @@ constexpr double sheet = 250;       ///< mm; greatest height of pictures without
 constexpr double legible = 20;      ///< mm; least height of panels that are made lower for that
 
 // In units of the font size.
-constexpr double line = 1.3, note_line = 1.25, margin = 0.6, tic_length = 0.45, gap_at_tic = 0.3, gap_of_panels = 1,
-                 title_size = 1.1;
+constexpr double line_height = 1.3, note_line = 1.25, edge_margin = 0.6, tic_length = 0.45, gap_at_tic = 0.3,
+                 gap_of_panels = 1, title_size = 1.1;
 constexpr std::size_t most_title_lines = 3, most_note_lines = 3;
 
 double font_of(const FigureStyle& style, double width) {
@@ -30,7 +30,7 @@ double font_of(const FigureStyle& style, double width) {
     return width < narrow ? narrow_font : std::max(usual_font, usual_font * width / usual_width);
 }
 
-Box box_of(const PlacedText& text) {
+Box text_box(const PlacedText& text) {
     const double length = width_of(text.text) * text.size, height = text.size;
     if (text.upright)
         return Box::around(text.at, height, length);
@@ -174,11 +174,11 @@ private:
         for (const PanelAxis::Tic& tic : page_.panels[p].y.tics)
             numbers = std::max(numbers, width_of(tic.text));
         const double lines = static_cast<double>(y_labels_[p].size());
-        return font() * (numbers + gap_at_tic + tic_length + lines * line + 0.6);
+        return font() * (numbers + gap_at_tic + tic_length + lines * line_height + 0.6);
     }
     double room_at_right(std::size_t p) const {
         const std::vector<PanelAxis::Tic>& tics = page_.panels[p].x.tics;
-        return font() * (tics.empty() ? margin : margin + width_of(tics.back().text) / 2);
+        return font() * (tics.empty() ? edge_margin : edge_margin + width_of(tics.back().text) / 2);
     }
     /// Wraps title and axis labels to the available lengths.
     void write_labels(std::size_t p) {
@@ -192,7 +192,9 @@ private:
         y_labels_[p] =
             axis_label(panel.y_label, panel.y_words, panel.y_unit, page_.panels[p].y.power, height, figure_->symbols);
     }
-    double room_above(std::size_t p) const { return font() * (line * static_cast<double>(titles_[p].size()) + 0.5); }
+    double room_above(std::size_t p) const {
+        return font() * (line_height * static_cast<double>(titles_[p].size()) + 0.5);
+    }
     /// Height of the lines reserved for notes.
     double room_of_notes(std::size_t p) const {
         return note_line * legend_font(font()) * static_cast<double>(reserved_[p]);
@@ -225,12 +227,13 @@ private:
         return more;
     }
     double room_of_axis(std::size_t p) const {
-        return font() * (tic_length + gap_at_tic + 1 + 0.2 + line * static_cast<double>(x_labels_[p].size()) + 0.2);
+        return font() *
+               (tic_length + gap_at_tic + 1 + 0.2 + line_height * static_cast<double>(x_labels_[p].size()) + 0.2);
     }
 
     void measure() {
         left_.assign(columns_, 0);
-        right_.assign(columns_, font() * margin);
+        right_.assign(columns_, font() * edge_margin);
         for (std::size_t p = 0; p < page_.panels.size(); ++p) {
             PanelLayout& panel = page_.panels[p];
             panel.y = panel_axis(figure_->panels[p], false, height_of(p), font());
@@ -240,7 +243,7 @@ private:
             right_[column_of(p)] = std::max(right_[column_of(p)], room_at_right(p));
         }
         const double beside = std::accumulate(left_.begin(), left_.end(), 0.0) +
-                              std::accumulate(right_.begin(), right_.end(), 0.0) + 2 * margin * font();
+                              std::accumulate(right_.begin(), right_.end(), 0.0) + 2 * edge_margin * font();
         frame_width_ = std::max(least_height, (page_.width - beside) / static_cast<double>(columns_));
         above_.assign(rows_, 0);
         below_.assign(rows_, 0);
@@ -252,9 +255,9 @@ private:
             below_[last_row_of(p)] =
                 std::max(below_[last_row_of(p)], room_of_axis(p) + legend + room_of_notes(p) + gap_of_panels * font());
         }
-        title_height_ = font() * (margin + title_size * line * static_cast<double>(figure_title().size()));
-        legend_height_ =
-            place_legend(page_.legend, margin * font(), 0, page_.width - 2 * margin * font(), font(), figure_->symbols);
+        title_height_ = font() * (edge_margin + title_size * line_height * static_cast<double>(figure_title().size()));
+        legend_height_ = place_legend(page_.legend, edge_margin * font(), 0, page_.width - 2 * edge_margin * font(),
+                                      font(), figure_->symbols);
         const double around = title_height_ + legend_height_ + std::accumulate(above_.begin(), above_.end(), 0.0) +
                               std::accumulate(below_.begin(), below_.end(), 0.0);
         const auto height_on = [&](double page) {
@@ -271,7 +274,7 @@ private:
     }
 
     std::vector<std::string> figure_title() const {
-        return wrapped_lines(figure_->title, (page_.width - 2 * margin * font()) / (title_size * font()),
+        return wrapped_lines(figure_->title, (page_.width - 2 * edge_margin * font()) / (title_size * font()),
                              most_title_lines);
     }
     double column_width(std::size_t column) const { return left_[column] + frame_width_ + right_[column]; }
@@ -284,21 +287,21 @@ private:
 
     void write_title() {
         page_.title.clear();
-        double y = page_.height - font() * margin / 2;
+        double y = page_.height - font() * edge_margin / 2;
         for (const std::string& text : figure_title()) {
-            y -= title_size * line * font() / 2;
+            y -= title_size * line_height * font() / 2;
             PlacedText placed{rich_words(text, figure_->symbols), {page_.width / 2, y}, title_size * font()};
-            placed.box = box_of(placed);
+            placed.box = text_box(placed);
             page_.title.push_back(placed);
-            y -= title_size * line * font() / 2;
+            y -= title_size * line_height * font() / 2;
         }
-        place_legend(page_.legend, margin * font(), legend_height_ + 0.3 * font(), page_.width - 2 * margin * font(),
-                     font(), figure_->symbols);
+        place_legend(page_.legend, edge_margin * font(), legend_height_ + 0.3 * font(),
+                     page_.width - 2 * edge_margin * font(), font(), figure_->symbols);
     }
 
     void place(std::size_t p) {
         PanelLayout& panel = page_.panels[p];
-        double left = margin * font(), top = page_.height - title_height_;
+        double left = edge_margin * font(), top = page_.height - title_height_;
         for (std::size_t c = 0; c < column_of(p); ++c)
             left += column_width(c);
         for (std::size_t r = 0; r < row_of(p); ++r)
@@ -325,7 +328,7 @@ private:
         for (const std::string& text : notes_[p]) {
             y -= note_line * size / 2;
             PlacedText placed{rich_words(text, figure_->symbols), {left, y}, size, PlacedText::Align::left, false};
-            placed.box = box_of(placed);
+            placed.box = text_box(placed);
             panel.texts.push_back(placed);
             y -= note_line * size / 2;
         }
@@ -333,7 +336,7 @@ private:
 
     void add(PanelLayout& panel, const RichText& text, const PlanePoint& at, PlacedText::Align align, bool upright) {
         PlacedText placed{text, at, font(), align, upright};
-        placed.box = box_of(placed);
+        placed.box = text_box(placed);
         panel.texts.push_back(placed);
     }
 
@@ -343,30 +346,30 @@ private:
         PanelLayout& panel = page_.panels[p];
         const Box& frame = panel.frame;
         const double middle = (frame.left + frame.right) / 2;
-        double y = frame.high + font() * (0.3 + line * (static_cast<double>(titles_[p].size()) - 0.5));
+        double y = frame.high + font() * (0.3 + line_height * (static_cast<double>(titles_[p].size()) - 0.5));
         for (const std::string& text : titles_[p]) {
             add(panel, rich_words(text, figure_->symbols), {middle, y}, Align::centre, false);
-            y -= line * font();
+            y -= line_height * font();
         }
         for (const PanelAxis::Tic& tic : panel.x.tics)
             add(panel, tic.text,
                 {frame.left + panel.x.share(tic.value) * frame.width(),
                  frame.low - font() * (tic_length + gap_at_tic + 0.5)},
                 Align::centre, false);
-        y = frame.low - font() * (tic_length + gap_at_tic + 1.2 + line / 2);
+        y = frame.low - font() * (tic_length + gap_at_tic + 1.2 + line_height / 2);
         for (const RichText& text : x_labels_[p]) {
             add(panel, text, {middle, y}, Align::centre, false);
-            y -= line * font();
+            y -= line_height * font();
         }
         for (const PanelAxis::Tic& tic : panel.y.tics)
             add(panel, tic.text,
                 {frame.left - font() * (tic_length + gap_at_tic),
                  frame.low + panel.y.share(tic.value) * frame.height()},
                 Align::right, false);
-        double x = frame.left - room_at_left(p) + font() * (line / 2 + 0.15);
+        double x = frame.left - room_at_left(p) + font() * (line_height / 2 + 0.15);
         for (const RichText& text : y_labels_[p]) {
             add(panel, text, {x, (frame.low + frame.high) / 2}, Align::centre, true);
-            x += line * font();
+            x += line_height * font();
         }
     }
 

@@ -25,7 +25,7 @@ namespace graze {
 namespace {
 
 /// Greatest deviation of a simplified line, as a fraction of the panel's size.
-constexpr double unseen = 1e-4;
+constexpr double invisible_step = 1e-4;
 
 bool draws_line(FigureSeries::Style style) {
     return style == FigureSeries::Style::line || style == FigureSeries::Style::dashed ||
@@ -301,7 +301,7 @@ private:
     static Polyline thinned(const Polyline& line, const PanelLayout& layout) {
         if (layout.x.logarithmic || layout.y.logarithmic)
             return line;
-        return simplified(line, layout.x.high - layout.x.low, layout.y.high - layout.y.low, unseen);
+        return simplified(line, layout.x.high - layout.x.low, layout.y.high - layout.y.low, invisible_step);
     }
 
     /// Data of a line. Dashes are computed here rather than by gnuplot, so that dashes of coinciding lines coincide.

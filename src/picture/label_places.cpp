@@ -20,7 +20,7 @@ namespace {
 constexpr double letters_beyond = 0.25, gap_at_mark = 0.1;
 constexpr std::array<double, 14> distances{0, 0.1, 0.5, 0.8, 1.1, 1.4, 1.8, 2.3, 2.8, 3.4, 4, 4.7, 5.5, 6.5};
 constexpr double led_from = 0.3; ///< least distance of a label from its symbol at which a leader line joins them
-constexpr std::size_t directions = 32;
+constexpr std::size_t tried_directions = 32;
 
 constexpr double cost_of_distance = 3, cost_of_curve = 8, cost_of_crossing = 0.5, cost_of_side = 0.3;
 constexpr double cost_of_any_curve = 35; ///< so large that a long leader is preferred to a label on a curve
@@ -251,9 +251,9 @@ private:
         double least = std::numeric_limits<double>::infinity();
         PlacedLabel best;
         for (const double distance : distances)
-            for (std::size_t d = 0; d < directions; ++d) {
+            for (std::size_t d = 0; d < tried_directions; ++d) {
                 // Directions to points on a square, from its upper right corner, the preferred place.
-                const double angle = 2 * std::numbers::pi * (static_cast<double>(d) / directions + 0.125);
+                const double angle = 2 * std::numbers::pi * (static_cast<double>(d) / tried_directions + 0.125);
                 const double size = std::max(std::abs(std::cos(angle)), std::abs(std::sin(angle)));
                 const PlanePoint direction{std::cos(angle) / size, std::sin(angle) / size};
                 const double away = radius + distance * height_;
@@ -262,7 +262,8 @@ private:
                                         width, height_);
                 label.led = distance > led_from;
                 lead(label, direction);
-                const double cost = cost_of_distance * distance + cost_of_side * static_cast<double>(d) / directions;
+                const double cost =
+                    cost_of_distance * distance + cost_of_side * static_cast<double>(d) / tried_directions;
                 if (cost >= least || !is_free(label))
                     continue;
                 if (const double all = cost + cost_of(label); all < least) {

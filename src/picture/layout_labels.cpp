@@ -22,13 +22,13 @@ GridBox outermost_side(const GridPolygon& outline, bool to_right) {
     return side;
 }
 
-std::int64_t share(std::int64_t low, std::int64_t high, double part) {
+std::int64_t share_between(std::int64_t low, std::int64_t high, double part) {
     return low + std::llround(part * static_cast<double>(high - low));
 }
 
 /// A point in a box, given by fractions of its sides from the lower left corner.
 GridPoint within(const GridBox& box, double along_x, double along_y) {
-    return {share(box.left, box.right, along_x), share(box.bottom, box.top, along_y)};
+    return {share_between(box.left, box.right, along_x), share_between(box.bottom, box.top, along_y)};
 }
 
 std::int64_t on_grid(double micrometres) {
@@ -81,7 +81,7 @@ std::vector<PartLabel> part_labels(const DeviceDrawing& drawing) {
          {fmt::format("stop, gap {:.6g} µm", d.stop_gap), within(stop, 0.5, 0.75), false},
          {fmt::format("channel, {:.6g} µm", d.channel_width), {drawing.chamber_box.right, 0}, false},
          {"truss", within(truss, 0.9, 0.5), false},
-         {"frame", {trench + beyond / 2, share(mass.bottom, mass.top, 0.2)}, false}});
+         {"frame", {trench + beyond / 2, share_between(mass.bottom, mass.top, 0.2)}, false}});
     return labels;
 }
 

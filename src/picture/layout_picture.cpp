@@ -16,7 +16,7 @@ namespace graze {
 namespace {
 
 constexpr double page_width = 1000, page_of_all = 1420; ///< pixels, like all positions on the page
-constexpr double letter = 15;                           ///< font height
+constexpr double font_height = 15;                      ///< font height
 
 /// A rectangle on the page; `top` is measured downwards from the upper edge.
 struct PageBox {
@@ -79,11 +79,11 @@ private:
         end_panel();
         page_text(mask == 1 ? "mask 1: etched from the back (seen from the front)"
                             : "mask 2: etched through from the front",
-                  place.left + place.width / 2, place.top - letter);
+                  place.left + place.width / 2, place.top - font_height);
     }
 
     std::string head(const std::string& output) const {
-        const std::string font = fmt::format("font 'sans,{:.3g}'", ending_ == "pdf" ? 0.75 * letter : letter);
+        const std::string font = fmt::format("font 'sans,{:.3g}'", ending_ == "pdf" ? 0.75 * font_height : font_height);
         std::string terminal;
         if (ending_ == "png")
             terminal = fmt::format("pngcairo noenhanced size {:.0f},{:.0f} fontscale 0.75", page_width, page_height_);
@@ -202,7 +202,7 @@ private:
         std::stable_sort(here.begin(), here.end(),
                          [](const PartLabel& a, const PartLabel& b) { return a.at.y > b.at.y; });
         const auto um = [](std::int64_t value) { return static_cast<double>(value) / grid_per_micrometre; };
-        const double step = 2.2 * letter * scale_;
+        const double step = 2.2 * font_height * scale_;
         std::vector<double> places;
         for (const PartLabel& one : here)
             places.push_back(places.empty() ? um(one.at.y) : std::min(um(one.at.y), places.back() - step));
@@ -227,12 +227,12 @@ private:
     /// Draws the scale bar in the lower right corner.
     void write_scale() {
         const double length = round_length(0.2 * (right_ - left_));
-        const double to = right_ - letter * scale_, y = bottom_ + letter * scale_;
+        const double to = right_ - font_height * scale_, y = bottom_ + font_height * scale_;
         constexpr double millimetre = 1000;
         commands_ += fmt::format("set arrow from {:.10g},{:.10g} to {:.10g},{:.10g} nohead lw 3 lc rgb '#000000' "
                                  "front\nset label \"{:.6g} {}\" at {:.10g},{:.10g} center front boxed\n",
                                  to - length, y, to, y, length < millimetre ? length : length / millimetre,
-                                 length < millimetre ? "µm" : "mm", to - length / 2, y + letter * scale_);
+                                 length < millimetre ? "µm" : "mm", to - length / 2, y + font_height * scale_);
     }
 
     void draw_wafer(const PageBox& place, const GridBox& all) {
@@ -260,8 +260,8 @@ private:
             const double x = static_cast<double>(box.left + box.right) / 2 / grid_per_micrometre;
             const double y = static_cast<double>(box.bottom + box.top) / 2 / grid_per_micrometre;
             const double size = static_cast<double>(box.width()) / grid_per_micrometre, from = std::hypot(x, y);
-            const double inwards = from > 0 ? 1 - (size / 2 + letter * scale_) / from : 1;
-            if (size > 2 * letter * scale_) // numbers would cover smaller dies
+            const double inwards = from > 0 ? 1 - (size / 2 + font_height * scale_) / from : 1;
+            if (size > 2 * font_height * scale_) // numbers would cover smaller dies
                 commands_ +=
                     fmt::format("set label \"{}\" at {:.10g},{:.10g} center front\n", i + 1, x * inwards, y * inwards);
         }

@@ -1,5 +1,7 @@
 #include "picture/motion_curve.hpp"
 
+#include "base/special_numbers.hpp"
+
 #include <cmath>
 #include <limits>
 
@@ -10,7 +12,6 @@ bool wraps_around(double from, double to, double period) {
 }
 
 std::vector<PlanePoint> curve_of(const DenseMotion& motion, std::size_t x, std::size_t y) {
-    constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
     const std::vector<double>&xs = motion.values[x], &ys = motion.values[y];
     std::vector<PlanePoint> points;
     std::size_t arc = 0;
@@ -19,7 +20,7 @@ std::vector<PlanePoint> curve_of(const DenseMotion& motion, std::size_t x, std::
         arc += begins ? 1 : 0;
         if (i > 0 && (begins || wraps_around(xs[i - 1], xs[i], motion.periods[x]) ||
                       wraps_around(ys[i - 1], ys[i], motion.periods[y])))
-            points.push_back({nothing, nothing});
+            points.push_back({not_a_number, not_a_number});
         points.push_back({xs[i], ys[i]});
     }
     return points;

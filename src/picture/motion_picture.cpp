@@ -1,3 +1,4 @@
+#include "base/special_numbers.hpp"
 #include "picture/motion_curve.hpp"
 #include "picture/picture_kinds.hpp"
 
@@ -26,7 +27,7 @@ std::vector<StudyPicture> one_for_each_point(const StudyPicture& picture) {
     return chosen;
 }
 
-std::string title_of(const StudyPicture& one, const StoredRun& run, const PointRecord& point) {
+std::string title_of_motion(const StudyPicture& one, const StoredRun& run, const PointRecord& point) {
     std::string title = one.at.empty() ? shown_name(one, run.record.name)
                                        : shown_value(one, run, one.at.front().first, one.at.front().second);
     if (point.result.label == Label::periodic)
@@ -71,13 +72,12 @@ std::vector<PlanePoint> seen_rows(std::vector<PlanePoint> points, const StudyPic
 
 /// Lines from just before to just after each jump, if these points of the panel differ.
 std::vector<PlanePoint> jumps_of(const DenseMotion& motion, std::size_t value) {
-    constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
     const std::vector<double>&xs = motion.values[0], &ys = motion.values[value];
     std::vector<PlanePoint> points;
     for (const std::size_t row : motion.begins)
         if (row > 0 && motion.periods[0] == 0 && motion.periods[value] == 0 &&
             (xs[row] != xs[row - 1] || ys[row] != ys[row - 1]))
-            points.insert(points.end(), {{xs[row - 1], ys[row - 1]}, {xs[row], ys[row]}, {nothing, nothing}});
+            points.insert(points.end(), {{xs[row - 1], ys[row - 1]}, {xs[row], ys[row]}, {not_a_number, not_a_number}});
     return points;
 }
 
@@ -105,7 +105,7 @@ public:
         DenseMotion motion;
         if (curve)
             motion = dense_motion(run, point, names, picture_->place, portrait_ ? WhenLong::last : WhenLong::coarser);
-        const std::string title = title_of(one, run, point);
+        const std::string title = title_of_motion(one, run, point);
         for (std::size_t v = 1; v < names.size(); ++v) {
             FigurePanel& panel = panel_for(run, x, names[v], v - 1, title);
             if (curve)

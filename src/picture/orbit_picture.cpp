@@ -1,3 +1,4 @@
+#include "base/special_numbers.hpp"
 #include "graze/results/name_advice.hpp"
 #include "graze/results/orbit_motion.hpp"
 #include "graze/results/quantity_evaluator.hpp"
@@ -169,8 +170,7 @@ public:
 private:
     /// Ranges of the curves in x and y.
     PlanePoint extent() const {
-        constexpr double none = std::numeric_limits<double>::infinity();
-        PlanePoint least{none, none}, greatest{-none, -none};
+        PlanePoint least{infinity, infinity}, greatest{-infinity, -infinity};
         for (std::size_t s = 0; s < orbit_.motion.size(); ++s)
             for (std::size_t row = 0; row < orbit_.motion[s].times.size(); ++row) {
                 const PlanePoint here = at(s, row);
@@ -236,7 +236,7 @@ void add_curves(FigurePanel& panel, const StudyPicture& picture, const DrawnOrbi
     }
 }
 
-FigurePanel panel_of(const StudyPicture& picture, const DrawnOrbit& orbit, std::size_t v) {
+FigurePanel history_panel(const StudyPicture& picture, const DrawnOrbit& orbit, std::size_t v) {
     const Axes& axes = orbit.axes;
     const NamedValue time{"t", orbit.model.time_unit, "time", {}};
     FigurePanel panel = empty_panel(picture);
@@ -271,7 +271,7 @@ Figure orbit_picture(const StudyPicture& picture, const ResultFile& file, bool p
         for (std::size_t v = over_time ? 0 : 1; v < axes.values.size(); ++v) {
             const std::size_t index = over_time ? v : together ? v - 1 : figure.panels.size();
             if (index >= figure.panels.size()) {
-                figure.panels.push_back(panel_of(picture, orbit, v));
+                figure.panels.push_back(history_panel(picture, orbit, v));
                 const bool several = orbits.size() > 1;
                 if (!several || (!over_time && !together))
                     figure.panels.back().title = (several ? panel_letter(index) + " " : std::string()) + titles[o];

@@ -15,7 +15,7 @@ namespace {
 /// Fractions of an axis that stay free on both sides of the data.
 constexpr double roomy_margin = 0.08, usual_margin = 0.03;
 /// A range that is narrower than this, relative to its values, is drawn as a constant.
-constexpr double resolved = 1e-9;
+constexpr double resolution = 1e-9;
 constexpr int least_power = -3, greatest_power = 5; ///< numbers outside these powers of ten get a common factor
 constexpr int most_tics = 6;
 
@@ -49,7 +49,7 @@ Extent extent_of(const FigurePanel& panel, bool horizontal) {
 /// Widens the range of a constant, so that tic labels differ.
 void widen_constant(double& low, double& high, bool logarithmic) {
     const double size = std::max(std::abs(low), std::abs(high));
-    if (high - low > resolved * size && high > low)
+    if (high - low > resolution * size && high > low)
         return;
     const double added = logarithmic || size == 0 ? 1 : 0.1 * size;
     low -= added;
@@ -64,7 +64,7 @@ void choose_range(PanelAxis& axis, const FigurePanel& panel, bool horizontal) {
         axis.low = range->first;
         axis.high = range->second;
         if (!(axis.high > axis.low) ||
-            axis.high - axis.low > resolved * std::max(std::abs(axis.low), std::abs(axis.high)))
+            axis.high - axis.low > resolution * std::max(std::abs(axis.low), std::abs(axis.high)))
             return;
         double low = there(axis.low), high = there(axis.high);
         widen_constant(low, high, axis.logarithmic);
@@ -88,7 +88,7 @@ void choose_range(PanelAxis& axis, const FigurePanel& panel, bool horizontal) {
     axis.high = back(high + free);
 }
 
-RichText number(double value, double tic, int power) {
+RichText number_label(double value, double tic, int power) {
     const double unit = std::pow(10, power);
     const int digits = std::clamp(static_cast<int>(std::ceil(-std::log10(tic / unit) - 1e-9)), 0, 12);
     std::string text = fmt::format("{:.{}f}", std::abs(value) < 0.01 * tic ? 0.0 : value / unit, digits);
@@ -117,7 +117,7 @@ void write_linear(PanelAxis& axis, int wanted) {
     const double first = std::ceil(axis.low / tic - slack);
     constexpr int most = 4 * most_tics; // bounds the loop, even if adding a tic does not change the value
     for (int i = 0; i < most && (first + i) * tic <= axis.high + slack * tic; ++i)
-        axis.tics.push_back({(first + i) * tic + 0.0, number((first + i) * tic, tic, axis.power)});
+        axis.tics.push_back({(first + i) * tic + 0.0, number_label((first + i) * tic, tic, axis.power)});
 }
 
 /// Sets tics with labels at every `step`-th decade, and minor tics between them.

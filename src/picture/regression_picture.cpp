@@ -64,8 +64,8 @@ RegressionLine fit_of(const StudyPicture& picture, const std::vector<PlanePoint>
     return fit;
 }
 
-FigureSeries drawn(const StudyPicture& picture, const RegressionLine& fit, const std::string& title,
-                   std::size_t colour) {
+FigureSeries fitted_line(const StudyPicture& picture, const RegressionLine& fit, const std::string& title,
+                         std::size_t colour) {
     const Regression& line = fit.line;
     FigureSeries series{fmt::format("{}slope {:.4f}, intercept {:.4f}", title, line.slope, line.intercept),
                         FigureSeries::Style::line,
@@ -106,9 +106,9 @@ ResultPicture regression_picture(const StudyPicture& picture, const ResultFile& 
         const Regression& line = fit.line;
         panel.series.push_back({"", FigureSeries::Style::dots, colour, points});
         if (line.points > 1)
-            panel.series.push_back(
-                drawn(picture, fit, picture.group.empty() ? "" : shown_value(picture, run, picture.group, value) + ": ",
-                      colour));
+            panel.series.push_back(fitted_line(
+                picture, fit, picture.group.empty() ? "" : shown_value(picture, run, picture.group, value) + ": ",
+                colour));
         for (const double number : {value, line.slope, line.slope_error, line.intercept, line.intercept_error,
                                     static_cast<double>(line.points)})
             result.table.add(number);

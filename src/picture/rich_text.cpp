@@ -16,7 +16,7 @@ namespace graze {
 
 namespace {
 
-using Look = TextRun::Look;
+using RunLook = TextRun::Look;
 
 constexpr double wide = 0.84;          ///< upper bound of the width of characters that are not in the table
 constexpr double width_of_index = 0.8; ///< font size of an index, relative to its text
@@ -48,7 +48,7 @@ void drop_letter(std::string& text) {
 }
 
 bool is_index(const TextRun& run) {
-    return run.look == Look::lowered || run.look == Look::raised;
+    return run.look == RunLook::lowered || run.look == RunLook::raised;
 }
 
 /// Escapes a text for LaTeX. Of characters beyond ASCII only those that graze itself uses are replaced.
@@ -103,7 +103,7 @@ std::string latex_letters(const std::string& text) {
 } // namespace
 
 RichText rich(const std::string& text) {
-    return text.empty() ? RichText{} : RichText{{text, Look::upright}};
+    return text.empty() ? RichText{} : RichText{{text, RunLook::upright}};
 }
 
 RichText rich_name(const std::string& name) {
@@ -119,10 +119,10 @@ RichText rich_name(const std::string& name) {
         std::replace(words.begin(), words.end(), '_', ' ');
         return rich(words);
     }
-    RichText result{{name.substr(0, stem), Look::italic}};
+    RichText result{{name.substr(0, stem), RunLook::italic}};
     const std::string index = name.substr(std::min(name.size(), stem + (underscore == std::string::npos ? 0 : 1)));
     if (!index.empty())
-        result.push_back({index, Look::lowered});
+        result.push_back({index, RunLook::lowered});
     return result;
 }
 
@@ -159,7 +159,7 @@ RichText rich_words(const std::string& text, const std::vector<std::string>& sym
         const bool indexed = symbol.size() > 1;
         const bool after_number = i >= 2 && text[i - 1] == ' ' && std::isdigit(static_cast<unsigned char>(text[i - 2]));
         const bool valued = follows(end, " =") || follows(end, " up") || follows(end, " down");
-        if (known && symbol.front().look == Look::italic && (indexed || (valued && !after_number))) {
+        if (known && symbol.front().look == RunLook::italic && (indexed || (valued && !after_number))) {
             result = result + rich(words) + symbol;
             words.clear();
         } else {
@@ -167,7 +167,7 @@ RichText rich_words(const std::string& text, const std::vector<std::string>& sym
         }
         i = end;
         if (const std::size_t power = power_at(text, i); power > i) {
-            result = result + rich(words) + RichText{{text.substr(i + 1, power - i - 1), Look::raised}};
+            result = result + rich(words) + RichText{{text.substr(i + 1, power - i - 1), RunLook::raised}};
             words.clear();
             i = power;
         }
@@ -186,15 +186,16 @@ RichText rich_unit(const std::string& unit) {
             for (end = i + 1; end < unit.size() && (std::isdigit(static_cast<unsigned char>(unit[end])) != 0 ||
                                                     unit[end] == '-' || unit[end] == '.');)
                 ++end;
-        result.push_back(
-            {unit.substr(i + (raised ? 1 : 0), end - i - (raised ? 1 : 0)), raised ? Look::raised : Look::upright});
+        result.push_back({unit.substr(i + (raised ? 1 : 0), end - i - (raised ? 1 : 0)),
+                          raised ? RunLook::raised : RunLook::upright});
         i = end;
     }
     return result;
 }
 
 RichText rich_power(int exponent) {
-    return {{"10", Look::upright}, {fmt::format("{}{}", exponent < 0 ? "−" : "", std::abs(exponent)), Look::raised}};
+    return {{"10", RunLook::upright},
+            {fmt::format("{}{}", exponent < 0 ? "−" : "", std::abs(exponent)), RunLook::raised}};
 }
 
 RichText operator+(RichText one, const RichText& other) {
@@ -244,16 +245,16 @@ std::string gnuplot_markup(const RichText& text) {
     for (const TextRun& run : text) {
         const std::string letters = plain(run.text);
         switch (run.look) {
-        case Look::upright:
+        case RunLook::upright:
             result += letters;
             break;
-        case Look::italic:
+        case RunLook::italic:
             result += fmt::format("{{/:Italic {}}}", letters);
             break;
-        case Look::lowered:
+        case RunLook::lowered:
             result += fmt::format("_{{{}}}", letters);
             break;
-        case Look::raised:
+        case RunLook::raised:
             result += fmt::format("^{{{}}}", letters);
             break;
         }
@@ -267,16 +268,16 @@ std::string latex_markup(const RichText& text) {
         plain(run.text); // refuses control characters
         const std::string letters = latex_letters(printable_line(run.text));
         switch (run.look) {
-        case Look::upright:
+        case RunLook::upright:
             result += letters;
             break;
-        case Look::italic:
+        case RunLook::italic:
             result += "\\textit{" + letters + "}";
             break;
-        case Look::lowered:
+        case RunLook::lowered:
             result += "\\textsubscript{" + letters + "}";
             break;
-        case Look::raised:
+        case RunLook::raised:
             result += "\\textsuperscript{" + letters + "}";
             break;
         }

@@ -1,5 +1,6 @@
 #include "graze/picture/trajectory_figure.hpp"
 
+#include "base/special_numbers.hpp"
 #include "picture/curve.hpp"
 #include "picture/motion_curve.hpp"
 #include "picture/shown_names.hpp"
@@ -16,10 +17,9 @@ namespace graze {
 
 namespace {
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-constexpr double unseen = 2e-4;           ///< greatest deviation of simplified curves, as a fraction of the panel
-constexpr double last_moments = 0.005;    ///< final fraction of a motion to a singularity that the axes ignore
-constexpr std::size_t most_marked = 2000; ///< number of contacts; more marks would hide the curve
+constexpr double invisible_deviation = 2e-4; ///< greatest deviation of simplified curves, as a fraction of the panel
+constexpr double last_moments = 0.005;       ///< final fraction of a motion to a singularity that the axes ignore
+constexpr std::size_t most_marked = 2000;    ///< number of contacts; more marks would hide the curve
 constexpr std::size_t section_colour = 1;
 
 struct ValueRange {
@@ -157,7 +157,7 @@ private:
         for (auto begin = curve.begin(); begin != curve.end();) {
             begin = std::find_if(begin, curve.end(), is_drawn);
             const auto end = std::find_if_not(begin, curve.end(), is_drawn);
-            const Polyline line = simplified(std::span(begin, end), width, height, unseen);
+            const Polyline line = simplified(std::span(begin, end), width, height, invisible_deviation);
             seen.insert(seen.end(), line.begin(), line.end());
             if (end != curve.end())
                 seen.push_back(*end);
@@ -175,7 +175,7 @@ private:
             const PlanePoint before{jump.before[x], jump.before[y]}, after{jump.after[x], jump.after[y]};
             const bool moves = before.x != after.x || before.y != after.y;
             if (moves && !cyclic)
-                jumps.points.insert(jumps.points.end(), {before, after, {nothing, nothing}});
+                jumps.points.insert(jumps.points.end(), {before, after, {not_a_number, not_a_number}});
             if (jump.marked)
                 contacts.points.push_back(before);
             if (jump.marked && moves)
