@@ -42,9 +42,8 @@ struct End {
 
 End end_of(const Motion& motion, double tolerance) {
     const Model model = load_model(motion.model);
-    const Simulation simulation(model, {}, {}, {.tolerance = tolerance});
-    Observer nobody;
-    Trajectory trajectory(simulation, model.parameter_values(), nobody);
+    const Simulation simulation(System(model), {}, {}, {.tolerance = tolerance});
+    Trajectory trajectory(simulation, model.parameter_values());
     trajectory.start(model.initial_state(), model.initial_mode, 0, motion.time);
     const std::size_t inputs = model.states.size() + model.parameter_values().size();
     std::vector<double> seeds(inputs * inputs, 0.0);
@@ -102,7 +101,7 @@ Located on_microactuator(double tolerance) {
     BranchSettings settings = microactuator_settings(0.1);
     settings.orbit.tolerance = tolerance;
     settings.stop_at = {PointType::fold};
-    const Branch branch = follow_branch(microactuator(microactuator_start), microactuator_orbit(), settings);
+    const Branch branch = follow_branch(System(microactuator(microactuator_start)), microactuator_orbit(), settings);
     return {std::abs(branch.points.front().solution.multipliers.at(0)), branch.special.back().parameter};
 }
 
@@ -120,7 +119,7 @@ Located on_microbeam(double tolerance) {
     settings.stop_at = {PointType::fold};
     OrbitOptions options;
     options.tolerance = tolerance;
-    const Branch branch = follow_branch(model, find_orbit(model, settle, options).orbit, settings);
+    const Branch branch = follow_branch(System(model), find_orbit(System(model), settle, options).orbit, settings);
     return {std::abs(branch.points.front().solution.multipliers.at(0)), branch.special.back().parameter};
 }
 

@@ -59,14 +59,16 @@ public:
 void BranchOfTheMicroactuator(benchmark::State& state) {
     const Model model = microactuator(microactuator_start);
     const Orbit& orbit = microactuator_orbit();
-    const Branch known = follow_branch(model, orbit, microactuator_settings());
+    const Branch known = follow_branch(System(model), orbit, microactuator_settings());
     if (known.points.size() != 201 || model.parameter_symbols()[0].name() != "V" || model.modes[0].name != "stick")
-        throw std::logic_error("the branch is not what is to be measured");
+        throw OrderError("the branch is not what is to be measured");
     PairedTiming timing;
     OdeintFlows peer;
     for (auto _ : state)
         state.SetIterationTime(timing.round(
-            [&] { benchmark::DoNotOptimize(follow_branch(model, orbit, microactuator_settings()).points.size()); },
+            [&] {
+                benchmark::DoNotOptimize(follow_branch(System(model), orbit, microactuator_settings()).points.size());
+            },
             [&] {
                 for (const BranchPoint& point : known.points) // the tangent takes one more evaluation
                     for (std::size_t i = 0; i <= point.iterations; ++i)
@@ -88,8 +90,8 @@ void OrbitOfManySegments(benchmark::State& state) {
     PairedTiming timing;
     for (auto _ : state)
         state.SetIterationTime(
-            timing.round([&] { benchmark::DoNotOptimize(follow_branch(model, orbit, few).points.size()); },
-                         [&] { benchmark::DoNotOptimize(follow_branch(model, two, few).points.size()); }));
+            timing.round([&] { benchmark::DoNotOptimize(follow_branch(System(model), orbit, few).points.size()); },
+                         [&] { benchmark::DoNotOptimize(follow_branch(System(model), two, few).points.size()); }));
     state.counters["time_for_each_segment_against_two"] =
         timing.own() / timing.peer() * 2 / static_cast<double>(segments);
     state.SetComplexityN(state.range(0));

@@ -41,7 +41,7 @@ double allowed_point(std::size_t oscillators) {
 /// Builds a model and computes its first Taylor coefficients.
 void first_jet(std::size_t oscillators) {
     const Model model = chain(oscillators, Chain::small_force);
-    const Simulation simulation(model);
+    const Simulation simulation{System(model)};
     JetSet jets(simulation, LaneKind::single);
     jets.set_parameters(model.parameter_values());
     Jet& jet = jets(model.initial_mode);
@@ -65,8 +65,9 @@ void start_up(benchmark::State& state, std::size_t oscillators) {
 class ChainRun {
 public:
     ChainRun(std::size_t oscillators, double force)
-        : model_(chain(oscillators, force)), simulation_(model_, {}, {}, {.tolerance = tolerance}),
-          jets_(simulation_, LaneKind::single), trajectory_(simulation_, model_.parameter_values(), observer_) {
+        : model_(chain(oscillators, force)), simulation_(System(model_), {}, {}, {.tolerance = tolerance}),
+          jets_(simulation_, LaneKind::single),
+          trajectory_(simulation_, model_.parameter_values(), borrowed(observer_)) {
         constexpr int settling = 40;
         trajectory_.start(model_.initial_state(), model_.initial_mode, 0, 0);
         run(settling);
@@ -166,7 +167,7 @@ Orbit settled_orbit(const Model& model) {
     AttractorOptions settle;
     settle.section = "phase0";
     settle.cycles = 4000;
-    return find_orbit(model, settle).orbit;
+    return find_orbit(System(model), settle).orbit;
 }
 
 BranchSettings in_force(std::size_t steps) {

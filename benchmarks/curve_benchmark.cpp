@@ -26,7 +26,7 @@ Branch branch_without_impact(const Model& model) {
     settings.parameter = model.independent_parameter("V");
     settings.least = 0;
     settings.greatest = 3;
-    return follow_branch(model, find_orbit(model, settle).orbit, settings);
+    return follow_branch(System(model), find_orbit(System(model), settle).orbit, settings);
 }
 
 SpecialPoint first_of(const Branch& branch, PointType type) {
@@ -81,7 +81,7 @@ std::size_t follow_curve(const Model& model, const SpecialPoint& point, const st
         settings.continuation.largest_step = 0.01;
         settings.kept = point;
         settings.free = {model.independent_parameter(second)};
-        points += follow_branch(model, point.solution.orbit, settings).points.size();
+        points += follow_branch(System(model), point.solution.orbit, settings).points.size();
     }
     return points;
 }
@@ -111,7 +111,7 @@ void CurveOfTorusPoints(benchmark::State& state) {
     settings.parameter = model.independent_parameter("b");
     settings.greatest = 2;
     const Orbit orbit{parse_signature(model, "map"), model.parameter_values(), {{0.2, 0.2, 0}}, {1}, {}};
-    const SpecialPoint torus = first_of(follow_branch(model, orbit, settings), PointType::torus);
+    const SpecialPoint torus = first_of(follow_branch(System(model), orbit, settings), PointType::torus);
     measure(state, model, torus, "a", "b");
 }
 BENCHMARK(CurveOfTorusPoints)->Unit(benchmark::kMillisecond);
@@ -120,7 +120,7 @@ BENCHMARK(CurveOfTorusPoints)->Unit(benchmark::kMillisecond);
 /// of repetitions keeps the multiplier -1.
 void CurveOfManySegments(benchmark::State& state, PointType type) {
     const Model model = microactuator(microactuator_start);
-    const Branch branch = follow_branch(model, microactuator_orbit(), microactuator_settings());
+    const Branch branch = follow_branch(System(model), microactuator_orbit(), microactuator_settings());
     SpecialPoint point = first_of(branch, type);
     const auto rounds = static_cast<std::size_t>(state.range(0));
     // The frame drifts in each repetition. The drift is taken from a neighbouring point, because the equations for it
@@ -128,7 +128,7 @@ void CurveOfManySegments(benchmark::State& state, PointType type) {
     const auto next = std::min_element(branch.points.begin(), branch.points.end(), [&](const auto& a, const auto& b) {
         return std::abs(a.arclength - point.arclength) < std::abs(b.arclength - point.arclength);
     });
-    const Orbit elsewhere = solve_orbit(model, repeated(next->solution.orbit, rounds)).orbit;
+    const Orbit elsewhere = solve_orbit(System(model), repeated(next->solution.orbit, rounds)).orbit;
     const std::size_t segments = point.solution.orbit.segments();
     point.solution.orbit = repeated(point.solution.orbit, rounds);
     const std::size_t frame = *model.find_state("x1");

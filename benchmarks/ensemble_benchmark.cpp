@@ -23,7 +23,7 @@ public:
         const std::vector<double> state = testbed.settled();
         for (std::size_t i = 0; i < count; ++i) {
             model.set_parameter("V0", voltage + spread * static_cast<double>(i) / count);
-            trajectories.emplace_back(simulation, model.parameter_values(), counters_[i]);
+            trajectories.emplace_back(simulation, model.parameter_values(), borrowed(counters_[i]));
             trajectories.back().start(state, model.initial_mode, 0, 0);
         }
     }
@@ -52,7 +52,7 @@ private:
 void lanes(benchmark::State& state, double tolerance, double voltage, double spread) {
     constexpr int periods = 10;
     const Testbed testbed;
-    const Simulation simulation(testbed.model, {}, {}, {.tolerance = tolerance});
+    const Simulation simulation(System(testbed.model), {}, {}, {.tolerance = tolerance});
     Group side_by_side(testbed, simulation, voltage, spread), in_turn(testbed, simulation, voltage, spread);
     Ensemble ensemble(simulation);
     JetSet jets(simulation, LaneKind::single);

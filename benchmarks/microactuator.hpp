@@ -29,11 +29,11 @@ inline const graze::Orbit& microactuator_orbit() {
         graze::AttractorOptions settle;
         settle.section = "phase0";
         settle.cycles = 4000;
-        const graze::Orbit stable = find_orbit(microactuator(0.865), settle).orbit;
+        const graze::Orbit stable = find_orbit(graze::System(microactuator(0.865)), settle).orbit;
         graze::BranchSettings down = microactuator_settings(0.1);
         down.direction = -1;
         down.least = microactuator_start;
-        const graze::Branch branch = follow_branch(microactuator(0.865), stable, down);
+        const graze::Branch branch = follow_branch(graze::System(microactuator(0.865)), stable, down);
         return branch.special.back().solution.orbit;
     }();
     return orbit;

@@ -27,8 +27,8 @@ class BeamRun {
 public:
     BeamRun(int modes, bool derivatives)
         : model_(microbeam({.modes = modes})), period_(2 * std::numbers::pi / MicrobeamOptions{}.frequency),
-          simulation_(model_), jets_(simulation_, LaneKind::single),
-          trajectory_(simulation_, model_.parameter_values(), observer_) {
+          simulation_(System(model_)), jets_(simulation_, LaneKind::single),
+          trajectory_(simulation_, model_.parameter_values(), borrowed(observer_)) {
         trajectory_.start(model_.initial_state(), model_.initial_mode, 0, 0);
         run(20);
         if (derivatives)
@@ -87,7 +87,7 @@ Orbit settled_orbit(const Model& model) {
     AttractorOptions settle;
     settle.section = "phase0";
     settle.cycles = 2000;
-    const OrbitSolution solution = find_orbit(model, settle);
+    const OrbitSolution solution = find_orbit(System(model), settle);
     if (solution.outcome != OrbitOutcome::converged)
         throw std::logic_error("the beam does not settle: " + solution.detail);
     return solution.orbit;
@@ -135,7 +135,7 @@ void low_fold(int modes, FoldRun& run) {
 /// penetration.
 void high_fold(int modes, FoldRun& run) {
     const Model model = microbeam({.modes = modes, .voltage = 0.034});
-    const Branch branch = follow_branch(model, settled_orbit(model), in_voltage(model, -1));
+    const Branch branch = follow_branch(System(model), settled_orbit(model), in_voltage(model, -1));
     run.points = branch.points.size();
     run.voltage = fold_of(branch.special);
 }

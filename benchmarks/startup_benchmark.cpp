@@ -18,7 +18,7 @@ using namespace graze;
 constexpr double allowed_milliseconds = 10, allowed_for_chains = 30;
 
 void first_jet(const Model& model) {
-    const Simulation simulation(model);
+    const Simulation simulation{System(model)};
     JetSet jets(simulation, LaneKind::single);
     jets.set_parameters(model.parameter_values());
     Jet& jet = jets(model.initial_mode);

@@ -44,7 +44,8 @@ StudyRun chains_run(std::size_t chains) {
 }
 
 std::unique_ptr<SearchFactory> searches_of(const StudyRun& run) {
-    return attractor_searches(run.model, run.attractor(), run.motion().samplings, run.values, run.motion().simulation);
+    return attractor_searches(System(run.model), run.attractor(), run.motion().samplings, run.values,
+                              run.motion().simulation);
 }
 
 struct Totals {
@@ -66,18 +67,17 @@ Totals run_all(const Plan& plan, const SearchFactory& searches, int jobs) {
 /// The whole diagram, against a plain simulation of as many periods as the motions need to settle.
 void diagram(benchmark::State& state, std::size_t lyapunov_cycles) {
     const StudyRun run = sweep_run(lyapunov_cycles, 1);
-    const Plan plan = plan_of(run, run.model, nullptr);
+    const Plan plan = plan_of(run, System(run.model), nullptr);
     const auto searches = searches_of(run);
     Model model = run.model;
     model.set_parameter("V0", 4.95);
-    const Simulation simulation(model);
+    const Simulation simulation{System(model)};
     Totals totals;
     PairedTiming timing(Clock::processor);
     for (auto unused : state)
         state.SetIterationTime(timing.round([&] { totals = run_all(plan, *searches, 1); },
                                             [&] {
-                                                Observer nobody;
-                                                Trajectory trajectory(simulation, model.parameter_values(), nobody);
+                                                Trajectory trajectory(simulation, model.parameter_values());
                                                 trajectory.start(model.initial_state(), 0, 0,
                                                                  0.16 * static_cast<double>(totals.cycles));
                                                 JetSet jets(simulation, LaneKind::single);
@@ -91,7 +91,7 @@ void diagram(benchmark::State& state, std::size_t lyapunov_cycles) {
 
 void threads(benchmark::State& state) {
     const StudyRun run = chains_run(32);
-    const Plan plan = plan_of(run, run.model, nullptr);
+    const Plan plan = plan_of(run, System(run.model), nullptr);
     const auto searches = searches_of(run);
     PairedTiming timing;
     for (auto unused : state)
@@ -103,7 +103,7 @@ void threads(benchmark::State& state) {
 /// Sixteen chains in lanes against the same ones one after another.
 void lanes(benchmark::State& state) {
     const StudyRun run = chains_run(16);
-    const Plan plan = plan_of(run, run.model, nullptr);
+    const Plan plan = plan_of(run, System(run.model), nullptr);
     const auto searches = searches_of(run);
     PairedTiming timing(Clock::processor);
     for (auto unused : state)
@@ -125,7 +125,7 @@ void lanes(benchmark::State& state) {
 void writing(benchmark::State& state) {
     Study study = load_study("electromagnetic-testbed");
     study.runs = {sweep_run(60, 1)};
-    const Plan plan = plan_of(study.runs[0], study.runs[0].model, nullptr);
+    const Plan plan = plan_of(study.runs[0], System(study.runs[0].model), nullptr);
     const auto searches = searches_of(study.runs[0]);
     const auto folder = std::filesystem::temp_directory_path() / ("graze-benchmark-" + std::to_string(getpid()));
     PairedTiming timing(Clock::processor);

@@ -29,9 +29,9 @@ public:
 
     /// Returns the state at phase 0 after the motion from rest has settled on the orbit at 4.833 V.
     std::vector<double> settled() const {
-        const graze::Simulation simulation(model, {}, {}, {.tolerance = 1e-15});
+        const graze::Simulation simulation(graze::System(model), {}, {}, {.tolerance = 1e-15});
         ContactCounter counter;
-        graze::Trajectory trajectory(simulation, model.parameter_values(), counter);
+        graze::Trajectory trajectory(simulation, model.parameter_values(), borrowed(counter));
         std::vector<double> state = model.initial_state();
         state[2] = 0.1;
         trajectory.start(state, model.initial_mode, 0, 600 * forcing_period);

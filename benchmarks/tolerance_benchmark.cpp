@@ -29,7 +29,7 @@ struct Switch {
         AttractorOptions settle;
         settle.section = "phase0";
         settle.cycles = 2000;
-        start = find_orbit(model, settle);
+        start = find_orbit(System(model), settle);
         touch = touch_at(start.orbit);
     }
     SpecialPoint touch_at(const Orbit& orbit) const {
@@ -37,7 +37,7 @@ struct Switch {
         settings.parameter = voltage;
         settings.greatest = 0.4;
         settings.stop_at = {PointType::grazing};
-        const Branch branch = follow_branch(model, orbit, settings);
+        const Branch branch = follow_branch(System(model), orbit, settings);
         if (branch.special.empty() || branch.special.back().type != PointType::grazing)
             throw std::logic_error("the branch is not what is to be measured");
         return branch.special.back();
@@ -62,7 +62,7 @@ BENCHMARK(TouchDerivatives)->Unit(benchmark::kMicrosecond);
 
 void TouchOfADevice(benchmark::State& state) {
     const Switch one;
-    LocatedValue touch(one.model, one.touch, one.voltage, one.dimensions);
+    LocatedValue touch(System(one.model), one.touch, one.voltage, one.dimensions);
     std::size_t k = 0;
     for (auto _ : state)
         if (!touch(device(touch.values(), k++)).admissible)
@@ -74,7 +74,7 @@ BENCHMARK(TouchOfADevice)->Unit(benchmark::kMicrosecond);
 /// The peer: the branch of each device, up to its touch.
 void TouchOfADeviceByItsBranch(benchmark::State& state) {
     const Switch one;
-    LocatedValue touch(one.model, one.touch, one.voltage, one.dimensions);
+    LocatedValue touch(System(one.model), one.touch, one.voltage, one.dimensions);
     std::size_t k = 0;
     for (auto _ : state) {
         Orbit orbit = one.start.orbit;

@@ -17,8 +17,8 @@ constexpr int periods = 10 * Testbed::orbit_periods; ///< in each round
 class OrbitRun {
 public:
     explicit OrbitRun(const Testbed& testbed, SimulationOptions options, std::vector<Probe> probes = {})
-        : simulation_(testbed.model, std::move(probes), {}, options), jets_(simulation_, LaneKind::single),
-          trajectory_(simulation_, testbed.model.parameter_values(), counter_) {
+        : simulation_(System(testbed.model), std::move(probes), {}, options), jets_(simulation_, LaneKind::single),
+          trajectory_(simulation_, testbed.model.parameter_values(), borrowed(counter_)) {
         trajectory_.start(testbed.settled(), testbed.model.initial_mode, 0, 0);
         run(0);
     }

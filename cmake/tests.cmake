@@ -38,7 +38,7 @@ set(test_folders ${GRAZE_FOLDERS} instrument program misuse)
 if(GRAZE_SANITIZERS STREQUAL "thread")
     set(test_folders threads)
     set(before_threads ${before_design})
-    set(test_threads sweep/plan study/run_schedule study/runner study/shared_model study/side_by_side branch/yield
+    set(test_threads base/thread_team base/turns sweep/plan study/run_schedule study/runner study/shared_model study/side_by_side branch/yield
                      trip/disturbed_trip design/value_map)
 endif()
 

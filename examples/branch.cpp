@@ -15,18 +15,19 @@ int main() {
 
     AttractorOptions settle;
     settle.section = "phase0";
-    const OrbitSolution orbit = find_orbit(model, settle);
+    const System system(model); // compiled once for all that follows
+    const OrbitSolution orbit = find_orbit(system, settle);
 
     BranchSettings settings;
     settings.parameter = model.independent_parameter("amplitude");
     settings.greatest = 1;
-    const Branch free = follow_branch(model, orbit.orbit, settings);
+    const Branch free = follow_branch(system, orbit.orbit, settings);
     const SpecialPoint& grazing = free.special.back();
     std::printf("%s at amplitude %.12f\n", name_of(grazing.type).data(), grazing.parameter);
 
     // OrbitBranch is an iterator: it can be stopped and examined after every step.
-    const BranchStart start = branches_at(model, grazing, settings).front();
-    OrbitBranch branch(model, start.orbit, settings);
+    const BranchStart start = branches_at(system, grazing, settings).front();
+    OrbitBranch branch(system, start.orbit, settings);
     for (bool going = branch.start_along(start.direction, start.distance); going; going = branch.step())
         for (const SpecialPoint& special : branch.found())
             std::printf("%s %s: amplitude %.12f, %s\n", start.how.c_str(), short_name(special.type).data(),

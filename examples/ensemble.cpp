@@ -15,13 +15,14 @@ struct Counter : Observer {
 
 int main() {
     Model model = load_model("electromagnetic-testbed");
-    const Simulation simulation(model);
+    const Simulation simulation{System(model)};
     constexpr int count = 16;
     std::vector<Counter> counters(count);
     std::vector<Trajectory> trajectories;
     for (int i = 0; i < count; ++i) {
         model.set_parameter("V0", 4.6 + 0.05 * i);
-        trajectories.emplace_back(simulation, model.parameter_values(), counters[static_cast<std::size_t>(i)]);
+        trajectories.emplace_back(simulation, model.parameter_values(),
+                                  borrowed(counters[static_cast<std::size_t>(i)]));
         trajectories.back().start(model.initial_state(), model.initial_mode, 0, 16);
     }
     Ensemble ensemble(simulation);

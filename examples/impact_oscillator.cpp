@@ -3,6 +3,7 @@
 #include <graze/trajectory/trajectory.hpp>
 
 #include <cstdio>
+#include <memory>
 
 using namespace graze;
 
@@ -41,9 +42,8 @@ struct Impacts : Observer {
 };
 
 int main() {
-    const Simulation simulation(impact_oscillator(), {}, {}, {.tolerance = 1e-14});
-    Impacts impacts;
-    Trajectory trajectory(simulation, simulation.model().parameter_values(), impacts);
+    const Simulation simulation(System(impact_oscillator()), {}, {}, {.tolerance = 1e-14});
+    Trajectory trajectory(simulation, simulation.model().parameter_values(), std::make_shared<Impacts>());
     trajectory.start(simulation.model().initial_state(), 0, 0, 12);
 
     // The derivatives of the final state with respect to the initial x, and to the gap.

@@ -61,7 +61,7 @@ Orbit settled(const Model& model, std::size_t cycles = 4000) {
     AttractorOptions settle;
     settle.section = "phase0";
     settle.cycles = cycles;
-    const OrbitSolution solution = find_orbit(model, settle);
+    const OrbitSolution solution = find_orbit(System(model), settle);
     if (solution.outcome != OrbitOutcome::converged)
         throw std::runtime_error(model.name + " does not settle: " + solution.detail);
     return solution.orbit;
@@ -137,7 +137,7 @@ void write_start(const Model& model, const Orbit& orbit) {
     parameters.precision(17);
     data.precision(17);
     parameters << orbit.parameters[0] << ' ' << orbit.durations[0] << ' ' << orbit.durations[1] << '\n';
-    ModeFlow flow(model, 1e-13);
+    ModeFlow flow(System(model), 1e-13);
     flow.set_parameters(orbit.parameters);
     std::vector<double> stick = orbit.starts[0], slip = orbit.starts[1];
     // Graze keeps the phase below pi.
@@ -169,7 +169,7 @@ std::string durations_against(const AutoRun& run, const Model& model, const Time
             [&](const BranchPoint& one, const BranchPoint& other) { return distance(one) < distance(other); });
         Orbit guess = near->solution.orbit;
         guess.parameters[0] = voltage;
-        const OrbitSolution exact = solve_orbit(model, guess);
+        const OrbitSolution exact = solve_orbit(System(model), guess);
         for (std::size_t s = 0; s < 2; ++s)
             least = std::min(least, digits(point.columns[point.columns.size() - 2 + s], exact.orbit.durations[s]));
         ++count;

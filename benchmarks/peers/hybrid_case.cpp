@@ -36,9 +36,8 @@ std::vector<std::size_t> same_order(std::size_t states) {
 
 /// Sets start and duration: after `settling` periods from the model's initial state.
 void settle(HybridCase& one, double period, int settling, int periods) {
-    const graze::Simulation simulation(one.model, {}, {}, {.tolerance = 1e-13});
-    graze::Observer nobody;
-    graze::Trajectory trajectory(simulation, one.model.parameter_values(), nobody);
+    const graze::Simulation simulation(graze::System(one.model), {}, {}, {.tolerance = 1e-13});
+    graze::Trajectory trajectory(simulation, one.model.parameter_values());
     trajectory.start(one.model.initial_state(), one.model.initial_mode, 0, (settling + phase_of_start) * period);
     graze::JetSet jets(simulation, graze::LaneKind::single);
     run(trajectory, jets);
@@ -184,9 +183,9 @@ Outcome reference_of(const HybridCase& one) {
 Effort graze_effort(const HybridCase& one, double tolerance, double budget, const Outcome& reference,
                     Outcome& outcome) {
     const std::size_t states = one.scales.size(), inputs = states + one.model.parameter_values().size();
-    const graze::Simulation simulation(one.model, {}, {}, {.tolerance = tolerance});
+    const graze::Simulation simulation(graze::System(one.model), {}, {}, {.tolerance = tolerance});
     ContactTimes contacts;
-    graze::Trajectory trajectory(simulation, one.model.parameter_values(), contacts);
+    graze::Trajectory trajectory(simulation, one.model.parameter_values(), borrowed(contacts));
     graze::JetSet jets(simulation, graze::LaneKind::single);
     std::vector<double> seeds((states + 1) * inputs, 0.0);
     for (std::size_t j = 0; j <= states; ++j)

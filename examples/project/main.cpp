@@ -14,9 +14,9 @@ struct Counter : graze::Observer {
 
 int main() {
     const graze::Model model = graze::load_model("bouncing-ball");
-    const graze::Simulation simulation(model);
+    const graze::Simulation simulation{graze::System(model)};
     Counter counter;
-    graze::Trajectory trajectory(simulation, model.parameter_values(), counter);
+    graze::Trajectory trajectory(simulation, model.parameter_values(), borrowed(counter));
     trajectory.start(model.initial_state(), model.initial_mode, 0, 10);
     graze::JetSet jets(simulation, graze::LaneKind::single);
     run(trajectory, jets);

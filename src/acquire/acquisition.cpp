@@ -19,7 +19,7 @@ public:
     ExperimentRun(const Experiment& experiment, InstrumentLine& line, SampleDevice& device, RecordFolder& folder,
                   const AcquisitionOptions& options)
         : experiment_(experiment), device_(device), folder_(folder), options_(options),
-          generator_(line, generator_options(experiment, options)) {}
+          generator_(borrowed(line), generator_options(experiment, options)) {}
 
     AcquisitionReport run() {
         report_.before = folder_.entries().size();
@@ -28,7 +28,7 @@ public:
             record_all();
         } catch (const InstrumentError& error) {
             report_.ending = error.ending();
-            report_.detail = error.what();
+            report_.detail = error.problem();
         } catch (...) { // rethrown when the output is safe
             failure = std::current_exception();
         }
@@ -54,9 +54,11 @@ private:
         try {
             std::rethrow_exception(failure);
         } catch (const std::exception& error) {
-            report_.ending = AcquisitionEnding::interrupted;
             report_.detail = error.what();
+        } catch (...) {
+            report_.detail = "a callback has thrown what is no std::exception";
         }
+        report_.ending = AcquisitionEnding::interrupted;
     }
 
     void record_all() {

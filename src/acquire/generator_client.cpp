@@ -96,7 +96,7 @@ void GeneratorClient::attempt(const Work& work, int factor) {
                     throw InstrumentError(AcquisitionEnding::garbled,
                                           fmt::format("answers of {} are garbled, or come so late that they are not "
                                                       "those to the questions ({})",
-                                                      generator_name, error.what()));
+                                                      generator_name, error.problem()));
             } else if (last) {
                 throw;
             }
@@ -364,9 +364,9 @@ void GeneratorClient::switch_on() {
             silence();
             const bool second = !changed.empty();
             if (is_level && error.ending() == AcquisitionEnding::clipped)
-                changed = fmt::format("{}; so it was since OUTP ON, and it was switched off at once", error.what());
+                changed = fmt::format("{}; so it was since OUTP ON, and it was switched off at once", error.problem());
             if (second || times >= patient * options_.attempts || !is_worth_another(error.ending()))
-                throw InstrumentError(error.ending(), changed.empty() ? error.what() : changed);
+                throw InstrumentError(error.ending(), changed.empty() ? error.problem() : changed);
         }
         // A character of the answer may have been lost: with the output off the same question will tell.
         silenced_ = false;
@@ -472,10 +472,12 @@ bool GeneratorClient::make_safe(double amplitude, std::string& problem) noexcept
             try_safe(amplitude);
             safe = true;
         } catch (const InstrumentError& error) {
-            problem = error.what();
+            problem = error.problem();
             lost = lost || error.ending() == AcquisitionEnding::line_lost;
         } catch (const std::exception& error) {
             problem = error.what();
+        } catch (...) { // of a line that somebody else has written
+            problem = "its line has failed";
         }
         if (!safe)
             std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -494,7 +496,7 @@ bool GeneratorClient::is_switched_off() noexcept {
             line_->send("OUTP OFF");
             // The answer counts if questions before and after it are answered correctly.
             off = is_in_step() && tells_off(compared(asked("OUTP?"))) && is_in_step();
-        } catch (const std::exception&) { // not confirmed
+        } catch (...) { // not confirmed
             continue;
         }
     }

@@ -33,6 +33,33 @@ std::string_view name_of(AcquisitionEnding ending) {
     return "";
 }
 
+std::string remedy_of(AcquisitionEnding ending) {
+    switch (ending) {
+    case AcquisitionEnding::complete:
+    case AcquisitionEnding::interrupted:
+        break;
+    case AcquisitionEnding::line_lost:
+        return "look at its cable and whether it is switched on, then call it again to go on";
+    case AcquisitionEnding::no_answer:
+        return "see whether it is switched on, and at this port with these settings of the line, then call it again to "
+               "go "
+               "on";
+    case AcquisitionEnding::garbled:
+        return "give the settings of the line that the instrument has (baud, parity, stop_bits, flow), or a better "
+               "cable, then call it again to go on";
+    case AcquisitionEnding::foreign:
+        return "nothing was set; give the generator's port, or what it answers as identity";
+    case AcquisitionEnding::refused:
+        return "give levels that it can take, in an experiment and a folder of their own";
+    case AcquisitionEnding::clipped:
+        return "see what limits it, its load or somebody at its knobs, then call it again to go on; or give a larger "
+               "tolerance under [generator]";
+    case AcquisitionEnding::samples:
+        return "see what it is doing, and whether rate, timeout and patience suit it, then call it again to go on";
+    }
+    return "call it again to go on";
+}
+
 std::string awaited_line(InstrumentLine& line, double timeout, const std::function<bool()>& interrupted,
                          std::string_view who, std::string_view question) {
     constexpr double longest = 1e6; // s: longer times overflow some clocks

@@ -33,8 +33,8 @@ constexpr std::string_view heading =
     "number,file,frequency [Hz],amplitude [V],direction,told [V],settled,settling [s],samples,bytes\n";
 
 [[noreturn]] void fail_to_write(const std::string& path, const char* what, int reason) {
-    throw InputError(Place{path, 0, 0}, fmt::format("it cannot be {} ({})", what, std::strerror(reason)),
-                     "look at the permissions of the folder and the space on the disk; existing records are complete");
+    throw FileError(path, fmt::format("it cannot be {} ({})", what, std::strerror(reason)),
+                    "look at the permissions of the folder and the space on the disk; existing records are complete");
 }
 
 /// Flushes a file to the disk, not only to the system.
@@ -86,8 +86,8 @@ std::string difference(std::string_view one, std::string_view other) {
 
 } // namespace
 
-RecordFolder::RecordFolder(std::string path, const Experiment& experiment, double wait)
-    : path_(std::move(path)), experiment_(&experiment) {
+RecordFolder::RecordFolder(std::string path, Experiment experiment, double wait)
+    : path_(std::move(path)), experiment_(std::move(experiment)) {
     std::error_code error;
     std::filesystem::create_directories(path_, error);
     lock_ = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -97,13 +97,13 @@ RecordFolder::RecordFolder(std::string path, const Experiment& experiment, doubl
     while (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
         if (std::chrono::steady_clock::now() >= end) {
             close(lock_);
-            throw InputError(Place{path_, 0, 0}, "another experiment is recorded into this folder",
-                             "wait for its end, or choose another folder");
+            throw FileError(path_, "another experiment is recorded into this folder",
+                            "wait for its end, or choose another folder");
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
     try {
-        const std::string settings = experiment.settings(), name = path_ + "/" + settings_name;
+        const std::string settings = experiment_.settings(), name = path_ + "/" + settings_name;
         if (size_of(name)) {
             const std::string there = read_text_file(name, "list of settings", longest_model);
             if (there != settings)
@@ -134,14 +134,14 @@ void RecordFolder::finish() {
 }
 
 std::string RecordFolder::path_of(const Level& level) const {
-    return path_ + "/" + experiment_->record_name(level);
+    return path_ + "/" + experiment_.record_name(level);
 }
 
 /// FNV-1a; the last bits stay 0 so that record numbers can be added (G. Fowler, L. C. Noll and K.-P. Vo).
 std::uint64_t RecordFolder::identity() const {
     std::error_code error;
     std::uint64_t hash = 0xcbf29ce484222325ULL;
-    for (const char letter : std::filesystem::canonical(path_, error).string() + '\n' + experiment_->settings())
+    for (const char letter : std::filesystem::canonical(path_, error).string() + '\n' + experiment_.settings())
         hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3ULL;
     constexpr int counting = 16;
     return hash << counting;
@@ -187,7 +187,7 @@ void RecordFolder::move_into_place(const std::string& name) const {
 std::string RecordFolder::manifest() const {
     std::string text(heading);
     for (const auto& [number, entry] : entries_)
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", number, experiment_->record_name(entry.level),
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", number, experiment_.record_name(entry.level),
                             entry.level.frequency, entry.level.amplitude, entry.level.direction, entry.told,
                             entry.settled ? 1 : 0, entry.settling, entry.samples, entry.bytes);
     return text;
@@ -210,13 +210,13 @@ void RecordFolder::read_manifest() {
         std::size_t level = 0;
         int settled = 0;
         const bool good = cells.size() == 10 && parsed(cells[0], level) && level >= 1 &&
-                          level <= experiment_->levels.size() && parsed(cells[5], entry.told) &&
+                          level <= experiment_.levels.size() && parsed(cells[5], entry.told) &&
                           parsed(cells[6], settled) && parsed(cells[7], entry.settling) &&
                           parsed(cells[8], entry.samples) && parsed(cells[9], entry.bytes);
-        if (!good || cells[1] != experiment_->record_name(experiment_->levels[level - 1]))
+        if (!good || cells[1] != experiment_.record_name(experiment_.levels[level - 1]))
             throw InputError(Place{path, number, 1}, "this is not a line of a list of this experiment's records",
                              "restore the list, or choose another folder");
-        entry.level = experiment_->levels[level - 1];
+        entry.level = experiment_.levels[level - 1];
         entry.settled = settled != 0;
         entries_[level] = entry;
     }
@@ -226,7 +226,7 @@ void RecordFolder::read_manifest() {
 void RecordFolder::finish_records() {
     const std::size_t listed = entries_.size();
     for (auto it = entries_.begin(); it != entries_.end();) {
-        const std::string name = experiment_->record_name(it->second.level);
+        const std::string name = experiment_.record_name(it->second.level);
         if (size_of(path_ + "/" + name) == it->second.bytes) {
             ++it;
         } else if (size_of(part_of(name)) == it->second.bytes) {
@@ -237,15 +237,15 @@ void RecordFolder::finish_records() {
         }
     }
     std::error_code error;
-    for (const Level& level : experiment_->levels)
-        if (const std::string part = part_of(experiment_->record_name(level)); size_of(part))
+    for (const Level& level : experiment_.levels)
+        if (const std::string part = part_of(experiment_.record_name(level)); size_of(part))
             std::filesystem::remove(part, error);
     if (entries_.size() != listed)
         write_whole(list_name, manifest());
 }
 
 std::unique_ptr<RecordWriter> RecordFolder::begin(const Level& level, const RecordHeader& header) {
-    const std::string name = experiment_->record_name(level), path = path_ + "/" + name;
+    const std::string name = experiment_.record_name(level), path = path_ + "/" + name;
     struct stat status {};
     if (!has(level) && lstat(path.c_str(), &status) == 0)
         throw InputError(Place{path, 0, 0}, "it exists already, and is not in the list of records",
@@ -256,7 +256,7 @@ std::unique_ptr<RecordWriter> RecordFolder::begin(const Level& level, const Reco
 }
 
 void RecordFolder::commit(RecordEntry entry) {
-    const std::string name = experiment_->record_name(entry.level);
+    const std::string name = experiment_.record_name(entry.level);
     flush_file(part_of(name));
     const auto bytes = size_of(part_of(name));
     if (!bytes)

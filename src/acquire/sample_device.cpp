@@ -1,6 +1,7 @@
 #include "graze/acquire/sample_device.hpp"
 
 #include "graze/base/printable.hpp"
+#include "graze/base/require.hpp"
 #include "graze/record/record_file.hpp"
 
 #include <fmt/format.h>
@@ -25,9 +26,10 @@ constexpr double part_of_timeout = 0.25; ///< for lines that are discarded
 
 } // namespace
 
-TextSampleDevice::TextSampleDevice(InstrumentLine& line, double timeout, std::function<bool()> interrupted,
-                                   double patience)
-    : line_(&line), timeout_(timeout), patience_(patience), interrupted_(std::move(interrupted)) {
+TextSampleDevice::TextSampleDevice(std::shared_ptr<InstrumentLine> line, double timeout,
+                                   std::function<bool()> interrupted, double patience)
+    : line_(required(std::move(line), "a line")), timeout_(timeout), patience_(patience),
+      interrupted_(std::move(interrupted)) {
     line_->send("STOP");
     drain();
     const std::string channels = asked("CHANNELS");

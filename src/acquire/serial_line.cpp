@@ -256,7 +256,7 @@ std::unique_ptr<InstrumentLine> open_tcp_line(const std::string& host, unsigned 
 }
 
 std::unique_ptr<InstrumentLine> open_generator_line(const SerialSettings& settings) {
-    const InstrumentAddress address = generator_address(settings.port, Place{"--port", 0, 0});
+    const InstrumentAddress address = generator_address(settings.port, Place{"port", 0, 0});
     if (address.is_tcp)
         return open_tcp_line(address.name, address.port);
     SerialSettings serial = settings;

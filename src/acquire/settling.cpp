@@ -107,7 +107,7 @@ Settled settle(SampleDevice& device, const SettlingOptions& options, double rate
     device.begin(most, static_cast<std::size_t>(std::clamp(part_of_second * rate, 16.0, 1024.0)));
     PeriodSettings periods;
     periods.reference = reference;
-    PeriodSplitter splitter(source, periods);
+    PeriodSplitter splitter(borrowed(source), periods);
     Period period;
     bool settled = false;
     while (!settled && splitter.next(period)) {

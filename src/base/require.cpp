@@ -26,6 +26,10 @@ void refuse_value(double value, std::string_view what) {
     throw InputError(fmt::format("{} is {}", what, value), "give a finite number");
 }
 
+void refuse_nothing(std::string_view what) {
+    throw InputError(fmt::format("{} is needed, and none is given", what), fmt::format("give {}", what));
+}
+
 } // namespace require_detail
 
 void require_finite(double value, std::string_view what) {

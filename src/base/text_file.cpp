@@ -28,13 +28,13 @@ PlainFile::PlainFile(const std::string& path, std::string_view what) : path_(pat
     }
     if (!S_ISREG(status.st_mode)) {
         ::close(file_);
-        throw InputError(Place{path, 0, 0},
-                         fmt::format("this is a {}, not a {}",
-                                     S_ISDIR(status.st_mode)    ? "directory"
-                                     : S_ISFIFO(status.st_mode) ? "pipe"
-                                                                : "device",
-                                     what),
-                         "give the name of a regular file; copy other sources into one first");
+        throw FileError(path,
+                        fmt::format("this is a {}, not a {}",
+                                    S_ISDIR(status.st_mode)    ? "directory"
+                                    : S_ISFIFO(status.st_mode) ? "pipe"
+                                                               : "device",
+                                    what),
+                        "give the name of a regular file; copy other sources into one first");
     }
 }
 
@@ -43,8 +43,8 @@ PlainFile::~PlainFile() {
 }
 
 void PlainFile::fail(int reason) const {
-    throw InputError(Place{path_, 0, 0}, fmt::format("the {} cannot be read ({})", what_, std::strerror(reason)),
-                     reason == ENOENT ? "check the path" : "check the path and the permissions");
+    throw FileError(path_, fmt::format("the {} cannot be read ({})", what_, std::strerror(reason)),
+                    reason == ENOENT ? "check the path" : "check the path and the permissions");
 }
 
 std::size_t PlainFile::read(char* to, std::size_t room) {

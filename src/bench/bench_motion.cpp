@@ -68,7 +68,7 @@ void BenchMotion::go_on(double spacing, std::size_t count) {
     if (trajectory_) {
         trajectory_->extend(trajectory_->time() + length);
     } else {
-        trajectory_.emplace(simulation_, parameters_, listener_);
+        trajectory_.emplace(simulation_, parameters_, borrowed(listener_));
         trajectory_->start(now_.state, now_.mode, 0, length);
         began_ = now_.time;
     }

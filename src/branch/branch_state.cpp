@@ -59,8 +59,8 @@ void BranchState::hold(const Orbit& candidate) {
 
 /// Makes the equations and the continuation for an orbit. @return false where the kept point has no condition
 bool BranchState::make_problem(const Orbit& orbit) {
-    problem_ = keeps_branch_point() ? std::make_unique<BranchPointProblem>(simulation_, orbit, settings_)
-                                    : std::make_unique<OrbitProblem>(simulation_, orbit, settings_);
+    problem_ = keeps_branch_point() ? std::make_shared<BranchPointProblem>(simulation_, orbit, settings_)
+                                    : std::make_shared<OrbitProblem>(simulation_, orbit, settings_);
     if (monitors_)
         hold_monitors();
     if (settings_.kept && !hold_kept(orbit))
@@ -72,7 +72,7 @@ bool BranchState::make_problem(const Orbit& orbit) {
     constexpr double kept_accuracy = 1e-13;
     if (settings_.kept)
         options.accuracy = std::min(options.accuracy, kept_accuracy);
-    continuation_ = std::make_unique<Continuation>(*problem_, options);
+    continuation_ = std::make_unique<Continuation>(problem_, options);
     return true;
 }
 
@@ -303,7 +303,7 @@ void BranchState::renew_pieces(const BranchPoint& from) {
 bool BranchState::restart(const Orbit& orbit, const OrbitDirection& direction, double arclength) {
     const double length = continuation_->next_step();
     const std::optional<SpecialPoint> kept = settings_.kept;
-    std::unique_ptr<OrbitProblem> old = std::move(problem_);
+    std::shared_ptr<OrbitProblem> old = std::move(problem_);
     std::unique_ptr<Continuation> old_continuation = std::move(continuation_);
     const auto first = held_.begin() + static_cast<std::ptrdiff_t>(held_monitors());
     std::vector<std::unique_ptr<OrbitCondition>> old_kept(std::make_move_iterator(first),

@@ -89,7 +89,7 @@ private:
     std::unique_ptr<OrbitMonitors> monitors_;
     /// One condition for each additional free parameter, those of the kept point last.
     std::vector<std::unique_ptr<OrbitCondition>> held_;
-    std::unique_ptr<OrbitProblem> problem_;
+    std::shared_ptr<OrbitProblem> problem_;
     std::unique_ptr<Continuation> continuation_;
     double arclength_ = 0, growth_ = 1;
 };

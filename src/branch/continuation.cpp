@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 namespace graze {
 
@@ -82,10 +81,10 @@ std::string_view name_of(ContinuationOutcome outcome) {
     return "";
 }
 
-Continuation::Continuation(ContinuationProblem& problem, const ContinuationOptions& options)
-    : problem_(&problem), options_(options), next_step_(options.first_step) {
+Continuation::Continuation(std::shared_ptr<ContinuationProblem> problem, const ContinuationOptions& options)
+    : problem_(required(std::move(problem), "a problem")), options_(options), next_step_(options.first_step) {
     options_.validate();
-    step_.resize(problem.unknowns());
+    step_.resize(problem_->unknowns());
 }
 
 void Continuation::set_next_step(double length) {
@@ -397,7 +396,7 @@ bool Continuation::step() {
     if (outcome_ != ContinuationOutcome::going)
         return false;
     if (point_.u.empty())
-        throw std::logic_error("a continuation has no point to step from before it is started");
+        throw OrderError("a continuation has no point to step from before it is started");
     bool undefined = false;
     problem_->accept(point_.u);
     double length = std::clamp(next_step_, options_.smallest_step,
@@ -467,7 +466,7 @@ bool Continuation::closes() {
 
 bool Continuation::between(double fraction, ContinuationPoint& result) {
     if (steps_ == 0)
-        throw std::logic_error("there are no two points to look between before the first step");
+        throw OrderError("there are no two points to look between before the first step");
     require_finite(fraction, "the fraction");
     const std::size_t count = point_.u.size();
     const double length = point_.arclength - previous_.arclength;

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace graze {
 
@@ -69,7 +68,7 @@ bool DenseProblem::differences(std::span<const double> u) {
 bool DenseProblem::solve(std::span<const double> row, double right, bool homogeneous, std::span<double> step,
                          double* determinant) {
     if (!evaluated_)
-        throw std::logic_error("a problem has to be evaluated before it can be solved");
+        throw OrderError("a problem has to be evaluated before it can be solved");
     require_size(row.size(), unknowns_, "numbers of a row");
     require_size(step.size(), unknowns_, "numbers of a step");
     const auto n = static_cast<Eigen::Index>(unknowns_);

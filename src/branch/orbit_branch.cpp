@@ -16,7 +16,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <stdexcept>
 
 namespace graze {
 
@@ -800,12 +799,12 @@ bool OrbitBranch::start_along(const OrbitDirection& direction, double distance) 
 }
 bool OrbitBranch::step() {
     if (!begun_)
-        throw std::logic_error("a branch has no point to step from before it is started");
+        throw OrderError("a branch has no point to step from before it is started");
     return follower_->step();
 }
 const BranchPoint& OrbitBranch::point() const {
     if (!begun_)
-        throw std::logic_error("a branch has no point before it is started");
+        throw OrderError("a branch has no point before it is started");
     return follower_->point;
 }
 const std::vector<SpecialPoint>& OrbitBranch::found() const {

@@ -1,6 +1,9 @@
 #include "graze/branch/yield.hpp"
 
 #include "base/random_number.hpp"
+#include "base/thread_team.hpp"
+#include "base/turns.hpp"
+#include "branch/solved_devices.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 
@@ -9,11 +12,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <exception>
+#include <functional>
 #include <map>
-#include <mutex>
 #include <numbers>
-#include <thread>
 
 namespace graze {
 
@@ -50,9 +51,9 @@ public:
     using Changes = std::function<std::vector<double>(std::size_t device, const std::vector<double>& nominal)>;
 
     DeviceSolver(const System& system, const SpecialPoint& point, ParameterId control, std::vector<ParameterId> others,
-                 std::size_t devices, Changes changes, const YieldSettings& settings)
+                 std::size_t devices, Changes changes, const YieldSettings& settings, SolvedDevice solved = {})
         : system_(&system), point_(&point), control_(control), others_(std::move(others)), devices_(devices),
-          changes_(std::move(changes)), settings_(&settings), nominal_(make_solver()) {}
+          changes_(std::move(changes)), settings_(&settings), solved_(std::move(solved)), nominal_(make_solver()) {}
 
     LocatedValue& nominal() { return nominal_; }
 
@@ -62,20 +63,13 @@ public:
         constexpr std::size_t enough = 32; // number of devices that justifies a thread
         const std::size_t jobs =
             std::clamp<std::size_t>(devices_ / enough, 1, static_cast<std::size_t>(settings_->jobs));
-        {
-            std::vector<std::jthread> threads;
-            for (std::size_t i = 1; i < jobs; ++i)
-                threads.emplace_back([&] {
-                    guarded([&] {
-                        LocatedValue one = make_solver();
-                        work(one, result, false);
-                    });
-                });
-            guarded([&] { work(nominal_, result, true); });
-        }
-        if (error_)
-            std::rethrow_exception(error_);
-        result.interrupted = stopped_;
+        team_.run(jobs, [&](bool calling) {
+            if (calling)
+                return work(nominal_, result, true);
+            LocatedValue one = make_solver();
+            work(one, result, false);
+        });
+        result.interrupted = team_.is_stopped();
         std::map<std::string, std::size_t> counts;
         for (const std::string& problem : problems_)
             if (!problem.empty())
@@ -88,28 +82,14 @@ public:
 private:
     LocatedValue make_solver() const { return {*system_, *point_, control_, others_, settings_->solver}; }
 
-    template <class Work>
-    void guarded(const Work& work) {
-        try {
-            work();
-        } catch (...) {
-            const std::lock_guard lock(mutex_);
-            if (!error_)
-                error_ = std::current_exception();
-            stopped_ = true;
-        }
-    }
-
     void work(LocatedValue& solver, Yield& result, bool reports_progress) {
-        for (std::size_t i; !stopped_ && (i = next_++) < devices_;) {
-            if (settings_->interrupted && settings_->interrupted()) {
-                stopped_ = true;
-                return;
-            }
+        for (std::size_t i; !team_.is_stopped() && (i = next_++) < devices_;) {
+            if (interrupted_ && interrupted_())
+                return team_.stop();
             problems_[i] = solve(solver, i, result.devices[i]);
             const std::size_t done = ++done_;
-            if (reports_progress && settings_->progress)
-                settings_->progress(done);
+            if (reports_progress && progress_)
+                progress_(done);
         }
     }
 
@@ -131,8 +111,8 @@ private:
         if (device.outcome != DeviceOutcome::found)
             return found.problem.empty() ? "the model would not follow the orbit" : found.problem;
         device.value = found.value;
-        if (settings_->solved)
-            settings_->solved(i, found);
+        if (solved_)
+            solved_(i, found);
         return {};
     }
 
@@ -143,12 +123,14 @@ private:
     std::size_t devices_;
     Changes changes_;
     const YieldSettings* settings_;
+    SolvedDevice solved_;
     LocatedValue nominal_;
     std::vector<std::string> problems_;
     std::atomic<std::size_t> next_{0}, done_{0};
-    std::atomic<bool> stopped_{false};
-    std::mutex mutex_; ///< guards error_
-    std::exception_ptr error_;
+    Turns turns_;
+    std::function<bool()> interrupted_ = turns_.asking(settings_->interrupted);
+    std::function<void(std::size_t)> progress_ = turns_.taking(settings_->progress);
+    ThreadTeam team_;
 };
 
 void count(Yield& result) {
@@ -354,6 +336,11 @@ Yield yield_of(const System& system, const SpecialPoint& point, ParameterId cont
 
 Yield yield_of(const System& system, const SpecialPoint& point, ParameterId control, const MadeDevices& devices,
                const YieldSettings& settings) {
+    return yield_of(system, point, control, devices, settings, SolvedDevice());
+}
+
+Yield yield_of(const System& system, const SpecialPoint& point, ParameterId control, const MadeDevices& devices,
+               const YieldSettings& settings, SolvedDevice solved) {
     require_number_of(devices.values.size());
     require_common(settings);
     for (const std::vector<double>& values : devices.values)
@@ -367,7 +354,8 @@ Yield yield_of(const System& system, const SpecialPoint& point, ParameterId cont
             changes[k] -= nominal[k];
         return changes;
     };
-    DeviceSolver solver(system, point, control, devices.parameters, devices.values.size(), changes_of, settings);
+    DeviceSolver solver(system, point, control, devices.parameters, devices.values.size(), changes_of, settings,
+                        std::move(solved));
     Yield result;
     result.nominal = solver.nominal().value();
     solver.solve_all(result);

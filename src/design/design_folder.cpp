@@ -33,11 +33,12 @@ std::string device_heading(const Design& design) {
 }
 
 void require_device_of(const Design& design, const std::string& folder, const Place& place) {
-    const std::string remedy = fmt::format("make it by: graze design {} --output {}", design.file, folder);
+    const std::string remedy = fmt::format("make it by designing {} into {}", design.file, folder);
     const std::filesystem::path in(folder), device = in / device_model_name;
-    if (!std::filesystem::is_regular_file(device))
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(device, error))
         throw InputError(place, fmt::format("the folder {} has no {}", folder, device_model_name), remedy);
-    if (std::filesystem::exists(in / unfinished_name))
+    if (std::filesystem::exists(in / unfinished_name, error))
         throw InputError(place,
                          fmt::format("the last run of graze design in {} has not come to its end: its {} is of an "
                                      "earlier one",

@@ -95,7 +95,7 @@ void try_below(DeviceTrial& trial, const TripPoint& trip, const Orbit& orbit, co
     SimulationOptions simulated;
     const Simulation simulation(trip.system, {}, {}, simulated);
     ContactCount count(trip.point.event, options.interrupted);
-    Trajectory trajectory(simulation, whole.parameters, count);
+    Trajectory trajectory(simulation, whole.parameters, borrowed(count));
     trajectory.start(whole.starts.front(), whole.signature.front().mode, 0,
                      static_cast<double>(options.cycles) * whole.period());
     JetSet jets(simulation, LaneKind::single);

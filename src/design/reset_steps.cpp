@@ -248,7 +248,6 @@ private:
         constexpr std::size_t parts = 16;
         const Simulation simulation(trip_.system, {}, {}, {});
         JetSet jets(simulation, LaneKind::single);
-        Observer nobody;
         std::vector<double> sizes(model_.states.size()), state = orbit_.starts.front();
         std::size_t mode = orbit_.signature.front().mode;
         for (std::size_t part = 0;; ++part) {
@@ -256,7 +255,7 @@ private:
                 sizes[i] = std::max(sizes[i], std::abs(state[i]));
             if (part == parts)
                 return sizes;
-            Trajectory trajectory(simulation, orbit_.parameters, nobody);
+            Trajectory trajectory(simulation, orbit_.parameters);
             trajectory.start(state, mode, 0, orbit_.period() / static_cast<double>(parts));
             run(trajectory, jets);
             if (trajectory.outcome().ending != Ending::end_time)

@@ -1,5 +1,7 @@
 #include "graze/design/value_map.hpp"
 
+#include "base/thread_team.hpp"
+#include "base/turns.hpp"
 #include "graze/base/input_error.hpp"
 
 #include <fmt/format.h>
@@ -8,10 +10,8 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <exception>
-#include <mutex>
+#include <functional>
 #include <optional>
-#include <thread>
 
 namespace graze {
 
@@ -71,48 +71,31 @@ public:
 
     template <class Work>
     void each(std::size_t count, const Work& work) {
-        const auto share = [&](bool tells) {
-            try {
-                LocatedValue located(trip_->system, trip_->point, trip_->control, others_, with_map(settings_->solver));
-                for (std::size_t i; !stopped_ && (i = next_++) < count;) {
-                    if (settings_->interrupted && settings_->interrupted()) {
-                        stopped_ = true;
-                        return;
-                    }
-                    work(located, i);
-                    const std::size_t done = ++done_;
-                    if (tells && settings_->progress)
-                        settings_->progress(done);
-                }
-            } catch (...) {
-                const std::lock_guard lock(mutex_);
-                if (!error_)
-                    error_ = std::current_exception();
-                stopped_ = true;
+        constexpr std::size_t enough = 8; // pieces for which a thread is worth its start
+        const std::size_t jobs = std::clamp<std::size_t>(count / enough, 1, static_cast<std::size_t>(settings_->jobs));
+        team_.run(jobs, [&](bool calling) {
+            LocatedValue located(trip_->system, trip_->point, trip_->control, others_, with_map(settings_->solver));
+            for (std::size_t i; !team_.is_stopped() && (i = next_++) < count;) {
+                if (interrupted_ && interrupted_())
+                    return team_.stop();
+                work(located, i);
+                const std::size_t done = ++done_;
+                if (calling && progress_)
+                    progress_(done);
             }
-        };
-        {
-            std::vector<std::jthread> threads;
-            constexpr std::size_t enough = 8; // pieces that justify starting a thread
-            const std::size_t jobs =
-                std::clamp<std::size_t>(count / enough, 1, static_cast<std::size_t>(settings_->jobs));
-            for (std::size_t i = 1; i < jobs; ++i)
-                threads.emplace_back([&] { share(false); });
-            share(true);
-        }
-        if (error_)
-            std::rethrow_exception(error_);
+        });
     }
-    bool stopped() const { return stopped_; }
+    bool stopped() const { return team_.is_stopped(); }
 
 private:
     const TripPoint* trip_;
     std::vector<ParameterId> others_;
     const MapSettings* settings_;
     std::atomic<std::size_t> next_{0}, done_{0};
-    std::atomic<bool> stopped_{false};
-    std::mutex mutex_; ///< protects error_
-    std::exception_ptr error_;
+    Turns turns_;
+    std::function<bool()> interrupted_ = turns_.asking(settings_->interrupted);
+    std::function<void(std::size_t)> progress_ = turns_.taking(settings_->progress);
+    ThreadTeam team_;
 };
 
 /// Finds the limits of tuning from the nominal position outwards: a missing solution, or the end of the range.

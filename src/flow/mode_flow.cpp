@@ -9,7 +9,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <stdexcept>
 
 namespace graze {
 
@@ -66,7 +65,7 @@ void ModeFlow::require_fitting(std::size_t mode, std::span<const double> state) 
     require_index(mode, system_.model().modes.size(), "mode");
     require_size(state.size(), states_, "states");
     if (parameters_.size() != system_.parameters())
-        throw std::logic_error("the flow of a mode has no parameters before they are set");
+        throw OrderError("the flow of a mode has no parameters before they are set");
 }
 
 void ModeFlow::set_parameters(std::span<const double> parameters) {

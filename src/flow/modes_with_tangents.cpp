@@ -42,7 +42,7 @@ System modes_with_tangents(Model& model, std::span<const std::size_t> rows,
         }
         grown.modes.push_back({.name = mode.name, .rates = std::move(rates)});
     }
-    return grown;
+    return System(grown);
 }
 
 } // namespace graze

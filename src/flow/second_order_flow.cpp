@@ -1,10 +1,10 @@
 #include "graze/flow/second_order_flow.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 
 #include <algorithm>
 #include <numeric>
-#include <stdexcept>
 
 namespace graze {
 
@@ -43,7 +43,7 @@ ModeFlow::Ending SecondOrderFlow::run(std::size_t mode, std::span<double> state,
     require_size(derivatives.size(), states * variables, "derivatives");
     require_size(second.size(), states * variables, "second derivatives");
     if (parameters_.size() != system_.system().parameters())
-        throw std::logic_error("the flow of a mode has no parameters before they are set");
+        throw OrderError("the flow of a mode has no parameters before they are set");
     std::copy(vector.begin() + count(states), vector.end(), inputs_.begin() + count(parameters_.size()));
     flow_.set_parameters(inputs_);
     std::copy(state.begin(), state.end(), start_.begin());

@@ -1,6 +1,7 @@
 #include "graze/flow/system.hpp"
 
 #include "flow/section_function.hpp"
+#include "graze/base/input_error.hpp"
 #include "graze/symbolic/linearisation.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "model/model_expand.hpp"
@@ -11,7 +12,6 @@
 #include <map>
 #include <mutex>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 
 namespace graze {
@@ -172,7 +172,7 @@ Function SystemCompiler::checked(const SymbolIndex& inputs, std::span<const Expr
                                  Arguments&&... arguments) {
     try {
         return counted({inputs, std::forward<Arguments>(arguments)...});
-    } catch (const std::invalid_argument&) {
+    } catch (const InputError&) {
         model_.require_known(inputs.symbols(), values);
         throw;
     }

@@ -2,12 +2,12 @@
 
 #include "flow/couplings.hpp"
 #include "flow/tangent_reach.hpp"
+#include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 namespace graze {
 
@@ -166,7 +166,7 @@ double TangentSteps::follow(Jet& next, double length) {
 double TangentSteps::carry(Jet& next, double length, std::span<double> after, std::span<const double> end) {
     constexpr std::size_t most_rounds = 100;
     if (jet_ == nullptr)
-        throw std::logic_error("derivatives are carried along a step that has begun");
+        throw OrderError("derivatives are carried along a step that has begun");
     require_size(after.size(), states_ * directions_, "derivatives");
     at_ = std::numeric_limits<double>::quiet_NaN();
     if (!end.empty()) {

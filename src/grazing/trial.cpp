@@ -106,7 +106,7 @@ public:
         if (flow.run(touch.mode, state, -early) != ModeFlow::Ending::done)
             return motion;
         LargestContact largest_contact(simulation_.system(), map_, early, parameters, options_.interrupted);
-        Trajectory trajectory(simulation_, parameters, largest_contact);
+        Trajectory trajectory(simulation_, parameters, borrowed(largest_contact));
         trajectory.start(state, touch.mode, 0, static_cast<double>(options_.cycles) * map_.time + early);
         JetSet jets(simulation_, LaneKind::single);
         graze::run(trajectory, jets);

@@ -59,8 +59,8 @@ void require_loads(std::span<const StaticLoad> loads, const CouplingSettings& se
             throw InputError(fmt::format("a displacement of {:.4g} is larger than the gap at rest, {:.4g}, which is "
                                          "impossible",
                                          load.displacement, settings.gap),
-                             "give the gap, the stiffness and displacements in the same unit of length (--scale "
-                             "NAME=FACTOR, or scale in the run that has the record)");
+                             "give the gap, the stiffness and displacements in the same unit of length (scale in "
+                             "the run that has the record)");
     constexpr std::size_t fewest = 3;
     if (loads.size() < fewest || !(settings.stiffness > 0))
         throw InputError("there are too few equilibria, or no stiffness", "give three or more, and m w0^2");

@@ -97,7 +97,7 @@ std::vector<Period> periods_above(double hysteresis, const Samples& seen, const 
     settings.reference = channel;
     settings.level = level;
     settings.hysteresis = hysteresis;
-    PeriodSplitter splitter(source, settings);
+    PeriodSplitter splitter(borrowed(source), settings);
     std::vector<Period> periods;
     for (Period period; periods.size() < most && splitter.next(period);) {
         const auto row_of = [&](double time) {
@@ -309,9 +309,7 @@ void require_no_gap(const std::vector<Period>& periods, const Samples& samples, 
             to - from > much * usual && to > periods.front().begin && from < periods.back().end)
             throw InputError(fmt::format("'{}' has no rows from {:.6g} to {:.6g}, for {:.2g} of its periods", name,
                                          from, to, (to - from) / usual),
-                             fmt::format("give a part without gaps (graze identify ... --from T --to T), as all from "
-                                         "{:.6g} on",
-                                         to));
+                             fmt::format("give a part without gaps, as all from {:.6g} on", to));
 }
 
 } // namespace
@@ -335,17 +333,15 @@ DecayPeaks decay_peaks(SampleSource& source, std::size_t channel, std::size_t mo
     const std::optional<DecayFit> found = DampedSine(periods, samples, channel, level).fit();
     if (!found)
         throw InputError(fmt::format("'{}' is not a decaying oscillation", name),
-                         "give the record of a single one, from its release on (graze identify ... --from T --to T)");
+                         "give the record of a single one, from its release on");
     const std::vector<PeakFit> fits = fits_of(periods, channel, *found);
     if (fits.size() < 2 && !found->wave.residual_test.is_noise())
         throw InputError(fmt::format("'{}' is not a damped sine: {}", name, found->wave.residual_test.text()),
-                         "look at the record there, and give a part of it that is free of that (graze identify ... "
-                         "--from T --to T)");
+                         "look at the record there, and give a part of it that is free of that");
     if (fits.size() < 2)
         throw InputError(fmt::format("{1} of {2} peaks of '{0}' stand out from the noise, which is {3:.2g} a sample",
                                      name, fits.size(), periods.size(), found->noise),
-                         "filter out higher frequencies by graze record FILE --pass F --write FILE, or record a larger "
-                         "release");
+                         "filter out higher frequencies, or record a larger release");
     DecayPeaks peaks = at_common_times(fits);
     peaks.rest = found->value;
     peaks.rest_error = found->error * found->wave.residual_test.widening;

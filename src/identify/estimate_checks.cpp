@@ -115,7 +115,7 @@ void check_coil(Identification& found) {
         if (one != found.values.end() && !(one->estimate.value > 0))
             remove_value(found, name, fmt::format("the {} comes out below zero, which no coil has; {}", name, remedy));
     };
-    refuse("resistance", "look at the sign of the current or the voltage (--scale NAME=-1)");
+    refuse("resistance", "look at the sign of the current or the voltage");
     refuse("inductance", "the current leads the voltage: look at which channel is which, at the frequency, and at "
                          "filters that delay one of them");
     refuse("leakage_inductance", "look at beta1, beta2, gap and clamped displacement, and at their units");

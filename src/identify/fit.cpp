@@ -3,6 +3,7 @@
 #include "base/median.hpp"
 #include "graze/base/input_error.hpp"
 #include "identify/alternative_solutions.hpp"
+#include "identify/fit_callbacks.hpp"
 #include "identify/fit_findings.hpp"
 #include "identify/fit_initialisation.hpp"
 #include "identify/fit_mismatch.hpp"
@@ -444,8 +445,9 @@ std::string_view name_of(FitEnding ending) {
     return "";
 }
 
-Fit fit_model(const System& system, const FitTask& task, const FitSettings& settings) {
-    require_task(system, task, settings);
+namespace {
+
+Fit fit_unless_interrupted(const System& system, const FitTask& task, const FitSettings& settings) {
     try {
         return Fitter(system, task, settings).run();
     } catch (const FitInterruption&) { // interrupted before the starting point was complete
@@ -454,6 +456,16 @@ Fit fit_model(const System& system, const FitTask& task, const FitSettings& sett
         fit.detail = "the fit was ended before the first motions were known: " + extent_of(task);
         return fit;
     }
+}
+
+} // namespace
+
+Fit fit_model(const System& system, const FitTask& task, const FitSettings& settings) {
+    require_task(system, task, settings);
+    FitCallbacks callbacks(settings);
+    Fit fit = fit_unless_interrupted(system, task, callbacks.settings());
+    callbacks.rethrow();
+    return fit;
 }
 
 } // namespace graze

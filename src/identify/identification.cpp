@@ -74,7 +74,7 @@ private:
     [[noreturn]] static void refuse(const std::string& name, double value) {
         throw InputError(
             fmt::format("the values of '{}' go up to {:.3g}: numbers of that size are not handled", name, value),
-            fmt::format("use another unit (graze identify ... --scale {}={:.0e})", name, std::min(1 / value, 1e300)));
+            fmt::format("use another unit (scale {}={:.0e})", name, std::min(1 / value, 1e300)));
     }
 
     SampleSource* source_;
@@ -93,12 +93,12 @@ void require_three_peaks(const std::vector<DecayPeaks>& releases, const std::vec
     for (std::size_t r = 0; r < releases.size(); ++r)
         if (const ResidualTest& left = releases[r].wave.residual_test; !left.is_noise())
             throw InputError(fmt::format("{}: this is not a damped sine: {}", names[r], left.text()),
-                             "look at the record there, and give a part of it that is free of that (--from T --to T)");
+                             "look at the record there, and give a part of it that is free of that");
     throw InputError(
         fmt::format("{}{}: there are too few peaks to determine standard errors: two stand out from the noise, "
                     "three are needed",
                     names.front(), names.size() > 1 ? " and others" : ""),
-        "give a longer record or one with less damping, and let --peaks be three or more");
+        "give a longer record or one with less damping, and take three peaks or more");
 }
 
 /// Refuses a channel that is not a velocity: a displacement has corners, which resemble jumps.
@@ -107,8 +107,8 @@ void require_impacts(const std::string& name, const std::string& channel, const 
         throw InputError(fmt::format("{}: at {} of {} jumps of '{}' the velocity before is not larger than twice its "
                                      "error, or has the sign of that after: these are not impacts",
                                      name, doubtful, impacts.size(), channel),
-                         "look at which channel is the velocity, and give velocities relative to the stop (graze "
-                         "record FILE --what impacts shows them)");
+                         "look at which channel is the velocity, and give velocities relative to the "
+                         "stop");
 }
 
 } // namespace

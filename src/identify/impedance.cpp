@@ -27,7 +27,7 @@ double frequency_of_crossings(std::span<const double> times, std::span<const dou
     PeriodSettings settings;
     settings.level = std::accumulate(voltage.begin(), voltage.end(), 0.0) /
                      static_cast<double>(std::max<std::size_t>(1, voltage.size()));
-    PeriodSplitter splitter(source, settings);
+    PeriodSplitter splitter(borrowed(source), settings);
     std::vector<double> crossings;
     for (Period period; splitter.next(period); crossings.push_back(period.end))
         if (crossings.empty())

@@ -230,7 +230,7 @@ const PredictedMotion& PieceMotion::follow(const MotionPiece& piece) {
         for (std::size_t j = 0; j < parameters_.size(); ++j)
             seed[states + j] = parameter_seeds_[j * count + d];
     }
-    Trajectory trajectory(simulation_, parameters_, watcher);
+    Trajectory trajectory(simulation_, parameters_, borrowed(watcher));
     trajectory.start(first, piece.mode, begin, piece.end);
     trajectory.carry_tangents(seeds_, count);
     watcher.watch(trajectory);

@@ -49,7 +49,7 @@ int listener(std::uint16_t port) {
         const int reason = errno;
         if (file >= 0)
             close(file);
-        throw InputError(Place{"--tcp", 0, 0},
+        throw InputError(Place{"tcp", 0, 0},
                          fmt::format("port {} cannot be listened at ({})", port, std::strerror(reason)),
                          "choose another one, or 0 for one that is free");
     }

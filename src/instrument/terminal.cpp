@@ -28,15 +28,15 @@ void clear_name(const std::string& name) {
     const std::string target =
         std::filesystem::is_symlink(status) ? std::filesystem::read_symlink(name, error).string() : std::string();
     if (!target.starts_with("/dev/pts/"))
-        throw InputError(Place{"--port", 0, 0}, fmt::format("'{}' exists already", name), "choose another name");
+        throw InputError(Place{"port", 0, 0}, fmt::format("'{}' exists already", name), "choose another name");
     if (std::filesystem::exists(target, error))
-        throw InputError(Place{"--port", 0, 0}, fmt::format("'{}' is a terminal that is in use", name),
+        throw InputError(Place{"port", 0, 0}, fmt::format("'{}' is a terminal that is in use", name),
                          "choose another name, or remove it if no bench is running there");
     std::filesystem::remove(name, error);
 }
 
 [[noreturn]] void refuse(const std::string& name) {
-    throw InputError(Place{"--port", 0, 0},
+    throw InputError(Place{"port", 0, 0},
                      fmt::format("no serial line can be made as '{}' ({})", name, std::strerror(errno)),
                      "choose a name in a folder that you may write to");
 }
@@ -45,7 +45,7 @@ void clear_name(const std::string& name) {
 
 Terminal::Terminal(std::string name) : name_(std::move(name)) {
     if (name_.empty())
-        throw InputError(Place{"--port", 0, 0}, "the name of the port is empty", "give one");
+        throw InputError(Place{"port", 0, 0}, "the name of the port is empty", "give one");
     clear_name(name_);
     std::array<char, 128> path{};
     master_ = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);

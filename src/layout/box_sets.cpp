@@ -1,8 +1,7 @@
 #include "layout/box_sets.hpp"
+#include "graze/base/input_error.hpp"
 
 #include <boost/polygon/polygon.hpp>
-
-#include <stdexcept>
 
 namespace graze {
 
@@ -58,7 +57,7 @@ std::vector<GridPolygon> outlines(std::span<const GridBox> boxes, std::span<cons
     std::vector<GridPolygon> result;
     for (const auto& polygon : polygons) {
         if (polygon.begin_holes() != polygon.end_holes())
-            throw std::logic_error("a drawn polygon has a hole");
+            throw InternalError("a drawn polygon has a hole");
         result.push_back(corners_of(polygon));
     }
     return result;

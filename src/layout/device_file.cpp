@@ -14,6 +14,20 @@ Place DeviceFile::place(const std::string& key) const {
     return {file, 1, 1};
 }
 
+namespace {
+
+constexpr std::string_view given_beside = "given ";
+
+} // namespace
+
+Place given_place(const std::string& name) {
+    return {std::string(given_beside) + name, 0, 0};
+}
+
+bool is_given_place(const Place& place) {
+    return place.file.starts_with(given_beside);
+}
+
 DeviceFile parse_device_file(std::string_view text, const std::string& file, const GivenLengths& given) {
     const toml::table root = parse_toml(text, file, "docs/layout.md shows how a device is described");
     return DeviceFileReader(file).read(root, given);

@@ -196,7 +196,7 @@ bool DeviceFileReader::take_condition(const std::string& name, double value, con
 void DeviceFileReader::take(const std::pair<std::string, double>& given) {
     const std::string& name = given.first;
     const double value = given.second;
-    const Place place{"--set " + name, 0, 0};
+    const Place place = given_place(name);
     const auto set = [&](auto fields, auto& section, const std::string& bare) {
         const auto* field = field_named(fields, bare);
         if (!field)
@@ -232,7 +232,7 @@ void DeviceFileReader::take(const std::pair<std::string, double>& given) {
 void DeviceFileReader::require_layer() const {
     const ProcessData& process = result_.process;
     if (!(process.chamber_depth < process.wafer_thickness))
-        throw InputError(result_.place(result_.place("process.wafer_thickness").file.starts_with("--set")
+        throw InputError(result_.place(is_given_place(result_.place("process.wafer_thickness"))
                                            ? "process.wafer_thickness"
                                            : "process.chamber_depth"),
                          fmt::format("the chambers, {:.6g} um deep, leave nothing of the wafer, {:.6g} um thick",

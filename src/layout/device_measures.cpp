@@ -1,9 +1,9 @@
 #include "graze/layout/device_measures.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "layout/grid_lengths.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace graze {
 
@@ -12,7 +12,7 @@ namespace {
 Facing require_facing(const GridPolygon& left, const GridPolygon& right) {
     const auto found = facing(left, right);
     if (!found)
-        throw std::logic_error("two parts of a device do not face each other");
+        throw InternalError("two parts of a device do not face each other");
     return *found;
 }
 

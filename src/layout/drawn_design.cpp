@@ -175,7 +175,7 @@ std::optional<DrawnDesign> drawn_design(const DesignedDevice& designed, const st
 ParameterFile solved_numbers(const DesignedDevice& designed) {
     ParameterFile numbers;
     numbers.text =
-        fmt::format("What graze layout has solved for, for its --set @FILE: the design {}.", designed.own.name);
+        fmt::format("What was solved for, to be given to the device again: the design {}.", designed.own.name);
     for (const MatchedQuantity& one : designed.matched.quantities)
         numbers.set.emplace_back(one.number.substr(one.number.find('.') + 1), one.after);
     return numbers;

@@ -319,7 +319,7 @@ void require_rules(const DeviceFile& file, const std::vector<RuleFinding>& findi
                     file.place(one.key), "rule " + one.text(),
                     one.remedy.empty()
                         ? fmt::format("change the dimension, or {} in [rules] (false: none), or draw it all "
-                                      "the same by --despite-rules",
+                                      "the same",
                                       one.rule)
                         : one.remedy);
         });

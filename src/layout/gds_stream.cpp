@@ -8,7 +8,6 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
-#include <stdexcept>
 
 namespace graze {
 
@@ -67,7 +66,7 @@ public:
 private:
     void add(const LayoutCell& cell) {
         if (cell.name.empty() || cell.name.size() > longest_structure_name)
-            throw std::length_error("'" + cell.name + "' cannot be the name of a cell in GDSII");
+            throw InputError("'" + cell.name + "' cannot be the name of a cell in GDSII", "");
         dates(begin_structure);
         name(structure_name, cell.name);
         for (const CellShape& shape : cell.shapes)
@@ -95,7 +94,7 @@ private:
 
     void add(const CellShape& shape) {
         if (shape.polygon.size() > most_corners)
-            throw std::length_error("a polygon has more corners than GDSII can have");
+            throw InputError("a polygon has more corners than GDSII can have", "");
         if (shape.polygon.size() < fewest_corners)
             throw InputError(
                 fmt::format("a polygon has {} corners instead of {} or more", shape.polygon.size(), fewest_corners),
@@ -160,7 +159,7 @@ private:
             for (const std::int64_t value : {point.x, point.y}) {
                 if (value < std::numeric_limits<std::int32_t>::min() ||
                     value > std::numeric_limits<std::int32_t>::max())
-                    throw std::out_of_range("a coordinate does not fit in GDSII");
+                    throw InputError("a coordinate does not fit in GDSII", "");
                 bits(static_cast<std::uint64_t>(value) & 0xffffffffU, 32);
             }
     }
@@ -177,7 +176,7 @@ std::uint64_t gds_real(double value) {
     int exponent = 0;
     constexpr double largest = 0x1p251, least = 0x1p-256; // slightly below 16^63; 16^-64
     if (std::abs(value) > largest)
-        throw std::out_of_range(fmt::format("the number {} does not fit in GDSII", value));
+        throw InputError(fmt::format("the number {} does not fit in GDSII", value), "");
     if (std::abs(value) < least)
         return 0;
     double fraction = std::frexp(std::abs(value), &exponent);

@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 #include <unordered_map>
 #include <utility>
 
@@ -108,7 +107,7 @@ std::map<MaskLayer, double> areas_within(const CellIndex& index, const LayoutCel
 const LayoutCell& cell_named(const LayoutLibrary& library, std::string_view name) {
     const LayoutCell* cell = library.find(name);
     if (!cell)
-        throw std::out_of_range("there is no cell '" + std::string(name) + "'");
+        throw InputError("there is no cell '" + std::string(name) + "'", "");
     return *cell;
 }
 

@@ -161,17 +161,16 @@ LumpedModel lumped_model_of(const DeviceFile& file) {
 
 namespace {
 
-/// Place to report when the etch removes a part: a number of the command line, else the etch, else the largest
+/// Place to report when the etch removes a part: a number given beside the file, else the etch, else the largest
 /// contribution.
 Place place_of_etch(const DeviceFile& file) {
-    const auto is_given = [](const Place& place) { return place.file.starts_with("--set"); };
     const double by_taper = file.conditions.wall().slope * file.process.layer_thickness();
     const bool tapered = std::abs(by_taper) > std::abs(file.conditions.bias);
     for (const char* key : {tapered ? "process.taper" : "process.bias", tapered ? "process.bias" : "process.taper"})
-        if (const Place place = file.place(key); is_given(place))
+        if (const Place place = file.place(key); is_given_place(place))
             return place;
     for (const auto& [key, place] : file.places)
-        if (is_given(place))
+        if (is_given_place(place))
             return place;
     return file.place(tapered ? "process.taper" : "process.bias");
 }

@@ -131,9 +131,9 @@ private:
         const Way& way = matching_ways[which];
         MatchedQuantity& quantity = result_.quantities[which];
         double& number = number_of(result_.file, way);
-        if (result_.file.place(quantity.number).file.starts_with("--set")) {
+        if (is_given_place(result_.file.place(quantity.number))) {
             quantity.met = departure(which, number).value_or(1) == 0;
-            quantity.reason = fmt::format("{} is given by --set", way.number);
+            quantity.reason = fmt::format("{} is given", way.number);
             return false;
         }
         const std::optional<double> here = departure(which, number);

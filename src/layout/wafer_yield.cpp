@@ -1,5 +1,7 @@
 #include "graze/layout/wafer_yield.hpp"
 
+#include "base/turns.hpp"
+#include "branch/solved_devices.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/design/trip_times.hpp"
 
@@ -7,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace graze {
@@ -59,12 +62,11 @@ public:
         yield.least = design_->least_usable();
         yield.greatest = design_->greatest_usable();
         yield.jobs = settings_->jobs;
-        yield.interrupted = settings_->interrupted;
-        yield.progress = settings_->progress;
-        yield.solved = [this](std::size_t i, const LocatedSolution& solution) {
-            classify(result_.devices[i], solution);
-        };
-        result_.yield = yield_of(trip_->system, trip_->point, trip_->control, made, yield);
+        yield.interrupted = interrupted_;
+        yield.progress = turns_.taking(settings_->progress);
+        result_.yield = yield_of(
+            trip_->system, trip_->point, trip_->control, made, yield,
+            [this](std::size_t i, const LocatedSolution& solution) { classify(result_.devices[i], solution); });
         for (std::size_t i = 0; i < result_.devices.size(); ++i) {
             result_.devices[i].outcome = result_.yield.devices[i].outcome;
             result_.devices[i].value = result_.yield.devices[i].value;
@@ -159,7 +161,7 @@ private:
             return;
         TripRequest request = design_->trip;
         request.overshoots = {*result_.overshoot};
-        const TripTimes times = trip_times(moved, solution.orbit, found, request, settings_->interrupted);
+        const TripTimes times = trip_times(moved, solution.orbit, found, request, interrupted_);
         if (times.rows.empty())
             return;
         if (const TripTime* best = times.rows.front().best())
@@ -185,6 +187,8 @@ private:
     const Layout* wafer_;
     const TripPoint* trip_;
     const WaferYieldSettings* settings_;
+    Turns turns_;
+    std::function<bool()> interrupted_ = turns_.asking(settings_->interrupted);
     Model model_;
     std::optional<double> ratio_;
     std::vector<ParameterId> parameters_;

@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 
 namespace graze {
@@ -52,7 +51,7 @@ void require_place(double x) {
 
 void require_mode(int i, int count) {
     if (i < 1 || i > count) {
-        throw std::out_of_range("mode number " + std::to_string(i) + " is not between 1 and " + std::to_string(count));
+        throw InputError("mode number " + std::to_string(i) + " is not between 1 and " + std::to_string(count), "");
     }
 }
 

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <stdexcept>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -79,7 +78,7 @@ private:
 
     void require_graph(const Expression& expression) const {
         if (expression.graph().get() != &graph_)
-            throw std::invalid_argument("an expression to expand does not belong to the graph of the model");
+            throw InputError("an expression to expand does not belong to the graph of the model", "");
     }
 
     void visit(const Expression& expression) {

@@ -1,9 +1,9 @@
 #include "graze/model/state_map.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 namespace graze {
@@ -61,7 +61,7 @@ bool operator==(const StateMap& one, const StateMap& other) {
 void StateMap::replace(std::shared_ptr<const std::vector<Expression>> shared,
                        const std::function<void(Expression&)>& visit_change) {
     if ((shared ? shared->size() : 0) != size())
-        throw std::invalid_argument("a map of states cannot be given another number of them");
+        throw InputError("a map of states cannot be given another number of them", "");
     shared_ = std::move(shared);
     for (Change& change : changes_)
         visit_change(change.image);

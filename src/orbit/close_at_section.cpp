@@ -66,7 +66,7 @@ Orbit cut_at_section(const System& system, const Orbit& arcs, std::size_t sectio
     for (std::size_t k = 0; k < arcs.segments(); ++k) {
         const double duration = arcs.durations[k];
         PassageRecorder recorder(mode);
-        Trajectory trajectory(simulation, arcs.parameters, recorder);
+        Trajectory trajectory(simulation, arcs.parameters, borrowed(recorder));
         trajectory.start(arcs.starts[k], mode, 0, duration + near);
         run(trajectory, jets);
         for (std::size_t i = 0; i < recorder.times.size(); ++i) {
@@ -93,7 +93,7 @@ std::optional<Orbit> close_at_section(const System& system, const std::vector<do
     for (const std::size_t index : candidates(model, preferred)) {
         const Simulation simulation(system, {section_probe(model, model.sections[index].name)});
         PassageRecorder recorder(mode);
-        Trajectory trajectory(simulation, parameters, recorder);
+        Trajectory trajectory(simulation, parameters, borrowed(recorder));
         trajectory.start(state, mode, 0, (2 + same_time) * duration);
         JetSet jets(simulation, LaneKind::single);
         run(trajectory, jets);

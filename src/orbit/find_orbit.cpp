@@ -74,7 +74,7 @@ FollowedMotion follow_motion(const Simulation& simulation, std::span<const doubl
     FollowedMotion motion;
     motion.starts.emplace_back(state.begin(), state.end());
     SegmentRecorder recorder(simulation.system(), motion);
-    Trajectory trajectory(simulation, parameters, recorder);
+    Trajectory trajectory(simulation, parameters, borrowed(recorder));
     trajectory.start(state, mode, 0, time);
     JetSet jets(simulation, LaneKind::single);
     run(trajectory, jets);

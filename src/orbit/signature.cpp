@@ -242,12 +242,12 @@ Signature parse_signature(const Model& model, std::string_view text, const Place
                 possible = possible || can_follow(model, before, after);
         if (!possible)
             reader.fail(fmt::format("'{}' cannot follow '{}'", names[k + 1].text, names[k].text),
-                        "graze check MODEL lists the transitions; --graph FILE draws them", names[k + 1].column);
+                        "look at the transitions of the model", names[k + 1].column);
     }
     const auto signature = choose(model, places);
     if (!signature)
-        reader.fail("no cycle of the model's graph has these transitions",
-                    "graze check MODEL lists the transitions; --graph FILE draws them", names.front().column);
+        reader.fail("no cycle of the model's graph has these transitions", "look at the transitions of the model",
+                    names.front().column);
     return *signature;
 }
 
@@ -305,7 +305,7 @@ void validate_signature(const Model& model, const Signature& signature, const Pl
             throw InputError(place,
                              fmt::format("'{}' cannot follow '{}' in mode '{}'", end_name(model, after),
                                          end_name(model, before), model.modes[before.mode].name),
-                             "graze check MODEL lists the transitions; --graph FILE draws them");
+                             "look at the transitions of the model");
     }
 }
 

@@ -166,7 +166,7 @@ std::optional<OrbitSolution> orbit_with_signature(const System& system, const Si
     validate_signature(model, signature);
     const Simulation simulated(system, probes_of(model, signature), {}, simulation);
     SignatureSearch follower(system, signature, options, simulated, search);
-    Trajectory trajectory(simulated, model.parameter_values(), follower);
+    Trajectory trajectory(simulated, model.parameter_values(), borrowed(follower));
     trajectory.start(model.initial_state(), model.initial_mode, 0, forever);
     JetSet jets(simulated, LaneKind::single);
     run(trajectory, jets);

@@ -204,7 +204,7 @@ private:
         for (std::size_t i = 0; i < kinds; ++i) {
             if (!first_points_[i])
                 continue;
-            const auto point = run_->file->point(run_->record.name, *first_points_[i]);
+            const auto point = run_->file.point(run_->record.name, *first_points_[i]);
             if (!point || run_->record.samplings.empty())
                 continue;
             const std::string sampling = shown_samplings(*picture_, *run_).front();

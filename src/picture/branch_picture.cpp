@@ -74,8 +74,8 @@ std::optional<PointType> kept_of(const StoredRun& run) {
     const StudyRun asked = stored_run(run.record);
     if (asked.start && point_type(asked.start->onto))
         return point_type(asked.start->onto);
-    const auto parent = asked.start ? run.file->find_run(asked.start->run) : std::nullopt;
-    return parent ? orbit_to_start_from(*asked.start, stored_run(*parent), *run.file).point.type : PointType::regular;
+    const auto parent = asked.start ? run.file.find_run(asked.start->run) : std::nullopt;
+    return parent ? orbit_to_start_from(*asked.start, stored_run(*parent), run.file).point.type : PointType::regular;
 }
 
 /// Monitors of the first run that all runs have, or the period; for a curve its second parameter.

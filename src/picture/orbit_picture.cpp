@@ -73,7 +73,7 @@ Axes axes_of(const Model& model, const StudyPicture& picture, bool portrait) {
     else if (names.empty() && !pair.empty())
         names = {picture.x == pair[1] ? pair[0] : pair[1]};
     if (names.empty())
-        throw InputError(picture.place, "nothing says what to draw", "name states or expressions by --y");
+        throw InputError(picture.place, "nothing says what to draw", "name states or expressions");
     if (!axes.over_time)
         names.insert(names.begin(), !picture.x.empty() ? picture.x : pair.empty() ? model.states[0].name : pair[0]);
     for (const std::string& name : names) {

@@ -57,8 +57,8 @@ std::vector<std::string> shown_points(const StudyPicture& picture, const StoredR
     return names;
 }
 
-FigurePanel plain_panel(const StudyPicture& picture, const StoredRun& run, const std::string& x, const std::string& y,
-                        std::size_t index) {
+FigurePanel panel_of(const StudyPicture& picture, const StoredRun& run, const std::string& x, const std::string& y,
+                     std::size_t index) {
     FigurePanel panel = empty_panel(picture);
     label_axes(panel, picture, run, x, y);
     apply_labels(panel, picture, index);

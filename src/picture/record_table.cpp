@@ -1,6 +1,7 @@
 #include "graze/picture/record_table.hpp"
 
 #include "base/special_numbers.hpp"
+#include "graze/base/borrowed.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/record/impacts.hpp"
 #include "graze/record/spectrum.hpp"
@@ -270,8 +271,19 @@ public:
                {"after", velocity_.unit},
                {"after_error", velocity_.unit},
                {"ratio", ""}});
+<<<<<<< HEAD:src/picture/record_table.cpp
         ImpactFinder finder(record.source(), impact_settings(header, velocity_.name, request().displacement,
                                                              request().impacts, request().asked_as));
+=======
+        ImpactSettings settings;
+        settings.velocity = channels.front();
+        if (!arguments().displacement.empty())
+            settings.displacement = header.channel(arguments().displacement, "--displacement");
+        settings.window = arguments().window;
+        settings.transition = arguments().transition;
+        settings.least_jump = arguments().least_jump;
+        ImpactFinder finder(borrowed(stages.source()), settings);
+>>>>>>> main:src/program/record_tables.cpp
         std::vector<RecordedImpact> impacts;
         while (finder.next(impacts))
             for (const RecordedImpact& impact : impacts) {

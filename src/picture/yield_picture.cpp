@@ -31,8 +31,7 @@ Figure yield_picture(const Yield& yield, const std::string& parameter, const std
             values.push_back(device.value);
     std::sort(values.begin(), values.end());
     if (values.empty() || !(values.front() < values.back()))
-        throw InputError(Place{"--plot", 0, 0}, "the devices do not differ, or none was found",
-                         "vary parameters on which the value depends");
+        throw InputError("the devices do not differ, or none was found", "vary parameters on which the value depends");
     const std::size_t bars = bars_of(values);
     const double low = values.front(), width = (values.back() - low) / static_cast<double>(bars);
     std::vector<double> counts(bars, 0.0);

@@ -139,12 +139,12 @@ AcquisitionReport run_experiment(const Experiment& experiment, RecordFolder& fol
     AcquisitionReport report;
     try {
         const auto generator = open_generator_line(experiment.serial);
-        const auto samples = open_device(experiment);
-        TextSampleDevice device(*samples, experiment.sample_timeout, options.interrupted, experiment.sample_patience);
+        TextSampleDevice device(open_device(experiment), experiment.sample_timeout, options.interrupted,
+                                experiment.sample_patience);
         report = acquire(experiment, *generator, device, folder, options);
     } catch (const InstrumentError& error) { // nothing has been sent to the generator yet
         report.ending = error.ending();
-        report.detail = error.what();
+        report.detail = error.problem();
         report.before = folder.entries().size();
     } catch (...) {
         watchdog.disarm();
@@ -152,34 +152,6 @@ AcquisitionReport run_experiment(const Experiment& experiment, RecordFolder& fol
     }
     watchdog.disarm();
     return report;
-}
-
-/// What the user can do after this ending. Calling the command again does not always help.
-const char* remedy_of(AcquisitionEnding ending) {
-    switch (ending) {
-    case AcquisitionEnding::complete:
-    case AcquisitionEnding::interrupted:
-        break;
-    case AcquisitionEnding::line_lost:
-        return "look at its cable and whether it is switched on, then call it again to go on";
-    case AcquisitionEnding::no_answer:
-        return "see whether it is switched on, and at this port with these settings of the line, then call it again to "
-               "go "
-               "on";
-    case AcquisitionEnding::garbled:
-        return "give the settings of the line that the instrument has (baud, parity, stop_bits, flow), or a better "
-               "cable, then call it again to go on";
-    case AcquisitionEnding::foreign:
-        return "nothing was set; give the generator's port, or what it answers as identity";
-    case AcquisitionEnding::refused:
-        return "give levels that it can take, in an experiment and a folder of their own";
-    case AcquisitionEnding::clipped:
-        return "see what limits it, its load or somebody at its knobs, then call it again to go on; or give a larger "
-               "tolerance under [generator]";
-    case AcquisitionEnding::samples:
-        return "see what it is doing, and whether rate, timeout and patience suit it, then call it again to go on";
-    }
-    return "call it again to go on";
 }
 
 int tell(const AcquisitionReport& report, const Experiment& experiment, const std::string& folder,

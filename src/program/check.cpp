@@ -1,5 +1,6 @@
 #include "graze/model/check.hpp"
 #include "graze/base/input_error.hpp"
+#include "graze/flow/derivative_check.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/results/model_table.hpp"
 #include "graze/trajectory/trajectory.hpp"
@@ -61,11 +62,24 @@ private:
     std::size_t most_, steps_ = 0;
 };
 
+/// Warns if derivatives at the initial state disagree with differences.
+std::vector<ModelWarning> derivative_warnings(const System& system) {
+    constexpr std::size_t most = 60; // states and parameters: the work is proportional to their square
+    std::vector<ModelWarning> warnings;
+    const Model& model = system.model();
+    if (system.states() + system.parameters() > most)
+        return warnings;
+    for (const DerivativeFinding& finding : check_derivatives(system, model.initial_state(), model.parameter_values()))
+        warnings.push_back({finding.part, finding.text()});
+    return warnings;
+}
+
 /// Warns if the motion from the initial state soon ends irregularly, as beyond a barrier.
-std::vector<ModelWarning> motion_warnings(const Model& model) {
-    const Simulation simulation{System(model)};
-    StepLimit limit(simulation.system());
-    Trajectory trajectory(simulation, model.parameter_values(), limit);
+std::vector<ModelWarning> motion_warnings(const System& system) {
+    const Model& model = system.model();
+    const Simulation simulation(system);
+    StepLimit limit(system);
+    Trajectory trajectory(simulation, model.parameter_values(), borrowed(limit));
     trajectory.start(model.initial_state(), model.initial_mode, 0, 1e300);
     JetSet jets(simulation, LaneKind::single);
     run(trajectory, jets);
@@ -90,8 +104,10 @@ std::vector<ModelWarning> motion_warnings(const Model& model) {
 int check_command(const CheckArguments& arguments, const Console& console) {
     const Model model = load_model(arguments.model);
     std::vector<ModelWarning> warnings = located_warnings(model);
-    for (ModelWarning& warning : motion_warnings(model))
-        warnings.push_back(std::move(warning));
+    const System system(model);
+    for (auto* more : {motion_warnings, derivative_warnings})
+        for (ModelWarning& warning : more(system))
+            warnings.push_back(std::move(warning));
     for (const ModelWarning& warning : warnings)
         console.err << "graze: warning: " << place_of(arguments.model, warning.part).text() << ": " << warning.text
                     << '\n';

@@ -30,7 +30,7 @@ LivePicture::LivePicture(const AcquireArguments& arguments) : arguments_(&argume
 }
 
 void LivePicture::add(const std::string& file, double amplitude, int direction) {
-    const auto record = open_record(file);
+    const std::shared_ptr<SampleSource> record = open_record(file);
     const RecordHeader& header = record->header();
     PeriodSettings settings;
     if (!arguments_->reference.empty())
@@ -39,7 +39,7 @@ void LivePicture::add(const std::string& file, double amplitude, int direction) 
         arguments_->channel.empty() ? header.channels.size() - 1 : header.channel(arguments_->channel, "--channel");
     FigurePanel& panel = figure_.panels.front();
     label_y(panel, header.channels[shown]);
-    PeriodSplitter splitter(*record, settings);
+    PeriodSplitter splitter(record, settings);
     Period period;
     for (std::size_t i = 0; i < most_periods && splitter.next(period); ++i)
         panel.series[direction < 0 ? 1 : 0].points.push_back(

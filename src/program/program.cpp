@@ -6,6 +6,7 @@
 #include "program/commands.hpp"
 #include "program/kept_inputs.hpp"
 #include "program/option_rules.hpp"
+#include "program/option_words.hpp"
 #include "program/printable_buffer.hpp"
 
 #include <CLI/Config.hpp>
@@ -48,10 +49,22 @@ void tell(const InputErrors& errors, const Console& console) {
     constexpr std::size_t most = 20;
     const std::size_t count = errors.all().size();
     for (std::size_t i = 0; i < std::min(count, most); ++i)
-        console.err << "graze: " << errors.all()[i].what() << '\n';
+        console.err << "graze: " << in_options(errors.all()[i].what()) << '\n';
     if (count > most)
         console.err << "graze: and " << (count < Mistakes::most ? "" : "at least ") << count - most
                     << " more; mend these first\n";
+}
+
+int tell_internal(const std::string& problem, const Console& console) {
+    console.err << "graze: internal error: " << problem << "; please report it with the command and the model\n";
+    return exit_internal_error;
+}
+
+int tell(const Error& error, const Console& console) {
+    if (error.kind() == ErrorKind::order || error.kind() == ErrorKind::internal)
+        return tell_internal(error.problem(), console);
+    console.err << "graze: " << in_options(error.what()) << '\n';
+    return exit_bad_input;
 }
 
 } // namespace
@@ -67,9 +80,8 @@ int run_program(std::span<const std::string> arguments, const Console& given) {
     } catch (const InputErrors& errors) {
         tell(errors, console);
         return exit_bad_input;
-    } catch (const InputError& error) {
-        console.err << "graze: " << error.what() << '\n';
-        return exit_bad_input;
+    } catch (const Error& error) {
+        return tell(error, console);
     } catch (const std::filesystem::filesystem_error& error) {
         console.err << "graze: " << shortened(error.path1().string(), 200) << ": " << error.code().message()
                     << "; give another path\n";
@@ -78,9 +90,7 @@ int run_program(std::span<const std::string> arguments, const Console& given) {
         console.err << "graze: what is asked for takes more memory than there is; ask for less\n";
         return exit_bad_input;
     } catch (const std::exception& error) {
-        console.err << "graze: internal error: " << error.what()
-                    << "; please report it with the command and the model\n";
-        return exit_internal_error;
+        return tell_internal(error.what(), console);
     }
 }
 

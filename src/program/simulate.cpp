@@ -210,7 +210,7 @@ public:
             std::make_unique<Simulation>(System(model_), std::move(probes), std::vector<Expression>{}, options);
         table_ = make_table_recorder(*simulation_, request_);
         if (plot_)
-            curves_ = std::make_unique<MotionRecorder>(*simulation_, plot_->contents);
+            curves_ = std::make_shared<MotionRecorder>(*simulation_, plot_->contents);
     }
 
     int run() {
@@ -243,14 +243,14 @@ private:
     }
 
     void compute() {
-        std::vector<Observer*> observers{table_.get()};
+        std::vector<std::shared_ptr<Observer>> observers{table_};
         if (curves_)
-            observers.push_back(curves_.get());
-        Relay recorders(std::move(observers));
+            observers.push_back(curves_);
         Progress progress(console_, arguments_.progress || console_.terminal);
-        RunControl control(recorders, period_probe_, request_.events);
-        control.tell([&](std::optional<double> fraction, double time) { progress.update(fraction, time); });
-        control.end_when([this] { return InterruptGuard::requested() || table_->is_full(); });
+        const auto control =
+            std::make_shared<RunControl>(std::make_shared<Relay>(std::move(observers)), period_probe_, request_.events);
+        control->tell([&](std::optional<double> fraction, double time) { progress.update(fraction, time); });
+        control->end_when([this] { return InterruptGuard::requested() || table_->is_full(); });
         trajectory_ = std::make_unique<Trajectory>(*simulation_, model_.parameter_values(), control);
         const LegEnd& first = length_.transient.empty() ? length_.shown : length_.transient;
         const InterruptGuard guard;
@@ -259,7 +259,7 @@ private:
             trajectory_->carry_derivatives(request_.directions);
         JetSet jets(*simulation_, LaneKind::single);
         if (!length_.transient.empty()) {
-            control.begin(length_.transient, 0, false);
+            control->begin(length_.transient, 0, false);
             graze::run(*trajectory_, jets);
             const Ending ending = trajectory_->outcome().ending;
             if (InterruptGuard::requested() || (ending != Ending::end_time && ending != Ending::stopped)) {
@@ -268,7 +268,7 @@ private:
             }
             trajectory_->extend(trajectory_->time() + length_.shown.duration);
         }
-        control.begin(length_.shown, trajectory_->time(), true);
+        control->begin(length_.shown, trajectory_->time(), true);
         table_->begin(*trajectory_, length_.shown.expected);
         graze::run(*trajectory_, jets);
         interrupted_ = InterruptGuard::exit_code();
@@ -359,8 +359,8 @@ private:
     std::optional<PlotRequest> plot_;
     std::optional<std::size_t> period_probe_;
     std::unique_ptr<Simulation> simulation_;
-    std::unique_ptr<TableRecorder> table_;
-    std::unique_ptr<MotionRecorder> curves_;
+    std::shared_ptr<TableRecorder> table_;
+    std::shared_ptr<MotionRecorder> curves_;
     std::unique_ptr<Trajectory> trajectory_;
 };
 

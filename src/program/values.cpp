@@ -3,6 +3,7 @@
 #include "graze/base/input_error.hpp"
 #include "graze/base/name_list.hpp"
 #include "graze/base/trimmed.hpp"
+#include "graze/layout/device_file.hpp"
 #include "graze/model/named_value.hpp"
 #include "graze/model/parameter_file.hpp"
 #include "graze/symbolic/parser.hpp"
@@ -155,10 +156,10 @@ void with_places_of(const std::vector<std::string>& assignments, const std::func
         work();
     } catch (const InputError& error) {
         const std::string& file = error.place().file;
-        if (assignments.empty() || !(file.empty() || file.starts_with("--set")))
+        if (assignments.empty() || !(file.empty() || file.starts_with("--set") || is_given_place(error.place())))
             throw;
         for (const Assignment& assignment : all_assignments(assignments, "--set", nullptr))
-            if (assignment.in_file && (file == "--set " + assignment.name ||
+            if (assignment.in_file && (file == given_place(assignment.name).file ||
                                        error.problem().find("'" + assignment.name + "'") != std::string::npos))
                 throw InputError(assignment.name_place, error.problem(), error.remedy());
         if (!file.empty())

@@ -28,10 +28,10 @@ void make_safe(const Experiment& experiment) {
     std::string problem;
     bool safe = false, off = false;
     try {
-        const auto line = open_generator_line(experiment.serial);
+        std::shared_ptr<InstrumentLine> line = open_generator_line(experiment.serial);
         GeneratorOptions options = experiment.generator;
         options.interrupted = nullptr;
-        GeneratorClient client(*line, options);
+        GeneratorClient client(std::move(line), options);
         safe = client.make_safe(experiment.safe, problem);
         off = !safe && client.is_switched_off();
     } catch (const std::exception& error) {

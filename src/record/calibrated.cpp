@@ -11,8 +11,8 @@
 
 namespace graze {
 
-Calibrated::Calibrated(SampleSource& source, CalibratedSettings settings)
-    : source_(&source), settings_(std::move(settings)), header_(source.header()) {
+Calibrated::Calibrated(std::shared_ptr<SampleSource> source, CalibratedSettings settings)
+    : source_(required(std::move(source), "a source")), settings_(std::move(settings)), header_(source_->header()) {
     for (const Calibration& one : settings_.calibrations) {
         require_index(one.channel, header_.channels.size(), "channel");
         require_finite(one.factor, "the factor of a channel");

@@ -193,22 +193,21 @@ std::size_t best_half_width(const std::vector<double>& times, const std::vector<
 } // namespace
 
 struct WithDerivative::State {
-    SampleSource* source;
+    std::shared_ptr<SampleSource> source;
     DerivativeSettings settings;
     RecordHeader header{};
-    std::unique_ptr<SampleSource> beginning{};
     std::optional<SlidingSamples> window{};
     std::size_t half = 0; ///< known once something has been read
 };
 
-WithDerivative::WithDerivative(SampleSource& source, const DerivativeSettings& settings)
-    : state_(std::make_unique<State>(State{&source, settings})) {
-    require_index(settings.channel, source.header().channels.size(), "channel");
+WithDerivative::WithDerivative(std::shared_ptr<SampleSource> source, const DerivativeSettings& settings)
+    : state_(std::make_unique<State>(State{required(std::move(source), "a source"), settings})) {
+    RecordHeader& header = state_->header = state_->source->header();
+    require_index(settings.channel, header.channels.size(), "channel");
     if (settings.half_width != 0 && (settings.half_width < least_half_width || settings.half_width > most_half_width))
         throw InputError(
             fmt::format("{} samples on each side are not a valid width for a derivative", settings.half_width),
             "choose 4 or more, or 0 for the best");
-    RecordHeader& header = state_->header = source.header();
     const Channel& channel = header.channels[settings.channel];
     const std::string name = settings.name.empty() ? channel.name + "_rate" : settings.name;
     const std::string unit =
@@ -247,8 +246,7 @@ bool WithDerivative::read(Samples& samples) {
                              "record longer");
         state.half = state.settings.half_width > 0 ? state.settings.half_width
                                                    : best_half_width(begun.times, begun.values[channel]);
-        state.beginning = std::make_unique<ResumedSource>(*state.source, std::move(begun));
-        state.window.emplace(*state.beginning, state.half);
+        state.window.emplace(std::make_shared<ResumedSource>(state.source, std::move(begun)), state.half);
     }
     samples.clear(state.header.channels.size());
     if (!state.window->next())

@@ -44,11 +44,10 @@ bool is_even_clock(std::span<const double> times) {
 
 void require_even(std::span<const double> times, double spacing, double allowed) {
     if (const double deviation = deviation_from_even(times, spacing); deviation > allowed)
-        throw InputError(
-            fmt::format("the samples are not equidistant in time: from {} to {} they are up to "
-                        "{:.3g} off times that are {:.6g} apart",
-                        times.front(), times.back(), deviation, spacing),
-            "give a part of the record whose clock is even (--from, --to), or one that has been resampled");
+        throw InputError(fmt::format("the samples are not equidistant in time: from {} to {} they are up to "
+                                     "{:.3g} off times that are {:.6g} apart",
+                                     times.front(), times.back(), deviation, spacing),
+                         "give a part of the record whose clock is even, or one that has been resampled");
 }
 
 double even_sampling_frequency(std::span<const double> times) {

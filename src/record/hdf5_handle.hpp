@@ -13,12 +13,12 @@ namespace graze {
 class Hdf5Handle {
 public:
     Hdf5Handle() = default;
-    /// @throws InputError with this problem and remedy when the identifier is invalid
+    /// @throws FileError with this problem and remedy when the identifier is invalid
     Hdf5Handle(hid_t id, herr_t (*close)(hid_t), const std::string& path, const std::string& problem,
                const std::string& remedy)
         : id_(id), close_(close) {
         if (id < 0)
-            throw InputError(Place{path, 0, 0}, problem, remedy);
+            throw FileError(path, problem, remedy);
     }
     ~Hdf5Handle() {
         if (id_ >= 0)

@@ -110,7 +110,7 @@ private:
         for (;;) {
             Hdf5Handle group(H5Gopen2(file_.id(), name.c_str(), H5P_DEFAULT), H5Gclose, path_,
                              fmt::format("there is no group '{}' in this file", printable_line(name)),
-                             "name the group whose datasets are the channels by --group");
+                             "name the group whose datasets are the channels");
             H5G_info_t info{};
             if (H5Gget_info(group.id(), &info) < 0)
                 throw InputError(Place{path_, 0, 0}, "its datasets cannot be listed", advice);

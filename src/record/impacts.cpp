@@ -90,8 +90,8 @@ struct ImpactFinder::State {
     std::vector<double> left{}, right{};
     double value_noise = 0; ///< standard error of an extrapolated value, for noise of 1
 
-    State(SampleSource& source, const ImpactSettings& given)
-        : settings(given), window(source, 3 * (given.window + given.transition) + 1),
+    State(std::shared_ptr<SampleSource> source, const ImpactSettings& given)
+        : settings(given), window(std::move(source), 3 * (given.window + given.transition) + 1),
           fit(side(given.window, given.transition, 0.5, static_cast<double>(given.window + given.transition)),
               parabola) {
         for (std::size_t k = 0; k <= parabola; ++k)
@@ -186,17 +186,18 @@ RecordedImpact ImpactFinder::State::impact_at(std::size_t i, std::size_t from, s
     return impact;
 }
 
-ImpactFinder::ImpactFinder(SampleSource& source, const ImpactSettings& settings) {
-    require_index(settings.velocity, source.header().channels.size(), "channel");
+ImpactFinder::ImpactFinder(std::shared_ptr<SampleSource> source, const ImpactSettings& settings) {
+    const std::size_t channels = required(source, "a source")->header().channels.size();
+    require_index(settings.velocity, channels, "channel");
     if (settings.displacement)
-        require_index(*settings.displacement, source.header().channels.size(), "channel");
+        require_index(*settings.displacement, channels, "channel");
     if (settings.window < least_window || settings.window > most_window || settings.transition > most_window)
         throw InputError(fmt::format("{} samples do not determine the velocities at an impact", settings.window),
                          "take 5 or more, and up to 100000");
     if (!(settings.significance > 0) || !std::isfinite(settings.significance) || !(settings.least_jump >= 0) ||
         !std::isfinite(settings.least_jump))
         throw InputError("the least jump or its significance is not a positive number", "give positive ones");
-    state_ = std::make_unique<State>(source, settings);
+    state_ = std::make_unique<State>(std::move(source), settings);
 }
 
 ImpactFinder::~ImpactFinder() = default;
@@ -248,7 +249,7 @@ ImpactSettings impact_settings(const RecordHeader& header, const std::string& ve
 
 std::vector<RecordedImpact> find_impacts(SampleSource& source, const ImpactSettings& settings) {
     constexpr std::size_t most = 1'000'000;
-    ImpactFinder finder(source, settings);
+    ImpactFinder finder(borrowed(source), settings);
     std::vector<RecordedImpact> all, some;
     while (finder.next(some)) {
         all.insert(all.end(), some.begin(), some.end());

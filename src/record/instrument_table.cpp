@@ -195,8 +195,7 @@ std::optional<double> seconds_of(std::string_view text, const Place& place) {
         return converted(value, physical_unit(unit), physical_unit("s"));
     } catch (const InputError&) {
         throw InputError(place, fmt::format("'{}' is not a time", printable_line(shortened(text, 100))),
-                         "write it in s, ms, us or ns, or pass over lines (--skip N) and say what the columns are "
-                         "(--columns)");
+                         "write it in s, ms, us or ns, or pass over lines and say what the columns are");
     }
 }
 

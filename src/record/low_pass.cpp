@@ -65,18 +65,17 @@ void require_spacing(std::span<const double> times, double spacing, std::size_t 
 } // namespace
 
 struct LowPass::State {
-    SampleSource* source;
+    std::shared_ptr<SampleSource> source;
     LowPassSettings settings;
     double spacing = 0; ///< spacing of the first samples, for which the weights were computed
     std::vector<double> factors{};
     std::optional<SlidingSamples> window{};
-    std::unique_ptr<SampleSource> beginning{};
     std::size_t next = 0; ///< next row of the source to keep
     bool any = false;
 };
 
-LowPass::LowPass(SampleSource& source, const LowPassSettings& settings)
-    : state_(std::make_unique<State>(State{&source, settings})) {
+LowPass::LowPass(std::shared_ptr<SampleSource> source, const LowPassSettings& settings)
+    : state_(std::make_unique<State>(State{required(std::move(source), "a source"), settings})) {
     if (settings.every < 1)
         throw InputError("decimation cannot keep one of 0 samples", "keep one of 2 or more");
     constexpr double least = 21, most = 300;
@@ -119,8 +118,7 @@ bool LowPass::read(Samples& samples) {
                                          highest, frequency / every),
                              "choose lower frequencies, or keep more samples");
         state.factors = filter_of(pass / frequency, stop / frequency, state.settings.attenuation);
-        state.beginning = std::make_unique<ResumedSource>(*state.source, std::move(begun));
-        state.window.emplace(*state.beginning, state.factors.size() - 1);
+        state.window.emplace(std::make_shared<ResumedSource>(state.source, std::move(begun)), state.factors.size() - 1);
         state.next = state.factors.size() - 1;
     }
     const std::size_t half = state.factors.size() - 1;

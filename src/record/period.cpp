@@ -18,14 +18,14 @@ constexpr std::size_t longest_period = 4'000'000;
 
 } // namespace
 
-PeriodSplitter::PeriodSplitter(SampleSource& source, const PeriodSettings& settings)
-    : source_(&source), settings_(settings) {
-    require_index(settings.reference, source.header().channels.size(), "channel");
+PeriodSplitter::PeriodSplitter(std::shared_ptr<SampleSource> source, const PeriodSettings& settings)
+    : source_(required(std::move(source), "a source")), settings_(settings) {
+    require_index(settings.reference, source_->header().channels.size(), "channel");
     require_finite(settings.level, "the level of the reference");
     require_finite(settings.hysteresis, "the hysteresis of the reference");
     if (settings.hysteresis < 0)
         throw InputError("the hysteresis of the reference is negative", "give a positive one, or 0");
-    buffer_.clear(source.header().channels.size());
+    buffer_.clear(source_->header().channels.size());
 }
 
 bool PeriodSplitter::read_more() {

@@ -1,6 +1,7 @@
 #include "graze/record/processed_record.hpp"
 
 #include "graze/base/input_error.hpp"
+#include "graze/base/require.hpp"
 #include "graze/record/calibrated.hpp"
 #include "graze/record/derivative.hpp"
 #include "graze/record/low_pass.hpp"
@@ -14,27 +15,27 @@ namespace {
 /// Passes samples on, and throws if there are none at all, since any result would be empty.
 class RequiredRows : public SampleSource {
 public:
-    RequiredRows(SampleSource& source, bool by_options) : source_(&source), by_options_(by_options) {}
+    RequiredRows(std::shared_ptr<SampleSource> source, bool by_options)
+        : source_(std::move(source)), by_options_(by_options) {}
     const RecordHeader& header() const override { return source_->header(); }
     bool read(Samples& samples) override {
         const bool more = source_->read(samples);
         has_rows_ = has_rows_ || samples.rows() > 0;
         if (!more && !has_rows_)
-            throw InputError("the record has no rows", by_options_
-                                                           ? "give one with rows, and let --from and --to leave some"
-                                                           : "give one with rows, and let `part` leave some");
+            throw InputError("the record has no rows", by_options_ ? "give one with rows, and let the times leave some"
+                                                                   : "give one with rows, and let `part` leave some");
         return more;
     }
 
 private:
-    SampleSource* source_;
+    std::shared_ptr<SampleSource> source_;
     bool by_options_, has_rows_ = false;
 };
 
 } // namespace
 
-ProcessedRecord::ProcessedRecord(std::unique_ptr<SampleSource> from, const RecordProcessing& processing) {
-    stages_.push_back(std::move(from));
+ProcessedRecord::ProcessedRecord(std::shared_ptr<SampleSource> source, const RecordProcessing& processing)
+    : source_(required(std::move(source), "a source")) {
     CalibratedSettings calibrated;
     for (const RecordProcessing::Scale& scale : processing.scales)
         calibrated.calibrations.push_back(
@@ -42,21 +43,21 @@ ProcessedRecord::ProcessedRecord(std::unique_ptr<SampleSource> from, const Recor
     calibrated.begin = processing.begin;
     calibrated.end = processing.end;
     if (!calibrated.calibrations.empty() || !std::isinf(processing.begin) || !std::isinf(processing.end))
-        stages_.push_back(std::make_unique<Calibrated>(source(), calibrated));
+        source_ = std::make_shared<Calibrated>(source_, calibrated);
     if (processing.pass > 0 || processing.every > 1) {
         LowPassSettings filter;
         filter.pass = processing.pass;
         filter.stop = processing.stop;
         filter.every = processing.every;
-        stages_.push_back(std::make_unique<LowPass>(source(), filter));
+        source_ = std::make_shared<LowPass>(source_, filter);
     }
     if (!processing.derivative.empty()) {
         DerivativeSettings derivative;
         derivative.channel = header().channel(processing.derivative, processing.asked_as + "derivative");
         derivative.half_width = processing.half_width;
-        stages_.push_back(std::make_unique<WithDerivative>(source(), derivative));
+        source_ = std::make_shared<WithDerivative>(source_, derivative);
     }
-    stages_.push_back(std::make_unique<RequiredRows>(source(), !processing.asked_as.empty()));
+    source_ = std::make_shared<RequiredRows>(source_, !processing.asked_as.empty());
 }
 
 } // namespace graze

@@ -9,7 +9,7 @@ namespace graze {
 
 RecordPeriods each_period(SampleSource& source, const PeriodSettings& settings,
                           const std::function<void(const Period&)>& take, const std::string& asked_as) {
-    PeriodSplitter splitter(source, settings);
+    PeriodSplitter splitter(borrowed(source), settings);
     RecordPeriods found;
     double sum = 0;
     for (Period period; splitter.next(period); ++found.count) {

@@ -32,7 +32,7 @@ namespace {
 constexpr const char* full = "look at the permissions of the folder and the room on the disk";
 
 [[noreturn]] void refuse(const std::string& path) {
-    throw InputError(Place{path, 0, 0}, "the record cannot be written", full);
+    throw FileError(path, "the record cannot be written", full);
 }
 
 std::string titled(const Channel& channel) {

@@ -2,6 +2,7 @@
 
 #include "graze/record/samples.hpp"
 
+#include <memory>
 #include <utility>
 
 namespace graze {
@@ -9,7 +10,8 @@ namespace graze {
 /// A source that first returns samples already read from another, and then the rest of it.
 class ResumedSource : public SampleSource {
 public:
-    ResumedSource(SampleSource& source, Samples begun) : source_(&source), begun_(std::move(begun)) {}
+    ResumedSource(std::shared_ptr<SampleSource> source, Samples begun)
+        : source_(std::move(source)), begun_(std::move(begun)) {}
     const RecordHeader& header() const override { return source_->header(); }
     bool read(Samples& samples) override {
         if (begun_.rows() == 0)
@@ -19,7 +21,7 @@ public:
     }
 
 private:
-    SampleSource* source_;
+    std::shared_ptr<SampleSource> source_;
     Samples begun_;
 };
 

@@ -194,9 +194,8 @@ SeparateSource::SeparateSource(std::string path, const Make& make, const Reading
         const int reason = errno;
         close(ends[0]);
         close(ends[1]);
-        throw InputError(Place{path_, 0, 0},
-                         fmt::format("no process can be started to read it ({})", std::strerror(reason)),
-                         "end other programs");
+        throw FileError(path_, fmt::format("no process can be started to read it ({})", std::strerror(reason)),
+                        "end other programs");
     }
     if (process_ == 0)
         Reader(ends[1], limits_).run(make);

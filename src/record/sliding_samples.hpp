@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
+#include <utility>
 
 namespace graze {
 
@@ -11,8 +13,9 @@ namespace graze {
 /// after them. Each row of the source, except those near its ends, is among them exactly once.
 class SlidingSamples {
 public:
-    SlidingSamples(SampleSource& source, std::size_t margin) : source_(&source), margin_(margin), first_(margin) {
-        samples_.clear(source.header().channels.size());
+    SlidingSamples(std::shared_ptr<SampleSource> source, std::size_t margin)
+        : source_(std::move(source)), margin_(margin), first_(margin) {
+        samples_.clear(source_->header().channels.size());
     }
     /// Moves the window. @return false when there are no more rows
     bool next() {
@@ -36,7 +39,7 @@ public:
     std::size_t dropped() const { return dropped_; }
 
 private:
-    SampleSource* source_;
+    std::shared_ptr<SampleSource> source_;
     std::size_t margin_, first_, last_ = 0, dropped_ = 0;
     Samples samples_, part_;
 };

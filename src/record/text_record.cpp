@@ -78,8 +78,8 @@ void TextRecord::refuse_field(std::string_view line, std::string_view field) con
            line_ == 1  ? "give names of columns, as in 't [s], V [V]', or numbers"
            : rows_ > 0 ? "write numbers, and nothing where a value is missing; other lines are skipped "
                          "if they begin with #"
-                       : "write numbers, and nothing where a value is missing; lines before the names of columns are "
-                         "passed over by --skip N");
+                       : "write numbers, and nothing where a value is missing; lines before the names of columns can "
+                         "be passed over");
 }
 
 bool TextRecord::next_line(std::string_view& line) {

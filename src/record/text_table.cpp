@@ -177,8 +177,7 @@ private:
         throw InputError(place(lines_->number()),
                          fmt::format("this row has {} columns, and line {}, which should name them, has {}",
                                      row_fields(row, other).size(), names.number, name_fields(text, one).size()),
-                         "say which line has the names (--names-line N), or pass over lines (--skip N) and say what "
-                         "the columns are (--columns)");
+                         "say which line has the names, or pass over lines and say what the columns are");
     }
 
     /// Handles the first row with two numbers. Lines directly above it with one number and missing values are rows too,
@@ -272,7 +271,7 @@ private:
         text.remove_prefix(std::min(text.find_first_not_of("#% \t"), text.size()));
         return common_separator(text, row) == 0
                    ? ""
-                   : fmt::format("; if the comment in line {0} does, by --names-line {0}", comment_.number);
+                   : fmt::format("; if the comment in line {0} does, name that line", comment_.number);
     }
 
     /// Handles a file that has rows only.
@@ -283,10 +282,9 @@ private:
         constexpr std::size_t columns_of_dissertation = 5;
         const std::size_t columns = row_fields(trimmed(line), table.separator).size();
         if (columns != columns_of_dissertation)
-            throw InputError(place(rows_.front().number),
-                             fmt::format("the {} columns of the record are not named", columns),
-                             "begin the file with a line such as 't [s], V [V], q [mm]', or name them by --columns" +
-                                 remedy_of_comment(line));
+            throw InputError(
+                place(rows_.front().number), fmt::format("the {} columns of the record are not named", columns),
+                "begin the file with a line such as 't [s], V [V], q [mm]', or name them" + remedy_of_comment(line));
         table.header = {{"t", "s"}, {{"V", ""}, {"I", ""}, {"q", ""}, {"v", ""}}};
         return table;
     }

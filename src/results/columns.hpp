@@ -40,7 +40,16 @@ struct ColumnKind {
     ColumnUnit unit = ColumnUnit::none;
     bool in_views = false; ///< whether the views over all runs have the column
     ColumnGroup group = ColumnGroup::single;
+    const char* former = ""; ///< its name in older files; empty: the same
+    bool may_lack = false;   ///< in older files: what reads it takes nothing for an absent value
 };
+
+/// A column that was not always there.
+constexpr ColumnKind added(ColumnKind kind, const char* former = "") {
+    kind.may_lack = true;
+    kind.former = former;
+    return kind;
+}
 
 /// Binds the cells of a row from left to right.
 class CellWriter {

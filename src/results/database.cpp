@@ -36,11 +36,10 @@ void require_plain_file(const std::string& path, bool writing) {
     std::error_code error;
     const auto type = std::filesystem::status(path, error).type();
     if (type != std::filesystem::file_type::regular && type != std::filesystem::file_type::not_found)
-        throw InputError(Place{path, 0, 0}, "this is no plain file",
-                         "give the results.sqlite of a study, or its folder");
+        throw FileError(path, "this is no plain file", "give the results.sqlite of a study, or its folder");
     if (writing && std::filesystem::is_symlink(path, error))
-        throw InputError(Place{path, 0, 0}, "this is a link, and results are written only into the folder itself",
-                         "remove the link, or choose the folder that it leads to by --output");
+        throw FileError(path, "this is a link, and results are written only into the folder itself",
+                        "remove the link, or choose the folder that it leads to");
 }
 
 } // namespace
@@ -50,18 +49,18 @@ void throw_database_error(int code, const std::string& message, const std::strin
     switch (code & 0xff) {
     case SQLITE_FULL:
     case SQLITE_IOERR:
-        throw InputError(place, fmt::format("it cannot be written to ({})", message),
-                         "make room on the disk and run the same command again: it goes on from what is there");
+        throw FileError(path, fmt::format("it cannot be written to ({})", message),
+                        "make room on the disk and run the same command again: it goes on from what is there");
     case SQLITE_READONLY:
     case SQLITE_CANTOPEN:
     case SQLITE_PERM:
-        throw InputError(place, fmt::format("the result file cannot be opened or written ({})", message),
-                         "look at the permissions of file and folder, or choose another folder");
+        throw FileError(path, fmt::format("the result file cannot be opened or written ({})", message),
+                        "look at the permissions of file and folder, or choose another folder");
     case SQLITE_AUTH:
         throw InputError(place, fmt::format("a query may only read ({})", message), "give one SELECT");
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
-        throw InputError(place, "another program uses the result file", "wait for it, or choose another folder");
+        throw FileError(path, "another program uses the result file", "wait for it, or choose another folder");
     case SQLITE_CORRUPT:
         throw InputError(place, fmt::format("the file is damaged ({})", message),
                          "ask for another copy, or run the study again into another folder");

@@ -36,8 +36,8 @@ class Handle {
 public:
     Handle(hid_t id, herr_t (*close)(hid_t), const std::string& path) : id_(id), close_(close) {
         if (id < 0)
-            throw InputError(Place{path, 0, 0}, "the HDF5 file cannot be written",
-                             "look at the permissions of the folder and the room on the disk");
+            throw FileError(path, "the HDF5 file cannot be written",
+                            "look at the permissions of the folder and the room on the disk");
     }
     ~Handle() {
         if (id_ >= 0)
@@ -54,7 +54,7 @@ private:
 };
 
 [[noreturn]] void throw_full(const std::string& path) {
-    throw InputError(Place{path, 0, 0}, "the HDF5 file cannot be written", "make room on the disk");
+    throw FileError(path, "the HDF5 file cannot be written", "make room on the disk");
 }
 
 Handle text_type(std::size_t size, H5T_cset_t letters, const std::string& path) {
@@ -228,7 +228,7 @@ void write_details(hid_t group, const StoredRun& run, const DetailTable& table, 
     std::vector<ColumnPlan> plans{{"point", "", ColumnType::whole}, {"position", "", ColumnType::whole}};
     for (const ColumnKind& column : table.columns)
         plans.push_back({column.name, unit_of(column.unit, run), column.type});
-    write_table(group, table.name, *run.file,
+    write_table(group, table.name, run.file,
                 fmt::format("SELECT point, position, {} FROM {} WHERE run = {} ORDER BY point, position",
                             listed(table.columns), table.name, text_literal(run.record.name)),
                 std::move(plans), path);
@@ -236,11 +236,11 @@ void write_details(hid_t group, const StoredRun& run, const DetailTable& table, 
 
 /// Writes the estimates of a run, in which each row has its own unit.
 void write_estimates(hid_t group, const StoredRun& run, const std::string& path) {
-    if (run.file->estimates(run.record.name).numbers.empty())
+    if (run.file.estimates(run.record.name).numbers.empty())
         return;
     const std::string where = " WHERE run = " + text_literal(run.record.name);
     using enum ColumnType;
-    write_table(group, "estimates", *run.file,
+    write_table(group, "estimates", run.file,
                 "SELECT position, name, unit, value, error, low, high, freedom, note FROM estimates" + where +
                     " ORDER BY position",
                 {{"position", "", whole},
@@ -253,7 +253,7 @@ void write_estimates(hid_t group, const StoredRun& run, const std::string& path)
                  {"freedom", "", real},
                  {"note", "", text}},
                 path);
-    write_table(group, "covariances", *run.file,
+    write_table(group, "covariances", run.file,
                 "SELECT position, other, covariance FROM covariances" + where + " ORDER BY position, other",
                 {{"position", "", whole}, {"other", "", whole}, {"covariance", "", real}}, path);
 }
@@ -268,12 +268,11 @@ void write_run(hid_t output, const StoredRun& stored, const std::string& path) {
     write_attribute(group.id(), "fingerprint", run.fingerprint, path);
     write_attribute(group.id(), "version", run.version, path);
     const RunTables tables(run);
-    write_table(group.id(), run.is_branch() ? "orbits" : "points", *stored.file,
-                "SELECT * FROM " + tables.points + " ORDER BY number", plans_of(tables.point_columns, stored), path);
-    write_table(
-        group.id(), run.is_branch() ? "segments" : "samples", *stored.file,
-        fmt::format("SELECT * FROM {} ORDER BY {}", tables.samples, run.is_branch() ? "point, segment" : "rowid"),
-        plans_of(tables.sample_columns, stored), path);
+    write_table(group.id(), run.is_branch() ? "orbits" : "points", stored.file,
+                tables.select_point() + " ORDER BY number", plans_of(tables.point_columns, stored), path);
+    write_table(group.id(), run.is_branch() ? "segments" : "samples", stored.file,
+                tables.select_sample() + " ORDER BY " + (run.is_branch() ? "point, segment" : "rowid"),
+                plans_of(tables.sample_columns, stored), path);
     for (const DetailTable& table : detail_tables())
         if (run.is_branch() || !table.of_branches)
             write_details(group.id(), stored, table, path);

@@ -161,9 +161,9 @@ const ColumnsOf<OrbitContext, OrbitRecord>& orbit_columns() {
         {{"stable", Type::whole, Unit::none, true},
          [](const Context&, const Record& r, CellWriter& cell) { cell.truth(r.stable); },
          [](const Context&, Record& r, CellReader& cell) { r.stable = cell.truth(); }},
-        {{"unstable", Type::whole, Unit::none, true}, // derived from the multipliers
+        {added({"unstable", Type::whole, Unit::none, true}), // and this from the multipliers
          [](const Context&, const Record& r, CellWriter& cell) { cell.whole(unstable_directions(r.point.solution)); }},
-        {{"slowest_approach", Type::real, Unit::none, true}, // derived from the segments
+        {added({"slowest_approach", Type::real, Unit::none, true}), // this from the segments again
          [](const Context&, const Record& r, CellWriter& cell) { cell.real(slowest_approach(r.point.solution)); }},
         {{"admissible", Type::whole, Unit::none, true},
          [](const Context&, const Record& r, CellWriter& cell) { cell.truth(r.point.solution.certificate.admissible); },
@@ -180,7 +180,7 @@ const ColumnsOf<OrbitContext, OrbitRecord>& orbit_columns() {
         {{"residual", Type::real, Unit::none, true},
          [](const Context&, const Record& r, CellWriter& cell) { cell.real(r.point.solution.residual); },
          [](const Context&, Record& r, CellReader& cell) { r.point.solution.residual = cell.real(); }},
-        {{"error", Type::real, Unit::none, true},
+        {added({"error", Type::real, Unit::none, true}),
          [](const Context&, const Record& r, CellWriter& cell) { cell.real(r.point.solution.error.value_or(unknown)); },
          [](const Context&, Record& r, CellReader& cell) {
              if (!cell.is_nothing())
@@ -224,25 +224,25 @@ const ColumnsOf<OrbitContext, OrbitRecord>& orbit_columns() {
              write_of_event(r, cell, [&] { cell.truth(r.point.at_end); });
          },
          [](const Context&, Record& r, CellReader& cell) { r.point.at_end = cell.truth(); }},
-        {{"touch_map", Type::text, Unit::none, true},
+        {added({"touch_map", Type::text, Unit::none, true}),
          [](const Context&, const Record& r, CellWriter& cell) { cell.word(r.touch ? r.touch->map : ""); },
          [](const Context&, Record& r, CellReader& cell) {
              if (!cell.is_nothing())
                  r.touch.emplace().map = cell.text();
          }},
-        {{"touch_verdict", Type::text, Unit::none, true},
+        {added({"touch_verdict", Type::text, Unit::none, true}),
          [](const Context&, const Record& r, CellWriter& cell) { cell.word(r.touch ? r.touch->verdict : ""); },
          [](const Context&, Record& r, CellReader& cell) {
              if (r.touch)
                  r.touch->verdict = cell.text();
          }},
-        {{"touch_verdict_reason", Type::text, Unit::none, true},
+        {added({"touch_verdict_reason", Type::text, Unit::none, true}),
          [](const Context&, const Record& r, CellWriter& cell) { cell.word(r.touch ? r.touch->reason : ""); },
          [](const Context&, Record& r, CellReader& cell) {
              if (r.touch)
                  r.touch->reason = cell.text();
          }},
-        {{"touch_next_contact", Type::whole, Unit::none, true},
+        {added({"touch_next_contact", Type::whole, Unit::none, true}),
          [](const Context&, const Record& r, CellWriter& cell) {
              r.touch&& r.touch->next_contact > 0 ? cell.whole(r.touch->next_contact) : cell.nothing();
          },
@@ -250,27 +250,27 @@ const ColumnsOf<OrbitContext, OrbitRecord>& orbit_columns() {
              if (r.touch)
                  r.touch->next_contact = cell.whole();
          }},
-        {{"touch_projection_1", Type::real, Unit::none, true},
+        {added({"touch_projection_1", Type::real, Unit::none, true}),
          [](const Context&, const Record& r, CellWriter& cell) { write_touch(r, cell, &TouchFindings::projection); },
          [](const Context&, Record& r, CellReader& cell) { read_touch(r, cell, &TouchFindings::projection); }},
-        {{"touch_growth", Type::real, Unit::none, true},
+        {added({"touch_growth", Type::real, Unit::none, true}),
          [](const Context&, const Record& r, CellWriter& cell) { write_touch(r, cell, &TouchFindings::growth); },
          [](const Context&, Record& r, CellReader& cell) { read_touch(r, cell, &TouchFindings::growth); }},
-        {{"touch_jump_growth", Type::real, Unit::none, true},
+        {added({"touch_jump_growth", Type::real, Unit::none, true}),
          [](const Context&, const Record& r, CellWriter& cell) { write_touch(r, cell, &TouchFindings::jump_growth); },
          [](const Context&, Record& r, CellReader& cell) { read_touch(r, cell, &TouchFindings::jump_growth); }},
-        {{"touch_reach", Type::real, Unit::none, true},
+        {added({"touch_reach", Type::real, Unit::none, true}),
          [](const Context&, const Record& r, CellWriter& cell) { write_touch(r, cell, &TouchFindings::reach); },
          [](const Context&, Record& r, CellReader& cell) { read_touch(r, cell, &TouchFindings::reach); }},
-        {{"touch_clearance_rate", Type::real, Unit::none, true},
+        {added({"touch_clearance_rate", Type::real, Unit::none, true}),
          [](const Context&, const Record& r, CellWriter& cell) {
              write_touch(r, cell, &TouchFindings::clearance_rate);
          },
          [](const Context&, Record& r, CellReader& cell) { read_touch(r, cell, &TouchFindings::clearance_rate); }},
-        {{"touch_speed_factor", Type::real, Unit::none, true},
+        {added({"touch_speed_factor", Type::real, Unit::none, true}, "touch_first_speed"),
          [](const Context&, const Record& r, CellWriter& cell) { write_touch(r, cell, &TouchFindings::speed_factor); },
          [](const Context&, Record& r, CellReader& cell) { read_touch(r, cell, &TouchFindings::speed_factor); }},
-        {{"touch_fold_distance", Type::real, Unit::none, true},
+        {added({"touch_fold_distance", Type::real, Unit::none, true}),
          [](const Context&, const Record& r, CellWriter& cell) { write_touch(r, cell, &TouchFindings::fold_distance); },
          [](const Context&, Record& r, CellReader& cell) { read_touch(r, cell, &TouchFindings::fold_distance); }},
         {{"tangent", Type::text}, // as JSON

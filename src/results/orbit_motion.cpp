@@ -63,7 +63,7 @@ public:
             return "its duration is no number";
         BoundedSampler sampler(*left_, duration / static_cast<double>(intervals), intervals, periods_,
                                [&](double time, std::size_t, std::span<const double> state) { receive(time, state); });
-        Trajectory trajectory(simulation_, parameters_, sampler);
+        Trajectory trajectory(simulation_, parameters_, borrowed(sampler));
         trajectory.start(start, mode, 0, duration);
         graze::run(trajectory, jets_);
         const Outcome& outcome = trajectory.outcome();

@@ -68,8 +68,7 @@ class OrbitReader {
 public:
     OrbitReader(const Database& database, const RunRecord& run, const Model& model)
         : path_(database.path()), run_(&run), context_(run, model), tables_(run),
-          segments_(
-              database.prepare(fmt::format("SELECT * FROM {} WHERE point = ? ORDER BY segment", tables_.samples))),
+          segments_(database.prepare(tables_.select_sample() + " WHERE point = ? ORDER BY segment")),
           multipliers_(database, "multipliers", multiplier_columns(), run),
           half_multipliers_(database, "half_multipliers", multiplier_columns(), run),
           minima_(database, "minima", minimum_columns(), run),

@@ -85,7 +85,7 @@ const ColumnsOf<RunRecord, PointRecord>& point_columns() {
              is_periodic(p) ? cell.text(p.result.signature) : cell.nothing();
          },
          [](const Run&, Point& p, CellReader& cell) { p.result.signature = cell.text(); }},
-        {{"symmetric", Type::whole, Unit::none, true},
+        {added({"symmetric", Type::whole, Unit::none, true}),
          [](const Run&, const Point& p, CellWriter& cell) {
              p.result.symmetric ? cell.truth(*p.result.symmetric) : cell.nothing();
          },
@@ -93,14 +93,14 @@ const ColumnsOf<RunRecord, PointRecord>& point_columns() {
              if (!cell.is_nothing())
                  p.result.symmetric = cell.truth();
          }},
-        {{"multiplier", Type::real, Unit::none, true},
+        {added({"multiplier", Type::real, Unit::none, true}),
          [](const Run&, const Point& p, CellWriter& cell) {
              p.result.multipliers.empty() ? cell.nothing() : cell.extended(std::abs(p.result.multipliers.front()));
          }},
-        {{"lyapunov", Type::real, Unit::per_time, true},
+        {added({"lyapunov", Type::real, Unit::per_time, true}),
          [](const Run&, const Point& p, CellWriter& cell) { write_optional(p.result.lyapunov, cell); },
          [](const Run&, Point& p, CellReader& cell) { p.result.lyapunov = read_optional(cell); }},
-        {{"lyapunov_error", Type::real, Unit::per_time, true},
+        {added({"lyapunov_error", Type::real, Unit::per_time, true}),
          [](const Run&, const Point& p, CellWriter& cell) { write_optional(p.result.lyapunov_error, cell); },
          [](const Run&, Point& p, CellReader& cell) { p.result.lyapunov_error = read_optional(cell); }},
         {{"residual", Type::real, Unit::none, true},

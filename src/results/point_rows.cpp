@@ -1,5 +1,6 @@
 #include "results/point_columns.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 #include "graze/results/name_advice.hpp"
 #include "results/detail_rows.hpp"
@@ -16,7 +17,7 @@ namespace {
 
 constexpr std::int64_t samples_of_a_point = RunTables::samples_of_a_point;
 
-/// @throws InputError or std::out_of_range if the columns or names of the run do not fit the point
+/// @throws InputError or InputError if the columns or names of the run do not fit the point
 void require_fitting(const RunRecord& run, const PointRecord& point) {
     const PointResult& result = point.result;
     const SampleSet& samples = result.samples;
@@ -127,8 +128,8 @@ std::optional<PointRecord> ResultFile::point(const std::string& name, std::size_
     PointRecord point = read_point(row, *run);
     SampleSet& samples = point.result.samples;
     samples.width = run->values.size();
-    Statement rows = state_->database.prepare(
-        fmt::format("SELECT * FROM {} WHERE rowid >= ?1 AND rowid < ?2 ORDER BY rowid", tables.samples));
+    Statement rows =
+        state_->database.prepare(tables.select_sample() + " WHERE rowid >= ?1 AND rowid < ?2 ORDER BY rowid");
     const auto first = static_cast<std::int64_t>(number) * samples_of_a_point;
     rows.bind(1, first).bind(2, first + samples_of_a_point);
     require_columns(rows, tables.sample_columns.size(), path());

@@ -1,7 +1,6 @@
+#include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 #include "results/result_file_state.hpp"
-
-#include <stdexcept>
 
 namespace graze {
 
@@ -11,7 +10,7 @@ struct ResultFile::Rows::State {
     /// Checks a column of the current row, and returns its index.
     int at(std::size_t column) const {
         if (!on_row)
-            throw std::logic_error("there is no row to be read: call next, and read only while it returns true");
+            throw OrderError("there is no row to be read: call next, and read only while it returns true");
         require_index(column, static_cast<std::size_t>(statement.columns()), "column");
         return static_cast<int>(column);
     }

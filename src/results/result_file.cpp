@@ -4,6 +4,7 @@
 #include "graze/base/printable.hpp"
 #include "graze/results/name_advice.hpp"
 #include "graze/results/run_kind.hpp"
+#include "results/file_form.hpp"
 #include "results/point_columns.hpp"
 #include "results/result_file_state.hpp"
 #include "results/run_columns.hpp"
@@ -15,8 +16,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-
-#include <stdexcept>
+#include <limits>
 
 namespace graze {
 
@@ -47,6 +47,13 @@ void require_names(const RunRecord& run, const std::string& path) {
         require_plain_line(point.label + point.name, "name of a point", place);
 }
 
+/// Which format a reader of a newer file has to know.
+std::int64_t needed_reader(const Database& database) {
+    Statement row = database.prepare("SELECT CAST(value AS INTEGER) FROM meta WHERE key = ?");
+    row.bind(1, std::string_view(oldest_reader_key));
+    return row.step() && !row.is_null(0) ? row.integer(0) : std::numeric_limits<std::int64_t>::max();
+}
+
 } // namespace
 
 bool RunRecord::is_branch() const {
@@ -72,10 +79,8 @@ ResultFile::ResultFile(const std::string& path, Access access) {
     const bool writing = access == Access::write;
     std::error_code error;
     if (!writing && !std::filesystem::exists(path, error))
-        throw InputError(Place{path, 0, 0}, "there is no such result file",
-                         "graze run STUDY makes one, in the folder that --output names");
-    auto lock = writing ? std::make_unique<WriteLock>(path) : nullptr;
-    state_ = std::make_unique<State>(State{std::move(lock), Database(path, writing), false, {}, {}});
+        throw FileError(path, "there is no such result file", "run a study, which makes one");
+    state_ = std::make_shared<State>(path, writing);
     const Database& database = state_->database;
     const std::int64_t application = database.value("PRAGMA application_id");
     const std::int64_t format = database.value("PRAGMA user_version");
@@ -85,17 +90,27 @@ ResultFile::ResultFile(const std::string& path, Access access) {
     if (!empty && application != result_application)
         throw InputError(Place{path, 0, 0}, "this is no result file of graze",
                          "give the results.sqlite of a study, or its folder");
-    if (!empty && (format < oldest_result_format || format > result_format))
+    const bool newer = format > result_format;
+    if (!empty && (format < oldest_result_format || (newer && needed_reader(database) > result_format)))
         throw InputError(Place{path, 0, 0},
                          fmt::format("the result file has format {}, this version of graze knows formats {} to {}",
                                      format, oldest_result_format, result_format),
                          "use the version of graze that wrote it, or run the study into another folder");
+    if (newer && writing)
+        throw InputError(Place{path, 0, 0},
+                         fmt::format("the result file has format {}, which this version of graze reads, but does not "
+                                     "write: it writes format {}",
+                                     format, result_format),
+                         "go on with the version of graze that wrote it, or run the study into another folder");
     if (!empty)
         state_->format = static_cast<int>(format);
     if (!writing) {
+        if (format != result_format)
+            state_->missing = show_in_this_form(database, runs());
         database.execute("PRAGMA cache_size = -65536; PRAGMA query_only = 1; "
                          "PRAGMA cell_size_check = 1");
         state_->database.only_read();
+        state_->opened = true;
         return;
     }
     if (empty)
@@ -106,23 +121,21 @@ ResultFile::ResultFile(const std::string& path, Access access) {
         state_->at_once([&] {
             database.execute(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}; {}", result_application,
                                          result_format, common_tables()));
+            database.execute(fmt::format("INSERT INTO meta VALUES('{}', '{}')", oldest_reader_key, oldest_reader));
         });
+    else if (format < result_format)
+        state_->at_once([&] {
+            state_->missing = bring_into_this_form(database, runs());
+            if (!state_->missing.empty()) {
+                database.execute(fmt::format("PRAGMA user_version = {}", result_format));
+                state_->format = result_format;
+            }
+        });
+    state_->opened = true;
 }
 
-ResultFile::~ResultFile() {
-    if (!state_)
-        return;
-    try {
-        flush();
-        state_->writers.clear();
-        // Merges the journal into the file, so that it can be read in a folder without write permission. This has no
-        // effect while another process reads.
-        if (state_->lock)
-            state_->database.execute("PRAGMA journal_mode = DELETE");
-    } catch (...) { // a destructor cannot report errors; flush does
-        state_->sqlite_rollback();
-    }
-    state_->writers.clear();
+const std::vector<std::string>& ResultFile::missing() const {
+    return state_->missing;
 }
 
 const std::string& ResultFile::path() const {

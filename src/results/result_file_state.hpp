@@ -18,7 +18,8 @@
 
 namespace graze {
 
-/// The connection to the file, and the transaction in which points are written.
+/// The connection to the file, and the transaction in which points are written, which is committed when the last handle
+/// goes.
 struct ResultFile::State {
     using Clock = std::chrono::steady_clock;
     static constexpr auto between_commits = std::chrono::milliseconds(50);
@@ -33,8 +34,28 @@ struct ResultFile::State {
         Statement multiplier, half_multiplier, minimum, end_value;
         std::optional<Model> model; ///< set when the first orbit is written
     };
-    std::map<std::string, Writer, std::less<>> writers; ///< by run; several runs can be written at the same time
-    int format = result_format;                         ///< format of the file
+    std::map<std::string, Writer, std::less<>> writers; ///< of runs that are written to, some at the same time
+    std::vector<std::string> missing{};                 ///< what a file of another format does not have
+    int format = result_format;                         ///< of the file
+    bool opened = false;                                ///< it is a result file, and can be finished as one
+
+    State(const std::string& path, bool writing)
+        : lock(writing ? std::make_unique<WriteLock>(path) : nullptr), database(path, writing) {}
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+    ~State() {
+        if (!opened)
+            return;
+        try {
+            commit();
+            writers.clear();
+            // One plain file, which can be read where nothing can be written; not while somebody reads it.
+            if (lock)
+                database.execute("PRAGMA journal_mode = DELETE");
+        } catch (...) { // whoever wants to know has called flush
+            sqlite_rollback();
+        }
+    }
 
     void begin() {
         if (in_transaction)
@@ -52,7 +73,9 @@ struct ResultFile::State {
                 throw InputError(fmt::format("there is no run '{}'", name), "begin it first");
             const RunTables tables(*run);
             const auto insert = [&](const DetailTable& table) {
-                return database.prepare(insert_into(table.name, 3 + table.columns.size()));
+                return database.prepare(
+                    insert_into(fmt::format("{}(run, point, position, {})", table.name, listed(table.columns)),
+                                3 + table.columns.size()));
             };
             const std::vector<DetailTable>& details = detail_tables();
             found = writers

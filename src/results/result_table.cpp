@@ -183,8 +183,7 @@ std::vector<StoredRun> runs_with(const ResultFile& file, const ResultTableReques
         throw InputError(request.place_of_what,
                          fmt::format("run '{}' is of kind {}, which has no {}{}", excluded.front().record.name,
                                      excluded.front().record.kind, what, what == "points" ? " like the others" : ""),
-                         what == "points" ? "export one of them at a time, by --run NAME, or all into a folder, by "
-                                            "--output FOLDER/"
+                         what == "points" ? "export one of them at a time"
                                           : fmt::format("export its {}", wants_branches ? "samples" : "segments"));
     if (what == "points")
         for (const StoredRun& run : excluded)
@@ -206,10 +205,8 @@ void require_same_columns(const std::vector<StoredRun>& runs) {
         const bool branch = run.record.is_branch();
         if (first != names_of_columns(run)) // the table has only one line of names, that of the first run
             throw InputError("the runs do not have the same columns",
-                             branch ? "export one of them at a time, by --run NAME, or all into a folder, by --output "
-                                      "FOLDER/, or see graze points FILE --all"
-                                    : "export one of them at a time, by --run NAME, or all into a folder, by --output "
-                                      "FOLDER/");
+                             branch ? "export one of them at a time, or list their points"
+                                    : "export one of them at a time");
     }
 }
 

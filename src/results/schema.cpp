@@ -41,6 +41,13 @@ std::string declared(const std::vector<RunColumn>& columns) {
     return text;
 }
 
+std::string names_in(const std::vector<RunColumn>& columns) {
+    std::string text;
+    for (const RunColumn& column : columns)
+        text += (text.empty() ? "" : ", ") + quoted_name(column.column);
+    return text;
+}
+
 const std::vector<ResultColumn>& columns_in(const RunRecord& run, ColumnGroup group) {
     return group == ColumnGroup::coordinates ? run.coordinates : group == ColumnGroup::states ? run.states : run.values;
 }
@@ -114,6 +121,19 @@ std::string insert_into(const std::string& table, std::size_t columns) {
     return fmt::format("INSERT INTO {} VALUES({})", table, places);
 }
 
+std::vector<std::pair<std::string, std::string>> shared_tables() {
+    std::vector<std::pair<std::string, std::string>> tables;
+    for (const DetailTable& table : detail_tables())
+        tables.emplace_back(table.name, fmt::format("run TEXT, point INTEGER, position INTEGER, {}, "
+                                                    "PRIMARY KEY(run, point, position)",
+                                                    declared(table.columns)));
+    tables.emplace_back("estimates", "run TEXT, position INTEGER, name TEXT, unit TEXT, value REAL, error REAL, "
+                                     "low REAL, high REAL, freedom REAL, note TEXT, PRIMARY KEY(run, position)");
+    tables.emplace_back("covariances", "run TEXT, position INTEGER, other INTEGER, covariance REAL, "
+                                       "PRIMARY KEY(run, position, other)");
+    return tables;
+}
+
 std::string common_tables() {
     std::string text = "CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;"
                        "CREATE TABLE columns(run TEXT, place TEXT, position INTEGER, name TEXT, unit TEXT, "
@@ -122,14 +142,9 @@ std::string common_tables() {
                        "PRIMARY KEY(run, what, position)) WITHOUT ROWID;";
     text += fmt::format("CREATE TABLE runs(number INTEGER PRIMARY KEY, {}, UNIQUE(name));",
                         declared(kinds_of(run_columns())));
-    for (const DetailTable& table : detail_tables())
-        text += fmt::format("CREATE TABLE {}(run TEXT, point INTEGER, position INTEGER, {}, "
-                            "PRIMARY KEY(run, point, position)) WITHOUT ROWID;",
-                            table.name, declared(table.columns));
-    return text + "CREATE TABLE estimates(run TEXT, position INTEGER, name TEXT, unit TEXT, value REAL, error REAL, "
-                  "low REAL, high REAL, freedom REAL, note TEXT, PRIMARY KEY(run, position)) WITHOUT ROWID;"
-                  "CREATE TABLE covariances(run TEXT, position INTEGER, other INTEGER, covariance REAL, "
-                  "PRIMARY KEY(run, position, other)) WITHOUT ROWID;";
+    for (const auto& [name, columns] : shared_tables())
+        text += fmt::format("CREATE TABLE {}({}) WITHOUT ROWID;", name, columns);
+    return text;
 }
 
 std::string views(const std::vector<RunRecord>& runs) {
@@ -185,20 +200,21 @@ std::string RunTables::create() const {
 }
 
 std::string RunTables::insert_point() const {
-    return insert_into(points, point_columns.size());
+    return insert_into(fmt::format("{}({})", points, names_in(point_columns)), point_columns.size());
 }
 
 std::string RunTables::insert_sample() const {
-    if (is_branch)
-        return insert_into(samples, sample_columns.size());
-    std::string names = "rowid";
-    for (const RunColumn& column : sample_columns)
-        names += ", " + quoted_name(column.column);
-    return insert_into(fmt::format("{}({})", samples, names), 1 + sample_columns.size());
+    return is_branch ? insert_into(fmt::format("{}({})", samples, names_in(sample_columns)), sample_columns.size())
+                     : insert_into(fmt::format("{}(rowid, {})", samples, names_in(sample_columns)),
+                                   1 + sample_columns.size());
 }
 
 std::string RunTables::select_point() const {
-    return "SELECT * FROM " + points;
+    return fmt::format("SELECT {} FROM {}", names_in(point_columns), points);
+}
+
+std::string RunTables::select_sample() const {
+    return fmt::format("SELECT {} FROM {}", names_in(sample_columns), samples);
 }
 
 } // namespace graze

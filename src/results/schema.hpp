@@ -6,14 +6,19 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace graze {
 
-/// Format of result files that this version writes. To be increased whenever a column is added, removed or changed.
+/// Format of result files that this version writes: to be raised with every column that comes, goes or changes. A
+/// column that comes is `added` (see columns.hpp): older files lack it, and it is read from them as absent. One that is
+/// called otherwise says its former name.
 constexpr int result_format = 7;
-/// Oldest format that this version reads and continues. Format 6 differs only in the name of a column
-/// (`touch_first_speed`, now `touch_speed_factor`), and columns are read by position.
+/// The oldest format whose readers can read what this version writes: with columns and tables that they do not know,
+/// but nothing that they need changed or gone. To be raised to `result_format` only where something changes or goes.
+constexpr int oldest_reader = 7;
+/// The oldest format that this version reads, and goes on with.
 constexpr int oldest_result_format = 6;
 constexpr int result_application = 0x67727a31; ///< "grz1", for tools that recognise files by it
 
@@ -26,6 +31,8 @@ struct DetailTable {
 };
 const std::vector<DetailTable>& detail_tables();
 
+/// Tables of all runs, with what is between their parentheses, that older files may lack.
+std::vector<std::pair<std::string, std::string>> shared_tables();
 /// Tables that every file has.
 std::string common_tables();
 /// Statements that create the views over all runs. To be executed whenever the runs change.
@@ -59,6 +66,7 @@ struct RunTables {
     std::string insert_point() const;
     std::string insert_sample() const; ///< the first cell of a sample is its rowid
     std::string select_point() const;  ///< gives the columns in the order of insert_point
+    std::string select_sample() const; ///< the same, without a rowid
     /// The rowids of the samples of a point begin at its number times this, so that they are found without an index.
     static constexpr std::int64_t samples_of_a_point = std::int64_t{1} << 24;
 };

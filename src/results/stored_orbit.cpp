@@ -54,7 +54,7 @@ std::vector<RunRecord> branch_runs(const ResultFile& file, const std::vector<std
         if (!found->is_branch())
             throw InputError(place,
                              fmt::format("run '{}' is of kind {}, which has no orbits of a branch", name, found->kind),
-                             fmt::format("see its results by graze export --run {}", name));
+                             "see its points");
         chosen.push_back(*found);
     }
     if (chosen.empty())
@@ -66,9 +66,8 @@ OrbitRecord orbit_of_run(const ResultFile& file, const RunRecord& run, const std
     if (auto record = look_up(file, run, point))
         return std::move(*record);
     if (is_number(point))
-        throw InputError(
-            place, fmt::format("run '{}' has no orbit number {}", run.name, point),
-            fmt::format("graze points --run {} --all lists its {} orbits", run.name, file.point_count(run.name)));
+        throw InputError(place, fmt::format("run '{}' has no orbit number {}", run.name, point),
+                         fmt::format("give one of its {} orbits", file.point_count(run.name)));
     throw InputError(place, fmt::format("run '{}' has no orbit '{}'", run.name, point),
                      name_advice(point, StoredRun(file, run.name, place).special_labels(),
                                  "none of its orbits has a label; give a number"));

@@ -1,5 +1,6 @@
 #include "graze/results/stored_run.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/results/name_advice.hpp"
 #include "results/run_query.hpp"
 
@@ -7,7 +8,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace graze {
 
@@ -30,7 +30,7 @@ std::vector<std::string> texts_of(ResultFile::Rows rows) {
 } // namespace
 
 StoredRun::StoredRun(const ResultFile& from, const std::string& name, const Place& place)
-    : file(&from), record(record_named(from, name, place)), model(stored_model(record)) {}
+    : file(from), record(record_named(from, name, place)), model(stored_model(record)) {}
 
 std::vector<StoredColumn> StoredRun::columns(bool of_samples) const {
     const RunTables tables(record);
@@ -89,24 +89,24 @@ ResultFile::Rows StoredRun::rows(const Selection& selection) const {
     std::string order = query.order(samples && !grouped);
     if (!selection.sorted_by.empty())
         order = fmt::format("{}, {}", query.quantity(selection.sorted_by), order);
-    return file->query(fmt::format(
+    return file.query(fmt::format(
         "SELECT {} FROM {} WHERE {}{} ORDER BY {}", fmt::join(columns, ", "), query.tables(samples, grouped),
         query.condition(selection.directions, samples ? selection.samplings : std::vector<std::string>()),
         grouped ? " GROUP BY p.number" : "", order));
 }
 
 std::size_t StoredRun::points() const {
-    return file->point_count(record.name);
+    return file.point_count(record.name);
 }
 
 std::size_t StoredRun::samples() const {
-    auto rows = file->query(fmt::format("SELECT count(*) FROM {}", RunTables(record).samples));
+    auto rows = file.query(fmt::format("SELECT count(*) FROM {}", RunTables(record).samples));
     return rows.next() ? static_cast<std::size_t>(rows.integer(0)) : 0;
 }
 
 std::optional<std::pair<double, double>> StoredRun::extent(const std::string& quantity) const {
     const RunQuery query(record);
-    auto rows = file->query(
+    auto rows = file.query(
         fmt::format("SELECT min({0}), max({0}) FROM {1}", query.quantity(quantity), query.tables(false, false)));
     if (!rows.next() || rows.is_null(0) || !(rows.number(0) < rows.number(1)))
         return std::nullopt;
@@ -121,7 +121,7 @@ std::vector<double> StoredRun::value_spreads() const {
     std::vector<std::string> columns;
     for (const ResultColumn& value : record.values)
         columns.push_back(fmt::format("max({0}) - min({0})", query.value(value.name)));
-    auto rows = file->query(fmt::format("SELECT {} FROM {} AS s", fmt::join(columns, ", "), RunTables(record).samples));
+    auto rows = file.query(fmt::format("SELECT {} FROM {} AS s", fmt::join(columns, ", "), RunTables(record).samples));
     if (rows.next())
         for (std::size_t v = 0; v < columns.size(); ++v)
             spreads.push_back(rows.number(v));
@@ -130,7 +130,7 @@ std::vector<double> StoredRun::value_spreads() const {
 
 std::vector<std::pair<std::string, std::size_t>> StoredRun::label_counts() const {
     std::vector<std::pair<std::string, std::size_t>> counts;
-    auto rows = file->query(
+    auto rows = file.query(
         fmt::format("SELECT label, count(*) FROM {} GROUP BY label ORDER BY 2 DESC, 1", RunTables(record).points));
     while (rows.next())
         counts.emplace_back(rows.text(0), static_cast<std::size_t>(rows.integer(1)));
@@ -140,13 +140,13 @@ std::vector<std::pair<std::string, std::size_t>> StoredRun::label_counts() const
 std::vector<std::string> StoredRun::parts() const {
     if (!record.is_branch())
         return {};
-    return texts_of(file->query("SELECT DISTINCT part FROM " + RunTables(record).points));
+    return texts_of(file.query("SELECT DISTINCT part FROM " + RunTables(record).points));
 }
 
 std::vector<std::string> StoredRun::special_labels() const {
     if (!record.is_branch())
         return {};
-    return texts_of(file->query(
+    return texts_of(file.query(
         fmt::format("SELECT label FROM {} WHERE label IS NOT NULL ORDER BY number", RunTables(record).points)));
 }
 
@@ -155,8 +155,8 @@ std::optional<std::size_t> StoredRun::nearest(const std::vector<std::pair<std::s
     const std::vector<std::string> known = coordinate_names();
     for (const auto& [name, value] : at)
         if (std::find(known.begin(), known.end(), name) == known.end())
-            throw std::out_of_range(fmt::format("run '{}' does not vary '{}'", record.name, name));
-    return nearest_number(*file, record, at, directions);
+            throw InputError(fmt::format("run '{}' does not vary '{}'", record.name, name), "");
+    return nearest_number(file, record, at, directions);
 }
 
 } // namespace graze

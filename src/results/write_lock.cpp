@@ -14,12 +14,12 @@ namespace graze {
 WriteLock::WriteLock(const std::string& path) : path_(path + ".lock") {
     file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (file_ < 0)
-        throw InputError(Place{path, 0, 0}, std::string("it cannot be written (") + std::strerror(errno) + ")",
-                         "look at the permissions of the folder, or choose another one by --output");
+        throw FileError(path, std::string("it cannot be written (") + std::strerror(errno) + ")",
+                        "look at the permissions of the folder, or choose another one");
     if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
         ::close(file_);
-        throw InputError(Place{path, 0, 0}, "another graze writes to this result file",
-                         "wait until it has ended, or choose another folder by --output");
+        throw FileError(path, "another graze writes to this result file",
+                        "wait until it has ended, or choose another folder");
     }
 }
 

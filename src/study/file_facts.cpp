@@ -198,6 +198,8 @@ void add_facts(Facts& facts, const Study& study) {
 
 void add_facts(Facts& facts, const ResultFile& file) {
     facts.add("file", "", "format", static_cast<double>(file.format()));
+    for (const std::string& missing : file.missing())
+        facts.add("file", "", "missing", missing);
     std::optional<Study> study;
     try {
         study = stored_study(file);

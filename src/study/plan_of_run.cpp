@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace graze {
 
@@ -100,14 +101,16 @@ std::size_t points_of(const StudyRun& run) {
     return chains_of(run) * chain_length_of(run);
 }
 
-Plan plan_of(const StudyRun& run, const System& system, const PointRecord* start) {
+Plan plan_of(const StudyRun& given, const System& system, const PointRecord* start) {
+    const auto kept = std::make_shared<const StudyRun>(given);
+    const StudyRun& run = *kept;
     Plan plan;
     plan.chain_length = chain_length_of(run);
     plan.chains = chains_of(run);
     plan.carry = run.kind == RunKind::sweep && run.motion().carry;
     std::vector<double> state = start ? start->result.state : std::vector<double>();
     const std::size_t mode = start ? start->result.mode : run.model.initial_mode;
-    plan.start = [&run, state, mode, system, following = following_states(run)](std::size_t point) {
+    plan.start = [kept, &run, state, mode, system, following = following_states(run)](std::size_t point) {
         PointStart result{run.model.parameter_values(), state, mode};
         const std::vector<double> coordinates = coordinates_of(run, point);
         for (std::size_t a = 0; a < run.motion().axes.size(); ++a)

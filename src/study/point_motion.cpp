@@ -29,7 +29,7 @@ PointRecord chosen_point(const StoredRun& run, const std::vector<std::pair<std::
     if (!number)
         throw InputError(place, fmt::format("run '{}' has no such point", name),
                          "run the study first, or choose another direction");
-    return *run.file->point(name, *number);
+    return *run.file.point(name, *number);
 }
 
 namespace {
@@ -198,7 +198,7 @@ DenseMotion dense_motion(const StoredRun& run, const PointRecord& point, const s
         marked.push_back(event.kind == EventKind::barrier && is_met_by_motion(model, event));
     DenseRecorder recorder(simulation.system().function_of(values), parameters, model.periods(), std::move(marked),
                            when_long);
-    Trajectory trajectory(simulation, parameters, recorder);
+    Trajectory trajectory(simulation, parameters, borrowed(recorder));
     trajectory.start(state, mode, 0, duration);
     JetSet jets(simulation, LaneKind::single);
     graze::run(trajectory, jets);

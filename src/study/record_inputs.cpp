@@ -124,7 +124,7 @@ void fingerprint_record(RecordInput& input) {
     }
     std::error_code error;
     if (file.bad() || (!file.eof() && file.fail()) || !std::filesystem::exists(input.path, error))
-        throw InputError(Place{input.path, 0, 0}, "the record cannot be read", "look at the file and its permissions");
+        throw FileError(input.path, "the record cannot be read", "look at the file and its permissions");
     input.bytes = length;
     input.hash = fmt::format("{:016x}{:016x}", mixed(one ^ length), mixed(other ^ length));
 }

@@ -1,5 +1,6 @@
 #include "graze/study/runner.hpp"
 
+#include "base/turns.hpp"
 #include "graze/results/name_advice.hpp"
 #include "graze/study/escape_rates.hpp"
 #include "graze/study/run_times.hpp"
@@ -96,7 +97,10 @@ class Runner {
 public:
     Runner(const Study& study, ResultFile& file, const RunnerOptions& options)
         : study_(&study), path_(file.path()), file_(file), options_(options) {
-        options_.interrupted = [this, asked = options.interrupted] { return broken_off_ || (asked && asked()); };
+        const auto interrupted = turns_.asking(options.interrupted);
+        options_.interrupted = [this, interrupted] { return broken_off_ || (interrupted && interrupted()); };
+        options_.progress = turns_.taking(options.progress);
+        options_.orbit = turns_.taking(options.orbit);
         const std::set<std::string> wanted = wanted_runs(study, options.only);
         for (const StudyRun& run : study.runs)
             if (wanted.contains(run.name)) {
@@ -204,7 +208,8 @@ private:
             else
                 run.is_branch() ? do_branch(with_found(run), work) : do_points(with_found(run), work);
         } catch (const InputError& error) {
-            if (error.place().file == path_) // the file cannot be written, by other runs neither
+            // The file cannot be written: neither can other runs. Or a callback has thrown it.
+            if (error.place().file == path_ || turns_.have_ended())
                 throw;
             file_.with([&](ResultFile& file) {
                 file.flush();
@@ -373,6 +378,7 @@ private:
     const Study* study_;
     std::string path_;
     SharedFile file_;
+    Turns turns_;
     RunnerOptions options_;
     std::vector<const StudyRun*> runs_; ///< the runs to be carried out, in the order of the study
     std::set<std::string> failed_;

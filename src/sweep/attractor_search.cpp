@@ -52,7 +52,7 @@ void AttractorSearch::begin(std::span<const double> parameters, std::span<const 
     parameters_.assign(parameters.begin(), parameters.end());
     periods_.resize(compiled.states());
     std::vector<double> work(compiled.workspace());
-    main_.emplace(setting_->simulation, parameters, watcher_);
+    main_.emplace(setting_->simulation, parameters, borrowed(watcher_));
     compiled.periods().evaluate(parameters_, periods_, work);
     recorder_.begin(parameters);
     recorder_.set_origin(0);

@@ -55,7 +55,7 @@ void OrbitFinder::begin(std::span<const double> parameters, std::span<const doub
     returns_ = 0;
     symmetric_.reset();
     workspace_ = map_->workspace(parameters);
-    trajectory_.emplace(map_->simulation(), parameters, watcher_);
+    trajectory_.emplace(map_->simulation(), parameters, borrowed(watcher_));
     trajectory_->limit_step(longest_step_);
     const std::size_t states = map_->states(), stride = states + parameters.size();
     seeds_.assign(states * stride, 0);

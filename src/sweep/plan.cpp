@@ -1,5 +1,7 @@
 #include "graze/sweep/plan.hpp"
 
+#include "base/thread_team.hpp"
+#include "base/turns.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 #include "graze/trajectory/ensemble.hpp"
@@ -8,11 +10,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
-#include <exception>
-#include <mutex>
+#include <functional>
+#include <memory>
 #include <string>
-#include <thread>
 
 namespace graze {
 
@@ -32,18 +34,17 @@ struct Execution {
     const Plan& plan;
     const SearchFactory& searches;
     std::span<const ChainProgress> progress;
-    const ExecutionOptions& options;
-    const Sink& sink;
+    const std::function<PointStart(std::size_t)> start;
+    const std::function<bool()> interrupted;
+    const Sink sink;
 
     std::atomic<std::size_t> next_chain{0};
-    std::atomic<bool> stopped{false};
-    std::mutex mutex{}; ///< protects the sink and the error
-    std::exception_ptr error{};
+    ThreadTeam team{};
 
     bool must_stop() {
-        if ((options.stop && *options.stop) || (options.interrupted && options.interrupted()))
-            stopped = true;
-        return stopped;
+        if (interrupted && interrupted())
+            team.stop();
+        return team.is_stopped();
     }
 };
 
@@ -70,12 +71,7 @@ public:
             state_ = result.state;
             mode_ = result.mode;
         }
-        {
-            const std::lock_guard lock(execution_->mutex);
-            if (execution_->error)
-                return nullptr;
-            execution_->sink(chain_ * execution_->plan.chain_length + index_, start_, result);
-        }
+        execution_->sink(chain_ * execution_->plan.chain_length + index_, start_, result);
         ++index_;
         return next_point();
     }
@@ -132,7 +128,7 @@ private:
         }
         if (execution_->must_stop())
             return nullptr;
-        start_ = plan.start(chain_ * plan.chain_length + index_);
+        start_ = execution_->start(chain_ * plan.chain_length + index_);
         start_note_.clear();
         attempt_ = Attempt::initial;
         if (plan.carry)
@@ -156,23 +152,16 @@ private:
     std::string start_note_; ///< note on a point that does not start where it should
 };
 
-void work_through(Execution& execution, std::size_t slots) {
-    try {
-        Ensemble ensemble(execution.searches.simulation(), execution.options.instruction_set);
-        ensemble.stop_when([&] { return execution.must_stop(); });
-        std::vector<std::unique_ptr<Worker>> workers;
-        std::vector<Trajectory*> first;
-        for (std::size_t i = 0; i < slots; ++i) {
-            workers.push_back(std::make_unique<Worker>(execution));
-            first.push_back(workers.back()->begin());
-        }
-        ensemble.run(first, [&](std::size_t slot) { return workers[slot]->go_on(); });
-    } catch (...) {
-        const std::lock_guard lock(execution.mutex);
-        if (!execution.error)
-            execution.error = std::current_exception();
-        execution.stopped = true;
+void work_through(Execution& execution, InstructionSet set, std::size_t slots) {
+    Ensemble ensemble(execution.searches.simulation(), set);
+    ensemble.stop_when([&] { return execution.must_stop(); });
+    std::vector<std::unique_ptr<Worker>> workers;
+    std::vector<Trajectory*> first;
+    for (std::size_t i = 0; i < slots; ++i) {
+        workers.push_back(std::make_unique<Worker>(execution));
+        first.push_back(workers.back()->begin());
     }
+    ensemble.run(first, [&](std::size_t slot) { return workers[slot]->go_on(); });
 }
 
 } // namespace
@@ -187,7 +176,9 @@ bool execute(const Plan& plan, const SearchFactory& searches, std::span<const Ch
         require_room(plan.chain_length, chain.done, "points of a chain done");
     if (options.jobs < 1)
         throw InputError(fmt::format("{} jobs cannot do anything", options.jobs), "give at least one");
-    Execution execution{plan, searches, progress, options, sink};
+    const Turns turns;
+    Execution execution{
+        plan, searches, progress, turns.taking(plan.start), turns.asking(options.interrupted), turns.taking(sink)};
     std::size_t chains = 0;
     for (std::size_t c = 0; c < plan.chains; ++c)
         chains += c >= progress.size() || progress[c].done < plan.chain_length ? 1 : 0;
@@ -197,15 +188,8 @@ bool execute(const Plan& plan, const SearchFactory& searches, std::span<const Ch
     const auto lanes = static_cast<std::size_t>(lanes_of(LaneKind::ensemble, options.instruction_set));
     // Two trajectories per lane keep lanes busy while modes differ; few chains are better distributed over threads.
     const std::size_t slots = std::clamp<std::size_t>((chains + jobs - 1) / jobs, 1, 2 * lanes);
-    {
-        std::vector<std::jthread> threads;
-        for (std::size_t i = 1; i < jobs; ++i)
-            threads.emplace_back([&] { work_through(execution, slots); });
-        work_through(execution, slots);
-    }
-    if (execution.error)
-        std::rethrow_exception(execution.error);
-    return !execution.stopped;
+    execution.team.run(jobs, [&](bool) { work_through(execution, options.instruction_set, slots); });
+    return !execution.team.is_stopped();
 }
 
 } // namespace graze

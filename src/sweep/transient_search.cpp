@@ -68,7 +68,7 @@ void TransientSearch::begin(std::span<const double> parameters, std::span<const 
     require_size(state.size(), system.states(), "states");
     require_index(mode, system.model().modes.size(), "mode");
     recorder_.begin(parameters);
-    trajectory_.emplace(setting_->simulation, parameters, static_cast<Observer&>(*this));
+    trajectory_.emplace(setting_->simulation, parameters, borrowed(static_cast<Observer&>(*this)));
     result_ = {};
     periods_ = contacts_ = all_periods_ = 0;
     waited_ = 0;

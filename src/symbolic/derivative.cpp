@@ -1,8 +1,7 @@
 #include "symbolic/derivative.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "symbolic/function_table.hpp"
-
-#include <stdexcept>
 
 namespace graze {
 
@@ -46,7 +45,7 @@ Expression slope_of(Operation operation, const Expression& y, const Expression& 
         GRAZE_FUNCTIONS(GRAZE_ROW)
 #undef GRAZE_ROW
     default:
-        throw std::invalid_argument("an operation of one operand was expected");
+        throw InputError("an operation of one operand was expected", "");
     }
 }
 

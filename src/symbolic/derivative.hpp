@@ -5,7 +5,7 @@
 namespace graze {
 
 /// Returns dy/da for an operation y of one operand a, in terms of a and y.
-/// @throws std::invalid_argument unless the operation has one operand
+/// @throws InputError unless the operation has one operand
 Expression slope_of(Operation operation, const Expression& y, const Expression& a);
 
 /// Returns the derivative of an operation, given those of its operands; an empty one stands for zero (not both may be).

@@ -1,5 +1,7 @@
 #include "graze/symbolic/expression.hpp"
 
+#include "graze/base/input_error.hpp"
+
 #include "symbolic/function_table.hpp"
 #include "symbolic/simplify.hpp"
 #include "symbolic/subgraph.hpp"
@@ -7,7 +9,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 namespace graze {
 
@@ -15,13 +16,13 @@ namespace {
 
 Expression apply(Operation operation, const Expression& operand) {
     if (operand.empty())
-        throw std::invalid_argument("an operand is an empty expression");
+        throw InputError("an operand is an empty expression", "");
     return operand.graph()->apply(operation, operand);
 }
 
 Expression apply(Operation operation, const Expression& left, const Expression& right) {
     if (left.empty())
-        throw std::invalid_argument("an operand is an empty expression");
+        throw InputError("an operand is an empty expression", "");
     return left.graph()->apply(operation, left, right);
 }
 
@@ -35,7 +36,7 @@ static_assert(is_complete(), "the table of functions has another order than Oper
 
 Expression number_beside(const Expression& expression, double value) {
     if (expression.empty())
-        throw std::invalid_argument("an operand is an empty expression");
+        throw InputError("an operand is an empty expression", "");
     return expression.graph()->number(value);
 }
 
@@ -56,20 +57,20 @@ int arity(Operation operation) {
         break;
     }
     if (operation > last_function)
-        throw std::invalid_argument("there is no such operation");
+        throw InputError("there is no such operation", "");
     return 1;
 }
 
 void Expression::refuse_node() {
-    throw std::invalid_argument("the graph does not have such a node");
+    throw InputError("the graph does not have such a node", "");
 }
 
 void Expression::refuse_empty() {
-    throw std::invalid_argument("an expression is empty: it names nothing");
+    throw InputError("an expression is empty: it names nothing", "");
 }
 
 void Expression::refuse_name() {
-    throw std::invalid_argument("only symbols have names");
+    throw InputError("only symbols have names", "");
 }
 
 std::size_t Graph::Hash::operator()(const Node& node) const {
@@ -101,8 +102,7 @@ std::shared_ptr<Graph> Graph::copy() const {
 
 void Graph::require_growing() const {
     if (frozen_)
-        throw std::logic_error(
-            "the graph of a compiled system cannot grow: make new expressions in a copy of its model");
+        throw OrderError("the graph of a compiled system cannot grow: make new expressions in a copy of its model");
 }
 
 Expression Graph::adopt(const Expression& foreign) {
@@ -129,7 +129,7 @@ NodeIndex Graph::intern(Node node) {
         return found->second;
     require_growing();
     if (nodes_.size() >= std::numeric_limits<NodeIndex>::max())
-        throw std::length_error("an expression graph is full");
+        throw InputError("an expression graph is full", "");
     // Constants have been folded wherever the result is finite, so constant operands mean that there is none.
     bool undefined = false;
     const auto is_number = [&](NodeIndex operand) { return nodes_[operand].operation == Operation::number; };
@@ -148,14 +148,15 @@ NodeIndex Graph::intern(Node node) {
 
 NodeIndex Graph::own(const Expression& expression) const {
     if (expression.graph().get() != this)
-        throw std::invalid_argument(expression.empty() ? "an operand is an empty expression"
-                                                       : "expressions of different graphs cannot be combined");
+        throw InputError(expression.empty() ? "an operand is an empty expression"
+                                            : "expressions of different graphs cannot be combined",
+                         "");
     return expression.index();
 }
 
 Expression Graph::number(double value) {
     if (!std::isfinite(value))
-        throw std::invalid_argument("a number in an expression must be finite");
+        throw InputError("a number in an expression must be finite", "");
     // Adding 0 turns -0 into 0.
     return {shared_from_this(), intern({Operation::number, 0, 0, value + 0.0})};
 }
@@ -172,13 +173,13 @@ Expression Graph::symbol(std::string_view name) {
 
 Expression Graph::apply(Operation operation, const Expression& operand) {
     if (arity(operation) != 1)
-        throw std::invalid_argument("an operation that does not take one operand was given one");
+        throw InputError("an operation that does not take one operand was given one", "");
     return {shared_from_this(), Simplifier(*this).function(operation, own(operand))};
 }
 
 Expression Graph::apply(Operation operation, const Expression& left, const Expression& right) {
     if (arity(operation) != 2)
-        throw std::invalid_argument("an operation that does not take two operands was given two");
+        throw InputError("an operation that does not take two operands was given two", "");
     return {shared_from_this(), Simplifier(*this).arithmetic(operation, own(left), own(right))};
 }
 

@@ -1,5 +1,6 @@
 #include "graze/symbolic/function.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 #include "symbolic/evaluate.hpp"
 #include "symbolic/operation_error.hpp"
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
-#include <stdexcept>
 
 namespace graze {
 
@@ -22,11 +22,11 @@ Function::Function(const SymbolIndex& inputs, std::span<const Expression> output
 Function::Function(const SymbolIndex& inputs, std::size_t outputs, std::span<const Output> given, Others others)
     : output_count_(outputs), others_(others) {
     if (others == Others::inputs && outputs > inputs.size())
-        throw std::invalid_argument("a function has fewer inputs than outputs that are inputs handed through");
+        throw InputError("a function has fewer inputs than outputs that are inputs handed through", "");
     std::vector<Expression> values;
     for (const Output& output : given) {
         if (output.place >= outputs || (!places_.empty() && output.place <= places_.back()))
-            throw std::invalid_argument("the places of a function's outputs do not rise, or there is no such place");
+            throw InputError("the places of a function's outputs do not rise, or there is no such place", "");
         places_.push_back(static_cast<std::uint32_t>(output.place));
         values.push_back(output.value);
     }
@@ -39,7 +39,7 @@ Function::Function(const SymbolIndex& inputs, std::size_t outputs, std::span<con
 void Function::compile(const SymbolIndex& inputs, std::span<const Expression> outputs) {
     const Subgraph part = subgraph_of(outputs);
     if (part.graph && !inputs.are_of(part.graph))
-        throw std::invalid_argument("an input belongs to another graph than the outputs");
+        throw InputError("an input belongs to another graph than the outputs", "");
     inputs_ = inputs.size();
     for (const Subgraph::Item& item : part.items) {
         const Node& node = part.node(item);
@@ -47,7 +47,7 @@ void Function::compile(const SymbolIndex& inputs, std::span<const Expression> ou
             continue;
         const std::optional<std::size_t> input = inputs.find(item.index);
         if (!input)
-            throw std::invalid_argument("'" + part.graph->symbol_name(node) + "' is not an input");
+            throw InputError("'" + part.graph->symbol_name(node) + "' is not an input", "");
         used_.push_back(static_cast<std::uint32_t>(*input));
     }
     std::ranges::sort(used_);
@@ -144,7 +144,7 @@ double constant_value(const Expression& expression) {
     const Subgraph part = subgraph_of(std::span(&expression, 1));
     for (const Subgraph::Item& item : part.items)
         if (part.node(item).operation == Operation::symbol)
-            throw std::invalid_argument("'" + part.graph->symbol_name(part.node(item)) + "' has no value");
+            throw InputError("'" + part.graph->symbol_name(part.node(item)) + "' has no value", "");
     // Constant folding has turned every expression without symbols that has a value into a number.
     return expression.is_number() ? expression.node().value : std::numeric_limits<double>::quiet_NaN();
 }

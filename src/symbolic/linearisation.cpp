@@ -1,11 +1,12 @@
 #include "graze/symbolic/linearisation.hpp"
 
+#include "graze/base/input_error.hpp"
+
 #include "symbolic/linear_graph.hpp"
 #include "symbolic/linear_rows.hpp"
 #include "symbolic/subgraph.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 #include <unordered_set>
 #include <utility>
 
@@ -143,16 +144,16 @@ std::size_t Linearisation::cost() const {
 Linearisation linearise(std::span<const Expression> functions, const SymbolIndex& variables, std::size_t states,
                         std::size_t directions) {
     if (states > variables.size())
-        throw std::invalid_argument("there are more states than variables");
+        throw InputError("there are more states than variables", "");
     constexpr std::size_t most_directions = 1000000;
     if (directions == 0 || directions > most_directions)
-        throw std::invalid_argument("the number of directions is not between 1 and a million");
+        throw InputError("the number of directions is not between 1 and a million", "");
     Linearisation result{variables.size(), functions.size(), 0, {}};
     const Subgraph part = subgraph_of(functions);
     if (!part.graph)
         return result;
     if (!variables.are_of(part.graph))
-        throw std::invalid_argument("a variable belongs to another graph than the functions");
+        throw InputError("a variable belongs to another graph than the functions", "");
     LinearGraph graph(part, nodes_with(part, variables, states), directions);
     graph.reduce();
     const bool may_be_too_many = graph.drop_useless();

@@ -1,5 +1,6 @@
 #include "graze/symbolic/parser.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/base/name_list.hpp"
 #include "symbolic/lexer.hpp"
 #include "symbolic/vocabulary.hpp"
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <functional>
 #include <numbers>
-#include <stdexcept>
 
 namespace graze {
 
@@ -152,7 +152,7 @@ void Parser::take_name() {
     const auto found = scope_.find(name.text);
     if (found != scope_.end()) {
         if (found->second.graph().get() != &graph_)
-            throw std::invalid_argument("'" + found->first + "' belongs to another graph than the one parsed into");
+            throw InputError("'" + found->first + "' belongs to another graph than the one parsed into", "");
         operands_.push_back(found->second);
     } else if (name.text == "pi") {
         operands_.push_back(graph_.number(std::numbers::pi));

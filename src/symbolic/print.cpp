@@ -1,12 +1,13 @@
 #include "graze/symbolic/transform.hpp"
 
+#include "graze/base/input_error.hpp"
+
 #include "symbolic/subgraph.hpp"
 #include "symbolic/vocabulary.hpp"
 
 #include <fmt/format.h>
 
 #include <iterator>
-#include <stdexcept>
 #include <string_view>
 
 namespace graze {
@@ -144,7 +145,7 @@ double text_length(const Expression& expression) {
 
 std::string to_string(const Expression& expression) {
     if (text_length(expression) > longest_text)
-        throw std::length_error("the text of an expression would be too long: it repeats shared parts");
+        throw InputError("the text of an expression would be too long: it repeats shared parts", "");
     return Printer(expression).text();
 }
 

@@ -1,6 +1,5 @@
 #include "symbolic/subgraph.hpp"
-
-#include <stdexcept>
+#include "graze/base/input_error.hpp"
 
 namespace graze {
 
@@ -56,9 +55,9 @@ Subgraph subgraph_of(std::span<const Expression> expressions) {
     Subgraph result;
     for (const Expression& expression : expressions) {
         if (expression.empty())
-            throw std::invalid_argument("an expression is empty");
+            throw InputError("an expression is empty", "");
         if (result.graph && result.graph != expression.graph())
-            throw std::invalid_argument("the expressions belong to different graphs");
+            throw InputError("the expressions belong to different graphs", "");
         result.graph = expression.graph();
     }
     NodePositions positions;

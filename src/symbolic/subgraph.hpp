@@ -25,7 +25,7 @@ struct Subgraph {
     Expression expression(const Item& item) const { return {graph, item.index}; }
 };
 
-/// @throws std::invalid_argument for empty expressions or expressions of different graphs
+/// @throws InputError for empty expressions or expressions of different graphs
 Subgraph subgraph_of(std::span<const Expression> expressions);
 
 } // namespace graze

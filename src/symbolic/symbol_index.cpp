@@ -1,6 +1,6 @@
 #include "graze/symbolic/symbol_index.hpp"
 
-#include <stdexcept>
+#include "graze/base/input_error.hpp"
 
 namespace graze {
 
@@ -9,9 +9,9 @@ SymbolIndex::SymbolIndex(std::span<const Expression> symbols) : symbols_(symbols
     for (std::size_t place = 0; place < symbols_.size(); ++place) {
         const Expression& symbol = symbols_[place];
         if (symbol.empty() || !symbol.is_symbol())
-            throw std::invalid_argument("the inputs of a function must be symbols");
+            throw InputError("the inputs of a function must be symbols", "");
         if (!places_.emplace(symbol.index(), place).second)
-            throw std::invalid_argument("'" + symbol.name() + "' is an input twice");
+            throw InputError("'" + symbol.name() + "' is an input twice", "");
         one_graph_ = one_graph_ && symbol.graph() == symbols_.front().graph();
     }
 }

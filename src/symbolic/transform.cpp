@@ -1,22 +1,23 @@
 #include "graze/symbolic/transform.hpp"
 
+#include "graze/base/input_error.hpp"
+
 #include "symbolic/derivative.hpp"
 #include "symbolic/subgraph.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 #include <unordered_map>
 
 namespace graze {
 
 namespace {
 
-/// @throws std::invalid_argument unless `symbol` is a symbol of this graph, if there is one
+/// @throws InputError unless `symbol` is a symbol of this graph, if there is one
 void require_variable(const Expression& symbol, const std::shared_ptr<Graph>& graph) {
     if (symbol.empty() || !symbol.is_symbol())
-        throw std::invalid_argument("derivatives are taken with respect to symbols only");
+        throw InputError("derivatives are taken with respect to symbols only", "");
     if (graph && graph != symbol.graph())
-        throw std::invalid_argument("the symbol belongs to another graph than the expressions");
+        throw InputError("the symbol belongs to another graph than the expressions", "");
 }
 
 /// Computes derivatives of the nodes of a subgraph from those of its symbols. An empty expression stands for zero.
@@ -64,9 +65,9 @@ std::vector<Expression> differentiate_along(std::span<const Expression> expressi
     for (const auto& [symbol, component] : vector) {
         require_variable(symbol, part.graph);
         if (component.empty() || component.graph() != symbol.graph())
-            throw std::invalid_argument("a component belongs to another graph than its symbol");
+            throw InputError("a component belongs to another graph than its symbol", "");
         if (!components.emplace(symbol.index(), component).second)
-            throw std::invalid_argument("symbol '" + symbol.name() + "' has two components");
+            throw InputError("symbol '" + symbol.name() + "' has two components", "");
     }
     Derivatives derivatives(part);
     derivatives.find([&](std::size_t position) {
@@ -93,7 +94,7 @@ std::vector<JacobianEntry> sparse_jacobian(std::span<const Expression> expressio
     for (std::size_t row = 0; row < expressions.size(); ++row) {
         const Subgraph part = subgraph_of(expressions.subspan(row, 1));
         if (!symbols.are_of(part.graph))
-            throw std::invalid_argument("a symbol belongs to another graph than the expressions");
+            throw InputError("a symbol belongs to another graph than the expressions", "");
         std::vector<std::pair<std::size_t, std::size_t>> occurring; // column, position
         for (std::size_t position = 0; position < part.items.size(); ++position)
             if (part.node(part.items[position]).operation == Operation::symbol)
@@ -132,11 +133,11 @@ std::vector<Expression> substitute(std::span<const Expression> expressions, std:
     std::unordered_map<NodeIndex, NodeIndex> replaced;
     for (const auto& [symbol, replacement] : replacements) {
         if (symbol.empty() || replacement.empty() || !symbol.is_symbol())
-            throw std::invalid_argument("only symbols can be replaced, and only by expressions");
+            throw InputError("only symbols can be replaced, and only by expressions", "");
         if (part.graph && (part.graph != symbol.graph() || part.graph != replacement.graph()))
-            throw std::invalid_argument("a replacement belongs to another graph than the expressions");
+            throw InputError("a replacement belongs to another graph than the expressions", "");
         if (!replaced.emplace(symbol.index(), replacement.index()).second)
-            throw std::invalid_argument("symbol '" + symbol.name() + "' is to be replaced twice");
+            throw InputError("symbol '" + symbol.name() + "' is to be replaced twice", "");
     }
     std::vector<NodeIndex> results(part.items.size());
     for (std::size_t position = 0; position < results.size(); ++position) {

@@ -1,11 +1,11 @@
 #include "symbolic/vocabulary.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "symbolic/function_table.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace graze {
 
@@ -73,7 +73,7 @@ std::optional<Operation> function_named(std::string_view name) {
 std::string_view function_name(Operation operation) {
     const auto* found = std::ranges::find(functions, operation, &FunctionName::operation);
     if (found == std::end(functions))
-        throw std::invalid_argument("the operation has no function name");
+        throw InputError("the operation has no function name", "");
     return found->name;
 }
 

@@ -16,7 +16,7 @@ struct FunctionName {
 };
 std::span<const FunctionName> function_names();
 std::optional<Operation> function_named(std::string_view name);
-/// @throws std::invalid_argument when the operation is not a function
+/// @throws InputError when the operation is not a function
 std::string_view function_name(Operation operation);
 
 /// What is wrong with a name that people write but that the language lacks, and what to write instead.

@@ -1,5 +1,6 @@
 #include "graze/tape/jet.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 #include "tape/aligned_numbers.hpp"
 #include "tape/kernel_program.hpp"
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -340,8 +340,7 @@ void TapeJet::run_deferred(std::span<const std::uint32_t> groups, Run&& run) {
 
 void TapeJet::begin_deferred(std::span<const std::uint32_t> groups) {
     if (progress_.front() == Progress::none)
-        throw std::logic_error(
-            "deferred expressions need coefficients 0 and 1 of the states: call begin or compute first");
+        throw OrderError("deferred expressions need coefficients 0 and 1 of the states: call begin or compute first");
     run_deferred(groups, [this](std::size_t program) {
         if (progress_[program] == Progress::none) {
             programs_[program].begin();
@@ -352,7 +351,7 @@ void TapeJet::begin_deferred(std::span<const std::uint32_t> groups) {
 
 void TapeJet::compute_deferred(std::span<const std::uint32_t> groups) {
     if (progress_.front() != Progress::computed)
-        throw std::logic_error("deferred expressions need all coefficients of the states: call compute first");
+        throw OrderError("deferred expressions need all coefficients of the states: call compute first");
     begin_deferred(groups);
     run_deferred(groups, [this](std::size_t program) {
         if (progress_[program] == Progress::begun) {
@@ -366,7 +365,7 @@ void TapeJet::compute_deferred(std::span<const std::uint32_t> groups) {
 const TapeJet& TapeJet::of_same_tape(const Jet& other) const {
     const auto& same = static_cast<const TapeJet&>(other); // the only derived class
     if (&same.table_ != &table_ || same.layout_.size != layout_.size || same.order_ != order_)
-        throw std::invalid_argument("ends of steps can be compared only with a jet of the same tape");
+        throw InputError("ends of steps can be compared only with a jet of the same tape", "");
     return same;
 }
 
@@ -426,9 +425,9 @@ namespace {
 
 void require_known(LaneKind kind, InstructionSet set) {
     if (kind != LaneKind::single && kind != LaneKind::ensemble)
-        throw std::invalid_argument("there is no such kind of lanes");
+        throw InputError("there is no such kind of lanes", "");
     if (set != InstructionSet::baseline && set != InstructionSet::avx2 && set != InstructionSet::avx512)
-        throw std::invalid_argument("there is no such instruction set");
+        throw InputError("there is no such instruction set", "");
 }
 
 } // namespace
@@ -441,9 +440,9 @@ int lanes_of(LaneKind kind, InstructionSet set) {
 std::unique_ptr<Jet> make_jet(const Tape& tape, int order, LaneKind kind, InstructionSet set) {
     require_known(kind, set);
     if (order < 1 || order > highest_order)
-        throw std::invalid_argument("the order of a jet must be between 1 and " + std::to_string(highest_order));
+        throw InputError("the order of a jet must be between 1 and " + std::to_string(highest_order), "");
     if (!is_supported(set))
-        throw std::invalid_argument("this processor does not have the instruction set " + std::string(name_of(set)));
+        throw InputError("this processor does not have the instruction set " + std::string(name_of(set)), "");
     return std::make_unique<TapeJet>(tape, order, kernel_table(kind, set));
 }
 

@@ -1,10 +1,11 @@
 #include "graze/tape/tape.hpp"
 
+#include "graze/base/input_error.hpp"
+
 #include "symbolic/subgraph.hpp"
 #include "tape/series_builder.hpp"
 #include "tape/tape_analysis.hpp"
 
-#include <stdexcept>
 #include <unordered_map>
 #include <utility>
 
@@ -64,8 +65,7 @@ std::vector<LinearForm> compile(SeriesBuilder& builder, const Subgraph& subgraph
         } else if (node.operation == Operation::symbol) {
             const auto found = symbols.find(item.index);
             if (found == symbols.end())
-                throw std::invalid_argument("'" + subgraph.graph->symbol_name(node) +
-                                            "' is neither a state nor a parameter");
+                throw InputError("'" + subgraph.graph->symbol_name(node) + "' is neither a state nor a parameter", "");
             forms[i] = found->second;
         } else {
             LinearForm left = operand(item.left);
@@ -81,7 +81,7 @@ std::vector<LinearForm> compile(SeriesBuilder& builder, const Subgraph& subgraph
 void check(const Subgraph& subgraph, std::span<const Expression> symbols) {
     for (const Expression& symbol : symbols)
         if (symbol.empty() || !symbol.is_symbol() || (subgraph.graph != nullptr && symbol.graph() != subgraph.graph))
-            throw std::invalid_argument("states and parameters must be symbols of the graph of the expressions");
+            throw InputError("states and parameters must be symbols of the graph of the expressions", "");
 }
 
 } // namespace
@@ -90,7 +90,7 @@ Tape compile_tape(std::span<const Expression> states, std::span<const Expression
                   std::span<const Expression> rates, std::span<const Expression> outputs,
                   std::span<const DeferredExpression> deferred) {
     if (states.size() != rates.size())
-        throw std::invalid_argument("there must be as many rates as states");
+        throw InputError("there must be as many rates as states", "");
     const Subgraph subgraph = subgraph_of(joined(rates, outputs)), behind = subgraph_of(values_of(deferred));
     for (const Subgraph* part : {&subgraph, &behind}) {
         check(*part, states);

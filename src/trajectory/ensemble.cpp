@@ -1,9 +1,10 @@
 #include "graze/trajectory/ensemble.hpp"
 
+#include "graze/base/input_error.hpp"
+
 #include "trajectory/stoppable_run.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace graze {
 
@@ -42,16 +43,16 @@ bool Ensemble::must_stop() {
 /// Records that a trajectory is in a slot.
 void Ensemble::admit(const Trajectory& trajectory) {
     if (!(trajectory.simulation() == simulation_))
-        throw std::invalid_argument("a trajectory of one simulation cannot run in an ensemble of another");
+        throw InputError("a trajectory of one simulation cannot run in an ensemble of another", "");
     if (!trajectory.is_started())
-        throw std::logic_error("a trajectory has to be started before it can run");
+        throw OrderError("a trajectory has to be started before it can run");
     if (!present_.insert(&trajectory).second)
-        throw std::invalid_argument("a trajectory cannot run in two slots at once");
+        throw InputError("a trajectory cannot run in two slots at once", "");
 }
 
 void Ensemble::run(std::span<Trajectory* const> slots, const NextTrajectory& next_of) {
     if (!next_of)
-        throw std::invalid_argument("an ensemble has to be told what comes after a trajectory: give a function");
+        throw InputError("an ensemble has to be told what comes after a trajectory: give a function", "");
     slots_.assign(slots.begin(), slots.end());
     present_.clear();
     for (const Trajectory* trajectory : slots_)

@@ -11,7 +11,7 @@
 
 namespace graze {
 
-Relay::Relay(std::vector<Observer*> observers) : observers_(std::move(observers)) {
+Relay::Relay(std::vector<std::shared_ptr<Observer>> observers) : observers_(std::move(observers)) {
     if (std::find(observers_.begin(), observers_.end(), nullptr) != observers_.end())
         throw InputError("one of the observers is null", "leave it out");
 }
@@ -22,27 +22,27 @@ ArcMinima::ArcMinima(Receiver receiver) : receiver_(std::move(receiver)) {
 }
 
 void Relay::step(const Step& step) {
-    for (Observer* observer : observers_)
+    for (const auto& observer : observers_)
         observer->step(step);
 }
 
 void Relay::contact(const Contact& contact) {
-    for (Observer* observer : observers_)
+    for (const auto& observer : observers_)
         observer->contact(contact);
 }
 
 void Relay::passage(const Passage& passage) {
-    for (Observer* observer : observers_)
+    for (const auto& observer : observers_)
         observer->passage(passage);
 }
 
 void Relay::minimum(const StepMinimum& minimum) {
-    for (Observer* observer : observers_)
+    for (const auto& observer : observers_)
         observer->minimum(minimum);
 }
 
 bool Relay::stop() {
-    return std::any_of(observers_.begin(), observers_.end(), [](Observer* observer) { return observer->stop(); });
+    return std::any_of(observers_.begin(), observers_.end(), [](const auto& observer) { return observer->stop(); });
 }
 
 void Recorder::contact(const Contact& contact) {
@@ -63,6 +63,25 @@ void Recorder::passage(const Passage& passage) {
 void Recorder::clear() {
     contacts_.clear();
     passages_.clear();
+}
+
+double RecordedStep::state(std::size_t index, double s) const {
+    require_index(index, states, "state");
+    const auto terms = static_cast<std::size_t>(order) + 1;
+    return evaluate_polynomial(Series{coefficients.data() + index * terms, 1}, terms, s);
+}
+
+void StepRecorder::step(const Step& step) {
+    RecordedStep& record = steps_.emplace_back();
+    record.start = step.start;
+    record.length = step.length;
+    record.mode = step.mode;
+    record.states = step.states.size();
+    record.order = step.order;
+    for (const auto& all : {step.states, step.events, step.observed})
+        for (const Series& one : all)
+            for (int k = 0; k <= step.order; ++k)
+                record.coefficients.push_back(one[static_cast<std::size_t>(k)]);
 }
 
 Sampler::Sampler(double start, double spacing, std::size_t count, std::vector<double> periods, Receiver receiver)

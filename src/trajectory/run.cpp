@@ -1,16 +1,15 @@
+#include "graze/base/input_error.hpp"
 #include "trajectory/stoppable_run.hpp"
-
-#include <stdexcept>
 
 namespace graze {
 
 bool run_until(Trajectory& trajectory, JetSet& jets, const std::function<bool()>& stopped) {
     if (!(trajectory.simulation() == jets.simulation()))
-        throw std::invalid_argument("a trajectory of one simulation cannot run on the jets of another");
+        throw InputError("a trajectory of one simulation cannot run on the jets of another", "");
     if (jets.width() != 1)
-        throw std::invalid_argument("one trajectory cannot run on jets of several lanes");
+        throw InputError("one trajectory cannot run on jets of several lanes", "");
     if (!trajectory.is_started())
-        throw std::logic_error("a trajectory has to be started before it can run");
+        throw OrderError("a trajectory has to be started before it can run");
     if (!trajectory.tangents().empty())
         jets.add_tangents();
     jets.set_parameters(trajectory.parameters());

@@ -4,8 +4,10 @@
 
 namespace graze {
 
-RunControl::RunControl(Observer& recorders, std::optional<std::size_t> period_probe, std::vector<bool> counted)
-    : recorders_(&recorders), period_probe_(period_probe), counted_(std::move(counted)) {}
+RunControl::RunControl(std::shared_ptr<Observer> recorders, std::optional<std::size_t> period_probe,
+                       std::vector<bool> counted)
+    : recorders_(recorders ? std::move(recorders) : std::make_shared<Observer>()), period_probe_(period_probe),
+      counted_(std::move(counted)) {}
 
 void RunControl::begin(const LegEnd& end, double time, bool shown) {
     end_ = end;

@@ -1,5 +1,6 @@
 #include "graze/trajectory/step_preview.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/flow/roots.hpp"
 #include "graze/flow/step_check.hpp"
 #include "graze/flow/step_size.hpp"
@@ -7,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <stdexcept>
 
 namespace graze {
 
@@ -43,7 +43,7 @@ StepPreview::StepPreview(const Simulation& simulation, int width)
                  StepCheck::value_allowance * simulation.options().tolerance, StepCheck::smallest_size},
       lengths_(width_), states_(simulation.system().states() * width_), slopes_(states_.size()), disagreement_(width_) {
     if (width < 1)
-        throw std::invalid_argument("an preview needs at least one lane");
+        throw InputError("a preview needs at least one lane", "");
     std::size_t most_watched = 0;
     for (std::size_t mode = 0; mode < simulation.model().modes.size(); ++mode)
         most_watched = std::max(most_watched, simulation.system().mode(mode).watched.size());

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string_view>
 
 namespace graze {
@@ -23,9 +22,10 @@ constexpr double longest_leap = 2;
 
 } // namespace
 
-Trajectory::Trajectory(const Simulation& simulation, std::span<const double> parameters, Observer& observer)
-    : simulation_(simulation), observer_(&observer), parameters_(parameters.begin(), parameters.end()),
-      step_size_(simulation.order(), simulation.options().tolerance),
+Trajectory::Trajectory(const Simulation& simulation, std::span<const double> parameters,
+                       std::shared_ptr<Observer> observer)
+    : simulation_(simulation), observer_(observer ? std::move(observer) : std::make_shared<Observer>()),
+      parameters_(parameters.begin(), parameters.end()), step_size_(simulation.order(), simulation.options().tolerance),
       step_check_(simulation.system(), simulation.order(), simulation.options().tolerance),
       dormant_states_(simulation.system()), roots_(simulation.order()), states_(simulation.system().states()),
       order_(simulation.order()), longest_allowed_(simulation.options().largest_step) {
@@ -114,7 +114,7 @@ void Trajectory::start(std::span<const double> state, std::size_t mode, double t
 
 void Trajectory::require_started() const {
     if (!is_started())
-        throw std::logic_error("a trajectory has no state before it is started: call start first");
+        throw OrderError("a trajectory has no state before it is started: call start first");
 }
 
 void Trajectory::set_mode(std::size_t mode) {
@@ -206,7 +206,7 @@ double Trajectory::propose(const Jet& jet, double step, std::size_t lane) {
     require_started();
     require_index(lane, static_cast<std::size_t>(jet.width()), "lane");
     if (jet.order() != order_)
-        throw std::invalid_argument("a trajectory needs the jets of its own simulation");
+        throw InputError("a trajectory needs the jets of its own simulation", "");
     find_series(jet, lane);
     // Event functions and observed expressions must be as accurate as the states.
     step = limited_by_floors(step);
@@ -280,7 +280,7 @@ void Trajectory::advance(const StepPreview& preview, std::size_t lane) {
     if (finished())
         return;
     if (series_.empty())
-        throw std::logic_error("a step has to be proposed before it can be made");
+        throw OrderError("a step has to be proposed before it can be made");
     const bool long_enough = proposed_ > 0 && proposed_ >= shortest_step();
     if (!long_enough && leave_branch())
         return;

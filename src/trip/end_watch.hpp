@@ -129,7 +129,7 @@ inline Simulation simulation_until(const System& system, const TripEnd& end, con
 inline TripTime run_until(const Simulation& simulation, std::span<const double> parameters,
                           std::span<const double> state, std::size_t mode, double longest, EndWatch& watch) {
     watch.begin(simulation.system(), parameters);
-    Trajectory trajectory(simulation, parameters, watch);
+    Trajectory trajectory(simulation, parameters, borrowed(watch));
     trajectory.start(state, mode, 0, longest);
     JetSet jets(simulation, LaneKind::single);
     run(trajectory, jets);

@@ -132,8 +132,7 @@ FoldPassage fold_passage(const System& system, const SpecialPoint& point, Parame
                          "choose another fold");
     const std::string name = system.model().independent_parameters()[parameter.place()];
     if (form->rate == 0)
-        throw InputError(fmt::format("'{}' does not move the orbit from its fold", name),
-                         "name a parameter that does by --parameter NAME");
+        throw InputError(fmt::format("'{}' does not move the orbit from its fold", name), "name a parameter that does");
     result.value = result.orbit.parameters[parameter.place()];
     result.coefficient = form->coefficient;
     result.rate = form->rate;

@@ -23,8 +23,7 @@ bool is_fold(const SpecialPoint& point) {
 
 LossPoint of_fold(const System& system, const SpecialPoint& special, const std::vector<ParameterId>& candidates) {
     if (candidates.empty())
-        throw InputError("no parameter is given that moves the orbit from its fold",
-                         "name a parameter by --parameter NAME");
+        throw InputError("no parameter is given that moves the orbit from its fold", "name a parameter that does");
     std::optional<FoldPassage> fold;
     for (const ParameterId one : candidates)
         try {
@@ -52,8 +51,7 @@ LossPoint of_touch(const System& system, const SpecialPoint& special, const std:
     Verdict verdict = verdict_of(found.map);
     const double level = level_of_map(found.map, verdict);
     if (!found.parameter || !found.map.clearance_rate || *found.map.clearance_rate == 0)
-        throw InputError("no parameter is given that moves the orbit from its touch",
-                         "name a parameter by --parameter NAME");
+        throw InputError("no parameter is given that moves the orbit from its touch", "name a parameter that does");
     LossPoint point{
         .system = system, .orbit = special.solution.orbit, .parameter = *found.parameter, .name = {}, .unit = {}};
     point.value = found.map.contact.touch.parameters[found.parameter->place()];

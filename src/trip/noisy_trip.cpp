@@ -1,5 +1,7 @@
 #include "graze/trip/noisy_trip.hpp"
 #include "base/random_number.hpp"
+#include "base/thread_team.hpp"
+#include "base/turns.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/model/driven_parameter.hpp"
 #include "graze/trajectory/ensemble.hpp"
@@ -10,11 +12,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <exception>
+#include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -58,24 +58,17 @@ public:
         constexpr std::size_t enough = 16; // number of motions that justifies a thread
         const std::size_t jobs =
             std::clamp<std::size_t>(settings_.motions / enough, 1, static_cast<std::size_t>(settings_.jobs));
-        {
-            std::vector<std::jthread> threads;
-            for (std::size_t i = 1; i < jobs; ++i)
-                threads.emplace_back([&] { work(false); });
-            work(true);
-        }
-        if (error_)
-            std::rethrow_exception(error_);
+        team_.run(jobs, [&](bool calling) { work(calling); });
         return std::move(motions_);
     }
-    bool stopped() const { return stopped_; }
+    bool stopped() const { return team_.is_stopped(); }
 
 private:
     /// A lane of the ensemble, in which motions are simulated one after another, cycle by cycle.
     struct Slot {
         Slot(const NoisyMotions& all)
             : watch(all.end_, [&all](const Contact& contact) { return all.origin_.counts(contact); }, {}),
-              trajectory(all.simulation_, all.parameters_, watch), noise(all.settings_, 0) {}
+              trajectory(all.simulation_, all.parameters_, borrowed(watch)), noise(all.settings_, 0) {}
         EndWatch watch;
         Trajectory trajectory;
         Noise noise;
@@ -84,36 +77,29 @@ private:
     };
 
     void work(bool reports_progress) {
-        try {
-            Ensemble ensemble(simulation_);
-            std::vector<std::unique_ptr<Slot>> slots;
-            std::vector<Trajectory*> places(static_cast<std::size_t>(ensemble.lanes()), nullptr);
-            for (std::size_t i = 0; i < places.size(); ++i) {
-                slots.push_back(std::make_unique<Slot>(*this));
-                if (begin(*slots[i]))
-                    places[i] = &slots[i]->trajectory;
-            }
-            ensemble.run(places, [&](std::size_t i) -> Trajectory* {
-                Slot& slot = *slots[i];
-                if (continues(slot))
-                    return &slot.trajectory;
-                if (reports_progress && settings_.progress)
-                    settings_.progress(done_);
-                return begin(slot) ? &slot.trajectory : nullptr;
-            });
-        } catch (...) {
-            const std::lock_guard lock(mutex_);
-            if (!error_)
-                error_ = std::current_exception();
-            stopped_ = true;
+        Ensemble ensemble(simulation_);
+        std::vector<std::unique_ptr<Slot>> slots;
+        std::vector<Trajectory*> places(static_cast<std::size_t>(ensemble.lanes()), nullptr);
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            slots.push_back(std::make_unique<Slot>(*this));
+            if (begin(*slots[i]))
+                places[i] = &slots[i]->trajectory;
         }
+        ensemble.run(places, [&](std::size_t i) -> Trajectory* {
+            Slot& slot = *slots[i];
+            if (continues(slot))
+                return &slot.trajectory;
+            if (reports_progress && progress_)
+                progress_(done_);
+            return begin(slot) ? &slot.trajectory : nullptr;
+        });
     }
 
     /// Starts the next motion in a slot. @return false if none is left
     bool begin(Slot& slot) {
-        if (settings_.interrupted && settings_.interrupted())
-            stopped_ = true;
-        if (stopped_ || (slot.motion = next_++) >= settings_.motions)
+        if (interrupted_ && interrupted_())
+            team_.stop();
+        if (team_.is_stopped() || (slot.motion = next_++) >= settings_.motions)
             return false;
         slot.cycle = 0;
         slot.noise = Noise(settings_, slot.motion);
@@ -157,9 +143,10 @@ private:
     std::vector<double> parameters_;
     std::vector<Motion> motions_;
     std::atomic<std::size_t> next_{0}, done_{0};
-    std::atomic<bool> stopped_{false};
-    std::mutex mutex_; ///< guards error_
-    std::exception_ptr error_;
+    Turns turns_;
+    std::function<bool()> interrupted_ = turns_.asking(settings_.interrupted);
+    std::function<void(std::size_t)> progress_ = turns_.taking(settings_.progress);
+    ThreadTeam team_;
 };
 
 /// Counts the motions whose parameter is beyond the loss point at any time, whether they trip or not.

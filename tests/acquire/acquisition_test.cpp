@@ -25,7 +25,7 @@ AcquisitionReport run_on(ScpiBench& bench, const std::string& text, const std::s
     const Experiment experiment = parse_experiment(text, "sweep.toml");
     BenchGeneratorLine line(bench);
     BenchSampleLine samples(bench);
-    TextSampleDevice device(samples, 0.1, options.interrupted);
+    TextSampleDevice device(borrowed(samples), 0.1, options.interrupted);
     RecordFolder records(folder, experiment, 0);
     return acquire(experiment, line, device, records, options);
 }

@@ -38,7 +38,7 @@ AcquisitionEnding ending_of(const std::function<void()>& work, std::string& what
     try {
         work();
     } catch (const InstrumentError& error) {
-        what = error.what();
+        what = error.problem();
         return error.ending();
     }
     return AcquisitionEnding::complete;
@@ -66,7 +66,7 @@ void expect_within(const ArbitraryGenerator& generator, const GeneratorOptions& 
 
 TEST(GeneratorClient, SetsValuesAndReadsThemBack) {
     AlteredGenerator altered;
-    GeneratorClient client(altered.line, options());
+    GeneratorClient client(borrowed(altered.line), options());
     client.begin(6.1, 0.1, 0.2);
     EXPECT_EQ(altered.generator.output(), (GeneratorOutput{6.1, 0.1, 0.2}));
     EXPECT_EQ(client.set_amplitude(3.25), 3.25);
@@ -79,7 +79,7 @@ TEST(GeneratorClient, SetsValuesAndReadsThemBack) {
 
 TEST(GeneratorClient, SendsNothingBeyondItsLimits) {
     AlteredGenerator altered;
-    GeneratorClient client(altered.line, options());
+    GeneratorClient client(borrowed(altered.line), options());
     client.begin(6, 1, 0);
     altered.line.said.clear();
     for (const double amplitude : {5.01, -1.0, std::numeric_limits<double>::quiet_NaN(), 1e300})
@@ -105,7 +105,7 @@ TEST(GeneratorClient, NamesTheFaultOfAnAnswer) {
         AlteredGenerator altered;
         GeneratorOptions hasty = options();
         hasty.reopen = 0.02;
-        GeneratorClient client(altered.line, hasty);
+        GeneratorClient client(borrowed(altered.line), hasty);
         client.begin(6, 1, 0);
         altered.alter = [&, bad = text](const std::string& said, std::string answer) {
             return said == "VOLT?" ? bad : answer;
@@ -122,7 +122,7 @@ TEST(GeneratorClient, NamesTheFaultOfAnAnswer) {
 
 TEST(GeneratorClient, RepeatsGarbledSettingsButNotRefusedOnes) {
     AlteredGenerator altered;
-    GeneratorClient client(altered.line, options());
+    GeneratorClient client(borrowed(altered.line), options());
     client.begin(6, 1, 0);
     int times = 0;
     altered.alter = [&](const std::string& said, std::string answer) {
@@ -145,7 +145,7 @@ TEST(GeneratorClient, IdentifiesTheInstrumentBeforeItSetsAnything) {
     AlteredGenerator altered;
     GeneratorOptions other = options();
     other.identity = "AGILENT";
-    GeneratorClient client(altered.line, other);
+    GeneratorClient client(borrowed(altered.line), other);
     std::string what;
     EXPECT_EQ(ending_of([&] { client.begin(6, 1, 0); }, what), AcquisitionEnding::foreign);
     EXPECT_THAT(what, HasSubstr("the instrument on the line is 'HEWLETT-PACKARD,33120A"));
@@ -162,7 +162,7 @@ TEST(GeneratorClient, IdentifiesTheInstrumentAgainAfterReopeningTheLine) {
     AlteredGenerator altered;
     GeneratorOptions hasty = options();
     hasty.identity = "33120A";
-    GeneratorClient client(altered.line, hasty);
+    GeneratorClient client(borrowed(altered.line), hasty);
     client.begin(6, 1, 0);
     altered.alter = [](const std::string& said, std::string answer) { return said == "*IDN?" ? "SUPPLY" : answer; };
     altered.line.said.clear();
@@ -176,7 +176,7 @@ TEST(GeneratorClient, IdentifiesTheInstrumentAgainAfterReopeningTheLine) {
 TEST(GeneratorClient, RequiresAnAnswerToTheIdentityQuery) {
     AlteredGenerator altered;
     altered.alter = [](const std::string& said, std::string answer) { return said == "*IDN?" ? " \n" : answer; };
-    GeneratorClient client(altered.line, options());
+    GeneratorClient client(borrowed(altered.line), options());
     std::string what;
     EXPECT_EQ(ending_of([&] { client.begin(6, 1, 0); }, what), AcquisitionEnding::foreign);
 }
@@ -186,7 +186,7 @@ TEST(GeneratorClient, CanBeInterruptedExceptWhileMakingSafe) {
     GeneratorOptions interrupted = options();
     bool now = false;
     interrupted.interrupted = [&] { return now; };
-    GeneratorClient client(altered.line, interrupted);
+    GeneratorClient client(borrowed(altered.line), interrupted);
     client.begin(6, 1, 0);
     now = true;
     std::string what, problem;
@@ -197,7 +197,7 @@ TEST(GeneratorClient, CanBeInterruptedExceptWhileMakingSafe) {
 
 TEST(GeneratorClient, ReopensALostLineToBecomeSafe) {
     AlteredGenerator altered;
-    GeneratorClient client(altered.line, options());
+    GeneratorClient client(borrowed(altered.line), options());
     client.begin(6, 4, 0);
     altered.line.lost = true;
     std::string what, problem;
@@ -219,7 +219,7 @@ TEST(GeneratorClient, GivesTheRequestedOutputFromAnyInitialState) {
         GeneratorOptions given = options();
         given.limits.amplitude = 2;
         given.load = load;
-        GeneratorClient client(arbitrary.line, given);
+        GeneratorClient client(borrowed(arbitrary.line), given);
         const std::string what = "seed " + std::to_string(seed);
         client.begin(6, 0.1, 0.3);
         EXPECT_NEAR(arbitrary.generator.peaks(), 0.1, 1e-6) << what;
@@ -245,7 +245,7 @@ TEST(GeneratorClient, SendsNoLevelIfASettingIsStuck) {
         GeneratorOptions given = options();
         given.limits.amplitude = 2;
         given.reopen = 0.02;
-        GeneratorClient client(arbitrary.line, given);
+        GeneratorClient client(borrowed(arbitrary.line), given);
         std::string what, problem;
         const AcquisitionEnding ending = ending_of(
             [&] {
@@ -271,7 +271,7 @@ TEST(GeneratorClient, DetectsAUnitThatWasChangedAtThePanel) {
         Arbitrary arbitrary{ArbitraryGenerator(5, habits, 50)};
         GeneratorOptions given = options();
         given.limits.amplitude = 2;
-        GeneratorClient client(arbitrary.line, given);
+        GeneratorClient client(borrowed(arbitrary.line), given);
         client.begin(6, 0.1, 0);
         arbitrary.generator.turn_to_rms(); // 0.1 V rms is more than 0.1 V peak to peak
         arbitrary.line.said.clear();
@@ -301,7 +301,7 @@ TEST(GeneratorClient, ChecksSettingsBeforeALevelIsSentAgain) {
         }};
         GeneratorOptions given = options();
         given.limits.amplitude = 2;
-        GeneratorClient client(line, given);
+        GeneratorClient client(borrowed(line), given);
         client.begin(6, 0.1, 0);
         lose = true;
         std::string what;
@@ -318,7 +318,7 @@ TEST(GeneratorClient, ReadsTheAmplitudeAfterSettingTheFrequency) {
         const unsigned habits = ArbitraryGenerator::frequency_resets | (has_switch ? 13U : 4U);
         Arbitrary arbitrary{ArbitraryGenerator(5, habits, 50)};
         arbitrary.generator.limit = 5.001;
-        GeneratorClient client(arbitrary.line, options());
+        GeneratorClient client(borrowed(arbitrary.line), options());
         std::string what, problem;
         EXPECT_EQ(ending_of([&] { client.begin(6, 0.1, 0); }, what), AcquisitionEnding::clipped);
         EXPECT_THAT(what, HasSubstr("gives an amplitude of 10 V instead of 0.1 V"));
@@ -343,7 +343,7 @@ TEST(GeneratorClient, ReadsAllOtherSettingsAfterALevel) {
                 arbitrary.generator.execute("FREQ 9");
             return answer;
         }};
-        GeneratorClient client(line, options());
+        GeneratorClient client(borrowed(line), options());
         client.begin(6, 0.1, 0);
         if (of_offset)
             arbitrary.generator.take(ArbitraryGenerator::amplitude_shifts);
@@ -361,7 +361,7 @@ TEST(GeneratorClient, ReadsAllOtherSettingsAfterALevel) {
 TEST(GeneratorClient, SwitchesOffALevelThatTheSwitchHasChanged) {
     Arbitrary arbitrary{ArbitraryGenerator(5, ArbitraryGenerator::switch_recalls | 13U, 50)};
     arbitrary.generator.limit = 5.001;
-    GeneratorClient client(arbitrary.line, options());
+    GeneratorClient client(borrowed(arbitrary.line), options());
     std::string what, problem;
     EXPECT_EQ(ending_of([&] { client.begin(6, 0.1, 0); }, what), AcquisitionEnding::clipped);
     EXPECT_THAT(what, HasSubstr("gives an amplitude of 7 V instead of 0.1 V; so it was since OUTP ON"));
@@ -387,7 +387,7 @@ TEST(GeneratorClient, ReadsTheUnitAfterSwitchingOn) {
             arbitrary.generator.turn_to_rms();
         return answer;
     }};
-    GeneratorClient client(line, options());
+    GeneratorClient client(borrowed(line), options());
     std::string what;
     EXPECT_EQ(ending_of([&] { client.begin(6, 0.1, 0); }, what), AcquisitionEnding::clipped);
     EXPECT_THAT(what, HasSubstr("has VOLT:UNIT VRMS instead of VPP"));
@@ -397,7 +397,7 @@ TEST(GeneratorClient, ReadsTheUnitAfterSwitchingOn) {
 TEST(GeneratorClient, SilencesAnOutputWhoseAmplitudeChangesWithItsFrequency) {
     for (const bool has_switch : {true, false}) {
         Arbitrary arbitrary{ArbitraryGenerator(5, has_switch ? 13U : 4U, 50)};
-        GeneratorClient client(arbitrary.line, options());
+        GeneratorClient client(borrowed(arbitrary.line), options());
         client.begin(6, 0.1, 0);
         client.set_amplitude(4);
         client.set_frequency(7);
@@ -421,7 +421,7 @@ TEST(GeneratorClient, SwitchesOnAgainAfterAGarbledAnswer) {
         std::string answer = arbitrary.generator.execute(said);
         return said == "VOLT?" && asked == 1 && ++times == 1 ? "1.000000e01" : answer;
     }};
-    GeneratorClient client(line, options());
+    GeneratorClient client(borrowed(line), options());
     client.begin(6, 0.1, 0);
     EXPECT_TRUE(arbitrary.generator.is_on());
     EXPECT_EQ(client.set_amplitude(2), 2);
@@ -437,7 +437,7 @@ TEST(GeneratorClient, SwitchesOffAnOutputThatCannotBeMadeSafe) {
             Arbitrary arbitrary{ArbitraryGenerator(seed, habits, 50)};
             GeneratorOptions hasty = options();
             hasty.reopen = 0.02;
-            GeneratorClient client(arbitrary.line, hasty);
+            GeneratorClient client(borrowed(arbitrary.line), hasty);
             std::string problem;
             if (client.make_safe(0.1, problem))
                 continue; // its initial state was right
@@ -445,7 +445,7 @@ TEST(GeneratorClient, SwitchesOffAnOutputThatCannotBeMadeSafe) {
         }
     }
     Arbitrary arbitrary{ArbitraryGenerator(5, 13U, 50)};
-    GeneratorClient unknown(arbitrary.line, options());
+    GeneratorClient unknown(borrowed(arbitrary.line), options());
     EXPECT_FALSE(unknown.is_switched_off());
     EXPECT_TRUE(arbitrary.line.said.empty()) << "nobody knows who is there";
 }
@@ -453,7 +453,7 @@ TEST(GeneratorClient, SwitchesOffAnOutputThatCannotBeMadeSafe) {
 TEST(GeneratorClient, NamesTheUnansweredQuestion) {
     AlteredGenerator altered;
     altered.alter = [](const std::string& said, std::string answer) { return said == "FUNC:SHAP?" ? "" : answer; };
-    GeneratorClient client(altered.line, options());
+    GeneratorClient client(borrowed(altered.line), options());
     std::string what;
     EXPECT_EQ(ending_of([&] { client.begin(6, 1, 0); }, what), AcquisitionEnding::no_answer);
     EXPECT_THAT(what, HasSubstr("the generator has not answered FUNC:SHAP? for 0.01 s"));
@@ -469,7 +469,7 @@ TEST(GeneratorClient, DoesNotAcceptLateAnswers) {
             std::swap(held, answer);
         return answer;
     };
-    GeneratorClient client(altered.line, options());
+    GeneratorClient client(borrowed(altered.line), options());
     client.begin(6, 1, 0);
     late = true;
     std::string what;
@@ -482,7 +482,7 @@ TEST(GeneratorClient, MakesAPlainSineOfTheBenchGenerator) {
     AlteredGenerator altered;
     altered.generator =
         FunctionGenerator({.left_as = "VOLT:UNIT VRMS;:VOLT 1;:FUNC:SHAP SQU;:OUTP:LOAD INF;:AM:STAT ON"});
-    GeneratorClient client(altered.line, options());
+    GeneratorClient client(borrowed(altered.line), options());
     client.begin(6, 0.1, 0.2);
     client.set_amplitude(2);
     EXPECT_EQ(altered.generator.output(), (GeneratorOutput{6, 2, 0.2}));

@@ -29,7 +29,7 @@ ScriptedLine device_with(const std::string& question, const std::string& answer)
 }
 
 Samples taken(ScriptedLine& line) {
-    TextSampleDevice device(line, 0.02, {});
+    TextSampleDevice device(borrowed(line), 0.02, {});
     device.set_rate(10);
     device.begin(3);
     Samples part, all;
@@ -87,7 +87,7 @@ TEST(SampleDevice, RefusesSamplesThatTakeTooLongInAll) {
             std::this_thread::sleep_for(std::chrono::milliseconds(50));
         return said == "READ 3" ? "0,1\n0.1,2\n0.2,3\nEND 3" : said == "CHANNELS" ? "t [s], x [V]" : "OK 10";
     });
-    TextSampleDevice device(line, 0.02, {}, 1e-12); // 20 ms for all rows
+    TextSampleDevice device(borrowed(line), 0.02, {}, 1e-12); // 20 ms for all rows
     device.set_rate(10);
     device.begin(3);
     try {
@@ -109,15 +109,15 @@ TEST(SampleDevice, StopsAnAcquisitionOfAnotherClient) {
         }
         return said == "CHANNELS" ? "t [s], x [V]" : "";
     });
-    const TextSampleDevice device(line, 0.02, {});
+    const TextSampleDevice device(borrowed(line), 0.02, {});
     EXPECT_EQ(device.header().channels.at(0).name, "x");
 }
 
 TEST(SampleDevice, ReportsWhetherItCanReturnToAMark) {
     ScriptedLine simulated = device_with("RETURN 7", "OK"), hardware = device_with("RETURN 7", "ERROR what?");
-    EXPECT_TRUE(TextSampleDevice(simulated, 0.02, {}).return_to(7));
-    EXPECT_FALSE(TextSampleDevice(hardware, 0.02, {}).return_to(7));
-    EXPECT_FALSE(TextSampleDevice(hardware, 0.02, {}).mark(7));
+    EXPECT_TRUE(TextSampleDevice(borrowed(simulated), 0.02, {}).return_to(7));
+    EXPECT_FALSE(TextSampleDevice(borrowed(hardware), 0.02, {}).return_to(7));
+    EXPECT_FALSE(TextSampleDevice(borrowed(hardware), 0.02, {}).mark(7));
 }
 
 } // namespace graze

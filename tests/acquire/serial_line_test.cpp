@@ -156,7 +156,7 @@ public:
         experiment.generator.reopen = reopen;
         const auto line = open_serial_line(experiment.serial);
         const auto samples = open_tcp_line("127.0.0.1", service_->tcp_port());
-        TextSampleDevice device(*samples, experiment.sample_timeout, options.interrupted);
+        TextSampleDevice device(borrowed(*samples), experiment.sample_timeout, options.interrupted);
         RecordFolder records(folder, experiment, 0);
         return acquire(experiment, *line, device, records, options);
     }
@@ -275,7 +275,7 @@ TEST(Acquisition, TakesSamplesOverASerialLine) {
     std::mutex one_at_a_time;
     const auto recorded = [&](ScpiBench& bench, InstrumentLine& samples, const std::string& name) {
         SharedGenerator generator(bench, one_at_a_time);
-        TextSampleDevice device(samples, 5, {});
+        TextSampleDevice device(borrowed(samples), 5, {});
         RecordFolder records(folder / name, experiment, 0);
         const AcquisitionReport report = acquire(experiment, generator, device, records, {});
         EXPECT_EQ(report.ending, AcquisitionEnding::complete) << report.detail;

@@ -83,7 +83,7 @@ Branch branch_to_the_left(const Border& border) {
     settings.direction = mu > 0 ? -1 : 1;
     settings.least = -0.5;
     settings.greatest = 0.5;
-    return follow_branch(model, orbit, settings);
+    return follow_branch(System(model), orbit, settings);
 }
 
 TEST(BorderCollision, BranchLeadsToTheFixedPointBeyondOrBackOnTheOtherOne) {

@@ -69,7 +69,7 @@ TEST(Bounds, HoldNearAndAtABranchPoint) {
     for (const double bound : {0.0, 1e-3, 1e-7, 1e-10, -1e-10, -1e-7, -1e-4, -0.01, -0.3})
         for (const bool straight : {false, true}) {
             const Branch branch =
-                follow_branch(model, orbit_at(model, 1, straight ? 0 : 1), between(model, bound, 2, -1));
+                follow_branch(System(model), orbit_at(model, 1, straight ? 0 : 1), between(model, bound, 2, -1));
             expect_within(branch, bound, 2);
             EXPECT_EQ(branch.points.back().parameter, bound) << bound;
             if (bound <= 0 || bound > 1e-9) { // just before the crossing, round-off decides on which side the bound is
@@ -80,7 +80,7 @@ TEST(Bounds, HoldNearAndAtABranchPoint) {
         }
     // From below, towards the other bound.
     for (const double bound : {0.0, 1e-4, -1e-4}) {
-        const Branch branch = follow_branch(model, orbit_at(model, -1, 0), between(model, -2, bound, 1));
+        const Branch branch = follow_branch(System(model), orbit_at(model, -1, 0), between(model, -2, bound, 1));
         expect_within(branch, -2, bound);
         EXPECT_EQ(branch.points.back().parameter, bound);
     }
@@ -90,11 +90,12 @@ TEST(Bounds, HoldNearAPitchforkAndAFold) {
     // On the parabola mu = u^2 the fold is at the crossing with the other branch.
     const Model pitchfork = about_a_clock("mu*u - u^3");
     for (const double bound : {1e-2, 1e-4, 1e-7})
-        expect_within(follow_branch(pitchfork, orbit_at(pitchfork, 1, 1), between(pitchfork, bound, 2, -1)), bound, 2);
+        expect_within(follow_branch(System(pitchfork), orbit_at(pitchfork, 1, 1), between(pitchfork, bound, 2, -1)),
+                      bound, 2);
     const Model fold = about_a_clock("mu - u^2");
     for (const double bound : {1e-2, 1e-5, 1e-9})
-        expect_within(follow_branch(fold, orbit_at(fold, 1, 1), between(fold, bound, 2, -1)), bound, 2);
-    const Branch beyond = follow_branch(fold, orbit_at(fold, 1, 1), between(fold, -1e-3, 2, -1));
+        expect_within(follow_branch(System(fold), orbit_at(fold, 1, 1), between(fold, bound, 2, -1)), bound, 2);
+    const Branch beyond = follow_branch(System(fold), orbit_at(fold, 1, 1), between(fold, -1e-3, 2, -1));
     expect_within(beyond, -1e-3, 2);
     EXPECT_EQ(names(beyond), "SN BD");
     EXPECT_EQ(beyond.points.back().parameter, 2);
@@ -104,11 +105,11 @@ TEST(Bounds, HoldOnBranchesThatLeaveAPoint) {
     const Model model = about_a_clock("mu*u - u^2");
     for (const double bound : {-1e-3, -1e-5, -0.5}) {
         const BranchSettings settings = between(model, bound, 2, -1);
-        const Branch first = follow_branch(model, orbit_at(model, 1, 0), settings);
+        const Branch first = follow_branch(System(model), orbit_at(model, 1, 0), settings);
         const auto points = of_type(first, PointType::branch_point);
         ASSERT_EQ(points.size(), 1U);
         std::size_t reached = 0;
-        for (const BranchStart& start : branches_at(model, points.front(), settings)) {
+        for (const BranchStart& start : branches_at(System(model), points.front(), settings)) {
             const Branch other = follow(model, start, settings);
             for (const BranchPoint& point : other.points) {
                 EXPECT_GE(point.parameter, bound);
@@ -125,11 +126,11 @@ TEST(Bounds, BoundsOfMonitorsHoldFromTheFirstOrbitOn) {
     const Model model = about_a_clock("mu - u");
     BranchSettings settings = between(model, -2, 2, 1);
     settings.monitors = {{"start", "", Monitor::Kind::start, model.symbol("x"), "", false, {}, {}, 1.2, 1.5}};
-    const Branch none = follow_branch(model, orbit_at(model, 1, 1), settings);
+    const Branch none = follow_branch(System(model), orbit_at(model, 1, 1), settings);
     EXPECT_TRUE(none.points.empty());
     EXPECT_EQ(none.outcome, BranchOutcome::bound);
     EXPECT_NE(none.detail.find("start = 2"), std::string::npos) << none.detail;
-    const Branch branch = follow_branch(model, orbit_at(model, 0.3, 0.3), settings);
+    const Branch branch = follow_branch(System(model), orbit_at(model, 0.3, 0.3), settings);
     EXPECT_EQ(branch.outcome, BranchOutcome::bound);
     EXPECT_NEAR(branch.points.back().parameter, 0.5, 1e-9);
 }
@@ -142,7 +143,7 @@ TEST(Bounds, OrbitsThatLeaveATouchNearABoundBeginWithinIt) {
         BranchSettings settings;
         settings.parameter = model.independent_parameter("F");
         (side > 0 ? settings.least : settings.greatest) = known.force() * (1 - side * 1e-4);
-        const BranchStart start = branches_at(model, touch, settings).front();
+        const BranchStart start = branches_at(System(model), touch, settings).front();
         const double force = start.orbit.parameters[settings.parameter.place()];
         EXPECT_LT(std::abs(force / known.force() - 1), 0.1);
         EXPECT_TRUE(side > 0 ? force >= *settings.least : force <= *settings.greatest) << force;

@@ -50,14 +50,14 @@ Followed followed(const Model& model) {
     OrbitSolution start = settled(model, "start", 4000);
     Orbit orbit = start.orbit;
     Followed result;
-    result.branch = follow_branch(model, orbit, settings);
+    result.branch = follow_branch(System(model), orbit, settings);
     const auto points = of_type(result.branch, PointType::branch_point);
     if (points.empty())
         return result;
     settings.free = {model.independent_parameter("b")};
     settings.free_bounds = {{settings.free.front(), 0.2, 1.5}};
     settings.kept = points.front();
-    result.curve = follow_branch(model, points.front().solution.orbit, settings);
+    result.curve = follow_branch(System(model), points.front().solution.orbit, settings);
     return result;
 }
 
@@ -113,7 +113,7 @@ TEST(BranchPointCurve, EqualsTheSymmetryBreakingOfAnUndeclaredSymmetry) {
         settings.stop_at = {type};
         const OrbitSolution start = settled(model, "phase0", 600);
         ASSERT_EQ(start.orbit.symmetry.has_value(), declared);
-        const Branch branch = follow_branch(model, start.orbit, settings);
+        const Branch branch = follow_branch(System(model), start.orbit, settings);
         ASSERT_EQ(branch.special.back().type, type) << names(branch);
         EXPECT_NEAR(branch.special.back().parameter, 4.846244144797, 1e-9);
         settings.stop_at.clear();
@@ -121,7 +121,7 @@ TEST(BranchPointCurve, EqualsTheSymmetryBreakingOfAnUndeclaredSymmetry) {
         settings.free = {settings.parameter};
         settings.parameter = model.independent_parameter("f");
         settings.greatest = 6.252;
-        const Branch curve = follow_branch(model, branch.special.back().solution.orbit, settings);
+        const Branch curve = follow_branch(System(model), branch.special.back().solution.orbit, settings);
         ASSERT_EQ(curve.outcome, BranchOutcome::bound) << declared << curve.detail << curve.points.back().parameter;
         ends.push_back(curve.points.back().solution.orbit.parameters[settings.free[0].place()]);
         EXPECT_GT(std::abs(ends.back() - branch.special.back().parameter), 1e-4);

@@ -74,12 +74,12 @@ TEST(BuckConverter, StartOnTheSwitchingSurfaceIsNotAGrazing) {
     settings.parameter = model.independent_parameter("E");
     settings.least = 15;
     settings.greatest = 40;
-    const Branch one = follow_branch(model, settled(model, "ramp").orbit, settings);
+    const Branch one = follow_branch(System(model), settled(model, "ramp").orbit, settings);
     ASSERT_EQ(names(one), "PD BD");
     EXPECT_NEAR(one.special[0].parameter, 24.516, 1e-3); // M. di Bernardo et al., IEEE Trans. Circuits Syst. I 45, 1998
     for (const BranchPoint& point : one.points)
         EXPECT_TRUE(point.solution.certificate.admissible) << point.solution.certificate.reason;
-    const Branch two = follow(model, branches_at(model, one.special[0], settings).at(0), settings);
+    const Branch two = follow(model, branches_at(System(model), one.special[0], settings).at(0), settings);
     const auto flips = of_type(two, PointType::flip);
     ASSERT_EQ(flips.size(), 1U) << names(two);
     EXPECT_NEAR(flips[0].parameter, 31.118, 1e-3);

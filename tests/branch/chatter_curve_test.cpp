@@ -17,8 +17,8 @@ using namespace graze::testing;
 struct Onset {
     Onset() : model(chattering_oscillator(0.5, 1, 1)) {
         const BranchSettings along = of_oscillator(model, 1);
-        const Ladder ladder = climb(model, first_grazing(model, along), along, 7);
-        const ChatterLimit limit = chatter_limit(model, ladder.grazings(), along.parameter);
+        const Ladder ladder = climb(System(model), first_grazing(model, along), along, 7);
+        const ChatterLimit limit = chatter_limit(System(model), ladder.grazings(), along.parameter);
         EXPECT_TRUE(limit.direct) << limit.problem;
         first.type = PointType::chatter;
         first.event = ladder.grazings().front().event;
@@ -37,7 +37,7 @@ struct Onset {
 
 TEST(ChatterCurve, OscillatorHasAStraightLineInForceAndStop) {
     const Onset onset;
-    ChatterCurve curve(onset.model, onset.first, onset.settings);
+    ChatterCurve curve(System(onset.model), onset.first, onset.settings);
     for (const int direction : {1, -1}) {
         curve.start(direction);
         EXPECT_EQ(curve.point().detail.substr(0, 5), "start");
@@ -56,7 +56,7 @@ TEST(ChatterCurve, OscillatorHasAStraightLineInForceAndStop) {
 TEST(ChatterCurve, EndsAfterItsStepsOrWhenInterrupted) {
     Onset onset;
     onset.settings.steps = 2;
-    ChatterCurve curve(onset.model, onset.first, onset.settings);
+    ChatterCurve curve(System(onset.model), onset.first, onset.settings);
     curve.start(1);
     EXPECT_FALSE(curve.step([] { return true; }));
     EXPECT_TRUE(curve.interrupted());
@@ -74,7 +74,7 @@ TEST(ChatterCurve, SettingsThatDoNotApplyAreRefused) {
     const auto refused = [&](const auto& change) {
         BranchSettings settings = onset.settings;
         change(settings);
-        EXPECT_THROW(ChatterCurve(onset.model, onset.first, settings), InputError);
+        EXPECT_THROW(ChatterCurve(System(onset.model), onset.first, settings), InputError);
     };
     refused([](BranchSettings& settings) { settings.free.clear(); });
     refused([](BranchSettings& settings) { settings.free.push_back(settings.parameter); });

@@ -17,14 +17,14 @@ namespace {
 using namespace graze::testing;
 
 std::vector<SpecialPoint> climbed(const Model& model, const BranchSettings& settings, std::size_t rungs) {
-    const Ladder ladder = climb(model, first_grazing(model, settings), settings, rungs);
+    const Ladder ladder = climb(System(model), first_grazing(model, settings), settings, rungs);
     EXPECT_EQ(ladder.grazings().size(), rungs) << ladder.why();
     return ladder.grazings();
 }
 
 ChatterLimit limit_of_oscillator(const Model& model, double length, std::size_t rungs) {
     const BranchSettings settings = of_oscillator(model, length);
-    return chatter_limit(model, climbed(model, settings, rungs), settings.parameter);
+    return chatter_limit(System(model), climbed(model, settings, rungs), settings.parameter);
 }
 
 /// The same by the closed form of the flights in extended precision, over some contacts from rest at the stop, where
@@ -156,7 +156,7 @@ TEST(ChatterLimit, ContactsWithHighRestitutionHaveTheirClosedForm) {
     const Segment contact{0, SegmentEnd::event, 0};
     const Orbit guess{
         {contact}, {guessed, 1}, {{guessed, 0, std::acos(guessed)}}, {2 * std::numbers::pi / omega}, std::nullopt};
-    const ChatterLimit limit = chatter_limit_near(model, guess, 0, model.independent_parameter("s"));
+    const ChatterLimit limit = chatter_limit_near(System(model), guess, 0, model.independent_parameter("s"));
     ASSERT_TRUE(limit.direct) << limit.problem;
     EXPECT_GT(limit.orbit.segments(), 200U);
     EXPECT_LT(limit.direct->second, 1e-8);
@@ -209,7 +209,7 @@ TEST(ChatterLimit, TwoMassesAgreeWithSimulationFromLaddersOfAnyLength) {
     const std::vector<SpecialPoint> grazings = climbed(model, settings, 30);
     std::vector<double> values;
     for (const std::size_t rungs : {12U, 18U, 24U, 30U}) {
-        const ChatterLimit limit = chatter_limit(model, std::span(grazings).first(rungs), settings.parameter);
+        const ChatterLimit limit = chatter_limit(System(model), std::span(grazings).first(rungs), settings.parameter);
         ASSERT_TRUE(limit.direct && limit.extrapolated) << limit.problem;
         EXPECT_NEAR(limit.contacts.restitution, 0.75, 1e-6);
         EXPECT_LT(limit.direct->second, 1e-8);
@@ -218,14 +218,13 @@ TEST(ChatterLimit, TwoMassesAgreeWithSimulationFromLaddersOfAnyLength) {
     }
     for (const double value : values)
         EXPECT_NEAR(value, values.back(), 1e-9);
-    const ChatterLimit limit = chatter_limit(model, grazings, settings.parameter);
+    const ChatterLimit limit = chatter_limit(System(model), grazings, settings.parameter);
     // With a nearer stop contacts accumulate in each period, with a farther one they are finitely many.
     for (const double side : {-1e-4, 1e-4}) {
         Orbit orbit = limit.orbit;
         orbit.parameters[settings.parameter.place()] *= 1 + side;
-        const Simulation simulation(model);
-        Observer nobody;
-        Trajectory trajectory(simulation, orbit.parameters, nobody);
+        const Simulation simulation{System(model)};
+        Trajectory trajectory(simulation, orbit.parameters);
         constexpr double periods = 10;
         std::vector<double> state = orbit.starts.at(1);
         state[0] = orbit.parameters[settings.parameter.place()]; // on the moved stop
@@ -262,7 +261,7 @@ TEST(ChatterLimit, MicroactuatorConvergesToItsLimit) {
                            .82715666925300, .84240315127881, .85032000894172, .85431167398464};
     for (std::size_t i = 0; i < known.size(); ++i)
         EXPECT_NEAR(rungs[i].parameter, known[i], 2e-12);
-    const ChatterLimit limit = chatter_limit(model, rungs, settings.parameter);
+    const ChatterLimit limit = chatter_limit(System(model), rungs, settings.parameter);
     ASSERT_TRUE(limit.direct) << limit.problem;
     // After each contact the frame slips for a time that decreases with the speed: the restitution tends to 0.5.
     EXPECT_NEAR(limit.contacts.restitution, 0.5, 1e-3);
@@ -274,7 +273,7 @@ TEST(ChatterLimit, MicroactuatorConvergesToItsLimit) {
 TEST(ChatterLimit, PointsThatAreNotALadderAreRefused) {
     const Model model = chattering_oscillator(0.5, 1, 1);
     const std::vector<SpecialPoint> none(1);
-    EXPECT_THROW(chatter_limit(model, none, model.independent_parameter("s")), InputError);
+    EXPECT_THROW(chatter_limit(System(model), none, model.independent_parameter("s")), InputError);
     const std::vector<SpecialPoint> folds(3, SpecialPoint{.type = PointType::fold,
                                                           .located = true,
                                                           .detail = {},
@@ -289,7 +288,7 @@ TEST(ChatterLimit, PointsThatAreNotALadderAreRefused) {
                                                           .event = 0,
                                                           .time = 0,
                                                           .at_end = false});
-    EXPECT_THROW(chatter_limit(model, folds, model.independent_parameter("s")), InputError);
+    EXPECT_THROW(chatter_limit(System(model), folds, model.independent_parameter("s")), InputError);
 }
 
 } // namespace

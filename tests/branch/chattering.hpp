@@ -44,7 +44,7 @@ value = 0
 /// Returns the first grazing of the attractor.
 inline SpecialPoint first_grazing(const Model& model, BranchSettings settings) {
     settings.stop_at = {PointType::grazing};
-    const Branch branch = follow_branch(model, settled(model, model.sections.front().name).orbit, settings);
+    const Branch branch = follow_branch(System(model), settled(model, model.sections.front().name).orbit, settings);
     EXPECT_EQ(branch.outcome, BranchOutcome::stopped) << names(branch);
     return branch.special.back();
 }

@@ -83,7 +83,7 @@ TEST(ClosedForms, BouncingBallHasItsFoldFlipAndGrazing) {
     settings.greatest = 0.01;
     const Orbit orbit = ball.orbit(model, 0.002);
 
-    const Branch up = follow_branch(model, orbit, settings);
+    const Branch up = follow_branch(System(model), orbit, settings);
     ASSERT_EQ(names(up), "PD BD");
     EXPECT_NEAR(up.special[0].parameter, ball.flip(), 1e-15);
     expect_flip(up.special[0]);
@@ -91,7 +91,7 @@ TEST(ClosedForms, BouncingBallHasItsFoldFlipAndGrazing) {
     EXPECT_EQ(up.points.back().parameter, 0.01);
 
     settings.direction = -1;
-    const Branch down = follow_branch(model, orbit, settings);
+    const Branch down = follow_branch(System(model), orbit, settings);
     ASSERT_EQ(names(down), "SN GR");
     EXPECT_NEAR(down.special[0].parameter, ball.fold(), 1e-15);
     EXPECT_NEAR(ball.fold() * ball.omega() * ball.omega() / ball.g, pi * (1 - ball.e) / (1 + ball.e), 1e-14);
@@ -120,9 +120,9 @@ TEST(ClosedForms, BouncingBallDoublesItsPeriodAtTheFlip) {
     BranchSettings settings;
     settings.parameter = model.independent_parameter("a");
     settings.greatest = 0.004;
-    const Branch single = follow_branch(model, ball.orbit(model, 0.002), settings);
+    const Branch single = follow_branch(System(model), ball.orbit(model, 0.002), settings);
     ASSERT_EQ(names(single), "PD BD");
-    const auto starts = branches_at(model, single.special[0], settings);
+    const auto starts = branches_at(System(model), single.special[0], settings);
     ASSERT_EQ(starts.size(), 1U);
     EXPECT_EQ(starts[0].how, "doubled");
     const Branch branch = follow(model, starts[0], settings);
@@ -160,7 +160,7 @@ TEST(ClosedForms, BouncingBallDoublesItsPeriodAtTheFlip) {
     EXPECT_GE(compared, 2U);
     // In the other direction the branch ends where it returns to the original branch.
     settings.direction = -1;
-    const Branch back = follow_branch(model, branch.points[5].solution.orbit, settings);
+    const Branch back = follow_branch(System(model), branch.points[5].solution.orbit, settings);
     EXPECT_EQ(back.outcome, BranchOutcome::returned) << names(back);
     // At the crossing the equations are singular; the parameter is quadratic in the remaining error.
     EXPECT_NEAR(back.points.back().parameter, ball.flip(), 1e-8 * ball.flip());
@@ -189,7 +189,7 @@ TEST(ClosedForms, ImpactOscillatorHasItsFoldFlipAndGrazing) {
             EXPECT_LT(std::min(std::abs(upper - point.parameter), std::abs(lower - point.parameter)), 1e-11);
         }
     };
-    const Branch up = follow_branch(model, start.orbit, settings);
+    const Branch up = follow_branch(System(model), start.orbit, settings);
     check(up);
     ASSERT_EQ(names(up), "PD GR");
     expect_flip(up.special[0]);
@@ -207,7 +207,7 @@ TEST(ClosedForms, ImpactOscillatorHasItsFoldFlipAndGrazing) {
     EXPECT_EQ(up.outcome, BranchOutcome::unphysical);
 
     settings.direction = -1; // through zero
-    const Branch down = follow_branch(model, start.orbit, settings);
+    const Branch down = follow_branch(System(model), start.orbit, settings);
     check(down);
     ASSERT_EQ(names(down), "SN GR");
     EXPECT_NEAR(down.special[0].parameter, known.fold(false), 1e-13);
@@ -225,14 +225,14 @@ TEST(ClosedForms, ImpactOscillatorGainsAndLosesItsImpactAtTheSameGap) {
     settings.parameter = model.independent_parameter("amplitude");
     settings.least = 0;
     settings.greatest = 10;
-    const Branch free = follow_branch(model, settled(model, "phase0").orbit, settings);
+    const Branch free = follow_branch(System(model), settled(model, "phase0").orbit, settings);
     ASSERT_EQ(names(free), "GR");
     EXPECT_NEAR(free.special[0].parameter, sigma / known.radius, 1e-13);
     expect_touch(model, free.special[0], sigma);
     for (const BranchPoint& point : free.points)
         EXPECT_NEAR(std::abs(point.solution.multipliers[0] * point.solution.multipliers[1]), known.decay * known.decay,
                     1e-12);
-    const auto starts = branches_at(model, free.special[0], settings);
+    const auto starts = branches_at(System(model), free.special[0], settings);
     ASSERT_EQ(starts.size(), 1U);
     const Branch impacting = follow(model, starts[0], settings);
     ASSERT_GT(impacting.points.size(), 5U);
@@ -245,12 +245,12 @@ TEST(ClosedForms, ImpactOscillatorGainsAndLosesItsImpactAtTheSameGap) {
     }
     // From the last point with an impact back to where the impact vanishes, and on without it to zero force.
     settings.direction = impacting.points.back().parameter > impacting.points.front().parameter ? -1 : 1;
-    const Branch back = follow_branch(model, impacting.points[5].solution.orbit, settings);
+    const Branch back = follow_branch(System(model), impacting.points[5].solution.orbit, settings);
     const auto lost = of_type(back, PointType::grazing);
     ASSERT_EQ(lost.size(), 1U);
     EXPECT_TRUE(lost[0].at_end);
     EXPECT_NEAR(lost[0].parameter, sigma / known.radius, 1e-12);
-    const auto without = branches_at(model, lost[0], settings);
+    const auto without = branches_at(System(model), lost[0], settings);
     ASSERT_EQ(without.size(), 1U);
     const Branch to_rest = follow(model, without[0], settings);
     EXPECT_EQ(names(to_rest), "BD");

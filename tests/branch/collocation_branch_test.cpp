@@ -30,7 +30,7 @@ Found follow_to_fold(std::unique_ptr<OrbitEquations> equations, const Orbit& orb
     const std::size_t place = problem.parameter_place();
     ContinuationOptions options;
     options.largest_step = 0.1;
-    Continuation continuation(problem, options);
+    Continuation continuation(borrowed(problem), options);
     Found found;
     EXPECT_TRUE(continuation.start(problem.unknowns_of(orbit), place, direction)) << problem.evaluation().problem;
     while (found.points < 400 && continuation.step()) {
@@ -55,7 +55,7 @@ Found follow_to_fold(std::unique_ptr<OrbitEquations> equations, const Orbit& orb
 
 void expect_the_same_fold(const Model& model, const char* parameter, int direction, double published, double accuracy) {
     const Orbit orbit = settled(model, "phase0").orbit;
-    const Simulation simulation(model, {}, {}, integration(1e-13));
+    const Simulation simulation(System(model), {}, {}, integration(1e-13));
     const std::vector<ParameterId> free{model.independent_parameter(parameter)};
     const Found one = follow_to_fold(std::make_unique<Shooting>(simulation, orbit, free), orbit, direction);
     const Found other = follow_to_fold(std::make_unique<Collocation>(simulation, orbit, free, 40), orbit, direction);

@@ -113,7 +113,7 @@ inline constexpr Motion motions[] = {{"ball-and-shaker", 1.5},       {"bouncing-
 struct FollowedEquations {
     explicit FollowedEquations(const Motion& motion)
         : model(load_model(motion.model)), orbit(candidate(model, motion.time)),
-          simulation(model, {}, {}, integration(1e-14)),
+          simulation(System(model), {}, {}, integration(1e-14)),
           equations(simulation, orbit, {ParameterId(0), ParameterId(1)}) {}
 
     Model model;

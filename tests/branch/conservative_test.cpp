@@ -62,7 +62,7 @@ TEST(Conservative, PendulumFamilyReachesTheTopInAnyUnits) {
         std::size_t reached = 0, at_rest = 0;
         for (const int direction : {1, -1}) {
             settings.direction = direction;
-            const Branch branch = follow_branch(model, start, settings);
+            const Branch branch = follow_branch(System(model), start, settings);
             ASSERT_GT(branch.points.size(), 10U) << name_of(branch.outcome) << ' ' << branch.detail << ' ' << time;
             for (const BranchPoint& point : branch.points) {
                 const double amplitude = point.solution.orbit.starts[0][0] / angle;
@@ -137,7 +137,7 @@ TEST(Conservative, DampingStaysZeroWithFixedAmplitudeWhileThePushPassesZero) {
         double at_zero = 0;
         for (const int direction : {1, -1}) {
             settings.direction = direction;
-            const Branch branch = follow_branch(model, start, settings);
+            const Branch branch = follow_branch(System(model), start, settings);
             ASSERT_EQ(branch.outcome, BranchOutcome::bound) << branch.detail << ' ' << names(branch);
             EXPECT_EQ(names(branch), direction > 0 ? "EX BD" : "BD");
             for (const SpecialPoint& special : of_type(branch, PointType::extremum)) {
@@ -157,7 +157,7 @@ TEST(Conservative, DampingStaysZeroWithFixedAmplitudeWhileThePushPassesZero) {
             Orbit end = branch.points.back().solution.orbit;
             BranchSettings back = settings;
             back.direction = -direction;
-            const Branch across = follow_branch(model, end, back);
+            const Branch across = follow_branch(System(model), end, back);
             EXPECT_EQ(across.outcome, BranchOutcome::bound) << across.detail;
             EXPECT_EQ(across.points.back().parameter, -0.4 * direction);
             at_zero = branch.points.front().solution.orbit.period() / time;
@@ -199,7 +199,8 @@ direction = "falling"
     std::size_t found = 0;
     for (const int direction : {1, -1}) {
         settings.direction = direction;
-        for (const SpecialPoint& special : of_type(follow_branch(model, start, settings), PointType::extremum)) {
+        for (const SpecialPoint& special :
+             of_type(follow_branch(System(model), start, settings), PointType::extremum)) {
             const double amplitude = std::abs(special.solution.orbit.starts[0][0]);
             if (amplitude < 1e-6) { // at rest, where one side becomes the other: the shortest period
                 EXPECT_NEAR(special.solution.orbit.period(), 2 * pi, 1e-12);
@@ -236,7 +237,7 @@ value = 0
     settings.least = -0.5;
     settings.greatest = 0.5;
     settings.direction = -1;
-    const Branch branch = follow_branch(model, start, settings);
+    const Branch branch = follow_branch(System(model), start, settings);
     EXPECT_EQ(names(branch), "BD") << branch.detail;
     ASSERT_FALSE(branch.points.empty());
     EXPECT_EQ(branch.points.back().parameter, -0.5);
@@ -251,9 +252,9 @@ TEST(Conservative, CurvesOfAreaPreservingMapsHaveNoResonances) {
     const double x = std::sqrt(2.3) - 1;
     const Orbit orbit{parse_signature(model, "map"), model.parameter_values(), {{x, x, 0}}, {1}, {}};
     BranchSettings settings = in_parameter(model, "p", -3, 6);
-    const Branch up = follow_branch(model, orbit, settings);
+    const Branch up = follow_branch(System(model), orbit, settings);
     settings.direction = -1;
-    const Branch down = follow_branch(model, orbit, settings);
+    const Branch down = follow_branch(System(model), orbit, settings);
     const auto flips = of_type(up, PointType::flip), folds = of_type(down, PointType::fold);
     ASSERT_EQ(flips.size(), 1U) << names(up);
     ASSERT_GE(folds.size(), 1U) << names(down);
@@ -307,7 +308,7 @@ map = { x = "-x", v = "-v", th = "th + pi" }
 )toml");
     const std::complex<double> i(0, 1), v = 0.5 / (0.05 + i), x = v / i;
     const Orbit half{parse_signature(model, "ph"), model.parameter_values(), {{x.real(), v.real(), 0}}, {pi}, 0};
-    const Branch branch = follow_branch(model, half, in_parameter(model, "b", 0.6, 30));
+    const Branch branch = follow_branch(System(model), half, in_parameter(model, "b", 0.6, 30));
     EXPECT_GT(branch.points.size(), 10U) << branch.detail;
     EXPECT_EQ(names(branch), "BD") << branch.detail;
 }

@@ -26,7 +26,7 @@ TEST(Continuation, ClosesOnACircle) {
     for (const bool exact : {true, false})
         for (const int direction : {1, -1}) {
             DenseProblem problem = circle(exact);
-            Continuation branch(problem);
+            Continuation branch(borrowed(problem));
             const std::vector<double> start{0.1, 1.05};
             ASSERT_TRUE(branch.start(start, 0, direction));
             EXPECT_NEAR(branch.point().u[0], 0.1, 1e-15);
@@ -47,7 +47,7 @@ TEST(Continuation, ClosesOnACircle) {
 
 TEST(Continuation, BetweenGivesPointsOfTheLastStep) {
     DenseProblem problem = circle(true);
-    Continuation branch(problem);
+    Continuation branch(borrowed(problem));
     const std::vector<double> start{0.9, std::sqrt(1 - 0.81)};
     ASSERT_TRUE(branch.start(start, 0, 1));
     while (branch.step() && branch.point().tangent[0] > 0) {
@@ -74,7 +74,7 @@ DenseProblem pitchfork() {
 
 TEST(Continuation, DeterminantChangesItsSignAtABranchPoint) {
     DenseProblem problem = pitchfork();
-    Continuation branch(problem);
+    Continuation branch(borrowed(problem));
     const std::vector<double> start{0, -0.303};
     ASSERT_TRUE(branch.start(start, 1, 1));
     double before = branch.point().determinant;
@@ -87,7 +87,7 @@ TEST(Continuation, DeterminantChangesItsSignAtABranchPoint) {
     EXPECT_EQ(changes, 1u);
     // From the branch point onto the other branch.
     const std::vector<double> point{0, 0}, across{1, 0};
-    Continuation other(problem);
+    Continuation other(borrowed(problem));
     ASSERT_TRUE(other.start_along(point, across, 0.05));
     while (other.step() && other.steps() < 20)
         EXPECT_NEAR(other.point().u[0] * other.point().u[0], other.point().u[1], 1e-10);
@@ -105,7 +105,7 @@ TEST(Continuation, ResultsDoNotDependOnScales) {
                              return true;
                          },
                          {}, {1e-9, 1e3});
-    Continuation branch(problem);
+    Continuation branch(borrowed(problem));
     const std::vector<double> start{1e-10, 1e3};
     ASSERT_TRUE(branch.start(start, 0, 1));
     while (branch.step())
@@ -119,7 +119,7 @@ TEST(Continuation, OutcomeTellsHowItEnded) {
         f[0] = u[0] - std::sqrt(u[1]) * u[1];
         return u[1] >= 0;
     });
-    Continuation branch(problem);
+    Continuation branch(borrowed(problem));
     const std::vector<double> start{1, 1};
     ASSERT_TRUE(branch.start(start, 1, -1));
     while (branch.step())
@@ -131,26 +131,26 @@ TEST(Continuation, OutcomeTellsHowItEnded) {
         f[0] = u[0] * u[0] + 1;
         return true;
     });
-    Continuation lost(none);
+    Continuation lost(borrowed(none));
     EXPECT_FALSE(lost.start(start, 1, 1));
     EXPECT_EQ(lost.outcome(), ContinuationOutcome::no_convergence);
     ContinuationOptions options;
     options.largest_step = -1;
-    EXPECT_THROW(Continuation(none, options), InputError);
+    EXPECT_THROW(Continuation(borrowed(none), options), InputError);
 }
 
 TEST(Continuation, CanBeStoppedAndResumedAfterAnyStep) {
     DenseProblem problem = circle(true);
     const std::vector<double> start{0, 1};
-    Continuation whole(problem);
+    Continuation whole(borrowed(problem));
     ASSERT_TRUE(whole.start(start, 0, 1));
     for (int i = 0; i < 20; ++i)
         whole.step();
-    Continuation first(problem);
+    Continuation first(borrowed(problem));
     ASSERT_TRUE(first.start(start, 0, 1));
     for (int i = 0; i < 10; ++i)
         first.step();
-    Continuation second(problem);
+    Continuation second(borrowed(problem));
     ASSERT_TRUE(second.start_at(first.point().u, first.point().tangent));
     second.set_next_step(first.next_step());
     for (int i = 0; i < 10; ++i)

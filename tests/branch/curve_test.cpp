@@ -24,7 +24,7 @@ Branch curve_of(const Model& model, const SpecialPoint& point, BranchSettings se
     settings.kept = point;
     settings.free = {model.independent_parameter(further)};
     settings.direction = direction;
-    return follow_branch(model, point.solution.orbit, settings);
+    return follow_branch(System(model), point.solution.orbit, settings);
 }
 
 double parameter_of(const Model& model, const OrbitSolution& solution, const std::string& parameter) {
@@ -81,7 +81,7 @@ TEST(Curves, BouncingBallHasItsClosedForms) {
         settings.least = 1e-5;
         settings.greatest = 0.01;
         settings.stop_at = {PointType::fold, PointType::flip};
-        const Branch branch = follow_branch(model, orbit, settings);
+        const Branch branch = follow_branch(System(model), orbit, settings);
         ASSERT_EQ(branch.outcome, BranchOutcome::stopped);
         settings.stop_at.clear();
         settings.free_bounds = {{model.independent_parameter("e"), 0.1, 0.95}};
@@ -121,7 +121,7 @@ TEST(Curves, ImpactOscillatorHasItsClosedForms) {
         settings.least = -1;
         settings.greatest = 1;
         settings.direction = direction;
-        const Branch branch = follow_branch(model, start.orbit, settings);
+        const Branch branch = follow_branch(System(model), start.orbit, settings);
         ASSERT_EQ(names(branch), direction > 0 ? "PD GR" : "SN GR");
         settings.free_bounds = {{model.independent_parameter("omega"), 0.7, 6}};
         for (const SpecialPoint& point : branch.special)
@@ -186,7 +186,7 @@ TEST(Curves, FoldsThatEndInATouchHaveNoResonanceInAnyUnits) {
         settings.least = -length;
         settings.greatest = length;
         settings.direction = -1;
-        const Branch branch = follow_branch(model, settled(model, "phase0", 400).orbit, settings);
+        const Branch branch = follow_branch(System(model), settled(model, "phase0", 400).orbit, settings);
         ASSERT_EQ(names(branch), "SN GR") << length;
         settings.free_bounds = {{model.independent_parameter("omega"), 0.7, 6}};
         std::size_t ends = 0;
@@ -211,7 +211,7 @@ TEST(Curves, TouchesOfALinearOscillatorFollowItsResponse) {
     settings.parameter = model.independent_parameter("amplitude");
     settings.least = 0;
     settings.greatest = 10;
-    const Branch free = follow_branch(model, settled(model, "phase0").orbit, settings);
+    const Branch free = follow_branch(System(model), settled(model, "phase0").orbit, settings);
     ASSERT_EQ(names(free), "GR");
     settings.free_bounds = {{model.independent_parameter("omega"), 0.2, 5}};
     std::size_t turns = 0;
@@ -260,7 +260,7 @@ Branch over_frequency(double force) {
     settings.parameter = model.independent_parameter("w");
     settings.least = 0.5;
     settings.greatest = 3;
-    return follow_branch(model, settled(model, "phase").orbit, settings);
+    return follow_branch(System(model), settled(model, "phase").orbit, settings);
 }
 
 TEST(Curves, FoldsOfDuffingsOscillatorPassTheCusp) {
@@ -312,7 +312,7 @@ TEST(Curves, TouchesHaveVanishingSensitivityAtTheKnownFrequencies) {
     settings.direction = -1;
     settings.least = -1;
     settings.greatest = 3;
-    const Branch branch = follow_branch(model, settled(model, "phase0", 400).orbit, settings);
+    const Branch branch = follow_branch(System(model), settled(model, "phase0", 400).orbit, settings);
     ASSERT_EQ(names(branch), "GR");
     settings.free_bounds = {{model.independent_parameter("omega"), 0.6, 3}};
     settings.greatest = 30;
@@ -337,7 +337,7 @@ TEST(Curves, BoundaryBetweenClassesOfTouchesHasItsClosedForm) {
     settings.direction = -1;
     settings.least = -1;
     settings.greatest = 3;
-    const Branch branch = follow_branch(model, settled(model, "phase0", 400).orbit, settings);
+    const Branch branch = follow_branch(System(model), settled(model, "phase0", 400).orbit, settings);
     ASSERT_EQ(names(branch), "GR");
     settings.free_bounds = {{model.independent_parameter("omega"), 0.6, 3}};
     settings.greatest = 30;
@@ -355,7 +355,7 @@ TEST(Curves, BoundaryBetweenClassesOfTouchesHasItsClosedForm) {
         boundary.kept_too = PointType::sensitivity;
         for (const int way : {1, -1}) {
             boundary.direction = way;
-            const Branch curve = follow_branch(model, one.solution.orbit, boundary);
+            const Branch curve = follow_branch(System(model), one.solution.orbit, boundary);
             EXPECT_EQ(curve.outcome, BranchOutcome::bound) << curve.detail;
             ASSERT_GT(curve.points.size(), 5U);
             EXPECT_NEAR(curve.points.back().parameter, way > 0 ? 0.5 : 0.01, 1e-12);
@@ -368,9 +368,9 @@ TEST(Curves, BoundaryBetweenClassesOfTouchesHasItsClosedForm) {
             }
         }
         boundary.free.pop_back(); // a curve of codimension two needs three parameters
-        EXPECT_THROW(follow_branch(model, one.solution.orbit, boundary), InputError);
+        EXPECT_THROW(follow_branch(System(model), one.solution.orbit, boundary), InputError);
         boundary.kept_too = PointType::fold;
-        EXPECT_THROW(follow_branch(model, one.solution.orbit, boundary), InputError);
+        EXPECT_THROW(follow_branch(System(model), one.solution.orbit, boundary), InputError);
     }
 }
 
@@ -382,7 +382,7 @@ TEST(Curves, MicroactuatorHasItsPublishedValues) {
     settings.parameter = model.independent_parameter("V");
     settings.least = 0;
     settings.greatest = 3;
-    const Branch branch = follow_branch(model, settled(model, "longest", 4000).orbit, settings);
+    const Branch branch = follow_branch(System(model), settled(model, "longest", 4000).orbit, settings);
     ASSERT_EQ(names(branch), "PD PD SN GR");
     const SpecialPoint grazing = branch.special.back();
     BranchSettings wide = settings;
@@ -420,7 +420,7 @@ TEST(Curves, MicroactuatorHasItsPublishedValues) {
         EXPECT_NEAR(parameter_of(model, meeting.solution, "omega"), parameter_of(model, last.solution, "omega"), 1e-11);
     }
     // The curve of orbits with an impact ends in the published point.
-    const Branch impacting = follow(model, branches_at(model, grazing, settings).at(0), settings);
+    const Branch impacting = follow(model, branches_at(System(model), grazing, settings).at(0), settings);
     const Branch flips = curve_of(model, nearest(impacting, PointType::flip, 0.85), wide, "omega", -1);
     ASSERT_EQ(flips.outcome, BranchOutcome::unphysical);
     const SpecialPoint& last = flips.special.back();
@@ -435,7 +435,7 @@ TEST(Curves, TorusPointsHaveTheirClosedForm) {
     settings.parameter = model.independent_parameter("p");
     settings.least = -0.2;
     settings.greatest = 0.1;
-    const Branch branch = follow_branch(model, settled(model, "start").orbit, settings);
+    const Branch branch = follow_branch(System(model), settled(model, "start").orbit, settings);
     const auto points = of_type(branch, PointType::torus);
     ASSERT_EQ(points.size(), 1U);
     settings.free_bounds = {{model.independent_parameter("w"), 0.05, 0.45}};
@@ -465,9 +465,9 @@ TEST(Curves, TorusPointsOfTheTestbedConnectTwoResonances) {
     settings.least = 0.5;
     settings.greatest = 8;
     settings.stop_at = {PointType::grazing, PointType::fold};
-    const Branch free = follow_branch(model, settled(model, "phase0", 600).orbit, settings);
+    const Branch free = follow_branch(System(model), settled(model, "phase0", 600).orbit, settings);
     ASSERT_EQ(names(free), "GR");
-    const Branch impacting = follow(model, branches_at(model, free.special[0], settings).at(0), settings);
+    const Branch impacting = follow(model, branches_at(System(model), free.special[0], settings).at(0), settings);
     const SpecialPoint fold = nearest(impacting, PointType::fold, 2.16);
     settings.stop_at.clear();
     settings.free_bounds = {{model.independent_parameter("f"), 5, 9}};
@@ -506,7 +506,7 @@ TEST(Curves, SymmetryBreakingHasTheMultiplierOfTheHalfMap) {
     std::size_t followed = 0;
     for (const int direction : {1, -1}) {
         settings.direction = direction;
-        const Branch branch = follow_branch(model, start.orbit, settings);
+        const Branch branch = follow_branch(System(model), start.orbit, settings);
         for (const SpecialPoint& point : of_type(branch, PointType::asymmetry)) {
             BranchSettings along = settings;
             along.steps = 20;

@@ -41,8 +41,7 @@ public:
                      late = std::max(20 * speed * time, 3 * std::sqrt(2 * std::abs(map.projections(1)[0]) *
                                                                       map.contact.by_depth(depth) * time));
         EXPECT_EQ(flow_.run(touch_.mode, state, -early), ModeFlow::Ending::done);
-        Observer nobody;
-        Trajectory trajectory(simulation_, touch_.parameters, nobody);
+        Trajectory trajectory(simulation_, touch_.parameters);
         trajectory.start(state, touch_.mode, 0, early + map.time - late);
         JetSet jets(simulation_, LaneKind::single);
         run(trajectory, jets);
@@ -150,7 +149,8 @@ inline void expect_rates(const Model& model, const CycleMap& map, double share) 
 inline CycleMap map_at(const Model& model, const SpecialPoint& point) {
     CycleMapOptions options;
     options.next_order = true;
-    return cycle_map(model, point.solution.orbit, {point.segment, point.event, point.time, point.at_end}, options);
+    return cycle_map(System(model), point.solution.orbit, {point.segment, point.event, point.time, point.at_end},
+                     options);
 }
 
 } // namespace graze::testing

@@ -115,7 +115,7 @@ Touches touches(const Model& model, double from, double to) {
     Touches result{model, {}, in_parameter(model, "sigma", 1e-3, 1e3), {}};
     BranchSettings down = result.settings;
     down.direction = -1;
-    const Branch branch = follow_branch(model, settled(model, "phase0", 400).orbit, down);
+    const Branch branch = follow_branch(System(model), settled(model, "phase0", 400).orbit, down);
     EXPECT_EQ(names(branch), "GR");
     result.first = branch.special.at(0);
     for (const int way : {-1, 1}) {
@@ -301,7 +301,7 @@ TEST(DegenerateGrazing, FoldsOfTheTestbedEndThere) {
     model.set_parameter("V0", 1);
     BranchSettings settings = in_parameter(model, "V0", 0.5, 8);
     settings.stop_at = {PointType::grazing, PointType::fold};
-    const Branch free = follow_branch(model, settled(model, "phase0", 600).orbit, settings);
+    const Branch free = follow_branch(System(model), settled(model, "phase0", 600).orbit, settings);
     ASSERT_EQ(names(free), "GR");
     const System system(model);
     const Branch impacting = follow(model, branches_at(system, free.special[0], settings).at(0), settings);

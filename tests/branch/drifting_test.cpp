@@ -53,13 +53,13 @@ Branch doubled(const Model& model, SpecialPoint& flip) {
     settings.least = -1;
     settings.greatest = 1;
     settings.stop_at = {PointType::flip};
-    const Branch branch = follow_branch(model, settled(model, "phase0", 400).orbit, settings);
+    const Branch branch = follow_branch(System(model), settled(model, "phase0", 400).orbit, settings);
     if (branch.special.empty() || branch.special.back().type != PointType::flip)
         return {};
     flip = branch.special.back();
     settings.stop_at = {PointType::flip, PointType::fold};
     settings.steps = 60;
-    return follow(model, branches_at(model, flip, settings).at(0), settings);
+    return follow(model, branches_at(System(model), flip, settings).at(0), settings);
 }
 
 TEST(Drifting, DoubledOrbitsEqualThoseWithoutDrift) {
@@ -98,15 +98,15 @@ TEST(Drifting, MicroactuatorContinuesFromTheFlipWithOneImpact) {
     BranchSettings settings;
     settings.parameter = model.independent_parameter("V");
     settings.stop_at = {PointType::grazing};
-    const Branch none = follow_branch(model, settled(model, "phase0").orbit, settings);
+    const Branch none = follow_branch(System(model), settled(model, "phase0").orbit, settings);
     ASSERT_EQ(none.outcome, BranchOutcome::stopped) << names(none);
     settings.stop_at = {PointType::flip};
-    const Branch one = follow(model, branches_at(model, none.special.back(), settings).at(0), settings);
+    const Branch one = follow(model, branches_at(System(model), none.special.back(), settings).at(0), settings);
     ASSERT_EQ(one.outcome, BranchOutcome::stopped) << names(one);
     EXPECT_NEAR(one.special.back().parameter, 0.85823, 5e-6);
     settings.stop_at = {};
     settings.steps = 40;
-    const Branch two = follow(model, branches_at(model, one.special.back(), settings).at(0), settings);
+    const Branch two = follow(model, branches_at(System(model), one.special.back(), settings).at(0), settings);
     ASSERT_GT(two.points.size(), 10U) << two.detail;
     EXPECT_NE(two.outcome, BranchOutcome::returned);
     EXPECT_EQ(to_string(model, two.points[1].solution.orbit.signature), "(J8 J1)^2");

@@ -27,10 +27,10 @@ struct Microactuator {
 
     /// Follows the orbits with one more contact, from the touch or back from their next grazing.
     Branch beyond(const SpecialPoint& touch, bool back) const {
-        const Branch branch = follow(model, branches_at(model, touch, settings).at(0), settings);
+        const Branch branch = follow(model, branches_at(System(model), touch, settings).at(0), settings);
         if (!back || branch.special.empty())
             return branch;
-        return follow_branch(model, branch.special.back().solution.orbit, settings);
+        return follow_branch(System(model), branch.special.back().solution.orbit, settings);
     }
 
     /// Returns the curve of a grazing over the frequency.
@@ -40,7 +40,7 @@ struct Microactuator {
         along.free = {settings.parameter};
         along.greatest = 3;
         along.kept = grazing;
-        return follow_branch(model, grazing.solution.orbit, along);
+        return follow_branch(System(model), grazing.solution.orbit, along);
     }
 };
 
@@ -58,7 +58,7 @@ void expect_same_end(const Microactuator& one, const Branch& stops, const Branch
 
 TEST(EndGrazing, ContactOfZeroSpeedEqualsTheTouchOfTheOrbitWithoutIt) {
     const Microactuator one;
-    const Branch without = follow_branch(one.model, settled(one.model, "longest", 4000).orbit, one.settings);
+    const Branch without = follow_branch(System(one.model), settled(one.model, "longest", 4000).orbit, one.settings);
     const SpecialPoint first = without.special.back();
     const Branch back = one.beyond(first, true);
     ASSERT_EQ(back.special.back().type, PointType::grazing) << names(back);
@@ -80,7 +80,7 @@ TEST(EndGrazing, ContactOfZeroSpeedEqualsTheTouchOfTheOrbitWithoutIt) {
 
 TEST(EndGrazing, OrbitsOnTheOtherSideAreInadmissible) {
     Microactuator one;
-    const Branch without = follow_branch(one.model, settled(one.model, "longest", 4000).orbit, one.settings);
+    const Branch without = follow_branch(System(one.model), settled(one.model, "longest", 4000).orbit, one.settings);
     one.settings.stop_when_unphysical = false;
     const Branch all = one.beyond(without.special.back(), false);
     const auto grazings = of_type(all, PointType::grazing);

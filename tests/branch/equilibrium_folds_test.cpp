@@ -58,7 +58,7 @@ TEST(EquilibriumFolds, AreFollowedInTwoParametersInAnyUnits) {
             settings.parameter = model.independent_parameter("V");
             settings.greatest = 2 * pulled_in(stiffness);
             settings.stop_at = {PointType::fold};
-            const Branch branch = follow_branch(model, rest.orbit, settings);
+            const Branch branch = follow_branch(System(model), rest.orbit, settings);
             const auto folds = of_type(branch, PointType::fold);
             ASSERT_EQ(folds.size(), 1U) << branch.detail;
             EXPECT_NEAR(folds[0].parameter / pulled_in(stiffness), 1, 1e-10);
@@ -72,7 +72,7 @@ TEST(EquilibriumFolds, AreFollowedInTwoParametersInAnyUnits) {
                 EXPECT_NEAR(value_of(model, point.solution, "V") / pulled_in(point.parameter), 1, 1e-9);
             // The derivatives are exact: V scales with k^(1/2) and d^(3/2), and does not depend on c.
             const LocatedValue located(
-                model, folds[0], settings.parameter,
+                System(model), folds[0], settings.parameter,
                 {model.independent_parameter("k"), model.independent_parameter("d"), model.independent_parameter("c")});
             const double value = pulled_in(stiffness);
             EXPECT_NEAR(located.derivatives()[0] * stiffness / value, 0.5, 1e-8);

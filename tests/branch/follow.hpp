@@ -47,13 +47,13 @@ inline OrbitSolution settled(const Model& model, const std::string& section, std
     AttractorOptions settle;
     settle.section = section;
     settle.cycles = cycles;
-    OrbitSolution solution = find_orbit(model, settle);
+    OrbitSolution solution = find_orbit(System(model), settle);
     EXPECT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
     return solution;
 }
 
 inline Branch follow(const Model& model, const BranchStart& start, const BranchSettings& settings) {
-    OrbitBranch follower(model, start.orbit, settings);
+    OrbitBranch follower(System(model), start.orbit, settings);
     Branch branch;
     for (bool going = follower.start_along(start.direction, start.distance); going; going = follower.step()) {
         branch.points.push_back(follower.point());
@@ -109,9 +109,8 @@ inline void expect_flip(const SpecialPoint& flip, double tolerance = 1e-8) {
 /// Returns the value of an event function after simulating for a time.
 inline double simulated(const Model& model, const SpecialPoint& point, double time) {
     const Orbit& orbit = point.solution.orbit;
-    const Simulation simulation(model);
-    Observer nobody;
-    Trajectory trajectory(simulation, orbit.parameters, nobody);
+    const Simulation simulation{System(model)};
+    Trajectory trajectory(simulation, orbit.parameters);
     trajectory.start(orbit.starts[point.segment], orbit.signature[point.segment].mode, 0, time);
     JetSet jets(simulation, LaneKind::single);
     run(trajectory, jets);

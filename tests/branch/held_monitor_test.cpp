@@ -64,7 +64,7 @@ TEST(HeldMonitors, FixedExtremumPassesTheEndOfTheOrbit) {
             settings.direction = -1;
             settings.least = 0.4;
             settings.monitors = {held(model, kind, expression, value)};
-            const Branch branch = follow_branch(model, orbit, settings);
+            const Branch branch = follow_branch(System(model), orbit, settings);
             ASSERT_EQ(branch.outcome, BranchOutcome::bound) << branch.detail << ' ' << branch.points.size();
             EXPECT_LT(branch.points.size(), 150U) << phase << ' ' << expression;
             EXPECT_EQ(names(branch), "BD");
@@ -85,7 +85,7 @@ TEST(HeldMonitors, TouchCanBeFixed) {
     BranchSettings settings;
     settings.parameter = model.independent_parameter("amplitude");
     settings.greatest = 3;
-    const Branch up = follow_branch(model, settled(model, "phase0").orbit, settings);
+    const Branch up = follow_branch(System(model), settled(model, "phase0").orbit, settings);
     ASSERT_EQ(names(up), "GR");
     const Orbit& grazing = up.special[0].solution.orbit;
     for (const int direction : {1, -1}) {
@@ -96,7 +96,7 @@ TEST(HeldMonitors, TouchCanBeFixed) {
         settings.least = 0.4;
         settings.greatest = 3;
         settings.monitors = {held(model, Monitor::Kind::maximum, "x", 0.5)};
-        const Branch branch = follow_branch(model, grazing, settings);
+        const Branch branch = follow_branch(System(model), grazing, settings);
         ASSERT_EQ(branch.outcome, BranchOutcome::bound) << name_of(branch.outcome) << branch.detail << names(branch);
         EXPECT_EQ(names(branch), "BD");
         EXPECT_LT(branch.points.size(), 150U);
@@ -129,7 +129,7 @@ TEST(HeldMonitors, FixedMonitorsDoNotSlowABranchDown) {
     const auto follow_down = [&](const BranchSettings& given) {
         BranchSettings own = given;
         own.direction = -1;
-        return follow_branch(model, orbit, own);
+        return follow_branch(System(model), orbit, own);
     };
     const Branch free = follow_down(settings);
     ASSERT_EQ(free.outcome, BranchOutcome::bound) << free.detail;

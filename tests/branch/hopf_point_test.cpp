@@ -40,7 +40,7 @@ function = "{}"
 direction = "rising"
 )toml",
                                                    section));
-        const Branch branch = follow_branch(model, settled(model, "s").orbit, in_parameter(model, "a", 0.1, 2));
+        const Branch branch = follow_branch(System(model), settled(model, "s").orbit, in_parameter(model, "a", 0.1, 2));
         EXPECT_EQ(names(branch), "EX HB") << section;
         EXPECT_EQ(branch.outcome, BranchOutcome::shrunk) << section;
         ASSERT_FALSE(branch.special.empty());
@@ -67,7 +67,7 @@ direction = "rising"
                                                    section));
         BranchSettings settings = in_parameter(model, "a", 1, 4);
         settings.direction = -1;
-        const Branch branch = follow_branch(model, settled(model, "s").orbit, settings);
+        const Branch branch = follow_branch(System(model), settled(model, "s").orbit, settings);
         EXPECT_EQ(names(branch), "HB") << section;
         ASSERT_FALSE(branch.special.empty());
         EXPECT_NEAR(branch.special.back().parameter, 2, 1e-10) << section;

@@ -40,8 +40,8 @@ TEST(Joints, FoldAndFlipCurvesMeetInAFoldFlip) {
         map_model("p = -0.04\nq = -0.3", {"x + p + (x - 1)^2", "2 - (1 + q + (x - 1)/2)*(y - 2) + (y - 2)^3"});
     const BranchSettings in_p = in_parameter(model, "p", -1, 1), in_q = in_parameter(model, "q", -0.5, 0.4);
     const Orbit start = stable_point(model, -0.04, {2});
-    const SpecialPoint fold = only(follow_branch(model, start, in_p), PointType::fold),
-                       flip = only(follow_branch(model, start, in_q), PointType::flip);
+    const SpecialPoint fold = only(follow_branch(System(model), start, in_p), PointType::fold),
+                       flip = only(follow_branch(System(model), start, in_q), PointType::flip);
     const Branch folds = curve_of(model, fold, in_q, "p", -1, 1, 1);
     EXPECT_EQ(names(folds), "FP BD");
     const SpecialPoint on_folds = only(folds, PointType::fold_flip);
@@ -85,8 +85,8 @@ TEST(Joints, TorusCurvesMeetThoseOfFoldsAndFlips) {
         const Orbit start = folds ? stable_point(model, -0.04, {2, 3}) : fixed_point(model, {1, 2, 3});
         const PointType own = folds ? PointType::fold : PointType::flip,
                         meeting = folds ? PointType::fold_torus : PointType::flip_torus;
-        const SpecialPoint first = only(follow_branch(model, start, in_p), own),
-                           torus = only(follow_branch(model, start, in_q), PointType::torus);
+        const SpecialPoint first = only(follow_branch(System(model), start, in_p), own),
+                           torus = only(follow_branch(System(model), start, in_q), PointType::torus);
         const Branch curve = curve_of(model, first, in_q, "p", -1, 1, 1);
         EXPECT_EQ(names(curve), folds ? "FT BD" : "PT BD");
         const Branch pairs = curve_of(model, torus, in_q, "p", -0.09, 0.3, folds ? -1 : 1);
@@ -150,7 +150,7 @@ TEST(Joints, OneEventTouchedTwiceIsADoubleGrazing) {
     BranchSettings settings = in_parameter(model, "b", -3, 3);
     settings.direction = -1;
     const Orbit start{parse_signature(model, "phase"), model.parameter_values(), {{0, 0}}, {2 * std::numbers::pi}, {}};
-    const SpecialPoint touch = only(follow_branch(model, start, settings), PointType::grazing);
+    const SpecialPoint touch = only(follow_branch(System(model), start, settings), PointType::grazing);
     EXPECT_NEAR(touch.parameter, 1.2, 1e-13);
     const Branch curve = curve_of(model, touch, settings, "c", -0.5, 0.5, -1);
     EXPECT_EQ(curve.outcome, BranchOutcome::unphysical) << curve.detail;
@@ -208,7 +208,8 @@ value = 0
 mode = "free"
 )toml");
     BranchSettings settings = in_parameter(model, "F", 0.1, 10);
-    const SpecialPoint touch = only(follow_branch(model, settled(model, "phase").orbit, settings), PointType::grazing);
+    const SpecialPoint touch =
+        only(follow_branch(System(model), settled(model, "phase").orbit, settings), PointType::grazing);
     EXPECT_EQ(touch.detail, "lower");
     const Branch curve = curve_of(model, touch, settings, "a", 0.5, 3, 1);
     EXPECT_EQ(curve.outcome, BranchOutcome::unphysical) << curve.detail;
@@ -233,11 +234,11 @@ TEST(Joints, DoubleGrazingLeadsToOrbitsWithOneMoreContact) {
     model.set_initial("v", 0);
     BranchSettings settings = in_parameter(model, "V", 0.01, 5);
     const SpecialPoint touch =
-        only(follow_branch(model, settled(model, "phase0", 3000).orbit, settings), PointType::grazing);
+        only(follow_branch(System(model), settled(model, "phase0", 3000).orbit, settings), PointType::grazing);
     BranchSettings along = in_parameter(model, "omega", 0.2, 3);
     const SpecialPoint both = only(curve_of(model, touch, along, "V", 0.0001, 5, 1), PointType::double_grazing);
     EXPECT_EQ(both.detail.substr(0, 7), "closure");
-    const std::vector<BranchStart> starts = branches_at(model, both, settings);
+    const std::vector<BranchStart> starts = branches_at(System(model), both, settings);
     ASSERT_EQ(starts.size(), 1U); // closure ends the motion
     EXPECT_NE(starts[0].how.find("one more contact at 'stop'"), std::string::npos) << starts[0].how;
     const Branch branch = follow(model, starts[0], settings);

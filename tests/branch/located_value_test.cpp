@@ -18,7 +18,7 @@ SpecialPoint mems_grazing(Model& model) {
     BranchSettings settings;
     settings.parameter = model.independent_parameter("V");
     settings.greatest = 0.4;
-    for (const SpecialPoint& point : follow_branch(model, settled(model, "phase0").orbit, settings).special)
+    for (const SpecialPoint& point : follow_branch(System(model), settled(model, "phase0").orbit, settings).special)
         if (point.type == PointType::grazing)
             return point;
     ADD_FAILURE() << "no grazing";
@@ -31,7 +31,7 @@ TEST(LocatedValue, TouchAndItsDerivativesHaveTheirClosedFormInAnyUnits) {
         const DrivenOscillator known{length, time, mass};
         const Model model = known.model();
         const ParameterId force = model.independent_parameter("F");
-        LocatedValue touch(model, known.grazing(model), force, parameters_but(model, force));
+        LocatedValue touch(System(model), known.grazing(model), force, parameters_but(model, force));
         EXPECT_NEAR(touch.value() / known.force(), 1, 1e-12);
         const auto derivatives = known.derivatives();
         ASSERT_EQ(touch.derivatives().size(), derivatives.size());
@@ -58,7 +58,7 @@ TEST(LocatedValue, PathIsDividedWhereOneStepIsTooLong) {
     const DrivenOscillator known;
     const Model model = known.model();
     const ParameterId force = model.independent_parameter("F");
-    LocatedValue touch(model, known.grazing(model), force, {model.independent_parameter("omega")});
+    LocatedValue touch(System(model), known.grazing(model), force, {model.independent_parameter("omega")});
     DrivenOscillator other = known;
     other.omega = 0.4; // through the resonance at 1.27
     const LocatedSolution found = touch(std::vector{other.omega});
@@ -67,14 +67,14 @@ TEST(LocatedValue, PathIsDividedWhereOneStepIsTooLong) {
     EXPECT_NEAR(found.value / other.force(), 1, 1e-11);
     // Earlier calls do not matter.
     const LocatedSolution near = touch(std::vector{1.71});
-    LocatedValue fresh(model, known.grazing(model), force, {model.independent_parameter("omega")});
+    LocatedValue fresh(System(model), known.grazing(model), force, {model.independent_parameter("omega")});
     EXPECT_EQ(near.value, fresh(std::vector{1.71}).value);
     EXPECT_EQ(found.value, fresh(std::vector{other.omega}).value);
 
     LocatedValueOptions impatient;
     impatient.halvings = 0;
     const LocatedSolution none =
-        LocatedValue(model, known.grazing(model), force, {model.independent_parameter("omega")},
+        LocatedValue(System(model), known.grazing(model), force, {model.independent_parameter("omega")},
                      impatient)(std::vector{other.omega});
     EXPECT_FALSE(none.found);
     EXPECT_FALSE(none.problem.empty());
@@ -85,7 +85,7 @@ TEST(LocatedValue, MemsSwitchHasThePublishedValueAndDerivativesOfDifferences) {
     Model model;
     const SpecialPoint point = mems_grazing(model);
     const ParameterId voltage = model.independent_parameter("V");
-    LocatedValue touch(model, point, voltage, parameters_but(model, voltage));
+    LocatedValue touch(System(model), point, voltage, parameters_but(model, voltage));
     EXPECT_NEAR(touch.value(), 0.2013662121541341, 1e-12);
     const std::vector<std::string> names = model.independent_parameters();
     for (std::size_t i = 0; i < touch.others().size(); ++i) {
@@ -120,10 +120,10 @@ TEST(LocatedValue, MicroactuatorHasTheDerivativesThatDimensionsDemand) {
     settings.least = 0;
     settings.greatest = 3;
     settings.stop_at = {PointType::grazing};
-    const Branch branch = follow_branch(model, settled(model, "longest", 4000).orbit, settings);
+    const Branch branch = follow_branch(System(model), settled(model, "longest", 4000).orbit, settings);
     ASSERT_FALSE(branch.special.empty());
     ASSERT_EQ(branch.special.back().type, PointType::grazing);
-    const LocatedValue touch(model, branch.special.back(), settings.parameter,
+    const LocatedValue touch(System(model), branch.special.back(), settings.parameter,
                              parameters_but(model, settings.parameter));
     const std::vector<std::string> names = model.independent_parameters();
     const auto relative = [&](const std::vector<std::string>& of) {
@@ -143,7 +143,7 @@ TEST(LocatedValue, TouchIsFollowedIntoAnotherSegment) {
     Model model;
     const SpecialPoint point = mems_grazing(model);
     const ParameterId voltage = model.independent_parameter("V"), frequency = model.independent_parameter("omega");
-    LocatedValue touch(model, point, voltage, {frequency});
+    LocatedValue touch(System(model), point, voltage, {frequency});
     // Below 0.976 the touch comes before the voltage is switched on.
     const LocatedSolution found = touch(std::vector{0.96});
     ASSERT_TRUE(found.found) << found.problem;
@@ -155,7 +155,7 @@ TEST(LocatedValue, TouchIsFollowedIntoAnotherSegment) {
     settings.greatest = 0.4;
     settings.stop_at = {PointType::grazing};
     model.set_parameter("V", 0.1);
-    const Branch branch = follow_branch(model, settled(model, "phase0").orbit, settings);
+    const Branch branch = follow_branch(System(model), settled(model, "phase0").orbit, settings);
     ASSERT_FALSE(branch.special.empty());
     ASSERT_EQ(branch.special.back().type, PointType::grazing);
     const auto mode_of = [](const SpecialPoint& one) { return one.solution.orbit.signature[one.segment].mode; };
@@ -163,7 +163,7 @@ TEST(LocatedValue, TouchIsFollowedIntoAnotherSegment) {
     EXPECT_NEAR(found.value, branch.special.back().parameter, 1e-12);
     // The object is unchanged.
     EXPECT_EQ(touch(std::vector{1.01}).value,
-              LocatedValue(load_model("mems-switch"), point, voltage, {frequency})(std::vector{1.01}).value);
+              LocatedValue(System(load_model("mems-switch")), point, voltage, {frequency})(std::vector{1.01}).value);
 }
 
 TEST(LocatedValue, FoldsAndFlipsAreFollowedToo) {
@@ -187,11 +187,11 @@ value = 0
     settings.direction = -1;
     settings.least = -1;
     settings.greatest = 1;
-    const Branch branch = follow_branch(model, settled(model, "start").orbit, settings);
+    const Branch branch = follow_branch(System(model), settled(model, "start").orbit, settings);
     const auto fold = std::find_if(branch.special.begin(), branch.special.end(),
                                    [](const auto& one) { return one.type == PointType::fold; });
     ASSERT_NE(fold, branch.special.end());
-    LocatedValue value(model, *fold, settings.parameter, parameters_but(model, settings.parameter));
+    LocatedValue value(System(model), *fold, settings.parameter, parameters_but(model, settings.parameter));
     EXPECT_NEAR(value.value(), 0.045, 1e-12); // b^2 / r
     EXPECT_NEAR(value.derivatives()[0], 0.3, 1e-10);
     EXPECT_NEAR(value.derivatives()[1], -0.0225, 1e-10);
@@ -205,20 +205,20 @@ TEST(LocatedValue, ImpossibleArgumentsAreRefused) {
     const Model model = known.model();
     const ParameterId force = model.independent_parameter("F"), restitution = model.independent_parameter("e");
     const SpecialPoint point = known.grazing(model);
-    EXPECT_THROW(LocatedValue(model, point, force, {force}), InputError);
-    EXPECT_THROW(LocatedValue(model, point, force, {restitution, restitution}), InputError);
-    EXPECT_THROW(LocatedValue(model, point, force, {ParameterId(99)}), InputError);
-    EXPECT_THROW(LocatedValue(model, point, restitution, {force}), InputError); // moves nothing
+    EXPECT_THROW(LocatedValue(System(model), point, force, {force}), InputError);
+    EXPECT_THROW(LocatedValue(System(model), point, force, {restitution, restitution}), InputError);
+    EXPECT_THROW(LocatedValue(System(model), point, force, {ParameterId(99)}), InputError);
+    EXPECT_THROW(LocatedValue(System(model), point, restitution, {force}), InputError); // moves nothing
     SpecialPoint regular = point;
     regular.type = PointType::regular;
-    EXPECT_THROW(LocatedValue(model, regular, force, {}), InputError);
+    EXPECT_THROW(LocatedValue(System(model), regular, force, {}), InputError);
     LocatedValueOptions wrong;
     wrong.halvings = 1000;
-    EXPECT_THROW(LocatedValue(model, point, force, {}, wrong), InputError);
-    LocatedValue touch(model, point, force, {});
+    EXPECT_THROW(LocatedValue(System(model), point, force, {}, wrong), InputError);
+    LocatedValue touch(System(model), point, force, {});
     EXPECT_NEAR(touch.value() / known.force(), 1, 1e-12);
     EXPECT_THROW(touch(std::vector{1.0}), InputError);
-    LocatedValue of_mass(model, point, force, {model.independent_parameter("m")});
+    LocatedValue of_mass(System(model), point, force, {model.independent_parameter("m")});
     EXPECT_THROW(of_mass(std::vector{std::nan("")}), InputError);
     // Without mass there is no solution, and the failure has a reason.
     EXPECT_FALSE(of_mass(std::vector{0.0}).found);

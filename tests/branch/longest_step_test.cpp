@@ -52,7 +52,7 @@ TEST(LongestStep, GrowsWithAMeanThatExceedsItsOscillation) {
             BranchSettings settings;
             settings.greatest = 2;
             const Branch branch =
-                follow_branch(model, orbit_from(model, {unit * first * first * (1 + ripple), 0}), settings);
+                follow_branch(System(model), orbit_from(model, {unit * first * first * (1 + ripple), 0}), settings);
             ASSERT_EQ(names(branch), "GR") << name_of(branch.outcome) << " at " << branch.points.back().parameter;
             EXPECT_NEAR(branch.special[0].parameter, std::sqrt(0.5 / (1 + ripple)), 1e-10);
             EXPECT_LT(branch.points.size(), 400U) << ripple;
@@ -91,7 +91,8 @@ TEST(LongestStep, DoesNotPassOverFolds) {
                 BranchSettings settings;
                 settings.greatest = 120;
                 settings.steps = 4000;
-                const Branch branch = follow_branch(model, orbit_from(model, {unit * (1.5 - height), 0}), settings);
+                const Branch branch =
+                    follow_branch(System(model), orbit_from(model, {unit * (1.5 - height), 0}), settings);
                 ASSERT_EQ(names(branch), "SN SN BD") << place << ' ' << width;
                 const double off = height * std::tanh(half) - width * half;
                 EXPECT_NEAR(branch.special[0].parameter, place + off, 1e-9);
@@ -103,7 +104,7 @@ TEST(LongestStep, DoesNotPassOverFolds) {
                 fmt::format("u + {:.17g}*sin({:.17g}*u)/{:.17g}", strength, frequency, frequency), unit, 0.1, 0.05);
             BranchSettings settings;
             settings.greatest = 30;
-            const Branch branch = follow_branch(model, orbit_from(model, {unit * 1.05, 0}), settings);
+            const Branch branch = follow_branch(System(model), orbit_from(model, {unit * 1.05, 0}), settings);
             ASSERT_EQ(branch.outcome, BranchOutcome::bound);
             std::size_t folds = 0;
             const double first = std::acos(-1 / strength);

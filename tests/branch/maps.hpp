@@ -70,7 +70,7 @@ inline Branch curve_of(const Model& model, const SpecialPoint& point, BranchSett
     settings.free = {model.independent_parameter(further)};
     settings.free_bounds = {{settings.free[0], least, greatest}};
     settings.direction = direction;
-    return follow_branch(model, point.solution.orbit, settings);
+    return follow_branch(System(model), point.solution.orbit, settings);
 }
 
 } // namespace graze::testing

@@ -16,7 +16,7 @@ using namespace graze::testing;
 
 Branch of_map(const std::string& parameters, const std::vector<std::string>& images, double least, double greatest) {
     const Model model = map_model(parameters, images);
-    return follow_branch(model, fixed_point(model, std::vector<double>(images.size(), 0.0)),
+    return follow_branch(System(model), fixed_point(model, std::vector<double>(images.size(), 0.0)),
                          in_parameter(model, "p", least, greatest));
 }
 
@@ -52,7 +52,7 @@ TEST(MissedPoints, PitchforkFromTheBifurcatingBranchIsOnePoint) {
     const Model model = map_model("p = 1.3", {"p*x - x^3"});
     BranchSettings settings = in_parameter(model, "p", 0.5, 3);
     settings.direction = -1;
-    const Branch branch = follow_branch(model, fixed_point(model, {std::sqrt(0.3)}), settings);
+    const Branch branch = follow_branch(System(model), fixed_point(model, {std::sqrt(0.3)}), settings);
     EXPECT_EQ(of_type(branch, PointType::fold).size(), 0U) << names(branch);
     ASSERT_EQ(of_type(branch, PointType::branch_point).size(), 1U) << names(branch);
     EXPECT_NEAR(of_type(branch, PointType::branch_point)[0].parameter, 1, 1e-9);
@@ -128,7 +128,7 @@ next = "rest"
 )toml");
     BranchSettings settings = in_parameter(model, "p", -0.1, 0.7);
     settings.stop_when_unphysical = stop;
-    return follow_branch(model, fixed_point(model, {1}), settings);
+    return follow_branch(System(model), fixed_point(model, {1}), settings);
 }
 
 TEST(MissedPoints, FirstOfTwoTouchesWithinOneStepEndsTheBranch) {
@@ -147,7 +147,7 @@ Branch of_map_from(const std::string& image, double p, double x, double least) {
     const Model model = map_model(fmt::format("p = {}", p), {image});
     BranchSettings settings = in_parameter(model, "p", least, p + 0.1);
     settings.direction = -1;
-    return follow_branch(model, fixed_point(model, {x}), settings);
+    return follow_branch(System(model), fixed_point(model, {x}), settings);
 }
 
 TEST(MissedPoints, ContinuationDoesNotJumpToANearbyBranch) {

@@ -51,7 +51,7 @@ TEST(OrbitMonitors, ValuesForACosineAreExact) {
     const Model model = model_from(linear);
     const OrbitSolution solution = settled(model, "phase0");
     OrbitMonitors monitors(
-        model, solution.orbit.signature,
+        System(model), solution.orbit.signature,
         {monitor("period", Monitor::Kind::duration, model, ""), monitor("greatest", Monitor::Kind::maximum, model, "x"),
          monitor("least", Monitor::Kind::minimum, model, "v + 1"), monitor("mean", Monitor::Kind::mean, model, "x + 3"),
          monitor("norm", Monitor::Kind::norm, model, "x"), monitor("start", Monitor::Kind::start, model, "x"),
@@ -75,12 +75,12 @@ TEST(OrbitMonitors, BothHalvesOfASymmetricOrbitCount) {
     const std::vector<Monitor> wanted{
         monitor("greatest", Monitor::Kind::maximum, model, "x"), monitor("least", Monitor::Kind::minimum, model, "x"),
         monitor("mean", Monitor::Kind::mean, model, "x"), monitor("period", Monitor::Kind::duration, model, "")};
-    const std::vector<double> values = OrbitMonitors(model, half.orbit.signature, wanted)(half.orbit);
+    const std::vector<double> values = OrbitMonitors(System(model), half.orbit.signature, wanted)(half.orbit);
     EXPECT_NEAR(values[0], -values[1], 1e-12);
     EXPECT_NEAR(values[2], 0, 1e-12);
     EXPECT_NEAR(values[3], 2 * pi / 0.4, 1e-12);
-    const Orbit whole = whole_orbit(model, half.orbit);
-    const std::vector<double> again = OrbitMonitors(model, whole.signature, wanted)(whole);
+    const Orbit whole = whole_orbit(System(model), half.orbit);
+    const std::vector<double> again = OrbitMonitors(System(model), whole.signature, wanted)(whole);
     for (std::size_t i = 0; i < values.size(); ++i)
         EXPECT_NEAR(values[i], again[i], 1e-12);
 }
@@ -89,9 +89,9 @@ TEST(OrbitMonitors, UnknownSegmentsAreRefusedWithTheSignature) {
     const Model model = model_from(linear);
     const OrbitSolution solution = settled(model, "phase0");
     for (const char* const wrong : {"2", "0", "impact", "phase0#2", "phase0#"})
-        EXPECT_THROW(
-            OrbitMonitors(model, solution.orbit.signature, {monitor("m", Monitor::Kind::value, model, "x", wrong)}),
-            InputError)
+        EXPECT_THROW(OrbitMonitors(System(model), solution.orbit.signature,
+                                   {monitor("m", Monitor::Kind::value, model, "x", wrong)}),
+                     InputError)
             << wrong;
 }
 
@@ -104,7 +104,7 @@ TEST(MonitorsOfBranches, AreReportedAndBoundTheBranch) {
     const double unit = amplitude(0.1, 1.7, 1);
     settings.monitors[0].crossings = {0.5, 0.75};
     settings.monitors[0].greatest = 1.25;
-    const Branch branch = follow_branch(model, solution.orbit, settings);
+    const Branch branch = follow_branch(System(model), solution.orbit, settings);
     ASSERT_EQ(branch.outcome, BranchOutcome::bound) << branch.detail;
     const auto crossings = of_type(branch, PointType::crossing);
     ASSERT_EQ(crossings.size(), 2u);
@@ -125,7 +125,7 @@ void expect_resonance_curve(const Model& model, const Monitor& held, double valu
     settings.monitors = {held};
     settings.monitors[0].fixed = true;
     settings.monitors[0].held = value;
-    const Branch branch = follow_branch(model, solution.orbit, settings);
+    const Branch branch = follow_branch(System(model), solution.orbit, settings);
     ASSERT_EQ(branch.outcome, BranchOutcome::bound) << branch.detail;
     EXPECT_NEAR(branch.points.back().parameter, 0.4, 1e-12);
     for (const BranchPoint& point : branch.points) {
@@ -165,7 +165,7 @@ TEST(MonitorsOfBranches, FreeParametersMayHaveBounds) {
     const ParameterId force = settings.free[0];
     const double bound = 0.3 / amplitude(0.1, 1.2, 1); // above resonance, on the way down
     settings.free_bounds = {{force, bound, 5.0}};
-    const Branch branch = follow_branch(model, start, settings);
+    const Branch branch = follow_branch(System(model), start, settings);
     ASSERT_EQ(branch.outcome, BranchOutcome::bound) << branch.detail;
     EXPECT_EQ(names(branch), "BD");
     EXPECT_NEAR(branch.points.back().parameter, 1.2, 1e-9);
@@ -175,11 +175,11 @@ TEST(MonitorsOfBranches, FreeParametersMayHaveBounds) {
     // In the other direction the force rises beyond its bound, and no branch begins.
     settings.direction = 1;
     settings.greatest = 1.5;
-    const Branch back = follow_branch(model, end.solution.orbit, settings);
+    const Branch back = follow_branch(System(model), end.solution.orbit, settings);
     EXPECT_EQ(back.outcome, BranchOutcome::bound);
     EXPECT_EQ(back.points.back().parameter, 1.5);
     settings.free_bounds = {{force, {}, 0.9 * bound}};
-    const Branch outside = follow_branch(model, end.solution.orbit, settings);
+    const Branch outside = follow_branch(System(model), end.solution.orbit, settings);
     EXPECT_EQ(outside.outcome, BranchOutcome::bound);
     EXPECT_EQ(outside.points.size(), 0u);
     EXPECT_NE(outside.detail.find("lies beyond its bound"), std::string::npos) << outside.detail;
@@ -195,7 +195,7 @@ TEST(MonitorsOfBranches, BoundsOfParametersThatAreNotFreeAreRefused) {
     for (const FreeBounds& bounds : wrong) {
         BranchSettings settings = along_resonance(model);
         settings.free_bounds = {bounds};
-        EXPECT_THROW(follow_branch(model, start, settings), InputError);
+        EXPECT_THROW(follow_branch(System(model), start, settings), InputError);
     }
 }
 
@@ -208,7 +208,7 @@ TEST(MonitorsOfBranchesSlow, BranchEndsWherePeriodsDiverge) {
     settings.direction = 1;
     settings.monitors[0].held = amplitude(0.1, 0.7, 0.8);
     settings.work = 20'000;
-    const Branch branch = follow_branch(model, settled(model, "phase0").orbit, settings);
+    const Branch branch = follow_branch(System(model), settled(model, "phase0").orbit, settings);
     ASSERT_EQ(branch.outcome, BranchOutcome::too_long) << branch.detail;
     EXPECT_LT(branch.points.back().solution.orbit.parameters[settings.free[0].place()], 0.01);
     EXPECT_NEAR(branch.points.back().parameter, *settings.monitors[0].held, 1e-3);
@@ -220,12 +220,12 @@ TEST(MonitorsOfBranches, FixedMonitorsMustMatchTheFreeParameters) {
     BranchSettings settings;
     settings.monitors = {monitor("amplitude", Monitor::Kind::maximum, model, "x")};
     settings.free = {ParameterId(1)};
-    EXPECT_THROW(follow_branch(model, solution.orbit, settings), InputError);
+    EXPECT_THROW(follow_branch(System(model), solution.orbit, settings), InputError);
     settings.monitors[0].fixed = true;
     settings.free = {settings.parameter};
-    EXPECT_THROW(follow_branch(model, solution.orbit, settings), InputError);
+    EXPECT_THROW(follow_branch(System(model), solution.orbit, settings), InputError);
     settings.free = {};
-    EXPECT_THROW(follow_branch(model, solution.orbit, settings), InputError);
+    EXPECT_THROW(follow_branch(System(model), solution.orbit, settings), InputError);
 }
 
 } // namespace

@@ -94,10 +94,11 @@ TEST(NearGrazing, FoldsAndFlipsOfSlowImpactsAreFoundFromTheTouch) {
             const Model model = known.model(0.5L * known.amplitude(0));
             const double most = static_cast<double>(1.2L * known.amplitude(0));
             const BranchSettings settings = in_parameter(model, "amplitude", 0.01, most);
-            const Branch free = follow_branch(model, settled(model, "phase0").orbit, settings);
+            const Branch free = follow_branch(System(model), settled(model, "phase0").orbit, settings);
             ASSERT_EQ(names(free), "GR");
             EXPECT_NEAR(free.special[0].parameter, static_cast<double>(known.amplitude(0)), 1e-11);
-            const Branch impacting = follow(model, branches_at(model, free.special[0], settings).front(), settings);
+            const Branch impacting =
+                follow(model, branches_at(System(model), free.special[0], settings).front(), settings);
             ASSERT_EQ(names(impacting), fold ? "SN BD" : "PD BD") << speed;
             EXPECT_NEAR(impacting.special[0].parameter,
                         static_cast<double>(known.amplitude(fold ? known.fold() : known.flip())), 1e-10)
@@ -122,7 +123,7 @@ TEST(NearGrazing, FoldsAndFlipsOfSlowImpactsAreFoundTowardsTheTouch) {
             for (const int direction : {1, -1}) {
                 BranchSettings settings = in_parameter(model, "amplitude", 0.01, 2.5);
                 settings.direction = direction;
-                const Branch branch = follow_branch(model, orbit, settings);
+                const Branch branch = follow_branch(System(model), orbit, settings);
                 all += names(branch) + ";";
                 for (const SpecialPoint& point : branch.special)
                     if (point.type == PointType::fold || point.type == PointType::flip) {
@@ -181,7 +182,7 @@ function = "c - cos(theta)"
     for (const int direction : {1, -1}) {
         BranchSettings settings = in_parameter(model, "c", -1.5, 1.5);
         settings.direction = direction;
-        const Branch branch = follow_branch(model, settled(model, "s").orbit, settings);
+        const Branch branch = follow_branch(System(model), settled(model, "s").orbit, settings);
         EXPECT_EQ(names(branch).find("BP"), std::string::npos) << names(branch);
         EXPECT_EQ(branch.outcome, BranchOutcome::unphysical);
         EXPECT_NEAR(branch.points.back().parameter, direction, 1e-8); // the branch has a fold there
@@ -204,12 +205,12 @@ function = "-sin(theta)"
 kind = "section"
 )toml");
     BranchSettings settings = in_parameter(model, "c", -0.9, 1.5);
-    const Branch branch = follow_branch(model, settled(model, "s").orbit, settings);
+    const Branch branch = follow_branch(System(model), settled(model, "s").orbit, settings);
     EXPECT_EQ(names(branch), "GR");
     EXPECT_NEAR(branch.special.at(0).parameter, 1, 1e-12);
     settings.direction = -1;
     settings.least = -1.5;
-    const Branch down = follow_branch(model, settled(model, "s").orbit, settings);
+    const Branch down = follow_branch(System(model), settled(model, "s").orbit, settings);
     EXPECT_EQ(names(down), "GR");
     EXPECT_NEAR(down.special.at(0).parameter, -1, 1e-12);
 }

@@ -25,7 +25,8 @@ double coefficient_of(const SpecialPoint& point) {
 
 TEST(NormalForm, FlipOfTheLogisticMapIsSupercritical) {
     const Model model = map_model("r = 2.5", {"r*x*(1 - x)", "0.1*y"});
-    const Branch branch = follow_branch(model, fixed_point(model, {0.6, 0}), in_parameter(model, "r", 1.5, 3.4));
+    const Branch branch =
+        follow_branch(System(model), fixed_point(model, {0.6, 0}), in_parameter(model, "r", 1.5, 3.4));
     ASSERT_EQ(names(branch), "PD BD") << name_of(branch.outcome) << branch.detail << branch.points.size();
     EXPECT_NEAR(branch.special[0].parameter, 3, 1e-12);
     // f'' = -2 r and f''' = 0: c = (f'' / 2)^2 + f''' / 6.
@@ -38,7 +39,8 @@ TEST(NormalForm, CubicTermsMayMakeFlipsSubcritical) {
     for (const double s : {-2.0, -0.5, 1.0}) {
         const Model model =
             map_model(fmt::format("p = -0.2\nq = 1.0\ns = {}", s), {"-(1 + p)*x + q*x^2 + s*x^3", "0.1*y"});
-        const Branch branch = follow_branch(model, fixed_point(model, {0, 0}), in_parameter(model, "p", -0.5, 0.5));
+        const Branch branch =
+            follow_branch(System(model), fixed_point(model, {0, 0}), in_parameter(model, "p", -0.5, 0.5));
         ASSERT_EQ(names(branch), "PD BD");
         EXPECT_NEAR(coefficient_of(branch.special[0]), 1 + s, 1e-5);
         EXPECT_EQ(branch.special[0].detail.starts_with("super"), 1 + s > 0) << branch.special[0].detail;
@@ -50,7 +52,7 @@ TEST(NormalForm, CoefficientsScaleWithTheUnits) {
     for (const double length : {1e-9, 1e-3, 1e4, 1e9}) {
         const Model model = map_model(fmt::format("r = 2.5\nL = {:.17g}", length), {"r*x*(1 - x/L)", "0.1*y"});
         const Branch branch =
-            follow_branch(model, fixed_point(model, {0.6 * length, 0}), in_parameter(model, "r", 1.5, 3.4));
+            follow_branch(System(model), fixed_point(model, {0.6 * length, 0}), in_parameter(model, "r", 1.5, 3.4));
         ASSERT_EQ(names(branch), "PD BD") << length;
         EXPECT_NEAR(coefficient_of(branch.special[0]) * length * length, 9, 1e-4) << length;
     }
@@ -68,7 +70,7 @@ TEST(NormalForm, FoldsTellOnWhichSideTwoOrbitsExist) {
             BranchSettings settings = in_parameter(model, "p", -1, 1);
             settings.direction = -static_cast<int>(side);
             const Branch branch =
-                follow_branch(model, fixed_point(model, {start, 2 + (start - 1) * 0.3 / 0.9}), settings);
+                follow_branch(System(model), fixed_point(model, {start, 2 + (start - 1) * 0.3 / 0.9}), settings);
             ASSERT_EQ(of_type(branch, PointType::fold).size(), 1U) << names(branch) << branch.detail;
             const SpecialPoint fold = of_type(branch, PointType::fold)[0];
             EXPECT_NEAR(coefficient_of(fold), std::abs(a) / length, 1e-5) << fold.detail;
@@ -94,7 +96,7 @@ TEST(NormalForm, CuspsHaveTheCoefficientOfTheirMap) {
         SpecialPoint fold;
         for (const int direction : {1, -1}) {
             settings.direction = direction;
-            branch = follow_branch(with, fixed_point(with, {1 + u * 1.05, 2 + 0.1 * u * u}), settings);
+            branch = follow_branch(System(with), fixed_point(with, {1 + u * 1.05, 2 + 0.1 * u * u}), settings);
             if (!of_type(branch, PointType::fold).empty())
                 fold = of_type(branch, PointType::fold)[0];
         }
@@ -114,7 +116,7 @@ TEST(NormalForm, CuspsHaveTheCoefficientOfTheirMap) {
 TEST(NormalForm, GeneralisedFlipIsFoundWhereTheCoefficientVanishes) {
     const Model model = map_model("p = -0.2\nq = 1.0\ns = -2", {"-(1 + p)*x + q*x^2 + s*x^3", "0.1*y"});
     BranchSettings settings = in_parameter(model, "p", -0.5, 0.5);
-    const Branch branch = follow_branch(model, fixed_point(model, {0, 0}), settings);
+    const Branch branch = follow_branch(System(model), fixed_point(model, {0, 0}), settings);
     ASSERT_EQ(names(branch), "PD BD");
     const Branch curve = curve_of(model, branch.special[0], settings, "s", -3, 0.5, 1);
     EXPECT_EQ(curve.outcome, BranchOutcome::bound) << curve.detail;
@@ -127,14 +129,14 @@ TEST(NormalForm, FoldsOfDoubledOrbitsEndInTheGeneralisedFlip) {
     // < 0; flips at p = 0, with the coefficient s.
     const Model model = map_model("p = -0.2\ns = -0.4", {"-(1 + p)*x - s*x^3 - x^5", "0.1*y + 0.2*x^2"});
     const BranchSettings settings = in_parameter(model, "p", -0.5, 0.5);
-    const Branch branch = follow_branch(model, fixed_point(model, {0, 0}), settings);
+    const Branch branch = follow_branch(System(model), fixed_point(model, {0, 0}), settings);
     const auto flips = of_type(branch, PointType::flip);
     ASSERT_EQ(flips.size(), 1U);
     const BranchSettings in_s = in_parameter(model, "s", -1, 0.5);
     const auto found = of_type(curve_of(model, flips[0], in_s, "p", -0.3, 0.3, 1), PointType::generalised);
     ASSERT_EQ(found.size(), 1U);
     EXPECT_NEAR(found[0].parameter, 0, 1e-9);
-    const Branch doubled = follow(model, branches_at(model, flips[0], settings).at(0), settings);
+    const Branch doubled = follow(model, branches_at(System(model), flips[0], settings).at(0), settings);
     const auto folds = of_type(doubled, PointType::fold);
     ASSERT_EQ(folds.size(), 1U) << names(doubled);
     EXPECT_NEAR(folds[0].parameter, 0.04, 1e-11);
@@ -156,8 +158,8 @@ TEST(NormalForm, HenonsMapHasItsResonances) {
     BranchSettings settings = in_parameter(model, "a", -2, 5);
     BranchSettings down = settings;
     down.direction = -1;
-    const Branch up = follow_branch(model, fixed_point(model, {y, y}), settings),
-                 back = follow_branch(model, fixed_point(model, {y, y}), down);
+    const Branch up = follow_branch(System(model), fixed_point(model, {y, y}), settings),
+                 back = follow_branch(System(model), fixed_point(model, {y, y}), down);
     const auto flips = of_type(up, PointType::flip), folds = of_type(back, PointType::fold);
     ASSERT_EQ(flips.size(), 1U);
     ASSERT_EQ(folds.size(), 1U);
@@ -235,7 +237,8 @@ double coefficient_of_spiral(double w, double k) {
 TEST(NormalForm, TorusHasTheCoefficientOfItsMap) {
     for (const double w : {0.7, 1.1, 2.4}) {
         const Model model = spiral(-0.1, w);
-        const Branch branch = follow_branch(model, fixed_point(model, {0, 0}), in_parameter(model, "p", -0.3, 0.3));
+        const Branch branch =
+            follow_branch(System(model), fixed_point(model, {0, 0}), in_parameter(model, "p", -0.3, 0.3));
         ASSERT_EQ(names(branch), "NS BD") << w;
         EXPECT_NEAR(branch.special[0].parameter, 0, 1e-12);
         const double expected = coefficient_of_spiral(w, -0.4);
@@ -250,7 +253,7 @@ TEST(NormalForm, GeneralisedTorusIsFoundWhereTheCoefficientVanishes) {
     const Model model =
         map_model("p = -0.1\ns = -0.5", {g + "*(cos(0.9)*x - sin(0.9)*y)", g + "*(sin(0.9)*x + cos(0.9)*y)"});
     const BranchSettings settings = in_parameter(model, "p", -0.3, 0.3);
-    const Branch branch = follow_branch(model, fixed_point(model, {0, 0}), settings);
+    const Branch branch = follow_branch(System(model), fixed_point(model, {0, 0}), settings);
     ASSERT_EQ(names(branch), "NS BD");
     EXPECT_NEAR(coefficient_of(branch.special[0]), -1, 1e-5); // 2 s, as r^2 = 2 |w|^2
     const Branch curve = curve_of(model, branch.special[0], in_parameter(model, "s", -1, 1), "p", -0.3, 0.3, 1);
@@ -266,7 +269,7 @@ TEST(NormalForm, TorusCurveHasAllResonancesOfAGeneralisedHenonMap) {
     const double r = -0.1, y = 0.2, b = 0.5, a = y * (1 + b) + (1 - r) * y * y;
     const Model model = map_model(fmt::format("a = {:.17g}\nb = 0.5\nr = -0.1", a), {"y", "a - b*x - y^2 + r*x*y"});
     BranchSettings settings = in_parameter(model, "b", -2, 4);
-    const Branch branch = follow_branch(model, fixed_point(model, {y, y}), settings);
+    const Branch branch = follow_branch(System(model), fixed_point(model, {y, y}), settings);
     const auto torus = of_type(branch, PointType::torus);
     ASSERT_EQ(torus.size(), 1U) << names(branch);
     const auto at_trace = [&](double trace) { return trace / (r - 2); };
@@ -300,7 +303,7 @@ TEST(NormalForm, TorusCurvesBeginAtResonancesOnTheSideOfTheComplexPair) {
     for (const bool at_one : {true, false}) {
         BranchSettings along = settings;
         along.direction = at_one ? -1 : 1;
-        const Branch branch = follow_branch(model, fixed_point(model, {y, y}), along);
+        const Branch branch = follow_branch(System(model), fixed_point(model, {y, y}), along);
         const auto points = of_type(branch, at_one ? PointType::fold : PointType::flip);
         ASSERT_EQ(points.size(), 1U);
         const Branch curve = curve_of(model, points[0], settings, "b", -0.5, 1.5, at_one ? -1 : 1);
@@ -333,11 +336,11 @@ TEST(NormalForm, TorusCurvesBeginAtResonancesOnTheSideOfTheComplexPair) {
 TEST(NormalForm, CoefficientPredictsTheOpeningOfDoubledOrbits) {
     const Model model = oscillator_model(Oscillator(), 0.02);
     BranchSettings settings = in_parameter(model, "sigma", -1, 1);
-    const Branch branch = follow_branch(model, settled(model, "phase0", 400).orbit, settings);
+    const Branch branch = follow_branch(System(model), settled(model, "phase0", 400).orbit, settings);
     const auto flips = of_type(branch, PointType::flip);
     ASSERT_EQ(flips.size(), 1U);
     const double c = coefficient_of(flips[0]);
-    const BranchStart start = branches_at(model, flips[0], settings).front();
+    const BranchStart start = branches_at(System(model), flips[0], settings).front();
     settings.steps = 6;
     settings.continuation.largest_step = 2e-3;
     const Branch doubled = follow(model, start, settings);
@@ -355,7 +358,7 @@ TEST(NormalForm, CoefficientPredictsTheOpeningOfDoubledOrbits) {
         }
         Orbit left = flips[0].solution.orbit;
         left.parameters = orbit.parameters;
-        const OrbitSolution there = solve_orbit(model, left);
+        const OrbitSolution there = solve_orbit(System(model), left);
         ASSERT_EQ(there.outcome, OrbitOutcome::converged) << there.detail;
         double growth = -1;
         for (const Complex multiplier : there.multipliers)

@@ -46,7 +46,7 @@ TEST(NormalForms, ClosedBranchIsFollowedOnce) {
             BranchSettings settings;
             settings.direction = direction;
             settings.continuation.first_step = first_step;
-            const Branch branch = follow_branch(model, orbit_from(model, {1.8, 0}, 2 * pi), settings);
+            const Branch branch = follow_branch(System(model), orbit_from(model, {1.8, 0}, 2 * pi), settings);
             EXPECT_EQ(branch.outcome, BranchOutcome::closed) << branch.detail;
             ASSERT_EQ(names(branch), "SN SN");
             EXPECT_NEAR(branch.special[0].parameter, direction, 1e-12);
@@ -83,7 +83,7 @@ value = 0
     BranchSettings settings;
     settings.direction = -1;
     settings.least = -0.5;
-    const Branch branch = follow_branch(model, settled(model, "start").orbit, settings);
+    const Branch branch = follow_branch(System(model), settled(model, "start").orbit, settings);
     EXPECT_EQ(names(branch), "BD");
     EXPECT_EQ(branch.points.back().parameter, -0.5);
     EXPECT_NEAR(branch.points.back().solution.orbit.starts[0][0], -branch.points.front().solution.orbit.starts[0][0],
@@ -96,10 +96,10 @@ TEST(NormalForms, TranscriticalBranchesCross) {
     BranchSettings settings;
     settings.greatest = 0.5;
     settings.least = -0.5;
-    const Branch branch = follow_branch(model, orbit_from(model, {1, 0}, 2 * pi), settings);
+    const Branch branch = follow_branch(System(model), orbit_from(model, {1, 0}, 2 * pi), settings);
     ASSERT_EQ(names(branch), "BP BD");
     EXPECT_NEAR(branch.special[0].parameter, 0, 1e-12);
-    const auto starts = branches_at(model, branch.special[0], settings);
+    const auto starts = branches_at(System(model), branch.special[0], settings);
     ASSERT_EQ(starts.size(), 2U);
     for (const BranchStart& start : starts) {
         const Branch other = follow(model, start, settings);
@@ -117,16 +117,16 @@ TEST(NormalForms, PitchforkIsFoundWithAndWithoutDeclaredSymmetry) {
         const Model model = about_clock("u*(p - u^2)", -0.5, 1, declared ? symmetry : "");
         Orbit orbit = orbit_from(model, {1, 0}, 2 * pi);
         if (declared) {
-            orbit = half_orbit(model, orbit).value();
+            orbit = half_orbit(System(model), orbit).value();
             EXPECT_NEAR(orbit.durations[0], pi, 1e-15);
         }
         BranchSettings settings;
         settings.greatest = 0.5;
-        const Branch branch = follow_branch(model, orbit, settings);
+        const Branch branch = follow_branch(System(model), orbit, settings);
         ASSERT_EQ(names(branch), declared ? "SB BD" : "BP BD");
         EXPECT_NEAR(branch.special[0].parameter, 0, 1e-12);
         EXPECT_LT(nearest_multiplier(branch.special[0].solution, 1), 1e-10);
-        const auto starts = branches_at(model, branch.special[0], settings);
+        const auto starts = branches_at(System(model), branch.special[0], settings);
         ASSERT_EQ(starts.size(), 2U);
         double sides = 0;
         for (const BranchStart& start : starts) {
@@ -150,14 +150,14 @@ TEST(NormalForms, TorusPointIsFoundWhereAFocusLosesStability) {
     const Model model = torus_model();
     BranchSettings settings;
     settings.greatest = 0.1;
-    const Branch branch = follow_branch(model, orbit_from(model, {1, 0, 0}, 2 * pi), settings);
+    const Branch branch = follow_branch(System(model), orbit_from(model, {1, 0, 0}, 2 * pi), settings);
     ASSERT_EQ(names(branch), "NS BD");
     const SpecialPoint& torus = branch.special[0];
     EXPECT_NEAR(torus.parameter, 0, 1e-13);
     const std::complex<double> turn = std::polar(1.0, 2 * pi * 0.3);
     EXPECT_LT(std::min(std::abs(torus.solution.multipliers[0] - turn), std::abs(torus.solution.multipliers[1] - turn)),
               1e-11);
-    EXPECT_THROW(branches_at(model, torus, settings), InputError);
+    EXPECT_THROW(branches_at(System(model), torus, settings), InputError);
     for (const BranchPoint& point : branch.points) {
         EXPECT_NEAR(std::abs(point.solution.multipliers[0]), std::exp(2 * pi * point.parameter), 1e-10);
         EXPECT_EQ(point.stable, point.parameter < 0);
@@ -194,11 +194,11 @@ TEST(NormalForms, DoubledOrbitHasItsClosedForm) {
     const Model model = flipping("p", -0.2);
     BranchSettings settings;
     settings.greatest = 0.3;
-    const Branch branch = follow_branch(model, orbit_from(model, {1, 0, 0}, 2 * pi), settings);
+    const Branch branch = follow_branch(System(model), orbit_from(model, {1, 0, 0}, 2 * pi), settings);
     ASSERT_EQ(names(branch), "PD BD");
     EXPECT_NEAR(branch.special[0].parameter, 0, 1e-12);
     expect_flip(branch.special[0]);
-    const auto starts = branches_at(model, branch.special[0], settings);
+    const auto starts = branches_at(System(model), branch.special[0], settings);
     ASSERT_EQ(starts.size(), 1U);
     const Branch doubled = follow(model, starts[0], settings);
     EXPECT_EQ(names(doubled), "BD");
@@ -225,7 +225,7 @@ TEST(NormalForms, PairsOfPointsWithinOneStepAreFound) {
         BranchSettings settings;
         settings.greatest = 0.5;
         settings.continuation.largest_step = 0.1;
-        const Branch branch = follow_branch(model, orbit_from(model, start, 2 * pi), settings);
+        const Branch branch = follow_branch(System(model), orbit_from(model, start, 2 * pi), settings);
         ASSERT_EQ(names(branch), flips ? "PD PD BD" : "BP BP BD");
         EXPECT_EQ(branch.special[0].step, branch.special[1].step);
         EXPECT_NEAR(branch.special[0].parameter, -0.01, 1e-12);
@@ -258,7 +258,7 @@ TEST(NormalFormsSlow, StiffRelaxationOscillationIsFollowed) {
     AttractorOptions options;
     options.section = "top";
     options.longest_return = 4000;
-    const OrbitSolution solution = find_orbit(model, options);
+    const OrbitSolution solution = find_orbit(System(model), options);
     ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
     // Dorodnitsyn's expansion, to the terms of order log(mu)/mu.
     const double mu = 1000, first_zero = 2.338107410459767;
@@ -274,7 +274,7 @@ TEST(NormalForms, SearchForAnOrbitCanBeInterrupted) {
     AttractorOptions options;
     options.section = "top";
     int asked = 0;
-    EXPECT_FALSE(find_orbit(model, options, {}, {}, [&] { return ++asked == 2; }).has_value());
+    EXPECT_FALSE(find_orbit(System(model), options, {}, {}, [&] { return ++asked == 2; }).has_value());
     EXPECT_EQ(asked, 2);
 }
 
@@ -289,7 +289,7 @@ TEST(NormalForms, VanDerPolHasItsPublishedPeriod) {
     settings.greatest = 10;
     for (const int direction : {1, -1}) {
         settings.direction = direction;
-        const Branch branch = follow_branch(model, solution.orbit, settings);
+        const Branch branch = follow_branch(System(model), solution.orbit, settings);
         EXPECT_EQ(names(branch), "BD");
         for (const BranchPoint& point : branch.points) {
             EXPECT_TRUE(point.stable);
@@ -305,7 +305,7 @@ TEST(NormalForms, VanDerPolHasItsPublishedPeriod) {
     }
     // Published period at mu = 10: 19.0783695 (Krogdahl 1960; Andersen and Geer 1982).
     settings.direction = 1;
-    const Branch stiff = follow_branch(model, solution.orbit, settings);
+    const Branch stiff = follow_branch(System(model), solution.orbit, settings);
     EXPECT_NEAR(stiff.points.back().solution.orbit.period(), 19.07836957, 1e-6);
 }
 
@@ -333,8 +333,8 @@ map = { x = "-x", v = "-v", theta = "theta + pi" }
     settings.greatest = 2.5;
     const OrbitSolution start = settled(model, "start");
     ASSERT_TRUE(start.orbit.symmetry);
-    const Branch half = follow_branch(model, start.orbit, settings);
-    const Branch whole = follow_branch(model, whole_orbit(model, start.orbit), settings);
+    const Branch half = follow_branch(System(model), start.orbit, settings);
+    const Branch whole = follow_branch(System(model), whole_orbit(System(model), start.orbit), settings);
     for (const Branch* branch : {&half, &whole}) {
         ASSERT_EQ(names(*branch), "SN SN BD");
         for (const SpecialPoint& fold : of_type(*branch, PointType::fold))

@@ -32,9 +32,9 @@ struct OneImpact {
 
 TEST(OrbitBranch, FindsTheSamePointsFromBothEnds) {
     OneImpact one;
-    const Branch up = follow_branch(one.model, one.orbit, one.settings);
+    const Branch up = follow_branch(System(one.model), one.orbit, one.settings);
     one.settings.direction = -1;
-    const Branch down = follow_branch(one.model, one.orbit, one.settings);
+    const Branch down = follow_branch(System(one.model), one.orbit, one.settings);
     ASSERT_EQ(names(up), "PD GR");
     ASSERT_EQ(names(down), "SN GR");
     // From near the one end to the other. The one in the middle is where it began.
@@ -44,7 +44,7 @@ TEST(OrbitBranch, FindsTheSamePointsFromBothEnds) {
             expected.push_back(point.parameter);
     std::sort(expected.begin(), expected.end());
     const Orbit& end = up.points[up.points.size() - 2].solution.orbit;
-    const Branch all = follow_branch(one.model, end, one.settings);
+    const Branch all = follow_branch(System(one.model), end, one.settings);
     ASSERT_EQ(names(all), "PD SN GR");
     EXPECT_NEAR(all.special[0].parameter, up.special[0].parameter, 1e-13);
     EXPECT_NEAR(all.special[1].parameter, down.special[0].parameter, 1e-13);
@@ -54,13 +54,13 @@ TEST(OrbitBranch, FindsTheSamePointsFromBothEnds) {
 TEST(OrbitBranch, PointsDoNotDependOnStepLengths) {
     OneImpact one;
     one.settings.direction = -1;
-    const Branch reference = follow_branch(one.model, one.orbit, one.settings);
+    const Branch reference = follow_branch(System(one.model), one.orbit, one.settings);
     for (const double first : {1e-4, 1e-3, 0.03, 0.3})
         for (const double largest : {0.02, 0.1, 0.4}) {
             one.settings.continuation.first_step = first;
             one.settings.continuation.largest_step = largest;
             one.settings.steps = 5000;
-            const Branch branch = follow_branch(one.model, one.orbit, one.settings);
+            const Branch branch = follow_branch(System(one.model), one.orbit, one.settings);
             ASSERT_EQ(names(branch), names(reference)) << first << ' ' << largest;
             for (std::size_t i = 0; i < branch.special.size(); ++i) {
                 EXPECT_NEAR(branch.special[i].parameter, reference.special[i].parameter, 1e-12);
@@ -77,7 +77,7 @@ TEST(OrbitBranch, EndsOnItsBounds) {
         one.settings.direction = direction;
         one.settings.least = -0.1;
         one.settings.greatest = 0.05;
-        const Branch branch = follow_branch(one.model, one.orbit, one.settings);
+        const Branch branch = follow_branch(System(one.model), one.orbit, one.settings);
         EXPECT_EQ(branch.outcome, BranchOutcome::bound);
         ASSERT_EQ(names(branch), "BD");
         const double bound = direction > 0 ? 0.05 : -0.1;
@@ -88,11 +88,11 @@ TEST(OrbitBranch, EndsOnItsBounds) {
         // From a point on the bound, the branch ends at once in one direction and continues in the other.
         one.settings.least = direction > 0 ? -0.1 : 0.02;
         one.settings.greatest = direction > 0 ? 0.02 : 0.05;
-        const Branch none = follow_branch(one.model, one.orbit, one.settings);
+        const Branch none = follow_branch(System(one.model), one.orbit, one.settings);
         EXPECT_EQ(none.outcome, BranchOutcome::bound);
         EXPECT_EQ(none.points.size(), 1U);
         one.settings.direction = -direction;
-        const Branch back = follow_branch(one.model, one.orbit, one.settings);
+        const Branch back = follow_branch(System(one.model), one.orbit, one.settings);
         EXPECT_EQ(back.outcome, BranchOutcome::bound);
         EXPECT_GT(back.points.size(), 2U);
         EXPECT_EQ(back.points.back().parameter, direction > 0 ? -0.1 : 0.05);
@@ -102,21 +102,21 @@ TEST(OrbitBranch, EndsOnItsBounds) {
 TEST(OrbitBranch, StopsAtRequestedTypes) {
     OneImpact one;
     one.settings.stop_at = {PointType::flip};
-    const Branch branch = follow_branch(one.model, one.orbit, one.settings);
+    const Branch branch = follow_branch(System(one.model), one.orbit, one.settings);
     EXPECT_EQ(branch.outcome, BranchOutcome::stopped);
     ASSERT_EQ(names(branch), "PD");
     EXPECT_EQ(branch.points.back().parameter, branch.special[0].parameter);
     one.settings.stop_at = {};
     one.settings.steps = 7;
-    const Branch few = follow_branch(one.model, one.orbit, one.settings);
+    const Branch few = follow_branch(System(one.model), one.orbit, one.settings);
     EXPECT_EQ(few.outcome, BranchOutcome::steps);
     EXPECT_EQ(few.points.size(), 8U);
     one.settings.steps = 0;
-    EXPECT_EQ(follow_branch(one.model, one.orbit, one.settings).points.size(), 1U);
+    EXPECT_EQ(follow_branch(System(one.model), one.orbit, one.settings).points.size(), 1U);
     one.settings.steps = 100;
     std::size_t seen = 0;
-    const Branch visited =
-        follow_branch(one.model, one.orbit, one.settings, [&](const BranchPoint&, const auto&) { return ++seen < 4; });
+    const Branch visited = follow_branch(System(one.model), one.orbit, one.settings,
+                                         [&](const BranchPoint&, const auto&) { return ++seen < 4; });
     EXPECT_EQ(visited.outcome, BranchOutcome::stopped);
     EXPECT_EQ(visited.points.size(), 4U);
 }
@@ -125,14 +125,14 @@ TEST(OrbitBranch, MayContinueThroughInadmissibleOrbits) {
     OneImpact one;
     one.settings.stop_when_unphysical = false;
     one.settings.steps = 1000;
-    const Branch branch = follow_branch(one.model, one.orbit, one.settings);
+    const Branch branch = follow_branch(System(one.model), one.orbit, one.settings);
     const auto grazings = of_type(branch, PointType::grazing);
     ASSERT_GE(grazings.size(), 1U);
     EXPECT_TRUE(grazings[0].at_end);
     // All solutions lie on a closed curve with inadmissible parts.
     EXPECT_EQ(branch.outcome, BranchOutcome::closed) << branch.detail;
     std::size_t possible = 0;
-    const Simulation simulation(one.model);
+    const Simulation simulation{System(one.model)};
     for (const BranchPoint& point : branch.points) {
         // Simulation follows exactly the admissible ones.
         const Orbit& orbit = point.solution.orbit;
@@ -150,8 +150,8 @@ TEST(OrbitBranch, MayContinueThroughInadmissibleOrbits) {
 
 TEST(OrbitBranch, CanBeStoppedAndResumed) {
     OneImpact one;
-    const Branch whole = follow_branch(one.model, one.orbit, one.settings);
-    OrbitBranch first(one.model, one.orbit, one.settings);
+    const Branch whole = follow_branch(System(one.model), one.orbit, one.settings);
+    OrbitBranch first(System(one.model), one.orbit, one.settings);
     ASSERT_TRUE(first.start());
     std::size_t step = 0;
     const auto compare = [&](const OrbitBranch& branch) {
@@ -173,13 +173,13 @@ TEST(OrbitBranch, CanBeStoppedAndResumed) {
 TEST(OrbitBranch, SixtySegmentsGiveTheSamePointsAsOne) {
     OneImpact one;
     one.settings.direction = -1;
-    const Branch single = follow_branch(one.model, one.orbit, one.settings);
+    const Branch single = follow_branch(System(one.model), one.orbit, one.settings);
     Orbit many = one.orbit;
     many.signature = parse_signature(one.model, "impact^60");
     many.starts.assign(60, one.orbit.starts[0]);
     many.durations.assign(60, one.orbit.durations[0]);
     one.settings.continuation.largest_step = 0.5; // lengths of steps are sums over all segments
-    const Branch branch = follow_branch(one.model, many, one.settings);
+    const Branch branch = follow_branch(System(one.model), many, one.settings);
     const auto folds = of_type(branch, PointType::fold);
     ASSERT_EQ(folds.size(), 1U);
     EXPECT_NEAR(folds[0].parameter, single.special[0].parameter, 1e-11);
@@ -203,7 +203,7 @@ TEST(OrbitBranch, WrongSettingsAreRefused) {
     const auto refused = [&](const std::function<void(BranchSettings&)>& change) {
         BranchSettings settings = one.settings;
         change(settings);
-        return refusal([&] { follow_branch(one.model, one.orbit, settings); });
+        return refusal([&] { follow_branch(System(one.model), one.orbit, settings); });
     };
     EXPECT_NE(refused([](auto& s) { s.direction = 0; }).find("direction"), std::string::npos);
     EXPECT_NE(refused([](auto& s) { s.parameter = ParameterId(99); }).find("parameter"), std::string::npos);
@@ -215,15 +215,16 @@ TEST(OrbitBranch, WrongSettingsAreRefused) {
     EXPECT_NE(refused([](auto& s) { s.orbit.tolerance = 1; }).find("tolerance"), std::string::npos);
     Orbit wrong = one.orbit;
     wrong.starts[0].pop_back();
-    EXPECT_NE(refusal([&] { follow_branch(one.model, wrong, one.settings); }).find("states"), std::string::npos);
-    OrbitBranch branch(one.model, one.orbit, one.settings);
+    EXPECT_NE(refusal([&] { follow_branch(System(one.model), wrong, one.settings); }).find("states"),
+              std::string::npos);
+    OrbitBranch branch(System(one.model), one.orbit, one.settings);
     EXPECT_NE(refusal([&] { branch.start_along({{{1, 2}}, {1}, {}}, 0.1); }).find("direction"), std::string::npos);
     EXPECT_FALSE(branch.step());
     // A candidate from which no orbit is found.
     wrong = one.orbit;
     wrong.starts[0] = {0.02, -300, 0};
     wrong.durations[0] = 1e-3;
-    const Branch none = follow_branch(one.model, wrong, one.settings);
+    const Branch none = follow_branch(System(one.model), wrong, one.settings);
     if (none.points.empty()) {
         EXPECT_EQ(none.outcome, BranchOutcome::no_start);
         EXPECT_FALSE(none.detail.empty());
@@ -234,12 +235,14 @@ TEST(OrbitBranch, PointsWithoutOtherBranchesAreRefused) {
     const OneImpact one;
     BranchSettings settings = one.settings;
     settings.direction = -1;
-    const Branch branch = follow_branch(one.model, one.orbit, settings);
-    EXPECT_NE(refusal([&] { branches_at(one.model, branch.special.at(0), settings); }).find("SN"), std::string::npos);
+    const Branch branch = follow_branch(System(one.model), one.orbit, settings);
+    EXPECT_NE(refusal([&] { branches_at(System(one.model), branch.special.at(0), settings); }).find("SN"),
+              std::string::npos);
     settings.direction = 1;
     settings.greatest = 0.05;
-    const Branch bounded = follow_branch(one.model, one.orbit, settings);
-    EXPECT_NE(refusal([&] { branches_at(one.model, bounded.special.at(0), settings); }).find("BD"), std::string::npos);
+    const Branch bounded = follow_branch(System(one.model), one.orbit, settings);
+    EXPECT_NE(refusal([&] { branches_at(System(one.model), bounded.special.at(0), settings); }).find("BD"),
+              std::string::npos);
 }
 
 /// An oscillator with a stop, and an independent u' = u (p - u^2) whose branches cross at p = 0. The impact disappears
@@ -289,14 +292,14 @@ TEST(OrbitBranch, CrossingNearAVanishingContactIsKept) {
         trivial.starts[0][2] = std::cos(trivial.starts[0][3]);
         settings.direction = -1;
         settings.stop_at = {PointType::grazing};
-        const Branch without = follow_branch(model, trivial, settings);
+        const Branch without = follow_branch(System(model), trivial, settings);
         ASSERT_FALSE(without.special.empty());
         const SpecialPoint grazing = without.special.back();
         ASSERT_EQ(grazing.type, PointType::grazing);
         settings.stop_at = {};
         settings.steps = 40;
         settings.reorder = false;
-        const Branch impacting = follow(model, branches_at(model, grazing, settings).at(0), settings);
+        const Branch impacting = follow(model, branches_at(System(model), grazing, settings).at(0), settings);
         ASSERT_GT(impacting.points.size(), 10U);
         EXPECT_LT(impacting.points.back().parameter, -1e-3);
         // Back to where the impact disappears, with different step lengths.
@@ -304,7 +307,7 @@ TEST(OrbitBranch, CrossingNearAVanishingContactIsKept) {
             settings.continuation.largest_step = step;
             settings.steps = 1000;
             const BranchPoint& far = impacting.points.back();
-            OrbitBranch back(model, far.solution.orbit, settings);
+            OrbitBranch back(System(model), far.solution.orbit, settings);
             OrbitDirection direction = far.tangent;
             for (std::vector<double>* numbers : {&direction.starts[0], &direction.durations, &direction.parameters})
                 for (double& one : *numbers)
@@ -318,7 +321,7 @@ TEST(OrbitBranch, CrossingNearAVanishingContactIsKept) {
                     }
                     if (special.type == PointType::grazing) {
                         EXPECT_NEAR(special.parameter, lost, 1e-10);
-                        const OrbitSolution again = solve_orbit(model, special.solution.orbit);
+                        const OrbitSolution again = solve_orbit(System(model), special.solution.orbit);
                         EXPECT_TRUE(again.multipliers.empty()); // they diverge at zero speed
                     }
                 }

@@ -134,12 +134,12 @@ TEST(OrbitQuantities, ConditionsVanishAtLocatedPoints) {
     settings.parameter = model.independent_parameter("V");
     settings.least = 0;
     settings.greatest = 3;
-    const Branch before = follow_branch(model, settled(model, "longest", 4000).orbit, settings);
-    const Branch impacting = follow(model, branches_at(model, before.special.back(), settings).at(0), settings);
+    const Branch before = follow_branch(System(model), settled(model, "longest", 4000).orbit, settings);
+    const Branch impacting = follow(model, branches_at(System(model), before.special.back(), settings).at(0), settings);
     BranchSettings back = settings;
     back.direction = -1;
     ASSERT_GT(impacting.points.size(), 50U);
-    const Branch returned = follow_branch(model, impacting.points[50].solution.orbit, back);
+    const Branch returned = follow_branch(System(model), impacting.points[50].solution.orbit, back);
     std::size_t grazings = 0;
     for (const Branch* branch : {&before, &returned})
         for (const SpecialPoint& special : branch->special) {
@@ -147,7 +147,7 @@ TEST(OrbitQuantities, ConditionsVanishAtLocatedPoints) {
             if (!make)
                 continue;
             grazings += special.type == PointType::grazing ? 1 : 0;
-            const Simulation simulation(model, {}, {}, integration(1e-13));
+            const Simulation simulation(System(model), {}, {}, integration(1e-13));
             const Orbit& orbit = special.solution.orbit;
             for (const bool by_collocation : {false, true}) {
                 std::unique_ptr<OrbitEquations> equations =

@@ -93,7 +93,7 @@ SpecialPoint found(const Model& model, const std::string& signature, std::vector
     settings.stop_at = {type};
     const Orbit orbit{
         parse_signature(model, signature), model.parameter_values(), std::move(starts), std::move(durations), {}};
-    const Branch branch = follow_branch(model, orbit, settings);
+    const Branch branch = follow_branch(System(model), orbit, settings);
     EXPECT_EQ(branch.outcome, BranchOutcome::stopped) << names(branch) << branch.detail;
     return branch.special.empty() ? SpecialPoint{} : branch.special.back();
 }
@@ -226,7 +226,7 @@ TEST(OrderCurves, TouchesContinueWhereOtherEventsChangeTheirOrder) {
     const auto force = [](double omega) { return std::hypot(1 - omega * omega, 0.2 * omega); };
     const OrbitSolution start = settled(model, "late", 400);
     BranchSettings settings = in_parameter(model, "F", 0.1, 5);
-    const Branch branch = follow_branch(model, start.orbit, settings);
+    const Branch branch = follow_branch(System(model), start.orbit, settings);
     const auto touches = of_type(branch, PointType::grazing);
     ASSERT_EQ(touches.size(), 1U) << names(branch) << branch.detail;
     EXPECT_NEAR(touches[0].parameter, force(1.3), 1e-11);
@@ -298,7 +298,7 @@ mode = "free"
 TEST(OrderCurves, TouchesPassTheSectionOfTheOrbit) {
     const Model model = with_stops({{"stop", "1 - x"}});
     BranchSettings settings = in_parameter(model, "F", 0.1, 5);
-    const Branch branch = follow_branch(model, settled(model, "phase").orbit, settings);
+    const Branch branch = follow_branch(System(model), settled(model, "phase").orbit, settings);
     ASSERT_EQ(names(branch), "GR");
     const Branch curve = curve_of(model, branch.special[0], settings, "omega", 0.9, 2.2, 1);
     ASSERT_EQ(names(curve), "VS BD") << curve.detail; // where half a free oscillation takes a period of the force
@@ -319,7 +319,7 @@ TEST(OrderCurves, TouchesPassTheEndsOfAHalfOrbit) {
     BranchSettings settings = in_parameter(model, "F", 0.1, 5);
     const OrbitSolution start = settled(model, "phase");
     ASSERT_TRUE(start.orbit.symmetry);
-    const Branch branch = follow_branch(model, start.orbit, settings);
+    const Branch branch = follow_branch(System(model), start.orbit, settings);
     ASSERT_EQ(names(branch), "GR");
     const std::string first = branch.special[0].detail;
     const Branch curve = curve_of(model, branch.special[0], settings, "omega", 0.9, 2.2, 1);

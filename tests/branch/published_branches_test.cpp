@@ -28,7 +28,9 @@ struct Microactuator {
         settings.greatest = 3;
         settings.steps = 1000;
     }
-    Branch without_contact() const { return follow_branch(model, settled(model, "longest", 4000).orbit, settings); }
+    Branch without_contact() const {
+        return follow_branch(System(model), settled(model, "longest", 4000).orbit, settings);
+    }
 };
 
 TEST(PublishedBranches, MicroactuatorHasItsPublishedPointsUpToTheFirstContact) {
@@ -67,7 +69,7 @@ void expect_contacts(double omega, const std::vector<double>& grazings, double t
         const SpecialPoint grazing = branch.special.back();
         EXPECT_NEAR(grazing.parameter, grazings[n], tolerance) << n;
         expect_touch(one.model, grazing, 0.5);
-        const auto starts = branches_at(one.model, grazing, one.settings);
+        const auto starts = branches_at(System(one.model), grazing, one.settings);
         ASSERT_EQ(starts.size(), 1U);
         EXPECT_EQ(to_string(one.model, starts[0].orbit.signature), n == 0 ? "J8 J1" : fmt::format("(J8 J1)^{}", n + 1));
         branch = follow(one.model, starts[0], one.settings);
@@ -96,7 +98,7 @@ TEST(PublishedBranches, MicroactuatorWithOneContactHasItsFlip) {
     const Microactuator one(0.9189);
     const Branch before = one.without_contact();
     const Branch branch =
-        follow(one.model, branches_at(one.model, before.special.back(), one.settings).at(0), one.settings);
+        follow(one.model, branches_at(System(one.model), before.special.back(), one.settings).at(0), one.settings);
     const auto flips = of_type(branch, PointType::flip);
     ASSERT_EQ(flips.size(), 1U);
     EXPECT_NEAR(flips[0].parameter, 0.858230023098903, 1e-12);
@@ -106,21 +108,22 @@ TEST(PublishedBranches, MicroactuatorWithOneContactHasItsFlip) {
 TEST(PublishedBranches, MicroactuatorLosesItsContactWhereItWasGained) {
     const Microactuator one(0.9189);
     const Branch before = one.without_contact();
-    Branch branch = follow(one.model, branches_at(one.model, before.special.back(), one.settings).at(0), one.settings);
+    Branch branch =
+        follow(one.model, branches_at(System(one.model), before.special.back(), one.settings).at(0), one.settings);
     const auto far = std::find_if(branch.points.begin(), branch.points.end(),
                                   [](const BranchPoint& point) { return point.parameter > 0.65; });
     ASSERT_NE(far, branch.points.end());
     // Back from far away, towards vanishing speed.
     BranchSettings back = one.settings;
     back.direction = -1;
-    const Branch returned = follow_branch(one.model, far->solution.orbit, back);
+    const Branch returned = follow_branch(System(one.model), far->solution.orbit, back);
     ASSERT_EQ(names(returned), "GR");
     const SpecialPoint& lost = returned.special[0];
     EXPECT_TRUE(lost.at_end);
     EXPECT_EQ(returned.outcome, BranchOutcome::unphysical);
     // The contact speed vanishes with the square root of the distance, so the parameter is less accurate.
     EXPECT_NEAR(lost.parameter, 0.5876212422746997, 1e-11);
-    const auto starts = branches_at(one.model, lost, one.settings);
+    const auto starts = branches_at(System(one.model), lost, one.settings);
     ASSERT_EQ(starts.size(), 1U);
     EXPECT_EQ(starts[0].orbit.segments(), 1U);
     const Branch without = follow(one.model, starts[0], one.settings);
@@ -141,12 +144,12 @@ TEST(PublishedBranches, TestbedHasItsPublishedGrazing) {
         settings.parameter = model.independent_parameter("V0");
         const Orbit orbit = settled(model, "phase0", 600).orbit;
         ASSERT_TRUE(orbit.symmetry);
-        const Branch branch = follow_branch(model, orbit, settings);
+        const Branch branch = follow_branch(System(model), orbit, settings);
         ASSERT_EQ(names(branch), "GR");
         EXPECT_NEAR(branch.special[0].parameter, voltage, 1e-11);
         expect_touch(model, branch.special[0], 1e-3);
         // One impact against the stop in each half: the orbit stays symmetric.
-        const auto starts = branches_at(model, branch.special[0], settings);
+        const auto starts = branches_at(System(model), branch.special[0], settings);
         ASSERT_EQ(starts.size(), 1U);
         EXPECT_TRUE(starts[0].orbit.symmetry);
         EXPECT_EQ(to_string(model, starts[0].orbit.signature), "impact");
@@ -160,7 +163,7 @@ TEST(PublishedBranches, TestbedHasOneCurveOfGrazings) {
     model.set_parameter("V0", 3);
     BranchSettings settings;
     settings.parameter = model.independent_parameter("V0");
-    const Branch branch = follow_branch(model, settled(model, "phase0", 600).orbit, settings);
+    const Branch branch = follow_branch(System(model), settled(model, "phase0", 600).orbit, settings);
     ASSERT_EQ(names(branch), "GR");
     settings.kept = branch.special[0];
     settings.free = {settings.parameter};
@@ -168,7 +171,7 @@ TEST(PublishedBranches, TestbedHasOneCurveOfGrazings) {
     settings.direction = -1;
     for (const auto& [frequency, voltage] : {std::pair{7.0, 3.675357252066}, {6.25, 4.833263260865}}) {
         settings.least = frequency;
-        const Branch curve = follow_branch(model, branch.special[0].solution.orbit, settings);
+        const Branch curve = follow_branch(System(model), branch.special[0].solution.orbit, settings);
         ASSERT_EQ(curve.outcome, BranchOutcome::bound) << curve.detail;
         EXPECT_NEAR(curve.points.back().solution.orbit.parameters[settings.free[0].place()], voltage, 1e-11);
     }
@@ -182,14 +185,14 @@ TEST(PublishedBranches, TestbedOrbitOfThreePeriodsHasItsPublishedPoints) {
     BranchSettings settings;
     settings.parameter = model.independent_parameter("V0");
     settings.direction = -1;
-    const Branch down = follow_branch(model, solution.orbit, settings);
+    const Branch down = follow_branch(System(model), solution.orbit, settings);
     const auto folds = of_type(down, PointType::fold);
     ASSERT_EQ(folds.size(), 1U);
     EXPECT_NEAR(folds[0].parameter, 4.789014895054, 1e-11);
     expect_fold(down, folds[0]);
 
     settings.direction = 1;
-    const Branch up = follow_branch(model, solution.orbit, settings);
+    const Branch up = follow_branch(System(model), solution.orbit, settings);
     const auto breaking = of_type(up, PointType::asymmetry);
     ASSERT_GE(breaking.size(), 1U);
     EXPECT_NEAR(breaking[0].parameter, 4.846244144797, 1e-11);
@@ -199,7 +202,7 @@ TEST(PublishedBranches, TestbedOrbitOfThreePeriodsHasItsPublishedPoints) {
     EXPECT_LT(nearest_multiplier(breaking[0].solution, 1), 1e-9);
 
     // Two asymmetric branches, images of each other.
-    const auto starts = branches_at(model, breaking[0], settings);
+    const auto starts = branches_at(System(model), breaking[0], settings);
     ASSERT_EQ(starts.size(), 2U);
     const Branch one = follow(model, starts[0], settings), other = follow(model, starts[1], settings);
     EXPECT_EQ(names(one), names(other));
@@ -209,7 +212,7 @@ TEST(PublishedBranches, TestbedOrbitOfThreePeriodsHasItsPublishedPoints) {
     ASSERT_GT(one.points.size(), 2U);
     const Orbit& whole = one.points[2].solution.orbit;
     EXPECT_FALSE(whole.symmetry);
-    EXPECT_FALSE(half_orbit(model, whole));
+    EXPECT_FALSE(half_orbit(System(model), whole));
     EXPECT_NEAR(whole.period(), 3 / 6.25, 1e-10);
 }
 
@@ -219,7 +222,7 @@ TEST(PublishedBranches, MemsSwitchHasItsPublishedGrazing) {
     model.set_initial("q", 0);
     BranchSettings settings;
     settings.parameter = model.independent_parameter("V");
-    const Branch branch = follow_branch(model, settled(model, "phase0").orbit, settings);
+    const Branch branch = follow_branch(System(model), settled(model, "phase0").orbit, settings);
     ASSERT_EQ(names(branch), "GR");
     const SpecialPoint& grazing = branch.special[0];
     EXPECT_NEAR(grazing.parameter, 0.2013662121541341, 1e-13);
@@ -230,7 +233,7 @@ TEST(PublishedBranches, MemsSwitchHasItsPublishedGrazing) {
     EXPECT_NEAR(std::abs(grazing.solution.multipliers[0].imag()), 0.0970812655112, 1e-11);
     expect_touch(model, grazing, 0.6);
     // The orbit with an impact exists, but is unstable from the start: beyond grazing only snap-through remains.
-    const auto starts = branches_at(model, grazing, settings);
+    const auto starts = branches_at(System(model), grazing, settings);
     ASSERT_EQ(starts.size(), 1U);
     const Branch impacting = follow(model, starts[0], settings);
     ASSERT_GT(impacting.points.size(), 3U);
@@ -248,11 +251,11 @@ TEST(PublishedBranches, MicrobeamHasItsPublishedGrazing) {
     settings.parameter = model.independent_parameter("V");
     settings.least = 0.005;
     settings.greatest = 0.06;
-    const Branch branch = follow_branch(model, settled(model, "phase0").orbit, settings);
+    const Branch branch = follow_branch(System(model), settled(model, "phase0").orbit, settings);
     ASSERT_EQ(names(branch), "GR");
     EXPECT_NEAR(branch.special[0].parameter, 0.030040810557599, 1e-13);
     expect_touch(model, branch.special[0], 0.01);
-    const auto starts = branches_at(model, branch.special[0], settings);
+    const auto starts = branches_at(System(model), branch.special[0], settings);
     ASSERT_EQ(starts.size(), 1U);
     settings.steps = 60;
     const Branch deeper = follow(model, starts[0], settings);
@@ -275,7 +278,7 @@ TEST(PublishedBranches, MicrobeamHasItsPublishedFoldsWithAndWithoutStop) {
     settings.direction = -1;
     settings.least = 0.01;
     settings.stop_at = {PointType::fold};
-    const Branch high = follow_branch(model, settled(model, "phase0").orbit, settings);
+    const Branch high = follow_branch(System(model), settled(model, "phase0").orbit, settings);
     EXPECT_EQ(high.outcome, BranchOutcome::stopped) << high.detail;
     const auto folds = of_type(high, PointType::fold);
     ASSERT_EQ(folds.size(), 1U);
@@ -287,7 +290,7 @@ TEST(PublishedBranches, MicrobeamHasItsPublishedFoldsWithAndWithoutStop) {
     free.voltage = 0.01;
     model = microbeam(free);
     settings.direction = 1;
-    const Branch soft = follow_branch(model, settled(model, "phase0").orbit, settings);
+    const Branch soft = follow_branch(System(model), settled(model, "phase0").orbit, settings);
     EXPECT_EQ(names(soft), "SN");
     EXPECT_NEAR(soft.special.back().parameter, 0.036662363851355, 1e-13);
 }

@@ -48,17 +48,18 @@ TEST(ReturningBranches, EndAtTheSecondPointOfTheSimplerBranch) {
         settings.least = 0.01;
         settings.greatest = 40;
         settings.stop_at = {PointType::asymmetry};
-        const Branch symmetric = follow_branch(model, settled(model, "start").orbit, settings);
+        const Branch symmetric = follow_branch(System(model), settled(model, "start").orbit, settings);
         ASSERT_EQ(symmetric.outcome, BranchOutcome::stopped) << names(symmetric);
         settings.stop_at = {};
-        const Branch asymmetric = follow(model, branches_at(model, symmetric.special.back(), settings).at(0), settings);
+        const Branch asymmetric =
+            follow(model, branches_at(System(model), symmetric.special.back(), settings).at(0), settings);
         const auto flips = of_type(asymmetric, PointType::flip);
         EXPECT_EQ(asymmetric.outcome, BranchOutcome::returned) << names(asymmetric);
         ASSERT_EQ(flips.size(), 2U) << names(asymmetric);
         for (const double step : {0.02, 0.05, 0.1}) {
             settings.continuation.largest_step = step;
             for (const std::size_t i : {0U, 1U}) {
-                const Branch doubled = follow(model, branches_at(model, flips[i], settings).at(0), settings);
+                const Branch doubled = follow(model, branches_at(System(model), flips[i], settings).at(0), settings);
                 EXPECT_EQ(doubled.outcome, BranchOutcome::returned) << doubled.detail << names(doubled);
                 ASSERT_FALSE(doubled.special.empty());
                 EXPECT_NEAR(doubled.special.back().parameter, flips[1 - i].parameter, 1e-6) << step;

@@ -23,7 +23,7 @@ Touching touching(Model model, const char* parameter, double greatest) {
     settings.parameter = model.independent_parameter(parameter);
     settings.greatest = greatest;
     settings.stop_at = {PointType::grazing};
-    auto found = of_type(follow_branch(model, settled(model, "phase0").orbit, settings), PointType::grazing);
+    auto found = of_type(follow_branch(System(model), settled(model, "phase0").orbit, settings), PointType::grazing);
     EXPECT_FALSE(found.empty());
     return {std::move(model), found.empty() ? SpecialPoint{} : found.front()};
 }
@@ -31,7 +31,7 @@ Touching touching(Model model, const char* parameter, double greatest) {
 /// Returns the largest scaled error of the gradient relative to its largest entry, against eighth-order differences
 /// with much larger steps.
 double error_of_gradient(const Touching& touch, std::vector<ParameterId> free) {
-    const Simulation simulation(touch.model, {}, {}, integration(1e-14));
+    const Simulation simulation(System(touch.model), {}, {}, integration(1e-14));
     Shooting equations(simulation, touch.point.solution.orbit, std::move(free));
     const Eigen::VectorXd unknowns = equations.unknowns_of(touch.point.solution.orbit);
     OrbitEvaluation at = equations.evaluation();

@@ -19,7 +19,7 @@ SpecialPoint first_touch(const Model& model, const char* section, const char* pa
     settings.direction = direction;
     settings.stop_at = {PointType::grazing};
     const auto found =
-        of_type(follow_branch(model, settled(model, section, cycles).orbit, settings), PointType::grazing);
+        of_type(follow_branch(System(model), settled(model, section, cycles).orbit, settings), PointType::grazing);
     EXPECT_FALSE(found.empty()) << model.name;
     return found.empty() ? SpecialPoint{} : found.front();
 }
@@ -86,9 +86,9 @@ TEST(ShippedCycles, ErrorFallsWithTheNextPowerOfTheDepth) {
     resting.durations = {1.0 / 6};
     CycleMapOptions options;
     options.next_order = true;
-    const auto touches = touches_of(shaker, resting);
+    const auto touches = touches_of(System(shaker), resting);
     ASSERT_EQ(touches.size(), 1U);
-    expect_rates(shaker, cycle_map(shaker, resting, touches.front(), options), 1e-5);
+    expect_rates(shaker, cycle_map(System(shaker), resting, touches.front(), options), 1e-5);
 }
 
 } // namespace

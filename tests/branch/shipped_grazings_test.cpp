@@ -51,12 +51,12 @@ std::vector<double> speeds_beyond(const Model& model, const CycleMap& map, Param
     parameters[parameter.place()] += distance;
     for (std::size_t i = 0; i < map.active.size(); ++i)
         state[map.active[i]] += map.steady[i] * distance;
-    const Simulation simulation(model, {}, {}, SimulationOptions{.tolerance = 1e-15});
+    const Simulation simulation(System(model), {}, {}, SimulationOptions{.tolerance = 1e-15});
     ModeFlow flow(simulation.system(), 1e-15);
     flow.set_parameters(parameters);
     EXPECT_EQ(flow.run(map.contact.touch.mode, state, -0.01 * map.time), ModeFlow::Ending::done);
     Recorder recorder;
-    Trajectory trajectory(simulation, parameters, recorder);
+    Trajectory trajectory(simulation, parameters, borrowed(recorder));
     trajectory.start(state, map.contact.touch.mode, 0, cycles * map.time);
     JetSet jets(simulation, LaneKind::single);
     run(trajectory, jets);
@@ -95,8 +95,7 @@ void expect_projections(const Model& model, const CycleMap& map, std::size_t cyc
         const double lift = 0.01 * value[0], met = std::sqrt(0.99) * speed;
         for (std::size_t i = 0; i < state.size(); ++i)
             state[i] -= (value[0] - lift) / square * value[1 + i] * touch.scales[i] * touch.scales[i];
-        Observer nobody;
-        Trajectory trajectory(simulation, touch.parameters, nobody);
+        Trajectory trajectory(simulation, touch.parameters);
         // A pass that impacts does so before its minimum, by a time proportional to the square root of the depth.
         const double projection = map.projections(cycles).back();
         const double short_of = std::max(20 * speed / map.contact.acceleration,
@@ -125,7 +124,7 @@ void expect_projections(const Model& model, const CycleMap& map, std::size_t cyc
 Branch mems_branch(Model& model, const BranchSettings& settings) {
     model.set_parameter("V", 0.15);
     model.set_initial("q", 0);
-    return follow_branch(model, settled(model, "phase0").orbit, settings);
+    return follow_branch(System(model), settled(model, "phase0").orbit, settings);
 }
 
 TEST(ShippedGrazings, MemsSwitchTrips) {
@@ -173,7 +172,7 @@ TEST(ShippedGrazings, TestbedLosesItsOrbit) {
         BranchSettings settings;
         settings.parameter = model.independent_parameter("V0");
         settings.greatest = 5.5;
-        const Branch branch = follow_branch(model, settled(model, "phase0", 600).orbit, settings);
+        const Branch branch = follow_branch(System(model), settled(model, "phase0", 600).orbit, settings);
         const auto grazings = of_type(branch, PointType::grazing);
         ASSERT_EQ(grazings.size(), 1U);
         EXPECT_NEAR(grazings[0].parameter, voltage, 1e-11);
@@ -195,7 +194,7 @@ TEST(ShippedGrazings, OrbitsOfTheMicroactuatorAreUnstableAtTheirTouches) {
     settings.parameter = model.independent_parameter("V");
     settings.least = 0;
     settings.greatest = 3;
-    Branch branch = follow_branch(model, settled(model, "longest", 4000).orbit, settings);
+    Branch branch = follow_branch(System(model), settled(model, "longest", 4000).orbit, settings);
     for (const double voltage : {0.5876212422746997, 0.7304755333366196}) { // G-1, G-2
         const auto grazings = of_type(branch, PointType::grazing);
         ASSERT_EQ(grazings.size(), 1U);
@@ -207,7 +206,7 @@ TEST(ShippedGrazings, OrbitsOfTheMicroactuatorAreUnstableAtTheirTouches) {
         EXPECT_EQ(one.verdict.reason, "the orbit that touches is not stable itself");
         EXPECT_GT(std::abs(one.map.multipliers[0]), 1);
         expect_projections(model, one.map, 1);
-        branch = follow(model, branches_at(model, grazings[0], settings).at(0), settings);
+        branch = follow(model, branches_at(System(model), grazings[0], settings).at(0), settings);
         ASSERT_FALSE(branch.points.empty());
     }
 }
@@ -220,10 +219,10 @@ TEST(ShippedGrazings, MapsAreTheSameFromBothSides) {
     BranchSettings settings;
     settings.parameter = model.independent_parameter("amplitude");
     settings.greatest = 1;
-    const Branch free = follow_branch(model, settled(model, "phase0").orbit, settings);
+    const Branch free = follow_branch(System(model), settled(model, "phase0").orbit, settings);
     const SpecialPoint touch = free.special.back();
     const Judged one = judged(model, touch, "amplitude");
-    BranchStart start = branches_at(model, touch, settings).at(0);
+    BranchStart start = branches_at(System(model), touch, settings).at(0);
     for (auto& component : start.direction.starts)
         for (double& value : component)
             value = -value;
@@ -264,7 +263,7 @@ TEST(ShippedGrazings, VerdictsHoldForOrbitsWithImpacts) {
         settings.least = 0.001;
         settings.greatest = 30;
         settings.steps = 300;
-        Branch branch = follow_branch(model, settled(model, "phase0", 4000).orbit, settings);
+        Branch branch = follow_branch(System(model), settled(model, "phase0", 4000).orbit, settings);
         for (int own = 0; own < 3; ++own) {
             const auto grazings = of_type(branch, PointType::grazing);
             const auto touch =
@@ -277,7 +276,7 @@ TEST(ShippedGrazings, VerdictsHoldForOrbitsWithImpacts) {
             ++counts[fmt::format("{} {} {}", own > 0 ? "impacting" : "free", name_of(one.verdict.outcome),
                                  name_of(one.trial.outcome))];
             try {
-                branch = follow(model, branches_at(model, *touch, settings).at(0), settings);
+                branch = follow(model, branches_at(System(model), *touch, settings).at(0), settings);
             } catch (const InputError&) {
                 break; // contacts accumulate beyond
             }
@@ -299,7 +298,7 @@ TEST(ShippedGrazings, MicrobeamHasTheFoldOfTheCubic) {
         settings.parameter = model.independent_parameter("V");
         settings.least = 0.005;
         settings.greatest = 0.06;
-        const Branch branch = follow_branch(model, settled(model, "phase0").orbit, settings);
+        const Branch branch = follow_branch(System(model), settled(model, "phase0").orbit, settings);
         const auto grazings = of_type(branch, PointType::grazing);
         ASSERT_EQ(grazings.size(), 1U);
         const Judged one = judged(model, grazings[0], "V");
@@ -308,7 +307,7 @@ TEST(ShippedGrazings, MicrobeamHasTheFoldOfTheCubic) {
         EXPECT_NEAR(*one.verdict.fold_clearance, -4 / (27 * *one.verdict.alpha * *one.verdict.alpha), 1e-12);
         settings.steps = 200;
         settings.stop_at = {PointType::fold};
-        const Branch deeper = follow(model, branches_at(model, grazings[0], settings).at(0), settings);
+        const Branch deeper = follow(model, branches_at(System(model), grazings[0], settings).at(0), settings);
         const auto folds = of_type(deeper, PointType::fold);
         ASSERT_GE(folds.size(), 1U) << stiffness;
         const double distance = folds[0].parameter - grazings[0].parameter;

@@ -79,7 +79,7 @@ Branch microactuator_branch(const Factors& factors) {
     settings.parameter = model.independent_parameter("V");
     settings.least = 0;
     settings.greatest = 3 * factors.parameters;
-    return follow_branch(model, settled(model, "longest", 4000).orbit, settings);
+    return follow_branch(System(model), settled(model, "longest", 4000).orbit, settings);
 }
 
 /// Lengths in nm and times in us instead of m and s; and all units scaled by a million up and down.

@@ -50,7 +50,7 @@ Branch down_from(const Model& model, const Orbit& orbit, const std::string& para
     BranchSettings settings = in_parameter(model, parameter, least, greatest);
     settings.direction = -1;
     settings.continuation.largest_step = largest_step;
-    return follow_branch(model, orbit, settings);
+    return follow_branch(System(model), orbit, settings);
 }
 
 void expect_hopf(const Branch& branch, const Model& model, double parameter, double period) {
@@ -135,7 +135,7 @@ function = "y2"
 direction = "falling"
 )toml");
     BranchSettings settings = in_parameter(model, "mu", 1, 20);
-    const Branch branch = follow_branch(model, settled(model, "highest").orbit, settings);
+    const Branch branch = follow_branch(System(model), settled(model, "highest").orbit, settings);
     EXPECT_EQ(names(branch), "HB");
     EXPECT_NEAR(flow, 8.491118, 5e-7);
     expect_hopf(branch, model, flow, 2 * pi / std::sqrt(k * g + 1));

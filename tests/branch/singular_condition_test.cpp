@@ -53,7 +53,7 @@ TEST(SingularConditions, GradientsEqualDifferencesForEveryShippedModel) {
 TEST(SingularConditions, TorusHasItsClosedForm) {
     const Model model = torus_model();
     const Orbit orbit{parse_signature(model, "start"), model.parameter_values(), {{1, 0, 0}}, {2 * pi}, {}};
-    const Simulation simulation(model, {}, {}, integration(1e-14));
+    const Simulation simulation(System(model), {}, {}, integration(1e-14));
     Shooting equations(simulation, orbit, {ParameterId(0), ParameterId(1)});
     OrbitEvaluation at = equations.evaluation();
     ASSERT_TRUE(equations.evaluate(equations.unknowns_of(orbit), at));
@@ -85,7 +85,7 @@ TEST(SingularConditions, FoldAndFlipOfTheBouncingBallHaveTheirClosedForms) {
     const double g = value("g"), e = value("e"), w = 2 * pi * value("f");
     const double rise = pi * (1 - e) / (1 + e), turn = 2 * (1 + e * e) / ((1 + e) * (1 + e));
     const double fold = g / (w * w) * rise, flip = g / (w * w) * std::hypot(rise, turn);
-    const Simulation simulation(model, {}, {}, integration(1e-14));
+    const Simulation simulation(System(model), {}, {}, integration(1e-14));
     for (const double share : {0.1, 0.3, 0.7, 0.95}) {
         const double a = fold + share * (flip - fold), phase = std::acos(rise * g / (a * w * w));
         Orbit orbit{parse_signature(model, "impact"),
@@ -121,11 +121,11 @@ TEST(SingularConditions, ConditionsVanishAtLocatedPointsOfSymmetricOrbits) {
         BranchSettings settings;
         settings.parameter = model.independent_parameter("V0");
         settings.direction = direction;
-        for (const SpecialPoint& special : follow_branch(model, solution.orbit, settings).special) {
+        for (const SpecialPoint& special : follow_branch(System(model), solution.orbit, settings).special) {
             if (special.type != PointType::fold && special.type != PointType::asymmetry)
                 continue;
             (special.type == PointType::fold ? folds : losses) += 1;
-            const Simulation simulation(model, {}, {}, integration(1e-13));
+            const Simulation simulation(System(model), {}, {}, integration(1e-13));
             Shooting equations(simulation, special.solution.orbit, {settings.parameter});
             OrbitEvaluation at = equations.evaluation();
             ASSERT_TRUE(equations.evaluate(equations.unknowns_of(special.solution.orbit), at));

@@ -29,9 +29,9 @@ Judgement judgement(const Model& model, const SpecialPoint& point, ParameterId p
     options.parameter = parameter;
     Judgement result;
     result.map =
-        cycle_map(model, point.solution.orbit, {point.segment, point.event, point.time, point.at_end}, options);
+        cycle_map(System(model), point.solution.orbit, {point.segment, point.event, point.time, point.at_end}, options);
     result.verdict = verdict_of(result.map);
-    result.trial = try_verdict(model, result.map, result.verdict, parameter);
+    result.trial = try_verdict(System(model), result.map, result.verdict, parameter);
     return result;
 }
 
@@ -40,7 +40,7 @@ TEST(Sliding, GrazingOnABeltStartsChaos) {
     Model model = belt();
     model.set_parameter("nu", 1.711);
     const BranchSettings settings = along(model, "nu", -1, 1.65, 1.72);
-    const Branch branch = follow_branch(model, settled(model, "phase0").orbit, settings);
+    const Branch branch = follow_branch(System(model), settled(model, "phase0").orbit, settings);
     const auto touches = of_type(branch, PointType::grazing);
     ASSERT_FALSE(touches.empty());
     const Judgement one = judgement(model, touches[0], settings.parameter);
@@ -114,7 +114,8 @@ state = "theta"
 value = 0
 )toml");
     const BranchSettings settings = along(model, "amplitude", 1, 0.1, 1.6);
-    const auto touches = of_type(follow_branch(model, settled(model, "phase0").orbit, settings), PointType::grazing);
+    const auto touches =
+        of_type(follow_branch(System(model), settled(model, "phase0").orbit, settings), PointType::grazing);
     ASSERT_FALSE(touches.empty());
     const double zeta = 0.05, omega = 0.6, turn = 2 * std::numbers::pi / omega, own = std::sqrt(1 - zeta * zeta);
     const double amplitude = touches[0].solution.orbit.parameters[settings.parameter.place()];
@@ -135,7 +136,8 @@ TEST(Sliding, BranchContinuesWithDryFriction) {
     model.set_parameter("friction_static", 0.3);
     model.set_parameter("omega", 0.2);
     const BranchSettings settings = along(model, "omega", 1, 0.15, 0.22);
-    const auto touches = of_type(follow_branch(model, settled(model, "phase0").orbit, settings), PointType::grazing);
+    const auto touches =
+        of_type(follow_branch(System(model), settled(model, "phase0").orbit, settings), PointType::grazing);
     ASSERT_EQ(touches.size(), 1U);
     const Judgement one = judgement(model, touches[0], settings.parameter);
     EXPECT_EQ(one.verdict.outcome, GrazingOutcome::persists) << one.verdict.reason;
@@ -144,7 +146,7 @@ TEST(Sliding, BranchContinuesWithDryFriction) {
     EXPECT_EQ(one.verdict.in, 1U);
     EXPECT_EQ(one.verdict.side, 1);
     EXPECT_EQ(one.trial.outcome, TrialOutcome::agreed) << one.trial.reason;
-    const Branch beyond = follow(model, branches_at(model, touches[0], settings).at(0), settings);
+    const Branch beyond = follow(model, branches_at(System(model), touches[0], settings).at(0), settings);
     ASSERT_GE(beyond.points.size(), 3U);
     EXPECT_GT(beyond.points[1].parameter, touches[0].parameter);
     const OrbitSolution& near = beyond.points[0].solution;
@@ -154,7 +156,7 @@ TEST(Sliding, BranchContinuesWithDryFriction) {
     // From the other side, where the additional sticking phase disappears.
     model.set_parameter("omega", 0.215);
     const BranchSettings down = along(model, "omega", -1, 0.15, 0.22);
-    const auto ends = of_type(follow_branch(model, settled(model, "phase0").orbit, down), PointType::grazing);
+    const auto ends = of_type(follow_branch(System(model), settled(model, "phase0").orbit, down), PointType::grazing);
     ASSERT_FALSE(ends.empty());
     EXPECT_TRUE(ends[0].at_end);
     EXPECT_NEAR(ends[0].parameter, touches[0].parameter, 1e-10);
@@ -170,7 +172,7 @@ TEST(Sliding, GrazingOnABeltMayBeAFold) {
     Model model = belt();
     model.set_parameter("nu", 2.2);
     const BranchSettings settings = along(model, "nu", -1, 2, 2.4);
-    const Branch branch = follow_branch(model, settled(model, "phase0").orbit, settings);
+    const Branch branch = follow_branch(System(model), settled(model, "phase0").orbit, settings);
     std::size_t folds = 0;
     for (const SpecialPoint& point : of_type(branch, PointType::grazing)) {
         const Judgement one = judgement(model, point, settings.parameter);
@@ -202,7 +204,7 @@ std::map<std::string, int> try_random(int count, unsigned seed) {
         settle.cycles = 400;
         OrbitSolution start;
         try {
-            start = find_orbit(model, settle);
+            start = find_orbit(System(model), settle);
         } catch (const InputError&) { // chaotic, or on a torus
             ++counts["start without orbit"];
             continue;
@@ -211,7 +213,8 @@ std::map<std::string, int> try_random(int count, unsigned seed) {
         for (const int direction : {-1, 1}) {
             BranchSettings settings = along(model, "amplitude", direction, 0.2 * amplitude, 3 * amplitude);
             settings.steps = 100;
-            for (const SpecialPoint& point : of_type(follow_branch(model, start.orbit, settings), PointType::grazing)) {
+            for (const SpecialPoint& point :
+                 of_type(follow_branch(System(model), start.orbit, settings), PointType::grazing)) {
                 const Judgement one = judgement(model, point, settings.parameter);
                 if (one.map.contact.order != MapOrder::linear) {
                     ++counts["not grazing-sliding"];

@@ -83,7 +83,7 @@ TEST(SmoothSwitch, TouchIsWhereTheFreeMotionReachesTheStop) {
             free.F = inside;
             const Model weak = free.model(kind);
             const Branch branch =
-                follow_branch(weak, free.orbit(weak), in_parameter(weak, "F", 0.1 * inside, 10 * least));
+                follow_branch(System(weak), free.orbit(weak), in_parameter(weak, "F", 0.1 * inside, 10 * least));
             ASSERT_EQ(names(branch), "GR") << kind << ' ' << stop.w << ' ' << branch.detail;
             EXPECT_NEAR(branch.special[0].parameter, least, 1e-11 * least) << kind;
             EXPECT_EQ(branch.outcome, BranchOutcome::unphysical);
@@ -99,7 +99,7 @@ TEST(SmoothSwitch, TouchesExistOnBothSidesOfTheResonance) {
     const Model model = stop.model("section");
     BranchSettings settings = in_parameter(model, "w", 0.1, 5);
     settings.direction = -1;
-    const Branch branch = follow_branch(model, stop.orbit(model), settings);
+    const Branch branch = follow_branch(System(model), stop.orbit(model), settings);
     ASSERT_EQ(names(branch), "GR") << branch.detail;
     EXPECT_NEAR(branch.special[0].parameter, above, 1e-11);
 }
@@ -108,7 +108,8 @@ TEST(SmoothSwitch, PeriodFixedByTheForceHasNoExtremum) {
     // The contact speed vanishes at the end of the branch, where the frequency still varies.
     const SoftStop stop{1, 1.472, 0.03, 20, 0.2};
     const Model model = stop.model("section");
-    const Branch branch = follow_branch(model, settled(model, "ph", 400).orbit, in_parameter(model, "w", 0.2, 4));
+    const Branch branch =
+        follow_branch(System(model), settled(model, "ph", 400).orbit, in_parameter(model, "w", 0.2, 4));
     EXPECT_TRUE(of_type(branch, PointType::extremum).empty()) << names(branch);
     ASSERT_FALSE(of_type(branch, PointType::grazing).empty()) << names(branch);
 }
@@ -118,7 +119,7 @@ TEST(SmoothSwitch, CurvesOfTouchesMayBeginAtAVanishingContact) {
     const Model model = stop.model("section");
     BranchSettings settings = in_parameter(model, "F", 0.1, 2);
     settings.direction = -1;
-    const Branch branch = follow_branch(model, settled(model, "ph").orbit, settings);
+    const Branch branch = follow_branch(System(model), settled(model, "ph").orbit, settings);
     const auto touches = of_type(branch, PointType::grazing);
     ASSERT_EQ(touches.size(), 1U) << names(branch);
     ASSERT_TRUE(touches[0].at_end);
@@ -137,13 +138,13 @@ TEST(SmoothSwitch, SecondContactAppearsAndDisappears) {
     const Model model = stop.model("section");
     BranchSettings settings = in_parameter(model, "w", 0.2, 4);
     settings.direction = -1;
-    const Branch once = follow_branch(model, settled(model, "ph").orbit, settings);
+    const Branch once = follow_branch(System(model), settled(model, "ph").orbit, settings);
     ASSERT_EQ(names(once), "GR") << once.detail;
-    const Branch more = follow(model, branches_at(model, once.special[0], settings).front(), settings);
+    const Branch more = follow(model, branches_at(System(model), once.special[0], settings).front(), settings);
     ASSERT_EQ(names(more), "GR") << more.detail;
     // The vanishing contact lies across the start of the orbit.
     EXPECT_TRUE(more.special[0].at_end);
-    const Branch fewer = follow(model, branches_at(model, more.special[0], settings).front(), settings);
+    const Branch fewer = follow(model, branches_at(System(model), more.special[0], settings).front(), settings);
     EXPECT_EQ(names(fewer), "BD") << fewer.detail;
     EXPECT_EQ(fewer.points.back().solution.orbit.segments(), 2U);
     // Where the touch meets the remaining contact no multiplier is -1, since the vector field is continuous.

@@ -25,7 +25,7 @@ OrbitSolution start_of(const Oscillator& known, double periods) {
                           {{sigma, after, known.phase(after, sigma)}},
                           {2 * std::numbers::pi * periods / known.omega},
                           {}};
-        solution = solve_orbit(model, orbit);
+        solution = solve_orbit(System(model), orbit);
         if (solution.outcome == OrbitOutcome::converged && solution.certificate.admissible)
             return solution;
     }
@@ -48,7 +48,7 @@ TEST(SubharmonicCurves, FoldsAndFlipsOfSubharmonicsHaveTheirClosedForms) {
         for (const int direction : {1, -1}) {
             BranchSettings settings = in_parameter(model, "sigma", -1, 1);
             settings.direction = direction;
-            const Branch branch = follow_branch(model, start.orbit, settings);
+            const Branch branch = follow_branch(System(model), start.orbit, settings);
             for (const SpecialPoint& point : branch.special) {
                 if (point.type != PointType::fold && point.type != PointType::flip)
                     continue;

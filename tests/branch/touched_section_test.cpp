@@ -60,7 +60,7 @@ TEST(TouchedSection, CircleShrinksThroughIt) {
             settings.least = 0.01;
             settings.greatest = 2;
             settings.direction = -1;
-            const Branch branch = follow_branch(model, on_circle(model, 1, 1, level, falling), settings);
+            const Branch branch = follow_branch(System(model), on_circle(model, 1, 1, level, falling), settings);
             EXPECT_EQ(branch.outcome, BranchOutcome::bound) << branch.detail;
             EXPECT_EQ(names(branch), "BD") << level << falling;
             for (const BranchPoint& point : branch.points) {
@@ -74,7 +74,7 @@ TEST(TouchedSection, CircleShrinksThroughIt) {
             EXPECT_EQ(to_string(model, branch.points.back().solution.orbit.signature), "~");
             // And back from there, with the cut, to a large circle.
             settings.direction = 1;
-            const Branch back = follow_branch(model, branch.points.back().solution.orbit, settings);
+            const Branch back = follow_branch(System(model), branch.points.back().solution.orbit, settings);
             EXPECT_EQ(names(back), "BD");
             EXPECT_EQ(back.points.back().parameter, 2);
             EXPECT_NEAR(radius_of(back.points.back()), std::sqrt(2.0), 1e-9);
@@ -91,7 +91,7 @@ TEST(TouchedSection, FoldBeyondItIsFound) {
     settings.greatest = -0.05;
     settings.direction = -1;
     const double mu = -0.1, radius = std::sqrt(0.5 + std::sqrt(0.25 + mu));
-    const Branch branch = follow_branch(model, on_circle(model, mu, radius, level, true), settings);
+    const Branch branch = follow_branch(System(model), on_circle(model, mu, radius, level, true), settings);
     ASSERT_EQ(names(branch), "SN BD") << branch.detail;
     EXPECT_NEAR(branch.special[0].parameter, -0.25, 1e-10);
     EXPECT_EQ(branch.special[1].parameter, -0.05);
@@ -118,13 +118,14 @@ TEST(TouchedSection, FlipBeyondItIsFoundAndSwitchedAt) {
     settings.least = 0.02;
     settings.greatest = 0.9;
     settings.direction = -1;
-    const Branch branch = follow_branch(model, on_circle(model, 0.9, std::sqrt(0.9), level, true, {0, 0}), settings);
+    const Branch branch =
+        follow_branch(System(model), on_circle(model, 0.9, std::sqrt(0.9), level, true, {0, 0}), settings);
     ASSERT_EQ(names(branch), "PD BD") << branch.detail;
     expect_flip(branch.special[0]);
     EXPECT_NEAR(branch.special[0].parameter, 0.1, 1e-9);
     for (const BranchPoint& point : branch.points)
         EXPECT_LT(nearest_multiplier(point.solution, -std::exp((point.parameter - 0.1) * round)), 1e-6);
-    const Branch doubled = follow(model, branches_at(model, branch.special[0], settings).front(), settings);
+    const Branch doubled = follow(model, branches_at(System(model), branch.special[0], settings).front(), settings);
     ASSERT_GT(doubled.points.size(), 5U) << doubled.detail;
     for (const BranchPoint& point : doubled.points) {
         const std::vector<double>& start = point.solution.orbit.starts[0];
@@ -135,7 +136,7 @@ TEST(TouchedSection, FlipBeyondItIsFoundAndSwitchedAt) {
     EXPECT_EQ(names(doubled), "BD");
     // In the other direction it returns to the orbits of half its period.
     settings.direction = -1;
-    const Branch back = follow_branch(model, doubled.points.back().solution.orbit, settings);
+    const Branch back = follow_branch(System(model), doubled.points.back().solution.orbit, settings);
     EXPECT_EQ(back.outcome, BranchOutcome::returned) << back.detail << names(back);
     EXPECT_NEAR(back.points.back().parameter, 0.1, 1e-6);
 }
@@ -189,7 +190,7 @@ direction = "falling"
     settings.least = 0.04;
     settings.greatest = 2;
     settings.direction = -1;
-    Branch branch = follow_branch(model, orbit, settings);
+    Branch branch = follow_branch(System(model), orbit, settings);
     EXPECT_EQ(names(branch), "BD") << branch.detail;
     EXPECT_EQ(branch.points.back().parameter, 0.04);
     EXPECT_EQ(to_string(model, branch.points.back().solution.orbit.signature), "in out");
@@ -200,7 +201,7 @@ direction = "falling"
     }
     // A monitor at the section has no value beyond, so the branch ends there with the reason.
     settings.monitors = {{"speed", "", Monitor::Kind::value, model.symbol("y"), "level", false, {}, {}, {}, {}}};
-    branch = follow_branch(model, orbit, settings);
+    branch = follow_branch(System(model), orbit, settings);
     EXPECT_EQ(branch.outcome, BranchOutcome::undefined);
     EXPECT_EQ(names(branch), "");
     EXPECT_NE(branch.detail.find("section 'level'"), std::string::npos) << branch.detail;
@@ -250,7 +251,7 @@ direction = "rising"
         settings.least = 0.3;
         settings.greatest = 3;
         settings.direction = -1;
-        const Branch branch = follow_branch(model, circle, settings);
+        const Branch branch = follow_branch(System(model), circle, settings);
         ASSERT_EQ(names(branch), "GR") << branch.detail;
         EXPECT_NEAR(branch.special[0].parameter, 1, 1e-12);
         settings.kept = branch.special[0];
@@ -258,7 +259,7 @@ direction = "rising"
         settings.free_bounds = {{settings.free[0], 0.1, 8}};
         for (const int way : {1, -1}) {
             settings.direction = way;
-            const Branch curve = follow_branch(model, branch.special[0].solution.orbit, settings);
+            const Branch curve = follow_branch(System(model), branch.special[0].solution.orbit, settings);
             EXPECT_EQ(names(curve), "BD") << both << ' ' << curve.detail;
             for (const BranchPoint& one : curve.points)
                 EXPECT_NEAR(one.solution.orbit.parameters[0], one.parameter * one.parameter, 1e-10);

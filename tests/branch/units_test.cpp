@@ -57,7 +57,7 @@ TEST(Units, BranchDoesNotDependOnUnits) {
     for (const auto& [time, length] :
          {std::pair{1.0, 1.0}, {1e-9, 1e-9}, {1e6, 1e6}, {1e-9, 1e6}, {1e6, 1e-12}, {1e-3, 1e-12}}) {
         const Model model = between_stops(time, length);
-        const auto found = orbit_with_signature(model, parse_signature(model, "R L"));
+        const auto found = orbit_with_signature(System(model), parse_signature(model, "R L"));
         ASSERT_TRUE(found);
         ASSERT_EQ(found->outcome, OrbitOutcome::converged) << found->detail;
         ASSERT_TRUE(found->orbit.symmetry) << time << ' ' << length;
@@ -66,7 +66,7 @@ TEST(Units, BranchDoesNotDependOnUnits) {
         settings.least = 0.3 / time;
         settings.greatest = 6 / time;
         settings.orbit.tolerance = 1e-13;
-        const Branch branch = follow_branch(model, found->orbit, settings);
+        const Branch branch = follow_branch(System(model), found->orbit, settings);
         ASSERT_GT(branch.points.size(), 5U);
         if (reference.points.empty())
             reference = branch;
@@ -79,10 +79,10 @@ TEST(Units, BranchDoesNotDependOnUnits) {
             if (branch.special[i].type != PointType::asymmetry && branch.special[i].type != PointType::flip)
                 continue;
             settings.steps = 5;
-            const Branch other = follow(model, branches_at(model, branch.special[i], settings).at(0), settings);
+            const Branch other = follow(model, branches_at(System(model), branch.special[i], settings).at(0), settings);
             ASSERT_GT(other.points.size(), 1U) << other.detail;
             EXPECT_NE(other.outcome, BranchOutcome::returned);
-            EXPECT_FALSE(half_orbit(model, other.points[1].solution.orbit, 1e-4));
+            EXPECT_FALSE(half_orbit(System(model), other.points[1].solution.orbit, 1e-4));
         }
     }
     EXPECT_FALSE(reference.special.empty());

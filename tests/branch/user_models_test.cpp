@@ -42,7 +42,7 @@ Orbit sliding_orbit(const Sliding& known, const Model& model) {
                 {{x, 0, phase}, {-x, 0, phase + pi}},
                 {pi / known.omega, pi / known.omega},
                 {}};
-    return half_orbit(model, orbit).value();
+    return half_orbit(System(model), orbit).value();
 }
 
 TEST(UserModels, DryFrictionSticksWhereDenHartogPredicts) {
@@ -51,7 +51,7 @@ TEST(UserModels, DryFrictionSticksWhereDenHartogPredicts) {
     BranchSettings settings;
     settings.parameter = model.independent_parameter("friction_static");
     settings.greatest = 3;
-    const Branch branch = follow_branch(model, sliding_orbit(known, model), settings);
+    const Branch branch = follow_branch(System(model), sliding_orbit(known, model), settings);
     ASSERT_EQ(names(branch), "GU BD");
     EXPECT_NEAR(branch.special[0].parameter, known.force(), 1e-12);
     for (const BranchPoint& point : branch.points) {
@@ -76,7 +76,7 @@ TEST(UserModels, DryFrictionSlidesWithTheAmplitudeOfDenHartog) {
         settings.parameter = model.independent_parameter(parameter);
         settings.direction = -1;
         settings.least = parameter[0] == 'o' ? 0.55 : 0.01;
-        const Branch branch = follow_branch(model, sliding_orbit(begin, model), settings);
+        const Branch branch = follow_branch(System(model), sliding_orbit(begin, model), settings);
         ASSERT_GT(branch.points.size(), 3U);
         for (const BranchPoint& point : branch.points) {
             const Sliding known{parameter[0] == 'o' ? point.parameter : 0.8,
@@ -136,7 +136,7 @@ TEST(UserModels, BilinearOscillatorIsLinearForEqualSprings) {
     settings.parameter = model.independent_parameter("stiffness");
     settings.direction = -1;
     settings.least = 1;
-    const Branch branch = follow_branch(model, orbit, settings);
+    const Branch branch = follow_branch(System(model), orbit, settings);
     ASSERT_EQ(branch.outcome, BranchOutcome::bound) << names(branch);
     for (const BranchPoint& point : branch.points) {
         ASSERT_EQ(point.solution.multipliers.size(), 2U);
@@ -162,20 +162,20 @@ TEST(UserModels, BilinearOscillatorLeavesTheStiffSideAtATouch) {
     settings.parameter = model.independent_parameter("load");
     settings.direction = -1;
     settings.least = -10;
-    const Branch branch = follow_branch(model, orbit, settings);
+    const Branch branch = follow_branch(System(model), orbit, settings);
     ASSERT_EQ(names(branch), "GR");
     EXPECT_NEAR(branch.special[0].parameter, 3 / std::hypot(3 - 2.3 * 2.3, 0.23), 1e-12);
     expect_touch(model, branch.special[0], 1);
     // Beyond, both springs act in turn, until the load presses the mass to the other side, where the soft spring acts
     // alone.
-    const auto starts = branches_at(model, branch.special[0], settings);
+    const auto starts = branches_at(System(model), branch.special[0], settings);
     ASSERT_EQ(starts.size(), 1U);
     EXPECT_EQ(starts[0].orbit.segments(), 2U);
     const Branch both = follow(model, starts[0], settings);
     const auto lost = of_type(both, PointType::grazing);
     ASSERT_EQ(lost.size(), 1U) << names(both);
     EXPECT_NEAR(lost[0].parameter, -1 / std::hypot(1 - 2.3 * 2.3, 0.23), 1e-11);
-    const auto on = branches_at(model, lost[0], settings);
+    const auto on = branches_at(System(model), lost[0], settings);
     ASSERT_EQ(on.size(), 1U);
     EXPECT_EQ(on[0].orbit.segments(), 1U);
     const Branch soft = follow(model, on[0], settings);

@@ -54,7 +54,7 @@ TEST(VanDerPolCurves, TorusPointsConnectResonances) {
     const Model model = van_der_pol();
     BranchSettings settings = in_parameter(model, "F", 0.05, 3);
     settings.direction = -1;
-    const Branch branch = follow_branch(model, settled(model, "start").orbit, settings);
+    const Branch branch = follow_branch(System(model), settled(model, "start").orbit, settings);
     const auto torus = of_type(branch, PointType::torus);
     ASSERT_EQ(torus.size(), 1U) << names(branch);
     // By averaging the amplitude is 2^(1/2) there and the effective growth is halved, up to errors of its square.
@@ -84,7 +84,7 @@ TEST(VanDerPolCurves, FoldsMeetTorusPointsInAOneToOneResonance) {
     const Model model = van_der_pol();
     BranchSettings down = in_parameter(model, "F", 0.02, 3);
     down.direction = -1;
-    const Branch branch = follow_branch(model, settled(model, "start").orbit, down);
+    const Branch branch = follow_branch(System(model), settled(model, "start").orbit, down);
     const auto torus = of_type(branch, PointType::torus);
     ASSERT_EQ(torus.size(), 1U) << names(branch);
     const BranchSettings in_omega = in_parameter(model, "omega", 0.8, 3);

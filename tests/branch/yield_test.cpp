@@ -1,5 +1,6 @@
 #include "graze/branch/yield.hpp"
 
+#include "branch/solved_devices.hpp"
 #include "driven_oscillator.hpp"
 #include "graze/base/input_error.hpp"
 
@@ -27,7 +28,7 @@ struct YieldExample {
     void add(const char* name, double size, Spread spread = Spread::normal) {
         settings.tolerances.push_back({model.independent_parameter(name), spread, size});
     }
-    Yield yield() const { return yield_of(model, point, force, settings); }
+    Yield yield() const { return yield_of(System(model), point, force, settings); }
 };
 
 TEST(Yield, ValueOfEachDeviceHasItsClosedForm) {
@@ -53,9 +54,9 @@ TEST(Yield, GivenDevicesHaveTheirClosedForm) {
         given.values.push_back({shop.known.omega * (1 + 0.001 * i), shop.known.sigma * (1 - 0.002 * i)});
     given.values.emplace_back(); // a device that cannot be made
     std::vector<double> told(given.values.size());
-    shop.settings.solved = [&](std::size_t i, const LocatedSolution& solution) { told[i] = solution.value; };
     shop.settings.least = 0;
-    const Yield yield = yield_of(shop.model, shop.point, shop.force, given, shop.settings);
+    const Yield yield = yield_of(System(shop.model), shop.point, shop.force, given, shop.settings,
+                                 [&](std::size_t i, const LocatedSolution& solution) { told[i] = solution.value; });
     ASSERT_EQ(yield.found, 50U);
     EXPECT_EQ(yield.failed, 1U);
     EXPECT_EQ(yield.problems.front().first, "the device cannot be made");
@@ -69,7 +70,7 @@ TEST(Yield, GivenDevicesHaveTheirClosedForm) {
     EXPECT_NEAR(yield.within.value().value, 50.0 / 51, 1e-15);
     EXPECT_GT(yield.linear_deviation, 0);
     given.values[0].pop_back();
-    EXPECT_THROW(yield_of(shop.model, shop.point, shop.force, given, shop.settings), InputError);
+    EXPECT_THROW(yield_of(System(shop.model), shop.point, shop.force, given, shop.settings), InputError);
 }
 
 TEST(Yield, LinearValueHasTheStatisticsOfTheDrawnParameter) {
@@ -186,7 +187,7 @@ TEST(Yield, SettingsOutOfRangeAreRefused) {
     const auto refused = [&](auto change) {
         YieldSettings wrong = shop.settings;
         change(wrong);
-        EXPECT_THROW(yield_of(shop.model, shop.point, shop.force, wrong), InputError);
+        EXPECT_THROW(yield_of(System(shop.model), shop.point, shop.force, wrong), InputError);
     };
     refused([](YieldSettings& s) { s.devices = 0; });
     refused([](YieldSettings& s) { s.jobs = 0; });

@@ -102,7 +102,7 @@ mode = "falling"
         BranchSettings settings = in_height();
         settings.direction = direction;
         settings.stop_at = {PointType::grazing};
-        const Branch branch = follow_branch(model, orbit, settings);
+        const Branch branch = follow_branch(System(model), orbit, settings);
         EXPECT_EQ(branch.outcome, BranchOutcome::stopped) << names(branch) << branch.detail;
         return branch.special.empty() ? SpecialPoint{} : branch.special.back();
     }

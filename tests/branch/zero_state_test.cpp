@@ -29,13 +29,13 @@ TEST_P(ZeroState, OtherBranchLeavesItInAnyUnit) {
         SCOPED_TRACE(unit);
         const Model model = map_model(fmt::format("p = -0.2\nunit = {}", unit), {GetParam().image});
         const BranchSettings settings = in_parameter(model, "p", -0.4, 0.6);
-        const Branch branch = follow_branch(model, fixed_point(model, {0}), settings);
+        const Branch branch = follow_branch(System(model), fixed_point(model, {0}), settings);
         const auto points = of_type(branch, GetParam().type);
         ASSERT_EQ(points.size(), 1U) << names(branch);
         EXPECT_NEAR(points[0].parameter, 0, 1e-9);
         ASSERT_EQ(points[0].solution.multipliers.size(), 1U);
         EXPECT_NEAR(points[0].solution.multipliers[0].real(), GetParam().multiplier, 1e-6);
-        for (const BranchStart& start : branches_at(model, points[0], settings)) {
+        for (const BranchStart& start : branches_at(System(model), points[0], settings)) {
             const Branch other = follow(model, start, settings);
             ASSERT_GT(other.points.size(), 3U) << other.detail;
             for (const BranchPoint& point : other.points) {
@@ -73,7 +73,7 @@ map = { x = "-x", y = "-y", z = "-z" }
 )toml");
     const OrbitSolution solution = settled(model, "start");
     EXPECT_TRUE(solution.orbit.symmetry.has_value());
-    const Branch branch = follow_branch(model, solution.orbit, in_parameter(model, "p", -0.5, 0.5));
+    const Branch branch = follow_branch(System(model), solution.orbit, in_parameter(model, "p", -0.5, 0.5));
     ASSERT_EQ(names(branch), "SB BD");
     EXPECT_NEAR(branch.special[0].parameter, 0, 1e-9);
     EXPECT_NEAR(branch.points.back().parameter, 0.5, 1e-12);

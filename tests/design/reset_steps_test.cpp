@@ -157,7 +157,7 @@ std::size_t late_contacts(const TripPoint& trip, const std::vector<double>& valu
         // It settles first, then contacts are counted.
         for (const double periods : {1000.0, 100.0}) {
             count.contacts = 0;
-            Trajectory trajectory(simulation, parameters, count);
+            Trajectory trajectory(simulation, parameters, borrowed(count));
             trajectory.start(state, mode, 0, periods * orbit.period());
             JetSet jets(simulation, LaneKind::single);
             run(trajectory, jets);

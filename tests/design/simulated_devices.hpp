@@ -29,8 +29,7 @@ public:
         parameters[place_] = 0;
         parameters.push_back(0); // the shift itself is constant in time
         state.push_back(0);
-        Observer nobody;
-        Trajectory trajectory(simulation_, parameters, nobody);
+        Trajectory trajectory(simulation_, parameters);
         JetSet jets(simulation_, LaneKind::single);
         std::size_t mode = driven_.model.initial_mode;
         double distance = (1 - way_.begin) * value;

@@ -23,7 +23,7 @@ Model model_of(const std::string& states, const std::string& rates) {
 }
 
 Couplings measured(const Model& model, const std::vector<double>& states, double k = 2) {
-    Couplings couplings(model, 0);
+    Couplings couplings(System(model), 0);
     couplings.set_parameters(std::vector{k});
     couplings.measure(states);
     return couplings;
@@ -63,7 +63,7 @@ TEST(Couplings, ResponseTimeIsInfiniteWithoutCycles) {
 
 TEST(Couplings, FollowTheStateDependenceOfTheJacobian) {
     const Model model = model_of("x = 0\nv = 0\n", "x = \"v\"\nv = \"-x^3\"\n");
-    Couplings couplings(model, 0);
+    Couplings couplings(System(model), 0);
     couplings.set_parameters(std::vector{2.0});
     couplings.measure(std::vector{0.0, 1.0});
     EXPECT_EQ(couplings.response_time(), infinity); // a free mass

@@ -130,7 +130,7 @@ struct Flow {
 
 Flow flow_of(const Model& model, double tolerance, double time, bool with_derivatives) {
     const std::size_t n = model.states.size();
-    ModeFlow flow(model, tolerance, 0, {ParameterId(0)});
+    ModeFlow flow(System(model), tolerance, 0, {ParameterId(0)});
     flow.set_parameters(model.parameter_values());
     Flow result{model.initial_state(), std::vector<double>(n * (n + 1)), 0};
     EXPECT_EQ(with_derivatives ? flow.run(0, result.state, time, result.derivatives) : flow.run(0, result.state, time),
@@ -200,7 +200,7 @@ TEST(TangentSteps, StepsAreShortenedForFasterDirections) {
                                         "a = \"b\"\nb = \"-10000*a\"\n[initial]\nmode = \"m\"\n",
                                     "a.toml");
     constexpr double tolerance = 1e-12, time = 2;
-    ModeFlow flow(model, tolerance);
+    ModeFlow flow(System(model), tolerance);
     flow.set_parameters({});
     const std::size_t n = model.states.size();
     std::vector<double> state = model.initial_state(), derivatives(n * n);
@@ -260,8 +260,8 @@ TEST(TangentSteps, AgreeWithTheVariationalSystemOfAMeanField) {
 
 TEST(TangentSteps, MisuseThrows) {
     const Model model = parse_model(chain_of(1, 1, 1, 1).model(), "chain.toml");
-    TangentSteps steps(model, 1e-9, 2);
-    ModeJets jets(model, 10, LaneKind::single), without(model, 10, LaneKind::single);
+    TangentSteps steps(System(model), 1e-9, 2);
+    ModeJets jets(System(model), 10, LaneKind::single), without(System(model), 10, LaneKind::single);
     jets.add_tangents();
     EXPECT_THROW(steps.set_parameters({}, {}), InputError);
     EXPECT_THROW(steps.set_parameters(std::vector{1.0}, std::vector{1.0}), InputError);
@@ -270,12 +270,12 @@ TEST(TangentSteps, MisuseThrows) {
     for (ModeJets* all : {&jets, &without})
         all->set_parameters(std::vector{1.0});
     Jet &jet = jets.computed(0, state), &next = jets.next(0);
-    EXPECT_THROW(steps.carry(next, 0.1, after), std::logic_error);
+    EXPECT_THROW(steps.carry(next, 0.1, after), OrderError);
     EXPECT_THROW(steps.begin(jet, 1, state, matrix), InputError);
     EXPECT_THROW(steps.begin(jet, 0, few, matrix), InputError);
     EXPECT_THROW(steps.begin(jet, 0, state, few), InputError);
     EXPECT_THROW(steps.begin(without.computed(0, state), 0, state, matrix), InputError);
-    EXPECT_THROW(steps.begin(next, 0, state, matrix), std::logic_error); // the jet has not been computed
+    EXPECT_THROW(steps.begin(next, 0, state, matrix), OrderError); // the jet has not been computed
     steps.begin(jet, 0, state, matrix);
     EXPECT_THROW(steps.carry(next, 0.1, few), InputError);
     EXPECT_EQ(steps.carry(next, 0.01, after), 0.01);

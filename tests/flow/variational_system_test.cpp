@@ -66,7 +66,7 @@ void expect_near(const Function& function, const Numbers& exact) {
 }
 
 TEST(VariationalSystem, HasSecondDerivativesOfEventsSectionsAndMaps) {
-    const VariationalSystem system(model(), {ParameterId(1)});
+    const VariationalSystem system(System(model()), {ParameterId(1)});
     EXPECT_EQ(system.variables(), 3u);
     const auto [x, y, a, c, vx, vy, vc] = At();
     // a c x^2 - x y
@@ -88,7 +88,7 @@ TEST(VariationalSystem, HasSecondDerivativesOfEventsSectionsAndMaps) {
 }
 
 TEST(VariationalSystem, CompilesFurtherExpressions) {
-    const VariationalSystem system(model(), {ParameterId(1)});
+    const VariationalSystem system(System(model()), {ParameterId(1)});
     Model own = model();
     const auto [x, y, a, c, vx, vy, vc] = At();
     // At the image of the state under a symmetry, and for expressions of another graph.
@@ -101,7 +101,7 @@ TEST(VariationalSystem, CompilesFurtherExpressions) {
 }
 
 TEST(VariationalSystem, HasTheVariationalEquationsOfEachMode) {
-    const VariationalSystem system(model(), {ParameterId(1)});
+    const VariationalSystem system(System(model()), {ParameterId(1)});
     const System& modes = system.modes();
     EXPECT_EQ(modes.states(), 4u);
     EXPECT_EQ(modes.parameters(), 3u);

@@ -60,8 +60,7 @@ double error_at(const System& system, const DiscontinuityMap& map, double depth,
                         (map.second.empty() ? 0 : map.second[i] * map.second_by_depth(depth));
     EXPECT_EQ(flow.run(touch.mode, before, -time), ModeFlow::Ending::done);
     EXPECT_EQ(flow.run(touch.mode, predicted, time), ModeFlow::Ending::done);
-    Observer nobody;
-    Trajectory trajectory(simulation, touch.parameters, nobody);
+    Trajectory trajectory(simulation, touch.parameters);
     trajectory.start(before, touch.mode, 0, 2 * time);
     JetSet jets(simulation, LaneKind::single);
     run(trajectory, jets);
@@ -166,14 +165,14 @@ event = "touch"
 jump = "impact"
 next = "free"
 )toml");
-    const DiscontinuityMap map = discontinuity_map(model, touch_of(model, "free", "touch", at_wall));
+    const DiscontinuityMap map = discontinuity_map(System(model), touch_of(model, "free", "touch", at_wall));
     ASSERT_EQ(map.order, MapOrder::square_root) << map.reason;
     EXPECT_NEAR(map.acceleration, 2 + 0.3 * std::sin(0.2), 1e-15);
     EXPECT_NEAR(map.direction[1], 1.7, 1e-15);
     for (const std::size_t i : {0, 2, 3})
         EXPECT_EQ(map.direction[i], 0);
     EXPECT_EQ(map.time, 0);
-    expect_rate(model, map, 1e-6, 0.1, 1);
+    expect_rate(System(model), map, 1e-6, 0.1, 1);
 }
 
 TEST(DiscontinuityMap, ImpactMayChangeSeveralStates) {
@@ -188,30 +187,30 @@ event = "touch"
 jump = "impact"
 next = "free"
 )toml");
-    const DiscontinuityMap map = discontinuity_map(model, touch_of(model, "free", "touch", at_wall));
+    const DiscontinuityMap map = discontinuity_map(System(model), touch_of(model, "free", "touch", at_wall));
     ASSERT_EQ(map.order, MapOrder::square_root) << map.reason;
     EXPECT_NEAR(map.restitution, 0.7 * 1.06, 1e-15);
     EXPECT_NEAR(map.direction[2], 0.4, 1e-15);
     EXPECT_NEAR(map.direction[3], -0.09, 1e-15);
-    expect_rate(model, map, 1e-6, 0.1, 1);
+    expect_rate(System(model), map, 1e-6, 0.1, 1);
 }
 
 TEST(DiscontinuityMap, MovingWallsAndSlipAfterImpactsHaveSquareRootMaps) {
     Model shaker = load_model("ball-and-shaker");
     shaker.set_parameter("a", 0.65);
     const DiscontinuityMap moving =
-        discontinuity_map(shaker, touch_of(shaker, "free", "contact", {0, 0, std::acos(0.0)}, {0.65, 20, 1}));
+        discontinuity_map(System(shaker), touch_of(shaker, "free", "contact", {0, 0, std::acos(0.0)}, {0.65, 20, 1}));
     ASSERT_EQ(moving.order, MapOrder::square_root) << moving.reason;
-    expect_rate(shaker, moving, 1e-6, 0.005, 1);
+    expect_rate(System(shaker), moving, 1e-6, 0.005, 1);
 
     // The frame slips for a time proportional to the speed, and sticks again.
     const Model actuator = load_model("impact-microactuator");
     const DiscontinuityMap slipping =
-        discontinuity_map(actuator, touch_of(actuator, "stick", "front", {0, 0, 0.5, 0, 2.9}));
+        discontinuity_map(System(actuator), touch_of(actuator, "stick", "front", {0, 0, 0.5, 0, 2.9}));
     ASSERT_EQ(slipping.order, MapOrder::square_root) << slipping.reason;
     EXPECT_EQ(slipping.contacts.size(), 2U);
     EXPECT_GT(slipping.time, 0);
-    expect_rate(actuator, slipping, 1e-6, 0.1, 1);
+    expect_rate(System(actuator), slipping, 1e-6, 0.1, 1);
 }
 
 /// A touching state of a shipped model, with the scales of its states, a depth and a time that is short for it.
@@ -259,40 +258,40 @@ TEST(DiscontinuityMap, ErrorForShippedModelsFallsWithTheNextPower) {
         for (const auto& [name, value] : one.parameters)
             model.set_parameter(name, value);
         const DiscontinuityMap map =
-            discontinuity_map(model, touch_of(model, one.mode, one.event, one.state, one.scales));
+            discontinuity_map(System(model), touch_of(model, one.mode, one.event, one.state, one.scales));
         EXPECT_EQ(map.order, one.order) << map.reason;
-        expect_rate(model, map, one.depth, one.time, one.order == MapOrder::square_root ? 1 : 2);
+        expect_rate(System(model), map, one.depth, one.time, one.order == MapOrder::square_root ? 1 : 2);
     }
     // The mass of the testbed touches its stop with a current that pulls it away.
     const Model testbed = load_model("electromagnetic-testbed");
     const double delta = testbed.values_of(std::array{testbed.symbol("delta")})[0];
     const DiscontinuityMap map =
-        discontinuity_map(testbed, touch_of(testbed, "free", "stop", {delta, 0, 0.1, 1}, {1e-3, 0.1, 1, 1}));
+        discontinuity_map(System(testbed), touch_of(testbed, "free", "stop", {delta, 0, 0.1, 1}, {1e-3, 0.1, 1, 1}));
     EXPECT_EQ(map.order, MapOrder::square_root) << map.reason;
-    expect_rate(testbed, map, 1e-8, 0.001, 1);
+    expect_rate(System(testbed), map, 1e-8, 0.001, 1);
 }
 
 TEST(DiscontinuityMap, PreloadedStopHasASquareRootMap) {
     const Model model = compliant("c - k*x");
-    const DiscontinuityMap map = discontinuity_map(model, touch_of(model, "free", "touch", at_wall));
+    const DiscontinuityMap map = discontinuity_map(System(model), touch_of(model, "free", "touch", at_wall));
     ASSERT_EQ(map.order, MapOrder::square_root) << map.reason;
     // The preload c acts for the time 2 s/(a + c).
     const double a = 2 + 0.3 * std::sin(0.2);
     EXPECT_NEAR(map.time, 2 / (a + 0.6), 1e-15);
     EXPECT_NEAR(map.direction[1], 0.6 * 2 / (a + 0.6), 1e-15);
-    expect_rate(model, map, 1e-6, 0.1, 1);
+    expect_rate(System(model), map, 1e-6, 0.1, 1);
 }
 
 TEST(DiscontinuityMap, CompliantStopsHaveThreeHalvesMaps) {
     for (const char* force : {"(-k*x)", "(-k*x*(1 + z))", "(-k*x - c*v)", "(-k*x - c*v*(1 + z + v))", "(-c*v)"}) {
         SCOPED_TRACE(force);
         const Model model = compliant(force);
-        const DiscontinuityMap map = discontinuity_map(model, touch_of(model, "free", "touch", at_wall));
+        const DiscontinuityMap map = discontinuity_map(System(model), touch_of(model, "free", "touch", at_wall));
         ASSERT_EQ(map.order, MapOrder::three_halves) << map.reason;
-        expect_rate(model, map, 1e-3, 0.2, 2);
+        expect_rate(System(model), map, 1e-3, 0.2, 2);
     }
     const Model spring = compliant("(-k*x)");
-    const DiscontinuityMap map = discontinuity_map(spring, touch_of(spring, "free", "touch", at_wall));
+    const DiscontinuityMap map = discontinuity_map(System(spring), touch_of(spring, "free", "touch", at_wall));
     EXPECT_NEAR(map.direction[1], 4 * std::sqrt(2 / map.acceleration), 1e-14); // 4/3 k (2/a)^(1/2)
 }
 
@@ -363,7 +362,7 @@ TEST(DiscontinuityMap, GrazingSlidingHasALinearMap) {
     for (const char* jump : {"identity", "put"}) {
         const Model model = relay(jump);
         const std::vector<double> state = touch_of_relay();
-        const DiscontinuityMap map = discontinuity_map(model, touch_of(model, "free", "touch", state));
+        const DiscontinuityMap map = discontinuity_map(System(model), touch_of(model, "free", "touch", state));
         ASSERT_EQ(map.order, MapOrder::linear) << map.reason;
         EXPECT_EQ(map.contacts.size(), 2U);
         // (second - first) divided by the rate at which the second field meets the surface.
@@ -374,7 +373,7 @@ TEST(DiscontinuityMap, GrazingSlidingHasALinearMap) {
         EXPECT_EQ(map.direction[3], 0);
         // It slides from the contact until the time at which the motion would have touched.
         EXPECT_NEAR(map.time, 1 / map.acceleration, 1e-13);
-        expect_rate(model, map, 1e-4, 0.1, 1.5);
+        expect_rate(System(model), map, 1e-4, 0.1, 1.5);
     }
 }
 
@@ -387,7 +386,7 @@ TEST(DiscontinuityMap, ShortStickingHasALinearMapWithItsClosedForm) {
         model.set_parameter("friction_static", 0.3);
         const double theta = 4, x = std::cos(theta) - 0.3;
         TouchState touch = touch_of(model, "slip_plus", "stop_plus", {x, 0, theta});
-        const DiscontinuityMap map = discontinuity_map(model, touch);
+        const DiscontinuityMap map = discontinuity_map(System(model), touch);
         ASSERT_EQ(map.order, MapOrder::linear) << map.reason;
         const double a = -0.4 * std::sin(theta);
         EXPECT_NEAR(map.acceleration, a, 1e-15);
@@ -396,21 +395,21 @@ TEST(DiscontinuityMap, ShortStickingHasALinearMapWithItsClosedForm) {
         EXPECT_EQ(map.direction[2], 0);
         EXPECT_NEAR(map.second[0], a / 3 * std::pow(2 / a, 1.5), 1e-14);
         EXPECT_EQ(map.second[1], 0);
-        expect_rate(model, map, 2e-6, 0.3, 1.5);
+        expect_rate(System(model), map, 2e-6, 0.3, 1.5);
         // The symmetric image.
         for (std::size_t i = 0; i < 2; ++i)
             touch.state[i] = -touch.state[i];
         touch.state[2] += std::acos(-1.0);
         touch.mode = *model.find_mode("slip_minus");
         touch.event = *model.find_event("stop_minus");
-        const DiscontinuityMap mirrored = discontinuity_map(model, touch);
+        const DiscontinuityMap mirrored = discontinuity_map(System(model), touch);
         ASSERT_EQ(mirrored.order, MapOrder::linear) << mirrored.reason;
         EXPECT_NEAR(mirrored.direction[1], -1, 1e-15);
         EXPECT_NEAR(mirrored.second[0], -map.second[0], 1e-14);
         // Higher static friction holds the mass for a time that does not vanish with the depth.
         model.set_parameter("friction_static", 0.31);
         touch.parameters = model.parameter_values();
-        const DiscontinuityMap held = discontinuity_map(model, touch);
+        const DiscontinuityMap held = discontinuity_map(System(model), touch);
         EXPECT_FALSE(held.exists());
         EXPECT_THAT(held.reason, HasSubstr("mode 'stick', from which the motion does not come back at once"));
     }
@@ -457,7 +456,7 @@ next = "slip"
                                             "sticking.toml");
             const double theta = 4, x = (std::cos(theta) - 0.3) / 2 * length;
             const DiscontinuityMap map =
-                discontinuity_map(model, touch_of(model, "slip", "stop", {x, 0, theta}, {length, velocity, 1}));
+                discontinuity_map(System(model), touch_of(model, "slip", "stop", {x, 0, theta}, {length, velocity, 1}));
             ASSERT_EQ(map.order, MapOrder::linear) << map.reason << ' ' << length << ' ' << clock;
             const double a = -0.4 * std::sin(theta) * force / clock;
             EXPECT_NEAR(map.acceleration, a, 1e-14 * a);
@@ -472,18 +471,19 @@ next = "slip"
 TEST(DiscontinuityMap, EndOfSlidingIsRefusedWithTheReason) {
     Model model = load_model("dry-friction-oscillator");
     model.set_parameter("friction_static", 0.3);
-    const DiscontinuityMap map = discontinuity_map(model, touch_of(model, "stick", "break_plus", {0.7, 0, 0}));
+    const DiscontinuityMap map = discontinuity_map(System(model), touch_of(model, "stick", "break_plus", {0.7, 0, 0}));
     EXPECT_FALSE(map.exists());
     EXPECT_THAT(map.reason, HasSubstr("the motion slides along the surface of event 'stop_plus'"));
     // With higher static friction the mass slips far.
     model.set_parameter("friction_static", 0.4);
-    EXPECT_THAT(discontinuity_map(model, touch_of(model, "stick", "break_plus", {0.6, 0, 0})).reason,
+    EXPECT_THAT(discontinuity_map(System(model), touch_of(model, "stick", "break_plus", {0.6, 0, 0})).reason,
                 HasSubstr("mode 'slip_plus', from which the motion does not come back at once"));
 }
 
 TEST(DiscontinuityMap, UnsuitableSlidingIsRefusedWithTheReason) {
     const auto reason_of = [](const Model& model) {
-        const DiscontinuityMap map = discontinuity_map(model, touch_of(model, "free", "touch", touch_of_relay()));
+        const DiscontinuityMap map =
+            discontinuity_map(System(model), touch_of(model, "free", "touch", touch_of_relay()));
         EXPECT_FALSE(map.exists());
         return map.reason;
     };
@@ -502,7 +502,8 @@ TEST(DiscontinuityMap, UnsuitableSlidingIsRefusedWithTheReason) {
 
 TEST(DiscontinuityMap, UnsuitableContactsAreRefusedWithTheReason) {
     const auto reason = [](const Model& model, std::vector<double> state = at_wall) {
-        const DiscontinuityMap map = discontinuity_map(model, touch_of(model, "free", "touch", std::move(state)));
+        const DiscontinuityMap map =
+            discontinuity_map(System(model), touch_of(model, "free", "touch", std::move(state)));
         EXPECT_FALSE(map.exists());
         return map.reason;
     };
@@ -538,11 +539,11 @@ next = {}
 
 TEST(DiscontinuityMap, NumbersThatDoNotFitAreRefused) {
     const Model model = load_model("impact-oscillator");
-    EXPECT_THROW(discontinuity_map(model, touch_of(model, "free", "stop", {0, 0})), InputError);
-    EXPECT_THROW(discontinuity_map(model, touch_of(model, "free", "stop", {0, 0, NAN})), InputError);
+    EXPECT_THROW(discontinuity_map(System(model), touch_of(model, "free", "stop", {0, 0})), InputError);
+    EXPECT_THROW(discontinuity_map(System(model), touch_of(model, "free", "stop", {0, 0, NAN})), InputError);
     TouchState touch = touch_of(model, "free", "stop", {0.1, 0, 0});
     touch.event = 7;
-    EXPECT_THROW(discontinuity_map(model, touch), InputError);
+    EXPECT_THROW(discontinuity_map(System(model), touch), InputError);
 }
 
 } // namespace

@@ -389,11 +389,11 @@ TEST(Verdict, AttractorsOfTheMapEqualThoseOfSimulation) {
             std::vector<double> start = one.orbit(model).starts[0];
             for (double& component : start)
                 component *= parameters[model.independent_parameter("force").place()];
-            const Simulation simulation(model, {}, {}, SimulationOptions{.tolerance = 1e-15});
+            const Simulation simulation(System(model), {}, {}, SimulationOptions{.tolerance = 1e-15});
             // Cycles are counted from the phase of the start, not of the touch.
             constexpr std::size_t transient = 300, rounds = 20;
             Counter counter(transient * one.period());
-            Trajectory trajectory(simulation, parameters, counter);
+            Trajectory trajectory(simulation, parameters, borrowed(counter));
             trajectory.start(start, 0, 0, static_cast<double>(transient + rounds * motion.period) * one.period());
             JetSet jets(simulation, LaneKind::single);
             run(trajectory, jets);

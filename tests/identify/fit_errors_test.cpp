@@ -33,7 +33,7 @@ TEST(FitErrorsSlow, IntervalsCoverTheTruth) {
     for (std::size_t seed = 1; seed <= experiments; ++seed) {
         RecordedMotion motion = exact;
         motion.add_noise(0.01, seed);
-        const Fit fit = fit_model(motion.model, motion.task);
+        const Fit fit = fit_model(System(motion.model), motion.task);
         EXPECT_EQ(name_of(fit.ending), "converged") << seed << ": " << fit.detail;
         for (std::size_t j = 0; j < covered.size(); ++j) {
             const Estimate& estimate = fit.numbers[j].estimate;
@@ -49,7 +49,7 @@ TEST(FitErrorsSlow, EqualThoseOfTheBootstrap) {
     constexpr std::size_t draws = 150;
     RecordedMotion motion = wall_motion();
     motion.add_noise(0.01, 11);
-    const Fit fit = fit_model(motion.model, motion.task);
+    const Fit fit = fit_model(System(motion.model), motion.task);
     ASSERT_EQ(name_of(fit.ending), "converged") << fit.detail;
     std::vector<double> sums(4), squares(4);
     Noise chance(5);
@@ -64,7 +64,7 @@ TEST(FitErrorsSlow, EqualThoseOfTheBootstrap) {
                 record.readings[c].values[i] = fitted[i] + read[k] - fitted[k];
             }
         }
-        const Fit again = fit_model(motion.model, task);
+        const Fit again = fit_model(System(motion.model), task);
         for (std::size_t j = 0; j < sums.size(); ++j) {
             const double change = again.numbers[j].estimate.value - fit.numbers[j].estimate.value;
             sums[j] += change;
@@ -89,7 +89,7 @@ TEST(FitErrors, EqualThoseOfAStraightLine) {
     motion.add_noise(0.02, 3);
     motion.forget("r", 0.5);
     motion.forget_states();
-    const Fit fit = fit_model(motion.model, motion.task);
+    const Fit fit = fit_model(System(motion.model), motion.task);
     ASSERT_EQ(name_of(fit.ending), "converged") << fit.detail;
     const FitRecord& record = motion.task.records[0];
     double t = 0, x = 0, tt = 0, tx = 0;
@@ -132,10 +132,10 @@ TEST(FitErrors, RobustLossesTolerateOutliers) {
             largest = std::max(largest, std::abs(fit.numbers[j].estimate.value / motion.truth(j) - 1));
         return largest;
     };
-    const double squares = worst(fit_model(motion.model, motion.task, settings));
+    const double squares = worst(fit_model(System(motion.model), motion.task, settings));
     for (const FitLoss loss : {FitLoss::huber, FitLoss::cauchy}) {
         settings.loss = loss;
-        const Fit fit = fit_model(motion.model, motion.task, settings);
+        const Fit fit = fit_model(System(motion.model), motion.task, settings);
         EXPECT_EQ(name_of(fit.ending), "converged") << fit.detail;
         EXPECT_LT(worst(fit), 0.5 * squares);
         for (std::size_t j = 0; j < 4; ++j)
@@ -149,7 +149,7 @@ TEST(FitErrors, ParametersStayWithinBounds) {
     motion.add_noise(0.005, 2);
     motion.task.parameters[3].greatest = 0.6; // the truth is 0.7
     motion.task.parameters[3].guess = 0.55;
-    const Fit fit = fit_model(motion.model, motion.task);
+    const Fit fit = fit_model(System(motion.model), motion.task);
     EXPECT_EQ(name_of(fit.ending), "misfit") << fit.detail;
     EXPECT_TRUE(fit.numbers[3].at_bound);
     EXPECT_NEAR(fit.numbers[3].estimate.value, 0.6, 1e-9);
@@ -164,7 +164,7 @@ TEST(FitErrorsSlow, ChaoticMotionWithNoiseIsFitted) {
         motion.forget(name, 1.05);
     motion.forget_states();
     motion.add_noise(0.01, 4);
-    const Fit fit = fit_model(motion.model, motion.task);
+    const Fit fit = fit_model(System(motion.model), motion.task);
     EXPECT_EQ(name_of(fit.ending), "converged") << fit.detail;
     for (std::size_t j = 0; j < 4; ++j)
         EXPECT_LE(std::abs(fit.numbers[j].estimate.value - motion.truth(j)), 4 * fit.numbers[j].estimate.error)
@@ -181,7 +181,7 @@ void expect_found_with_slow_impacts(std::uint64_t seed, double factor) {
         motion.forget(name, factor);
     motion.forget_states();
     motion.add_noise(0.005, seed);
-    const Fit fit = fit_model(motion.model, motion.task);
+    const Fit fit = fit_model(System(motion.model), motion.task);
     EXPECT_EQ(name_of(fit.ending), "converged") << fit.detail;
     // With 4 numbers in 18 fits, one exceeds four errors by chance in one of 200 such tests.
     for (std::size_t j = 0; j < 4; ++j)

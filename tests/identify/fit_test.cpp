@@ -21,7 +21,7 @@ namespace {
 constexpr double nine_digits = 1e-9;
 
 void expect_found(const RecordedMotion& motion, const FitSettings& settings = {}) {
-    const Fit fit = fit_model(motion.model, motion.task, settings);
+    const Fit fit = fit_model(System(motion.model), motion.task, settings);
     EXPECT_EQ(name_of(fit.ending), "converged") << fit.detail;
     EXPECT_LE(motion.error(fit), nine_digits);
 }
@@ -88,7 +88,7 @@ TEST(Fit, FindsGainsAndOffsetsFromSeveralRecords) {
     for (const char* name : {"zeta", "omega", "sigma", "e"})
         motion.forget(name, 1.05);
     motion.forget_states();
-    const Fit fit = fit_model(motion.model, motion.task);
+    const Fit fit = fit_model(System(motion.model), motion.task);
     EXPECT_EQ(name_of(fit.ending), "converged") << fit.detail;
     EXPECT_LE(motion.error(fit), nine_digits);
     ASSERT_EQ(fit.numbers.size(), 12U);
@@ -116,7 +116,7 @@ rates = { x = "v", v = "-k/m*x" }
     motion.forget("m", 1.1);
     motion.forget("k", 1.05);
     motion.task.records[0].unknown_states = {0};
-    const Fit fit = fit_model(motion.model, motion.task);
+    const Fit fit = fit_model(System(motion.model), motion.task);
     EXPECT_EQ(name_of(fit.ending), "undetermined");
     ASSERT_EQ(fit.free.size(), 1U);
     EXPECT_LT(fit.free[0].strength, 1e-9);
@@ -145,7 +145,7 @@ rates = { T = "-T/tau" }
     FitSettings settings;
     int asked = 0;
     settings.interrupted = [&] { return ++asked > 1000; };
-    const Fit fit = fit_model(motion.model, motion.task, settings);
+    const Fit fit = fit_model(System(motion.model), motion.task, settings);
     EXPECT_EQ(name_of(fit.ending), "interrupted");
     EXPECT_EQ(asked, 1001) << "no motion begins any more";
     EXPECT_THAT(fit.detail,
@@ -168,14 +168,14 @@ TEST(Fit, NamesTheChannelThatDoesNotMatch) {
             ++asked;
             return false;
         };
-        const Fit fit = fit_model(motion.model, motion.task, settings);
+        const Fit fit = fit_model(System(motion.model), motion.task, settings);
         EXPECT_NE(name_of(fit.ending), "converged") << factor;
         EXPECT_THAT(fit.detail, ::testing::HasSubstr("does not match from time")) << factor;
         EXPECT_THAT(fit.detail, ::testing::HasSubstr("look at its sign, its unit")) << factor;
         // Interrupted early it says the same, as soon as all pieces have been evaluated.
         int until = asked / 2;
         settings.interrupted = [&] { return --until < 0; };
-        const Fit ended = fit_model(motion.model, motion.task, settings);
+        const Fit ended = fit_model(System(motion.model), motion.task, settings);
         EXPECT_EQ(name_of(ended.ending), "interrupted");
         EXPECT_THAT(ended.detail, ::testing::HasSubstr("before it had converged"));
     }
@@ -193,7 +193,7 @@ TEST(Fit, UnitsMakeNoDifference) {
             motion.forget(name, 1.1);
         motion.forget_states();
         motion.add_noise(1e-3, 7);
-        return std::pair(motion, fit_model(motion.model, motion.task));
+        return std::pair(motion, fit_model(System(motion.model), motion.task));
     };
     const auto [motion, usual] = swing(1, 1);
     EXPECT_EQ(name_of(usual.ending), "converged") << usual.detail;
@@ -242,7 +242,7 @@ TEST(Fit, ConvergesOnARecordWithRestAfterChatter) {
         motion.forget("e", 0.95);
         motion.forget_states();
         motion.add_noise(0.02, seed);
-        const Fit fit = fit_model(motion.model, motion.task);
+        const Fit fit = fit_model(System(motion.model), motion.task);
         EXPECT_EQ(name_of(fit.ending), "converged") << fit.detail;
         for (std::size_t j = 0; j < 2; ++j) // by chance once in 3000 fits
             EXPECT_LE(std::abs(fit.numbers[j].estimate.value - motion.truth(j)), 4 * fit.numbers[j].estimate.error);
@@ -253,7 +253,7 @@ TEST(Fit, SaysThatTheModelDoesNotDefineWhatFollowsChatter) {
     RecordedMotion motion(dropped_ball(), {"x"}, 0, 0.02, 200);
     motion.model = dropped_ball("");
     motion.forget("e", 1.01);
-    const Fit fit = fit_model(motion.model, motion.task);
+    const Fit fit = fit_model(System(motion.model), motion.task);
     EXPECT_EQ(name_of(fit.ending), "broken");
     EXPECT_THAT(fit.detail, ::testing::HasSubstr("give it `chatter = { jump = ..., mode = ... }` in the model"));
     EXPECT_THAT(fit.detail, ::testing::Not(::testing::HasSubstr("guesses")));
@@ -279,7 +279,7 @@ rates = { x = "-k*x", z = "-z" }
         motion.task.records[0].unknown_states = {0};
         if (noise)
             motion.add_noise(0.01, 5);
-        const Fit fit = fit_model(motion.model, motion.task);
+        const Fit fit = fit_model(System(motion.model), motion.task);
         EXPECT_EQ(name_of(fit.ending), "undetermined") << fit.detail;
         ASSERT_EQ(fit.free.size(), 2U);
         EXPECT_THAT(fit.free[0].text + fit.free[1].text, ::testing::HasSubstr("gain of z"));
@@ -293,7 +293,7 @@ TEST(Fit, NamesAReadingThatIsOutOfAllProportion) {
     motion.forget("g", 1.1);
     motion.task.records[0].readings[1].values[7] = -1e308;
     try {
-        fit_model(motion.model, motion.task);
+        fit_model(System(motion.model), motion.task);
         FAIL() << "it was fitted";
     } catch (const InputError& error) {
         EXPECT_THAT(error.what(), ::testing::HasSubstr("the reading -1e+308 of 'v' at time 0.14 is out of"));
@@ -307,7 +307,7 @@ TEST(Fit, AConstantChannelHasAnIntervalAboveZero) {
                                     "still.toml");
     RecordedMotion motion(model, {"x"}, 0, 0.1, 30);
     motion.task.outputs[0].offset_unknown = true;
-    const Fit fit = fit_model(motion.model, motion.task);
+    const Fit fit = fit_model(System(motion.model), motion.task);
     EXPECT_TRUE(fit.outputs[0].unchanging);
     EXPECT_GT(fit.numbers[0].estimate.half_width(), 0);
 }
@@ -330,7 +330,7 @@ TEST(Fit, ReportsMirrorImagesAsAlternatives) {
     RecordedMotion ball(dropped_ball(), {"v"}, 0, 0.01, 40);
     ball.forget("g", 1.02);
     ball.task.records[0].unknown_states = {1};
-    EXPECT_TRUE(fit_model(ball.model, ball.task).alternatives.empty());
+    EXPECT_TRUE(fit_model(System(ball.model), ball.task).alternatives.empty());
 
     RecordedMotion swing(parse_model("name = \"swing\"\n[parameters]\nk = 4\n[states]\nx = { initial = 1 }\n"
                                      "v = { initial = 0.5 }\n[modes.m]\nrates = { x = \"v\", v = \"-k*x\" }\n",
@@ -339,7 +339,7 @@ TEST(Fit, ReportsMirrorImagesAsAlternatives) {
     read_squares(swing);
     swing.forget("k", 1.02);
     swing.forget_states();
-    const Fit fit = fit_model(swing.model, swing.task);
+    const Fit fit = fit_model(System(swing.model), swing.task);
     EXPECT_EQ(name_of(fit.ending), "converged") << fit.detail;
     ASSERT_EQ(fit.alternatives.size(), 1U);
     EXPECT_EQ(fit.alternatives[0].text, "x(0) = -1, v(0) = -0.5");
@@ -351,7 +351,7 @@ TEST(Fit, ReportsMirrorImagesAsAlternatives) {
     read_squares(stops);
     stops.forget("e", 1.02);
     stops.forget_states();
-    const Fit other = fit_model(stops.model, stops.task);
+    const Fit other = fit_model(System(stops.model), stops.task);
     EXPECT_EQ(name_of(other.ending), "converged") << other.detail;
     ASSERT_GE(other.alternatives.size(), 1U);
     for (const char* state : {"x(0) = ", "v(0) = ", "theta(0) = "})
@@ -365,7 +365,7 @@ TEST(Fit, SignsAreThoseOfGuesses) {
         motion.forget(name, 1.05);
     motion.forget_states();
     motion.add_noise(0.005, 17);
-    const Fit fit = fit_model(motion.model, motion.task);
+    const Fit fit = fit_model(System(motion.model), motion.task);
     EXPECT_EQ(name_of(fit.ending), "converged") << fit.detail;
     EXPECT_TRUE(fit.alternatives.empty());
     for (std::size_t j = 0; j < motion.task.parameters.size(); ++j)

@@ -358,7 +358,7 @@ TEST(Identification, RefusesRecordsWithoutUsableNumbers) {
     NamedRecord huge = release(0.1);
     for (double& value : huge.samples.values[0])
         value *= 1e150;
-    EXPECT_THAT(message_of([&] { identify_decrement(each({huge}), {}); }), HasSubstr("--scale v="));
+    EXPECT_THAT(message_of([&] { identify_decrement(each({huge}), {}); }), HasSubstr("(scale v="));
     IdentificationSettings other;
     other.channel = "w";
     other.asked_as = "--";

@@ -28,7 +28,7 @@ TEST(JoinedDescent, ConvergesAtTheEdgeOfAStepOfTheCost) {
         motion.forget("e", 0.95);
         motion.forget_states();
         motion.add_noise(0.02, seed);
-        const Fit fit = fit_model(motion.model, motion.task);
+        const Fit fit = fit_model(System(motion.model), motion.task);
         EXPECT_EQ(name_of(fit.ending), "converged") << seed << ": " << fit.detail;
         for (std::size_t j = 0; j < 2; ++j) // fails by chance once in 2500 series
             EXPECT_LE(std::abs(fit.numbers[j].estimate.value - motion.truth(j)), 4 * fit.numbers[j].estimate.error);

@@ -43,7 +43,7 @@ TEST(OtherInitialStates, ARecordMayBeginJustBeforeAContact) {
     const double period = std::acos(-1.0);
     for (const double part : {0.001, 0.003, 0.01, 0.02}) {
         RecordedMotion motion = before_contact(part * period);
-        const Fit fit = fit_model(motion.model, motion.task);
+        const Fit fit = fit_model(System(motion.model), motion.task);
         EXPECT_EQ(name_of(fit.ending), "converged") << part << ": " << fit.detail;
         EXPECT_LE(motion.error(fit), 1e-9) << part; // only round-off is left
         EXPECT_EQ(fit.records[0].contacts, 3U);

@@ -57,9 +57,9 @@ struct RecordedMotion {
                                 record.readings[c].values.push_back(read[c]);
                         });
         Recorder recorder;
-        Relay relay({&sampler, &recorder});
-        const Simulation simulation(model, {}, {}, {.tolerance = tolerance});
-        Trajectory trajectory(simulation, parameters, relay);
+        Relay relay({borrowed(sampler), borrowed(recorder)});
+        const Simulation simulation(System(model), {}, {}, {.tolerance = tolerance});
+        Trajectory trajectory(simulation, parameters, borrowed(relay));
         trajectory.start(model.initial_state(), model.initial_mode, 0, skipped + spacing * static_cast<double>(count));
         JetSet jets(simulation, LaneKind::single);
         run(trajectory, jets);

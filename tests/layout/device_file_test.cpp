@@ -88,10 +88,10 @@ TEST(DeviceFile, ErrorsHavePlaceAndRemedy) {
     for (const auto& [text, said] : mistakes)
         EXPECT_THAT(message(text), HasSubstr(said));
     EXPECT_THAT(message("gap = \"3inch\""), HasSubstr("one.toml:3:8: "));
-    EXPECT_THAT(message("", {{"gap", -1}}), HasSubstr("--set gap: gap is -1 um, not positive"));
+    EXPECT_THAT(message("", {{"gap", -1}}), HasSubstr("given gap: gap is -1 um, not positive"));
     EXPECT_THAT(message("", {{"gab", 1}}),
-                HasSubstr("--set gab: a device has no dimension 'gab'; did you mean 'gap'?"));
-    EXPECT_THAT(message("", {{"chamber_depth", 400}}), HasSubstr("--set chamber_depth: the chambers, 400 um deep"));
+                HasSubstr("given gab: a device has no dimension 'gab'; did you mean 'gap'?"));
+    EXPECT_THAT(message("", {{"chamber_depth", 400}}), HasSubstr("given chamber_depth: the chambers, 400 um deep"));
     EXPECT_THAT(message("", {{"folds", 1.5}}), HasSubstr("give a whole number"));
     EXPECT_THROW(parse_device_file("name = \"one\"\n", "one.toml"), InputError) << "nothing to be drawn";
     EXPECT_THROW(parse_device_file("[device]\n", "one.toml"), InputError) << "no name";
@@ -125,7 +125,7 @@ TEST(DeviceFile, ReadsDimensionsOfTheCommandLineWithUnits) {
 TEST(DeviceFile, IsAlsoReadAsADesign) {
     const DeviceFile file = load_device_file("mems-switch-device", {{"gap", 20}});
     EXPECT_EQ(file.device.gap, 20);
-    EXPECT_EQ(file.place("device.gap").file, "--set gap");
+    EXPECT_EQ(file.place("device.gap").file, "given gap");
     EXPECT_EQ(load_design("mems-switch-device").name, file.name);
 }
 

@@ -48,7 +48,7 @@ TEST(FreeWay, OfTheShippedDeviceIsLimitedByItsLugs) {
 TEST(FreeWay, MustExceedTheWayToTheStops) {
     EXPECT_THAT(
         refusal({{"flexure_spacing", 8}}),
-        HasSubstr("--set flexure_spacing: rule free_way is 8.6 um for the mass on its way to the stops, until a "
+        HasSubstr("given flexure_spacing: rule free_way is 8.6 um for the mass on its way to the stops, until a "
                   "lug of the mass meets the frame's finger, at ("));
     EXPECT_THAT(refusal({{"flexure_spacing", 8}}), HasSubstr("where more than 9 um is needed; give a greater "
                                                              "flexure_spacing, or a smaller stop_gap"));
@@ -59,7 +59,7 @@ TEST(FreeWay, MustExceedTheWayToTheStops) {
 
 TEST(FreeWay, MustExceedTheWayToTheElectrode) {
     EXPECT_THAT(refusal({{"clearance", 13}}),
-                HasSubstr("--set clearance: rule free_way is 13.6 um for the mass on its way to the fixed electrode, "
+                HasSubstr("given clearance: rule free_way is 13.6 um for the mass on its way to the fixed electrode, "
                           "until the frame meets the mass, at ("));
     EXPECT_THAT(refusal({{"clearance", 14.185}}), HasSubstr("more than 14.785 um is needed"));
     EXPECT_THAT(refusal({{"clearance", 14.186}}), ::testing::Not(HasSubstr("free_way")));

@@ -92,13 +92,13 @@ TEST(GdsStream, IsTheSequenceOfRecordsOfTheFormat) {
 TEST(GdsStream, RefusesValuesBeyondTheFormat) {
     LayoutLibrary library = small_library();
     library.cells[0].shapes[0].polygon[0].x = std::int64_t{1} << 31;
-    EXPECT_THROW(gds_stream(library), std::out_of_range);
+    EXPECT_THROW(gds_stream(library), InputError);
     library = small_library();
     library.cells[0].shapes[0].polygon.assign(8191, {});
-    EXPECT_THROW(gds_stream(library), std::length_error);
+    EXPECT_THROW(gds_stream(library), InputError);
     library = small_library();
     library.cells[0].name = std::string(33, 'A');
-    EXPECT_THROW(gds_stream(library), std::length_error);
+    EXPECT_THROW(gds_stream(library), InputError);
 }
 
 /// Sizes beyond GDSII's limits, and cells that contain themselves.

@@ -1,5 +1,7 @@
 #include "graze/layout/layout_cell.hpp"
 
+#include "graze/base/input_error.hpp"
+
 #include <gtest/gtest.h>
 
 #include <set>
@@ -27,7 +29,7 @@ TEST(LayoutCell, IsMirroredThenRotatedThenMoved) {
     EXPECT_EQ(one[0].polygon, (GridPolygon{{100, 10}, {100, 14}, {101, 14}}));
     // And (x, y) -> (x, -y) -> (-x, y) -> moved.
     EXPECT_EQ(flattened(library, "TWO")[0].polygon, (GridPolygon{{900, 10}, {900, 14}, {899, 14}}));
-    EXPECT_THROW(flattened(library, "THREE"), std::out_of_range);
+    EXPECT_THROW(flattened(library, "THREE"), InputError);
 }
 
 TEST(LayoutCell, RotatedByAnyAngleIsRoundedToTheGrid) {

@@ -196,9 +196,9 @@ TEST(LumpedModel, NamesThePlaceOfTheNumberThatRemovesAPart) {
         }
         return std::string("nothing is wrong");
     };
-    EXPECT_EQ(place({{"bar_width", 0.5}}), "--set bar_width");
-    EXPECT_EQ(place({{"taper", 1}}), "--set taper");
-    EXPECT_EQ(place({{"bar_width", 90}, {"bias", 4}}), "--set bias");
+    EXPECT_EQ(place({{"bar_width", 0.5}}), "given bar_width");
+    EXPECT_EQ(place({{"taper", 1}}), "given taper");
+    EXPECT_EQ(place({{"bar_width", 90}, {"bias", 4}}), "given bias");
 }
 
 TEST(LumpedModel, GivesParametersInTheModelsUnits) {

@@ -131,7 +131,7 @@ TEST(MatchedDrawing, KeepsGivenNumbers) {
     const MatchedDrawing found = match_drawing(file, designed);
     EXPECT_EQ(found.file.device.gap, 13.5);
     EXPECT_EQ(found.file.conditions.pressure, 4000);
-    EXPECT_EQ(quantity(found, "d").reason, "gap is given by --set");
+    EXPECT_EQ(quantity(found, "d").reason, "gap is given");
     EXPECT_TRUE(quantity(found, "stop").met && quantity(found, "f0").met && quantity(found, "m").met);
     EXPECT_THROW(match_drawing(file, load_model("mems-switch")), InputError);
 }

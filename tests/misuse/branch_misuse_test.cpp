@@ -20,7 +20,7 @@ bool residual(std::span<const double> u, std::span<double> values) {
 }
 struct Circle {
     DenseProblem problem{2, residual};
-    Continuation continuation{problem};
+    Continuation continuation{borrowed(problem)};
     const std::vector<double> point = {1, 0};
     Continuation& started() {
         EXPECT_TRUE(continuation.start(point, 1, 1));
@@ -29,6 +29,7 @@ struct Circle {
 };
 
 void problems(WrongUses& wrong) {
+    wrong("continuation_without_problem", [] { Continuation({}); });
     wrong("dense_problem_no_unknowns", [] { keep(DenseProblem(0, residual)); });
     wrong("dense_problem_unknowns_huge", [] { keep(DenseProblem(huge, residual)); });
     wrong("dense_problem_without_residuals", [] { keep(DenseProblem(2, {})); });
@@ -67,7 +68,7 @@ void continuations(WrongUses& wrong) {
             ContinuationOptions options;
             set(options);
             Circle circle;
-            keep(Continuation(circle.problem, options));
+            keep(Continuation(borrowed(circle.problem), options));
         });
         wrong("branch_settings_continuation_" + name, [set] {
             BranchSettings settings = by_amplitude();
@@ -158,8 +159,8 @@ void settings(WrongUses& wrong) {
             return settings;
         };
         wrong("branch_settings_" + name, [made] { made().validate(oscillator()); });
-        wrong("orbit_branch_" + name, [made] { keep(OrbitBranch(calm_oscillator(), calm_orbit(), made())); });
-        wrong("branches_at_" + name, [made] { keep(branches_at(calm_oscillator(), grazing_point(), made())); });
+        wrong("orbit_branch_" + name, [made] { keep(OrbitBranch(System(calm_oscillator()), calm_orbit(), made())); });
+        wrong("branches_at_" + name, [made] { keep(branches_at(System(calm_oscillator()), grazing_point(), made())); });
     };
     for (const auto& [kind, index] : wrong_indices(5)) {
         setting("parameter_" + kind, [i = index](BranchSettings& s) { s.parameter = ParameterId(i); });
@@ -187,7 +188,8 @@ void settings(WrongUses& wrong) {
     setting("steps_0", [](BranchSettings& s) { s.steps = 0; });
     const auto monitor = [&](const std::string& name, const Monitor& one) {
         setting("monitor_" + name, [one](BranchSettings& s) { s.monitors = {one}; });
-        wrong("monitors_" + name, [one] { keep(OrbitMonitors(calm_oscillator(), calm_orbit().signature, {one})); });
+        wrong("monitors_" + name,
+              [one] { keep(OrbitMonitors(System(calm_oscillator()), calm_orbit().signature, {one})); });
     };
     using Kind = Monitor::Kind;
     const Expression x = Graph::create()->symbol("x"), unknown = Graph::create()->symbol("unknown");
@@ -206,15 +208,15 @@ void settings(WrongUses& wrong) {
     monitor("bounds_reversed", {.name = "m", .least = 1, .greatest = 0});
     for (const auto& [kind, tolerance] : not_positive())
         wrong("monitors_tolerance_" + kind, [t = tolerance] {
-            keep(OrbitMonitors(calm_oscillator(), calm_orbit().signature, {{.name = "period"}}, t));
+            keep(OrbitMonitors(System(calm_oscillator()), calm_orbit().signature, {{.name = "period"}}, t));
         });
     for (const auto& [kind, index] : wrong_indices(1))
         wrong("monitors_segment_" + kind, [i = index] {
-            keep(OrbitMonitors(calm_oscillator(), calm_orbit().signature, {{.name = "period"}}).segment(i));
+            keep(OrbitMonitors(System(calm_oscillator()), calm_orbit().signature, {{.name = "period"}}).segment(i));
         });
     const auto signature = [&](const std::string& name, const Signature& given) {
         wrong("monitors_set_signature_" + name, [given] {
-            OrbitMonitors monitors(calm_oscillator(), calm_orbit().signature, {{.name = "period"}});
+            OrbitMonitors monitors(System(calm_oscillator()), calm_orbit().signature, {{.name = "period"}});
             monitors.set_signature(given);
         });
     };
@@ -223,7 +225,7 @@ void settings(WrongUses& wrong) {
     signature("section", {{0, SegmentEnd::section, 7}});
     signature("event", {{0, SegmentEnd::event, 7}});
     wrong("moved_monitors", [] {
-        OrbitMonitors monitors(calm_oscillator(), calm_orbit().signature, {{.name = "period"}});
+        OrbitMonitors monitors(System(calm_oscillator()), calm_orbit().signature, {{.name = "period"}});
         const OrbitMonitors moved = std::move(monitors);
         keep(monitors(calm_orbit()));
     });
@@ -242,7 +244,7 @@ void settings(WrongUses& wrong) {
 void branches(WrongUses& wrong) {
     const auto branch = [&](const std::string& name, const std::function<void(OrbitBranch&)>& use) {
         wrong("orbit_branch_" + name, [use] {
-            OrbitBranch one(calm_oscillator(), calm_orbit(), by_amplitude());
+            OrbitBranch one(System(calm_oscillator()), calm_orbit(), by_amplitude());
             use(one);
         });
     };
@@ -291,26 +293,26 @@ void branches(WrongUses& wrong) {
     moved("point", [](OrbitBranch& b) { keep(b.point().parameter); });
     moved("found", [](OrbitBranch& b) { keep(b.found().size()); });
     moved("outcome", [](OrbitBranch& b) { keep(b.outcome()); });
-    wrong("branches_at_default_point", [] { keep(branches_at(calm_oscillator(), {}, by_amplitude())); });
+    wrong("branches_at_default_point", [] { keep(branches_at(System(calm_oscillator()), {}, by_amplitude())); });
     for (int type = 0; type <= static_cast<int>(PointType::regular) + 1; ++type) {
         wrong("branches_at_default_point_of_type_" + std::to_string(type), [type] {
             SpecialPoint point;
             point.type = static_cast<PointType>(type);
-            keep(branches_at(calm_oscillator(), point, by_amplitude()));
+            keep(branches_at(System(calm_oscillator()), point, by_amplitude()));
         });
         wrong("branches_at_orbit_without_tangent_of_type_" + std::to_string(type), [type] {
             SpecialPoint point;
             point.type = static_cast<PointType>(type);
             point.solution = calm_solution();
             point.segment = point.event = 7;
-            keep(branches_at(calm_oscillator(), point, by_amplitude()));
+            keep(branches_at(System(calm_oscillator()), point, by_amplitude()));
         });
     }
     const auto grazing = [&](const std::string& name, const std::function<void(SpecialPoint&)>& spoil) {
         wrong("branches_at_grazing_" + name, [spoil] {
             SpecialPoint point = grazing_point();
             spoil(point);
-            keep(branches_at(calm_oscillator(), point, by_amplitude()));
+            keep(branches_at(System(calm_oscillator()), point, by_amplitude()));
         });
     };
     for (const auto& [kind, index] : wrong_indices(1))
@@ -323,7 +325,7 @@ void branches(WrongUses& wrong) {
     grazing("time_after_the_end", [](SpecialPoint& p) { p.time = 1e6; });
     grazing("signature_empty", [](SpecialPoint& p) { p.solution.orbit.signature.clear(); });
     wrong("branches_at_another_models_point",
-          [] { keep(branches_at(load_model("mems-switch"), grazing_point(), by_amplitude())); });
+          [] { keep(branches_at(System(load_model("mems-switch")), grazing_point(), by_amplitude())); });
     wrong("short_name_of_no_type", [] { keep(std::string(short_name(static_cast<PointType>(99)))); });
     wrong("name_of_no_type", [] { keep(std::string(name_of(static_cast<PointType>(99)))); });
     wrong("name_of_no_branch_outcome", [] { keep(std::string(name_of(static_cast<BranchOutcome>(99)))); });

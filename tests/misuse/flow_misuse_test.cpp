@@ -204,7 +204,7 @@ void jets(WrongUses& wrong) {
 /// Derivatives in two directions along a step of an oscillator with two states.
 void tangents(WrongUses& wrong) {
     struct Step {
-        System system = oscillator();
+        System system(oscillator());
         ModeJets jets = ModeJets(system, 8, LaneKind::single);
         TangentSteps steps = TangentSteps(system, 1e-6, 2);
         std::vector<double> state = std::vector<double>(system.states(), 0.1),
@@ -245,11 +245,12 @@ void steps(WrongUses& wrong) {
         const std::string number = std::to_string(tolerance);
         wrong("order_for_tolerance_" + number, [tolerance] { keep(order_for_tolerance(tolerance)); });
         wrong("step_size_tolerance_" + number, [tolerance] { keep(StepSize(10, tolerance)); });
-        wrong("step_check_tolerance_" + number, [tolerance] { keep(StepCheck(oscillator(), 10, tolerance)); });
+        wrong("step_check_tolerance_" + number, [tolerance] { keep(StepCheck(System(oscillator()), 10, tolerance)); });
     }
     for (const int order : {0, -1, highest_order + 1, std::numeric_limits<int>::max()}) {
         wrong("step_size_order_" + std::to_string(order), [order] { keep(StepSize(order, 1e-10)); });
-        wrong("step_check_order_" + std::to_string(order), [order] { keep(StepCheck(oscillator(), order, 1e-10)); });
+        wrong("step_check_order_" + std::to_string(order),
+              [order] { keep(StepCheck(System(oscillator()), order, 1e-10)); });
     }
     wrong("root_finder_degree_negative", [] { keep(RootFinder(-1)); });
     wrong("root_finder_degree_huge", [] { keep(RootFinder(std::numeric_limits<int>::max())); });
@@ -265,25 +266,25 @@ void steps(WrongUses& wrong) {
     wrong("minimum_degree", [cubic] { keep(RootFinder(2).minimum(cubic, 1)); });
     for (const auto& [how, length] : wrong_lengths(5))
         wrong("step_check_parameters_" + how, [length = length] {
-            StepCheck check(oscillator(), 10, 1e-10);
+            StepCheck check(System(oscillator()), 10, 1e-10);
             check.set_parameters(std::vector<double>(length));
         });
     static const std::vector<double> coefficients(33, 0.1);
     for (const auto& [how, mode] : wrong_indices(2))
         wrong("step_check_mode_" + how, [mode = mode] {
-            StepCheck check(oscillator(), 10, 1e-10);
+            StepCheck check(System(oscillator()), 10, 1e-10);
             check.set_parameters(oscillator().parameter_values());
             keep(check.longest(mode, std::vector<Series>(4, Series{coefficients.data(), 1}), 0.1, false));
         });
     for (const auto& [how, length] : wrong_lengths(4)) {
         wrong("step_check_series_" + how, [length = length] {
-            StepCheck check(oscillator(), 10, 1e-10);
+            StepCheck check(System(oscillator()), 10, 1e-10);
             check.set_parameters(oscillator().parameter_values());
             keep(check.longest(0, std::vector<Series>(length, Series{coefficients.data(), 1}), 0.1, false));
         });
         if (length > 0)
             wrong("step_check_floors_" + how, [length = length] {
-                StepCheck check(oscillator(), 10, 1e-10);
+                StepCheck check(System(oscillator()), 10, 1e-10);
                 check.set_parameters(oscillator().parameter_values());
                 keep(check.longest(0, std::vector<Series>(4, Series{coefficients.data(), 1}), 0.1, false,
                                    std::vector<double>(length)));
@@ -333,21 +334,22 @@ void systems(WrongUses& wrong) {
 void mode_flows(WrongUses& wrong) {
     const std::size_t n = oscillator().states.size(), parameters = oscillator().parameter_values().size();
     const auto made = [] {
-        ModeFlow flow(oscillator(), 1e-10, 0, {ParameterId(0)});
+        ModeFlow flow(System(oscillator()), 1e-10, 0, {ParameterId(0)});
         flow.set_parameters(oscillator().parameter_values());
         return flow;
     };
     for (const double tolerance : {0.0, -1.0, not_a_number})
         wrong("mode_flow_tolerance_" + std::to_string(tolerance),
-              [tolerance] { keep(ModeFlow(oscillator(), tolerance)); });
+              [tolerance] { keep(ModeFlow(System(oscillator()), tolerance)); });
     for (const int order : {3, -1, highest_order + 1})
-        wrong("mode_flow_order_" + std::to_string(order), [order] { keep(ModeFlow(oscillator(), 1e-10, order)); });
+        wrong("mode_flow_order_" + std::to_string(order),
+              [order] { keep(ModeFlow(System(oscillator()), 1e-10, order)); });
     for (const auto& [how, index] : wrong_indices(parameters))
         wrong("mode_flow_free_" + how,
-              [index = index] { keep(ModeFlow(oscillator(), 1e-10, 0, {ParameterId(index)})); });
+              [index = index] { keep(ModeFlow(System(oscillator()), 1e-10, 0, {ParameterId(index)})); });
     for (const auto& [how, index] : wrong_indices(n))
         wrong("mode_flow_start_" + how,
-              [index = index] { keep(ModeFlow(oscillator(), 1e-10, 0, {}, std::vector{index})); });
+              [index = index] { keep(ModeFlow(System(oscillator()), 1e-10, 0, {}, std::vector{index})); });
     for (const auto& [how, index] : wrong_indices(oscillator().modes.size()))
         wrong("mode_flow_run_" + how, [made, n, index = index] {
             std::vector<double> state(n, 0.1);
@@ -367,7 +369,7 @@ void mode_flows(WrongUses& wrong) {
             keep(made().run(0, state, 0.1, derivatives));
         });
     wrong("mode_flow_before_parameters", [n] {
-        ModeFlow flow(oscillator(), 1e-10);
+        ModeFlow flow(System(oscillator()), 1e-10);
         std::vector<double> state(n, 0.1);
         keep(flow.run(0, state, 0.1));
     });
@@ -375,7 +377,7 @@ void mode_flows(WrongUses& wrong) {
 
 /// Valid arguments for the oscillator with one free parameter, of which tests spoil one each.
 struct SecondOrderRun {
-    VariationalSystem system{oscillator(), {ParameterId(0)}};
+    VariationalSystem system{System(oscillator()), {ParameterId(0)}};
     SecondOrderFlow flow{system, 1e-10};
     std::size_t mode = 0;
     std::vector<double> parameters = oscillator().parameter_values(), state = oscillator().initial_state(),
@@ -422,15 +424,15 @@ void second_order_flows(WrongUses& wrong) {
 
     for (const auto& [how, index] : wrong_indices(oscillator().parameter_values().size()))
         wrong("variational_free_" + how,
-              [index = index] { keep(VariationalSystem(oscillator(), {ParameterId(index)})); });
+              [index = index] { keep(VariationalSystem(System(oscillator()), {ParameterId(index)})); });
     wrong("variational_free_twice", [] {
-        keep(VariationalSystem(oscillator(), {ParameterId(1), ParameterId(0), ParameterId(1)}));
+        keep(VariationalSystem(System(oscillator()), {ParameterId(1), ParameterId(0), ParameterId(1)}));
     });
     const auto indices = [&](const std::string& name, std::size_t size,
                              const std::function<void(const VariationalSystem&, std::size_t)>& use) {
         for (const auto& [how, index] : wrong_indices(size))
             wrong("variational_" + name + "_" + how,
-                  [use, index = index] { use(VariationalSystem(symmetric_oscillator()), index); });
+                  [use, index = index] { use(VariationalSystem(System(symmetric_oscillator())), index); });
     };
     const Model model = symmetric_oscillator();
     indices("jump", model.jumps.size(), [](const VariationalSystem& s, std::size_t i) { keep(s.jump(i)); });
@@ -442,12 +444,12 @@ void second_order_flows(WrongUses& wrong) {
             [](const VariationalSystem& s, std::size_t i) { keep(s.section(0, i)); });
     const auto function = [&](const std::string& kind, const Expression& expression) {
         wrong("variational_function_of_" + kind,
-              [expression] { keep(VariationalSystem(oscillator()).function_of(std::vector{expression})); });
+              [expression] { keep(VariationalSystem(System(oscillator())).function_of(std::vector{expression})); });
     };
     function("nothing", {});
     function("unknown", Graph::create()->symbol("unknown"));
     wrong("moved_variational_system", [] {
-        VariationalSystem system(oscillator());
+        VariationalSystem system{System(oscillator())};
         const VariationalSystem moved = std::move(system);
         keep(system.variables());
     });

@@ -3,13 +3,17 @@
 #include "misuse/valid_objects.hpp"
 #include "misuse/wrong_use.hpp"
 
+#include "graze/record/calibrated.hpp"
 #include "graze/study/runner.hpp"
 #include "graze/sweep/plan.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "graze/trajectory/ensemble.hpp"
 #include "graze/trajectory/recorder.hpp"
+#include "graze/trajectory/run_control.hpp"
 
+#include <memory>
 #include <optional>
+#include <utility>
 
 // Omitted members of a struct have the defaults of its header.
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
@@ -25,7 +29,7 @@ void run_alone(Trajectory& trajectory) {
     JetSet jets(trajectory.simulation(), LaneKind::single);
     run(trajectory, jets);
     if (trajectory.outcome().ending != Ending::end_time)
-        throw std::logic_error(trajectory.outcome().detail);
+        throw OrderError(trajectory.outcome().detail);
 }
 
 void expressions(WrongUses& right) {
@@ -117,27 +121,32 @@ void systems(WrongUses& right) {
         EXPECT_EQ(simulation.probes().size(), 1U);
     });
     right("model_of_a_simulation_copied", [] {
-        Model model = Simulation(oscillator()).model();
+        Model model = Simulation(System(oscillator())).model();
         keep(model.symbol("new"));
     });
 }
 
 void trajectories(WrongUses& right) {
     right("trajectory_of_temporaries", [] {
-        Observer nobody;
-        Trajectory trajectory(Simulation(System(oscillator())), oscillator().parameter_values(), nobody);
+        Trajectory trajectory(Simulation(System(oscillator())), oscillator().parameter_values());
         run_alone(trajectory);
     });
     right("trajectory_of_temporaries_with_probes", [] {
-        Recorder recorder;
-        Trajectory trajectory(Simulation(oscillator(), {section_probe(oscillator(), "turning")}),
-                              oscillator().parameter_values(), recorder);
+        Trajectory trajectory(Simulation(System(oscillator()), {section_probe(oscillator(), "turning")}),
+                              oscillator().parameter_values(), std::make_shared<Recorder>());
+        run_alone(trajectory);
+    });
+    right("trajectory_outlives_shares_of_its_observers", [] {
+        auto recorder = std::make_shared<Recorder>();
+        auto relay = std::make_shared<Relay>(std::vector<std::shared_ptr<Observer>>{recorder});
+        Trajectory trajectory(Simulation(System(oscillator())), oscillator().parameter_values(),
+                              std::make_shared<RunControl>(std::move(relay), std::nullopt, std::vector{true}));
+        recorder.reset();
         run_alone(trajectory);
     });
     right("trajectory_outlives_simulation", [] {
-        Observer nobody;
-        std::optional<Simulation> simulation = Simulation(oscillator());
-        Trajectory trajectory(*simulation, oscillator().parameter_values(), nobody);
+        std::optional<Simulation> simulation = Simulation(System(oscillator()));
+        Trajectory trajectory(*simulation, oscillator().parameter_values());
         simulation.reset();
         run_alone(trajectory);
     });
@@ -164,9 +173,8 @@ void trajectories(WrongUses& right) {
         run(motion.trajectory, motion.jets);
     });
     right("parameters_of_another_trajectory", [] {
-        Observer nobody;
         std::optional<Motion> motion(std::in_place);
-        Trajectory trajectory(motion->simulation, motion->trajectory.parameters(), nobody);
+        Trajectory trajectory(motion->simulation, motion->trajectory.parameters());
         motion.reset();
         run_alone(trajectory);
     });
@@ -177,31 +185,29 @@ void trajectories(WrongUses& right) {
         keep(motion.trajectory.derivative(0, 0));
     });
     right("jet_set_outlives_simulation", [] {
-        JetSet jets(Simulation(oscillator()), LaneKind::single);
-        Observer nobody;
-        Trajectory trajectory(jets.simulation(), oscillator().parameter_values(), nobody);
+        JetSet jets(Simulation(System(oscillator())), LaneKind::single);
+        Trajectory trajectory(jets.simulation(), oscillator().parameter_values());
         trajectory.start(oscillator().initial_state(), 0, 0, 1);
         run(trajectory, jets);
     });
     right("jet_set_with_temporary_parameters", [] {
-        JetSet jets(Simulation(oscillator()), LaneKind::single);
+        JetSet jets(Simulation(System(oscillator())), LaneKind::single);
         jets.set_parameters(oscillator().parameter_values());
         jets.computed(1, std::vector<double>(3, 0.1));
     });
     right("preview_outlives_simulation", [] {
-        StepPreview preview(Simulation(oscillator()), 1);
-        JetSet jets(Simulation(oscillator()), LaneKind::single);
+        StepPreview preview(Simulation(System(oscillator())), 1);
+        JetSet jets(Simulation(System(oscillator())), LaneKind::single);
         jets.set_parameters(oscillator().parameter_values());
         preview.lengths()[0] = 0;
         preview.find_steps(jets.computed(0, oscillator().initial_state()));
     });
     right("ensemble_outlives_simulation", [] {
-        Observer nobody;
-        std::optional<Simulation> simulation = Simulation(oscillator());
+        std::optional<Simulation> simulation = Simulation(System(oscillator()));
         Ensemble ensemble(*simulation);
         std::vector<Trajectory> trajectories;
         for (int i = 0; i < 5; ++i) {
-            trajectories.emplace_back(*simulation, oscillator().parameter_values(), nobody);
+            trajectories.emplace_back(*simulation, oscillator().parameter_values());
             trajectories.back().start(oscillator().initial_state(), 0, 0, 1);
         }
         simulation.reset();
@@ -209,7 +215,7 @@ void trajectories(WrongUses& right) {
         for (const Trajectory& trajectory : trajectories)
             EXPECT_TRUE(trajectory.finished());
     });
-    right("ensemble_of_nothing", [] { Ensemble(Simulation(oscillator())).run(std::span<Trajectory>{}); });
+    right("ensemble_of_nothing", [] { Ensemble(Simulation(System(oscillator()))).run(std::span<Trajectory>{}); });
 }
 
 void searches(WrongUses& right) {
@@ -217,9 +223,9 @@ void searches(WrongUses& right) {
         std::unique_ptr<PointSearch> search;
         {
             const Model model = oscillator();
-            search =
-                transient_searches(model, {.time = 0.1}, {{.name = "a", .section = "phase0"}}, {model.symbol("x")}, {})
-                    ->make();
+            search = transient_searches(System(model), {.time = 0.1}, {{.name = "a", .section = "phase0"}},
+                                        {model.symbol("x")}, {})
+                         ->make();
         }
         search->begin(oscillator().parameter_values(), oscillator().initial_state(), 0);
         run(search->trajectory(), *std::make_unique<JetSet>(search->trajectory().simulation(), LaneKind::single));
@@ -228,43 +234,44 @@ void searches(WrongUses& right) {
         EXPECT_EQ(search->result().label, Label::ended);
     });
     right("attractor_search_of_temporaries", [] {
-        keep(attractor_searches(oscillator(), by_phase(), {{.name = "a", .section = "phase0"}},
+        keep(attractor_searches(System(oscillator()), by_phase(), {{.name = "a", .section = "phase0"}},
                                 {oscillator().symbol("v")}, {}));
     });
     right("execution_of_temporaries", [] {
         std::size_t done = 0;
-        EXPECT_TRUE(execute(
-            {.chains = 3,
-             .start =
-                 [](std::size_t) {
-                     return PointStart{oscillator().parameter_values(), oscillator().initial_state(), 0};
-                 }},
-            *transient_searches(oscillator(), {.time = 0.1}, {}, {}, {}), {}, {.jobs = 2}, [&](auto&&...) { ++done; }));
+        EXPECT_TRUE(
+            execute({.chains = 3,
+                     .start =
+                         [](std::size_t) {
+                             return PointStart{oscillator().parameter_values(), oscillator().initial_state(), 0};
+                         }},
+                    *transient_searches(System(oscillator()), {.time = 0.1}, {}, {}, {}), {}, {.jobs = 2},
+                    [&](auto&&...) { ++done; }));
         EXPECT_EQ(done, 3U);
     });
-    right("find_orbit_of_temporaries", [] { keep(find_orbit(calm_oscillator(), by_phase())); });
-    right("solve_orbit_of_temporaries", [] { keep(solve_orbit(calm_oscillator(), calm_orbit())); });
+    right("find_orbit_of_temporaries", [] { keep(find_orbit(System(calm_oscillator()), by_phase())); });
+    right("solve_orbit_of_temporaries", [] { keep(solve_orbit(System(calm_oscillator()), calm_orbit())); });
     right("orbit_monitors_outlive_model", [] {
         OrbitMonitors monitors(
-            calm_oscillator(), calm_orbit().signature,
+            System(calm_oscillator()), calm_orbit().signature,
             {{.name = "m", .kind = Monitor::Kind::mean, .expression = calm_oscillator().symbol("x")}});
         OrbitMonitors moved = std::move(monitors);
         keep(moved(calm_orbit()));
     });
     right("orbit_branch_of_temporaries", [] {
-        OrbitBranch branch(calm_oscillator(), calm_orbit(), by_amplitude());
+        OrbitBranch branch(System(calm_oscillator()), calm_orbit(), by_amplitude());
         EXPECT_TRUE(branch.start());
         EXPECT_TRUE(branch.step());
     });
     right("moved_orbit_branch_goes_on", [] {
-        OrbitBranch branch(calm_oscillator(), calm_orbit(), by_amplitude());
+        OrbitBranch branch(System(calm_oscillator()), calm_orbit(), by_amplitude());
         EXPECT_TRUE(branch.start());
         OrbitBranch moved = std::move(branch);
         EXPECT_TRUE(moved.step());
     });
     right("orbit_branch_outlives_the_one_its_start_came_from", [] {
-        const std::vector<BranchStart> starts = branches_at(calm_oscillator(), grazing_point(), by_amplitude());
-        OrbitBranch branch(calm_oscillator(), BranchStart(starts.at(0)).orbit, by_amplitude());
+        const std::vector<BranchStart> starts = branches_at(System(calm_oscillator()), grazing_point(), by_amplitude());
+        OrbitBranch branch(System(calm_oscillator()), BranchStart(starts.at(0)).orbit, by_amplitude());
         EXPECT_TRUE(branch.start_along(BranchStart(starts.at(0)).direction, starts.at(0).distance));
     });
     right("follow_branch_of_temporaries", [] {
@@ -276,14 +283,41 @@ void searches(WrongUses& right) {
             values[0] = u[0] + u[1] - offset[0];
             return true;
         });
-        Continuation continuation(problem);
+        Continuation continuation(borrowed(problem));
         EXPECT_TRUE(continuation.start(std::vector<double>{1, 0}, 1, 1));
         EXPECT_TRUE(continuation.step());
         EXPECT_TRUE(continuation.start_at(continuation.point().u, continuation.point().tangent));
     });
+    right("continuation_outlives_shares_of_its_problem", [] {
+        Continuation continuation(
+            std::make_shared<DenseProblem>(2, [](std::span<const double> u, std::span<double> values) {
+                values[0] = u[0] + u[1] - 1;
+                return true;
+            }));
+        EXPECT_TRUE(continuation.start(std::vector<double>{1, 0}, 1, 1));
+        EXPECT_TRUE(continuation.step());
+    });
+    right("stages_of_a_record_keep_their_sources", [] {
+        std::shared_ptr<SampleSource> source =
+            std::make_shared<StoredSamples>(RecordHeader{{"t", "s"}, {{"x", "m"}}}, Samples{{0, 1, 2}, {{1, 2, 3}}});
+        source = std::make_shared<Calibrated>(std::move(source), CalibratedSettings{{{0, 2, 0, {}}}});
+        source = std::make_shared<Calibrated>(std::move(source), CalibratedSettings{.begin = 0.5});
+        EXPECT_EQ(read_all(*source, 10).values[0], (std::vector<double>{4, 6}));
+    });
+    right("plan_outlives_run", [] {
+        std::optional<StudyRun> run(std::in_place);
+        run->kind = RunKind::sweep;
+        run->model = oscillator();
+        run->axes.emplace_back();
+        run->axes[0].values = {1, 2};
+        run->axes[0].parameter = run->model.independent_parameter("amplitude");
+        const Plan plan = plan_of(*run, System(run->model), nullptr);
+        run.reset();
+        keep(plan.start(plan.points() - 1));
+    });
     right("follow_motion_of_temporaries", [] {
-        keep(follow_motion(Simulation(oscillator()), oscillator().parameter_values(), oscillator().initial_state(), 0,
-                           1));
+        keep(follow_motion(Simulation(System(oscillator())), oscillator().parameter_values(),
+                           oscillator().initial_state(), 0, 1));
     });
 }
 

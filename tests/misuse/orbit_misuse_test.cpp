@@ -68,23 +68,24 @@ void defective_orbits(WrongUses& wrong) {
             });
         };
         with("validate_orbit", [](const Model& m, const Orbit& o) { validate_orbit(m, o); });
-        with("solve_orbit", [](const Model& m, const Orbit& o) { keep(solve_orbit(m, o)); });
-        with("whole_orbit", [](const Model& m, const Orbit& o) { keep(whole_orbit(m, o)); });
-        with("half_orbit", [](const Model& m, const Orbit& o) { keep(half_orbit(m, o)); });
-        with("orbit_branch", [](const Model& m, const Orbit& o) { keep(OrbitBranch(m, o, by_amplitude())); });
-        with("follow_branch", [](const Model& m, const Orbit& o) { keep(follow_branch(m, o, by_amplitude())); });
+        with("solve_orbit", [](const Model& m, const Orbit& o) { keep(solve_orbit(System(m), o)); });
+        with("whole_orbit", [](const Model& m, const Orbit& o) { keep(whole_orbit(System(m), o)); });
+        with("half_orbit", [](const Model& m, const Orbit& o) { keep(half_orbit(System(m), o)); });
+        with("orbit_branch", [](const Model& m, const Orbit& o) { keep(OrbitBranch(System(m), o, by_amplitude())); });
+        with("follow_branch",
+             [](const Model& m, const Orbit& o) { keep(follow_branch(System(m), o, by_amplitude())); });
         with("monitors", [](const Model& m, const Orbit& o) {
-            OrbitMonitors monitors(m, calm_orbit().signature, {{.name = "period"}});
+            OrbitMonitors monitors(System(m), calm_orbit().signature, {{.name = "period"}});
             keep(monitors(o));
         });
         with("image_of", [](const Model&, const Orbit& o) {
-            keep(image_of(symmetric_oscillator(), 0, o.signature.empty() ? Segment{huge} : o.signature[0], o));
+            keep(image_of(System(symmetric_oscillator()), 0, o.signature.empty() ? Segment{huge} : o.signature[0], o));
         });
     }
     // With an orbit of the symmetric model: half orbits have more requirements than whole ones.
     for (const auto& [kind, index] : wrong_indices(symmetric_oscillator().symmetries.size())) {
         wrong("image_under_symmetry_" + kind,
-              [right, i = index] { keep(image_of(symmetric_oscillator(), i, right.signature[0], right)); });
+              [right, i = index] { keep(image_of(System(symmetric_oscillator()), i, right.signature[0], right)); });
         wrong("validate_signature_symmetry_" + kind,
               [right, i = index] { validate_signature(symmetric_oscillator(), right.signature, {}, i); });
     }
@@ -101,9 +102,9 @@ void signatures(WrongUses& wrong) {
         wrong("to_string_" + name, [one] { keep(to_string(oscillator(), Signature{one})); });
         wrong("validate_signature_" + name, [one] { validate_signature(oscillator(), Signature{one}); });
         wrong("orbit_monitors_signature_" + name,
-              [one] { keep(OrbitMonitors(oscillator(), Signature{one}, {{.name = "period"}})); });
+              [one] { keep(OrbitMonitors(System(oscillator()), Signature{one}, {{.name = "period"}})); });
         wrong("orbit_with_signature_" + name, [one] {
-            keep(orbit_with_signature(oscillator(), Signature{one}, {}, {},
+            keep(orbit_with_signature(System(oscillator()), Signature{one}, {}, {},
                                       {.steps = 200, .segments = 20, .trials = 1}));
         });
     };
@@ -115,8 +116,9 @@ void signatures(WrongUses& wrong) {
     segment("no_end", {.end = static_cast<SegmentEnd>(9)});
     segment("transition_of_another_mode", {.mode = 1});
     wrong("validate_signature_empty", [] { validate_signature(oscillator(), {}); });
-    wrong("orbit_monitors_signature_empty", [] { keep(OrbitMonitors(oscillator(), {}, {{.name = "period"}})); });
-    wrong("orbit_with_signature_empty", [] { keep(orbit_with_signature(oscillator(), {})); });
+    wrong("orbit_monitors_signature_empty",
+          [] { keep(OrbitMonitors(System(oscillator()), {}, {{.name = "period"}})); });
+    wrong("orbit_with_signature_empty", [] { keep(orbit_with_signature(System(oscillator()), {})); });
 }
 
 void options(WrongUses& wrong) {
@@ -127,10 +129,11 @@ void options(WrongUses& wrong) {
             return options;
         };
         wrong("orbit_options_" + name, [made] { made().validate(); });
-        wrong("solve_orbit_with_" + name, [made] { keep(solve_orbit(calm_oscillator(), calm_orbit(), made())); });
-        wrong("find_orbit_with_" + name, [made] { keep(find_orbit(calm_oscillator(), by_phase(), made())); });
+        wrong("solve_orbit_with_" + name,
+              [made] { keep(solve_orbit(System(calm_oscillator()), calm_orbit(), made())); });
+        wrong("find_orbit_with_" + name, [made] { keep(find_orbit(System(calm_oscillator()), by_phase(), made())); });
         wrong("orbit_with_signature_with_" + name, [made] {
-            keep(orbit_with_signature(calm_oscillator(), parse_signature(oscillator(), "phase0"), made()));
+            keep(orbit_with_signature(System(calm_oscillator()), parse_signature(oscillator(), "phase0"), made()));
         });
     };
     for (const double value : {0.0, -1.0, 1.0, 1e-17, not_a_number, infinity})
@@ -139,19 +142,20 @@ void options(WrongUses& wrong) {
         option("accuracy_" + kind, [v = value](OrbitOptions& o) { o.accuracy = v; });
     option("iterations_0", [](OrbitOptions& o) { o.iterations = 0; });
     wrong("find_orbit_simulation_options",
-          [] { keep(find_orbit(calm_oscillator(), by_phase(), {}, {.tolerance = not_a_number})); });
+          [] { keep(find_orbit(System(calm_oscillator()), by_phase(), {}, {.tolerance = not_a_number})); });
     wrong("find_orbit_of_two_graphs_model", [] {
         Model model = calm_oscillator();
         model.states.clear();
-        keep(find_orbit(model, by_phase()));
+        keep(find_orbit(System(model), by_phase()));
     });
     for (const auto& [kind, value] :
          std::vector<std::pair<std::string, double>>{{"negative", -1}, {"nan", not_a_number}, {"infinite", infinity}})
         wrong("half_orbit_tolerance_" + kind,
-              [v = value] { keep(half_orbit(symmetric_oscillator(), calm_orbit(), v)); });
+              [v = value] { keep(half_orbit(System(symmetric_oscillator()), calm_orbit(), v)); });
     const auto search = [&](const std::string& name, const SignatureSearchOptions& limits) {
         wrong("signature_search_" + name, [limits] {
-            keep(orbit_with_signature(calm_oscillator(), parse_signature(oscillator(), "phase0"), {}, {}, limits));
+            keep(orbit_with_signature(System(calm_oscillator()), parse_signature(oscillator(), "phase0"), {}, {},
+                                      limits));
         });
     };
     search("no_steps", {.steps = 0});
@@ -169,7 +173,8 @@ void motions(WrongUses& wrong) {
         wrong("follow_motion_" + name, [spoil] {
             Given given;
             spoil(given);
-            keep(follow_motion(Simulation(oscillator()), given.parameters, given.state, given.mode, given.time));
+            keep(
+                follow_motion(Simulation(System(oscillator())), given.parameters, given.state, given.mode, given.time));
         });
     };
     for (const auto& [kind, length] : wrong_lengths(5))

@@ -18,6 +18,8 @@
 #include "graze/record/impacts.hpp"
 #include "graze/record/interpolate.hpp"
 #include "graze/record/low_pass.hpp"
+#include "graze/record/period.hpp"
+#include "graze/record/processed_record.hpp"
 #include "graze/record/record_file.hpp"
 #include "graze/record/record_writer.hpp"
 #include "graze/record/section.hpp"
@@ -47,7 +49,7 @@ Samples wave(int rows = 400) {
 
 Period period() {
     StoredSamples source(header(), wave());
-    PeriodSplitter splitter(source, {});
+    PeriodSplitter splitter(borrowed(source), {});
     Period one;
     splitter.next(one);
     return one;
@@ -147,35 +149,39 @@ void writers(WrongUses& wrong) {
 }
 
 void stages(WrongUses& wrong) {
-    const auto on_record = [&](const std::string& name, const std::function<void(SampleSource&)>& use) {
-        wrong(name, [use] {
-            StoredSamples source(header(), wave());
-            use(source);
-        });
+    using Source = std::shared_ptr<SampleSource>;
+    const auto on_record = [&](const std::string& name, const std::function<void(const Source&)>& use) {
+        wrong(name, [use] { use(std::make_shared<StoredSamples>(header(), wave())); });
     };
+    wrong("calibrated_without_source", [] { Calibrated({}, {}); });
+    wrong("low_pass_without_source", [] { LowPass({}, {.pass = 1}); });
+    wrong("derivative_without_source", [] { WithDerivative({}, {}); });
+    wrong("splitter_without_source", [] { PeriodSplitter({}, {}); });
+    wrong("impacts_without_source", [] { ImpactFinder({}, {}); });
+    wrong("processed_without_source", [] { ProcessedRecord({}, {}); });
     for (const auto& [name, index] : wrong_indices(2)) {
         on_record("calibrated_channel_" + name,
-                  [index = index](SampleSource& s) { Calibrated(s, {.calibrations = {{index}}}); });
+                  [index = index](const Source& s) { Calibrated(s, {.calibrations = {{index}}}); });
         on_record("derivative_channel_" + name,
-                  [index = index](SampleSource& s) { WithDerivative(s, {.channel = index, .name = {}}); });
+                  [index = index](const Source& s) { WithDerivative(s, {.channel = index, .name = {}}); });
         on_record("splitter_channel_" + name,
-                  [index = index](SampleSource& s) { PeriodSplitter(s, {.reference = index}); });
+                  [index = index](const Source& s) { PeriodSplitter(s, {.reference = index}); });
         on_record("impacts_channel_" + name,
-                  [index = index](SampleSource& s) { ImpactFinder(s, {.velocity = index}); });
+                  [index = index](const Source& s) { ImpactFinder(s, {.velocity = index}); });
         on_record("impacts_displacement_" + name,
-                  [index = index](SampleSource& s) { ImpactFinder(s, {.displacement = index}); });
-        on_record("spectrum_channel_" + name, [index = index](SampleSource& s) { averaged_spectrum(s, index, 16); });
+                  [index = index](const Source& s) { ImpactFinder(s, {.displacement = index}); });
+        on_record("spectrum_channel_" + name, [index = index](const Source& s) { averaged_spectrum(*s, index, 16); });
         wrong("extremes_channel_" + name, [index = index] { extremes(period(), index); });
         wrong("amplitude_channel_" + name, [index = index] { keep(amplitude(period(), index)); });
         wrong("image_channel_" + name, [index = index] { image_of(section(period(), 0), {.negated = {index}}); });
     }
     for (const auto& [name, value] : not_finite()) {
-        on_record("calibrated_factor_" + name, [value = value](SampleSource& s) {
+        on_record("calibrated_factor_" + name, [value = value](const Source& s) {
             Calibrated(s, {.calibrations = {{0, value}}});
         });
-        on_record("splitter_level_" + name, [value = value](SampleSource& s) { PeriodSplitter(s, {.level = value}); });
+        on_record("splitter_level_" + name, [value = value](const Source& s) { PeriodSplitter(s, {.level = value}); });
         on_record("splitter_hysteresis_" + name,
-                  [value = value](SampleSource& s) { PeriodSplitter(s, {.hysteresis = value}); });
+                  [value = value](const Source& s) { PeriodSplitter(s, {.hysteresis = value}); });
         wrong("section_phase_" + name, [value = value] { section(period(), value); });
         wrong("image_shift_" + name,
               [value = value] { image_of(section(period(), 0), {.negated = {}, .shift = value}); });
@@ -183,27 +189,27 @@ void stages(WrongUses& wrong) {
         wrong("harmonic_" + name, [value = value] { fit_harmonic(wave().times, wave().values[0], value); });
         wrong("spectrum_of_" + name, [value = value] { spectrum(std::vector<double>{1, value, 3, 4}, 1); });
     }
-    on_record("calibrated_between_nothing", [](SampleSource& s) { Calibrated(s, {.begin = 1, .end = 0}); });
-    on_record("calibrated_begin_nan", [](SampleSource& s) { Calibrated(s, {.begin = not_a_number}); });
-    on_record("low_pass_of_nothing", [](SampleSource& s) { LowPass(s, {}); });
-    on_record("low_pass_keeps_none", [](SampleSource& s) { LowPass(s, {.pass = 1, .every = 0}); });
+    on_record("calibrated_between_nothing", [](const Source& s) { Calibrated(s, {.begin = 1, .end = 0}); });
+    on_record("calibrated_begin_nan", [](const Source& s) { Calibrated(s, {.begin = not_a_number}); });
+    on_record("low_pass_of_nothing", [](const Source& s) { LowPass(s, {}); });
+    on_record("low_pass_keeps_none", [](const Source& s) { LowPass(s, {.pass = 1, .every = 0}); });
     for (const auto& [name, value] : not_positive())
         if (value != 0) { // zero requests the default
-            on_record("low_pass_pass_" + name, [value = value](SampleSource& s) { LowPass(s, {.pass = value}); });
+            on_record("low_pass_pass_" + name, [value = value](const Source& s) { LowPass(s, {.pass = value}); });
             on_record("low_pass_stop_" + name,
-                      [value = value](SampleSource& s) { LowPass(s, {.pass = 1, .stop = value}); });
+                      [value = value](const Source& s) { LowPass(s, {.pass = 1, .stop = value}); });
             on_record("impacts_significance_" + name,
-                      [value = value](SampleSource& s) { ImpactFinder(s, {.significance = value}); });
+                      [value = value](const Source& s) { ImpactFinder(s, {.significance = value}); });
         }
-    on_record("impacts_window", [](SampleSource& s) { ImpactFinder(s, {{.window = 4}}); });
-    on_record("derivative_width", [](SampleSource& s) { WithDerivative(s, {.half_width = 3, .name = {}}); });
-    on_record("derivative_width_huge", [](SampleSource& s) {
+    on_record("impacts_window", [](const Source& s) { ImpactFinder(s, {{.window = 4}}); });
+    on_record("derivative_width", [](const Source& s) { WithDerivative(s, {.half_width = 3, .name = {}}); });
+    on_record("derivative_width_huge", [](const Source& s) {
         WithDerivative with(s, {.half_width = huge, .name = {}});
         Samples part;
         with.read(part);
     });
-    on_record("spectrum_part", [](SampleSource& s) { averaged_spectrum(s, 0, 7); });
-    on_record("spectrum_part_huge", [](SampleSource& s) { averaged_spectrum(s, 0, huge); });
+    on_record("spectrum_part", [](const Source& s) { averaged_spectrum(*s, 0, 7); });
+    on_record("spectrum_part_huge", [](const Source& s) { averaged_spectrum(*s, 0, huge); });
     wrong("sampling_frequency_of_one", [] { keep(sampling_frequency(std::vector<double>{1})); });
     wrong("fit_period_of_one", [] { fit_period(std::vector<double>{1}); });
     wrong("fit_period_nan", [] { fit_period(std::vector<double>{1, not_a_number, 3}); });

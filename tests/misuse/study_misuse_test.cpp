@@ -353,7 +353,7 @@ void studies(WrongUses& wrong) {
     run("axis_nan", [](Study& s, Results&, RunnerOptions&) { s.runs[0].motion().axes[0].values = {not_a_number}; });
     run("axis_without_values", [](Study& s, Results&, RunnerOptions&) { s.runs[0].motion().axes[0].values.clear(); });
     run("no_end", [](Study& s, Results&, RunnerOptions&) { s.runs[0].motion().transient = {}; });
-    wrong("plan_of_default_run", [] { keep(plan_of({}, oscillator(), nullptr)); });
+    wrong("plan_of_default_run", [] { keep(plan_of({}, System(oscillator()), nullptr)); });
     for (const auto& [kind, index] : wrong_indices(1)) {
         wrong("coordinates_of_point_" + kind, [i = index] {
             StudyRun one;

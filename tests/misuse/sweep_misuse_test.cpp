@@ -21,7 +21,7 @@ Sampling at_phase() {
 }
 std::unique_ptr<SearchFactory> searches(const AttractorOptions& options = by_phase()) {
     const Model model = oscillator();
-    return attractor_searches(model, options, {at_phase()}, {model.symbol("v")}, {});
+    return attractor_searches(System(model), options, {at_phase()}, {model.symbol("v")}, {});
 }
 
 void attractor_options(WrongUses& wrong) {
@@ -33,7 +33,7 @@ void attractor_options(WrongUses& wrong) {
         };
         wrong("attractor_options_" + name, [made] { made().validate(oscillator()); });
         wrong("attractor_searches_" + name, [made] { keep(searches(made())); });
-        wrong("find_orbit_" + name, [made] { keep(find_orbit(calm_oscillator(), made())); });
+        wrong("find_orbit_" + name, [made] { keep(find_orbit(System(calm_oscillator()), made())); });
     };
     option("section_empty", [](AttractorOptions& o) { o.section = ""; });
     option("section_unknown", [](AttractorOptions& o) { o.section = "unknown"; });
@@ -60,7 +60,8 @@ void transient_options(WrongUses& wrong) {
             return options;
         };
         wrong("transient_options_" + name, [made] { made().validate(oscillator()); });
-        wrong("transient_searches_" + name, [made] { keep(transient_searches(oscillator(), made(), {}, {}, {})); });
+        wrong("transient_searches_" + name,
+              [made] { keep(transient_searches(System(oscillator()), made(), {}, {}, {})); });
     };
     option("no_end", [](TransientOptions& o) { o.time = 0; });
     option("section_unknown", [](TransientOptions& o) { o.section = "unknown"; });
@@ -94,11 +95,11 @@ void samplings(WrongUses& wrong) {
         };
         wrong("attractor_sampling_" + name, [made] {
             const Model model = oscillator();
-            keep(attractor_searches(model, by_phase(), made(), Values{model.symbol("v")}, {}));
+            keep(attractor_searches(System(model), by_phase(), made(), Values{model.symbol("v")}, {}));
         });
         wrong("transient_sampling_" + name, [made] {
             const Model model = oscillator();
-            keep(transient_searches(model, {.time = 1}, made(), Values{model.symbol("v")}, {}));
+            keep(transient_searches(System(model), {.time = 1}, made(), Values{model.symbol("v")}, {}));
         });
     };
     sampling("by_default", [](Sampling& s) { s = {}; });
@@ -115,14 +116,15 @@ void samplings(WrongUses& wrong) {
         sampling("symmetry_" + kind, [i = index](Sampling& s) { s.symmetry = i; });
     for (const auto& [kind, value] : std::vector<std::pair<std::string, Expression>>{
              {"nothing", {}}, {"unknown", Graph::create()->symbol("unknown")}}) {
-        wrong("attractor_value_" + kind,
-              [value = value] { keep(attractor_searches(oscillator(), by_phase(), {at_phase()}, Values{value}, {})); });
+        wrong("attractor_value_" + kind, [value = value] {
+            keep(attractor_searches(System(oscillator()), by_phase(), {at_phase()}, Values{value}, {}));
+        });
         wrong("transient_value_" + kind, [value = value] {
-            keep(transient_searches(oscillator(), {.time = 1}, {at_phase()}, Values{value}, {}));
+            keep(transient_searches(System(oscillator()), {.time = 1}, {at_phase()}, Values{value}, {}));
         });
     }
     wrong("attractor_searches_simulation_options",
-          [] { keep(attractor_searches(oscillator(), by_phase(), {}, {}, {.tolerance = not_a_number})); });
+          [] { keep(attractor_searches(System(oscillator()), by_phase(), {}, {}, {.tolerance = not_a_number})); });
 }
 
 void point_searches(WrongUses& wrong) {
@@ -130,7 +132,7 @@ void point_searches(WrongUses& wrong) {
         wrong("attractor_search_" + name, [use] { use(*searches()->make()); });
         wrong("transient_search_" + name, [use] {
             const Model model = oscillator();
-            use(*transient_searches(model, {.time = 1}, {at_phase()}, {model.symbol("v")}, {})->make());
+            use(*transient_searches(System(model), {.time = 1}, {at_phase()}, {model.symbol("v")}, {})->make());
         });
     };
     const std::vector<double> parameters = oscillator().parameter_values(), state = oscillator().initial_state();
@@ -154,7 +156,7 @@ void point_searches(WrongUses& wrong) {
 
 /// Four points in two chains that are computed quickly.
 struct Execution {
-    std::unique_ptr<SearchFactory> factory = transient_searches(oscillator(), {.time = 0.1}, {}, {}, {});
+    std::unique_ptr<SearchFactory> factory = transient_searches(System(oscillator()), {.time = 0.1}, {}, {}, {});
     Plan plan{.chains = 2, .chain_length = 2, .start = [](std::size_t) {
                   const Model model = oscillator();
                   return PointStart{model.parameter_values(), model.initial_state(), 0};
@@ -213,7 +215,7 @@ void executions(WrongUses& wrong) {
     start("mode", {parameters, state, 2});
     execution("start_that_throws", [](Execution& e) {
         e.options.jobs = 2;
-        e.plan.start = [](std::size_t) -> PointStart { throw std::invalid_argument("no such point"); };
+        e.plan.start = [](std::size_t) -> PointStart { throw InputError("no such point", ""); };
     });
     wrong("name_of_no_label", [] { keep(std::string(name_of(static_cast<Label>(99)))); });
 }

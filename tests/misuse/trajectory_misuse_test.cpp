@@ -21,7 +21,7 @@ void options(WrongUses& wrong) {
         wrong("simulation_with_" + name, [set] {
             SimulationOptions options;
             set(options);
-            keep(Simulation(oscillator(), {}, {}, options));
+            keep(Simulation(System(oscillator()), {}, {}, options));
         });
     };
     for (const double value : {0.0, -1.0, 1.0, 1e-17, not_a_number, infinity})
@@ -46,7 +46,7 @@ void probes(WrongUses& wrong) {
             one.name = "probe";
             one.expression = graph->symbol("x");
             spoil(one, *graph);
-            keep(Simulation(oscillator(), {one}));
+            keep(Simulation(System(oscillator()), {one}));
         });
     };
     const auto phase = [](Probe& p, Graph& g) {
@@ -85,14 +85,16 @@ void probes(WrongUses& wrong) {
             phase(p, g);
             p.state = i;
         });
-    wrong("simulation_observing_nothing", [] { keep(Simulation(oscillator(), {}, {Expression()})); });
-    wrong("simulation_observing_unknown", [] { keep(Simulation(oscillator(), {}, {Graph::create()->symbol("q")})); });
+    wrong("simulation_observing_nothing", [] { keep(Simulation(System(oscillator()), {}, {Expression()})); });
+    wrong("simulation_observing_unknown",
+          [] { keep(Simulation(System(oscillator()), {}, {Graph::create()->symbol("q")})); });
     for (const auto& [kind, index] : wrong_indices(0)) {
-        wrong("series_of_probe_" + kind, [i = index] { keep(Simulation(oscillator()).series_of_probe(i)); });
-        wrong("series_of_observed_" + kind, [i = index] { keep(Simulation(oscillator()).series_of_observed(i)); });
+        wrong("series_of_probe_" + kind, [i = index] { keep(Simulation(System(oscillator())).series_of_probe(i)); });
+        wrong("series_of_observed_" + kind,
+              [i = index] { keep(Simulation(System(oscillator())).series_of_observed(i)); });
     }
     wrong("moved_simulation", [] {
-        Simulation simulation(oscillator());
+        Simulation simulation{System(oscillator())};
         const Simulation moved = std::move(simulation);
         keep(simulation.model().name);
     });
@@ -101,17 +103,15 @@ void probes(WrongUses& wrong) {
 void starts(WrongUses& wrong) {
     for (const auto& [kind, length] : wrong_lengths(5))
         wrong("trajectory_parameters_" + kind, [length = length] {
-            const Simulation simulation(oscillator());
-            Observer nobody;
-            keep(Trajectory(simulation, std::vector<double>(length), nobody));
+            const Simulation simulation{System(oscillator())};
+            keep(Trajectory(simulation, std::vector<double>(length)));
         });
     for (const auto& [kind, value] : not_finite()) {
         wrong("trajectory_parameter_" + kind, [value = value] {
             const Motion motion;
-            Observer nobody;
             std::vector<double> parameters = motion.model.parameter_values();
             parameters[0] = value;
-            Trajectory trajectory(motion.simulation, parameters, nobody);
+            Trajectory trajectory(motion.simulation, parameters);
             trajectory.start(motion.model.initial_state(), 0, 0, 1);
         });
         wrong("start_state_" + kind, [value = value] {
@@ -148,11 +148,10 @@ void starts(WrongUses& wrong) {
     wrong("period_that_is_negative_at_these_parameters", [] {
         Model model = oscillator();
         model.states[2].period = model.symbol("sigma");
-        const Simulation simulation(model);
+        const Simulation simulation{System(model)};
         std::vector<double> parameters = model.parameter_values();
         parameters[model.independent_parameter("sigma").place()] = -1;
-        Observer nobody;
-        Trajectory trajectory(simulation, parameters, nobody);
+        Trajectory trajectory(simulation, parameters);
         trajectory.start(std::vector<double>(3), 0, 0, 1);
     });
     wrong("extend_to_the_past", [] {
@@ -260,13 +259,13 @@ void order_of_calls(WrongUses& wrong) {
         });
     }
     of_motion("propose_with_another_models_jet", [](Motion& m) {
-        const Simulation other(load_model("mems-switch"));
+        const Simulation other{System(load_model("mems-switch"))};
         JetSet jets(other, LaneKind::single);
         jets.set_parameters(other.model().parameter_values());
         keep(m.begun().propose(jets.computed(0, other.model().initial_state()), 0.1));
     });
     of_motion("propose_with_another_order", [](Motion& m) {
-        const Simulation other(m.model, {}, {}, {.order = 6});
+        const Simulation other(System(m.model), {}, {}, {.order = 6});
         JetSet jets(other, LaneKind::single);
         jets.set_parameters(m.model.parameter_values());
         keep(m.begun().propose(jets.computed(0, m.model.initial_state()), 0.1));
@@ -274,14 +273,14 @@ void order_of_calls(WrongUses& wrong) {
     of_motion("advance_with_another_models_preview", [=](Motion& m) {
         parameters(m);
         keep(m.begun().propose(jet(m), 0.1));
-        m.trajectory.advance(StepPreview(Simulation(load_model("mems-switch")), 1));
+        m.trajectory.advance(StepPreview(Simulation(System(load_model("mems-switch"))), 1));
     });
     of_motion("run_with_another_simulations_jets", [](Motion& m) {
-        JetSet jets(Simulation(load_model("mems-switch")), LaneKind::single);
+        JetSet jets(Simulation(System(load_model("mems-switch"))), LaneKind::single);
         run(m.begun(), jets);
     });
     of_motion("run_with_jets_of_the_same_model", [](Motion& m) {
-        JetSet jets(Simulation(m.model), LaneKind::single);
+        JetSet jets(Simulation(System(m.model)), LaneKind::single);
         run(m.begun(), jets);
     });
     of_motion("run_with_ensemble_jets", [](Motion& m) {
@@ -354,7 +353,7 @@ void drivers(WrongUses& wrong) {
     }
     of_motion("ensemble_unstarted", [](Motion& m) { Ensemble(m.simulation).run(std::span(&m.trajectory, 1)); });
     of_motion("ensemble_of_another_simulation",
-              [](Motion& m) { Ensemble(Simulation(m.model)).run(std::span(&m.begun(), 1)); });
+              [](Motion& m) { Ensemble(Simulation(System(m.model))).run(std::span(&m.begun(), 1)); });
     of_motion("ensemble_without_again", [](Motion& m) {
         std::vector<Trajectory*> slots = {&m.begun()};
         Ensemble(m.simulation).run(slots, {});
@@ -365,7 +364,7 @@ void drivers(WrongUses& wrong) {
     });
     of_motion("ensemble_again_unstarted", [](Motion& m) {
         std::vector<Trajectory*> slots = {&m.begun()};
-        Trajectory other(m.simulation, m.model.parameter_values(), m.nobody);
+        Trajectory other(m.simulation, m.model.parameter_values());
         bool given = false;
         Ensemble(m.simulation).run(slots, [&](std::size_t) { return std::exchange(given, true) ? nullptr : &other; });
     });
@@ -376,7 +375,7 @@ void drivers(WrongUses& wrong) {
         Ensemble(m.simulation).run(slots, [&](std::size_t) { return &other.trajectory; });
     });
     of_motion("ensemble_again_what_runs_elsewhere", [](Motion& m) {
-        Trajectory other(m.simulation, m.model.parameter_values(), m.nobody);
+        Trajectory other(m.simulation, m.model.parameter_values());
         other.start(m.model.initial_state(), 0, 0, 5);
         std::vector<Trajectory*> slots = {&m.begun(0.1), &other};
         bool given = false;
@@ -404,15 +403,15 @@ void observers(WrongUses& wrong) {
         wrong("sampler_periods_" + kind, [n = length, receiver] {
             Motion motion;
             Sampler sampler(0, 0.1, 5, std::vector<double>(n), receiver);
-            Trajectory trajectory(motion.simulation, motion.model.parameter_values(), sampler);
+            Trajectory trajectory(motion.simulation, motion.model.parameter_values(), borrowed(sampler));
             trajectory.start(motion.model.initial_state(), 0, 0, 1);
             run(trajectory, motion.jets);
         });
     wrong("arc_minima_without_receiver", [] {
         Motion motion;
-        const Simulation simulation(motion.model, {}, {}, {.minima = true});
+        const Simulation simulation(System(motion.model), {}, {}, {.minima = true});
         ArcMinima minima{{}};
-        Trajectory trajectory(simulation, motion.model.parameter_values(), minima);
+        Trajectory trajectory(simulation, motion.model.parameter_values(), borrowed(minima));
         trajectory.start(motion.model.initial_state(), 0, 0, 1);
         JetSet jets(simulation, LaneKind::single);
         run(trajectory, jets);

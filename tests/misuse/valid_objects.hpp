@@ -31,7 +31,7 @@ inline AttractorOptions by_phase() {
     return options;
 }
 inline const OrbitSolution& calm_solution() {
-    static const OrbitSolution solution = find_orbit(calm_oscillator(), by_phase());
+    static const OrbitSolution solution = find_orbit(System(calm_oscillator()), by_phase());
     return solution;
 }
 inline Orbit calm_orbit() {
@@ -46,16 +46,16 @@ inline BranchSettings by_amplitude() {
 }
 /// The point at which the oscillator grazes the stop.
 inline SpecialPoint grazing_point() {
-    static const SpecialPoint point = follow_branch(calm_oscillator(), calm_orbit(), by_amplitude()).special.back();
+    static const SpecialPoint point =
+        follow_branch(System(calm_oscillator()), calm_orbit(), by_amplitude()).special.back();
     return point;
 }
 
 /// A trajectory with all objects that it needs, not yet started.
 struct Motion {
     Model model = oscillator();
-    Simulation simulation{model};
-    Observer nobody;
-    Trajectory trajectory{simulation, model.parameter_values(), nobody};
+    Simulation simulation{System(model)};
+    Trajectory trajectory{simulation, model.parameter_values()};
     JetSet jets{simulation, LaneKind::single};
 
     Trajectory& begun(double end_time = 1) {

@@ -294,7 +294,8 @@ inline void expect_refusal(const WrongUse& wrong) {
         const std::string what = refusal.what();
         ::testing::Test::RecordProperty("type", typeid(refusal).name());
         ::testing::Test::RecordProperty("what", what);
-        EXPECT_TRUE(dynamic_cast<const InputError*>(&refusal) || dynamic_cast<const std::logic_error*>(&refusal))
+        const Error* const error = dynamic_cast<const Error*>(&refusal);
+        EXPECT_TRUE(error && error->kind() != ErrorKind::internal)
             << "FOREIGN " << wrong.name << ": " << typeid(refusal).name() << ": " << what;
         EXPECT_FALSE(what.empty());
         for (const std::string foreign : {"vector::", "basic_string", "bad_", "map::at", "array::at", "_M_", "std::"})

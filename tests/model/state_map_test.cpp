@@ -60,7 +60,7 @@ TEST_F(StateMaps, RefuseIndicesOutOfRange) {
     EXPECT_THROW(read[3], InputError);
     StateMap nothing;
     EXPECT_THROW(nothing.pop_back(), InputError);
-    EXPECT_THROW(map.replace(nullptr, [](Expression&) {}), std::invalid_argument);
+    EXPECT_THROW(map.replace(nullptr, [](Expression&) {}), InputError);
 }
 
 /// A model of two states with two jumps that share all images that they do not change.

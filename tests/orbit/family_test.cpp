@@ -61,7 +61,7 @@ Orbit bilinear_orbit(const Model& model, double speed, double k) {
 TEST(Family, BilinearOscillatorKeepsTheAmplitudeOfTheCandidate) {
     const Model model = parse_model(bilinear, "test.toml");
     for (const double speed : {1.0, 0.3, 77.0}) {
-        const OrbitSolution solution = solve_orbit(model, bilinear_orbit(model, speed, 4));
+        const OrbitSolution solution = solve_orbit(System(model), bilinear_orbit(model, speed, 4));
         ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
         EXPECT_NE(solution.detail.find("one of a family"), std::string::npos) << solution.detail;
         EXPECT_LT(solution.residual, 1e-13);
@@ -89,7 +89,7 @@ value = 0
                                     "test.toml");
     for (const double mu : {1.0, 1e-4, 0.0}) {
         Orbit orbit{parse_signature(model, "start"), {mu}, {{std::sqrt(mu), 0}}, {2 * pi}, std::nullopt};
-        const OrbitSolution solution = solve_orbit(model, orbit);
+        const OrbitSolution solution = solve_orbit(System(model), orbit);
         ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
         EXPECT_EQ(solution.detail, "") << mu;
         EXPECT_NEAR(solution.orbit.starts[0][0], std::sqrt(mu), 1e-12);
@@ -112,7 +112,7 @@ direction = "falling"
 )toml",
                                     "test.toml");
     const Orbit orbit{parse_signature(model, "turn"), {1.0}, {{1.0, 0}}, {6.7}, std::nullopt};
-    const OrbitSolution solution = solve_orbit(model, orbit);
+    const OrbitSolution solution = solve_orbit(System(model), orbit);
     ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
     EXPECT_NE(solution.detail.find("one of a family"), std::string::npos) << solution.detail;
     EXPECT_NEAR(solution.orbit.starts[0][0], 1, 0.01);
@@ -161,7 +161,7 @@ c = 0
                                         "test.toml");
         AttractorOptions settle;
         settle.section = "half";
-        const OrbitSolution solution = find_orbit(model, settle);
+        const OrbitSolution solution = find_orbit(System(model), settle);
         ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << one.map << solution.detail;
         ASSERT_EQ(solution.multipliers.size(), one.moving + 1) << one.map;
         for (std::size_t m = 0; m < one.moving; ++m)

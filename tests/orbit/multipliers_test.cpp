@@ -48,7 +48,7 @@ TEST(Multipliers, StiffRelaxationHasItsClosedForm) {
         const double fast = exponent(random) / (2 * pi), rest = slow(random);
         const Model model = relaxation(fast, rest, skew(random));
         const Orbit orbit{parse_signature(model, "start"), {}, {{1, 0, 0}}, {2 * pi}, {}};
-        const OrbitSolution solution = solve_orbit(model, orbit);
+        const OrbitSolution solution = solve_orbit(System(model), orbit);
         ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
         ASSERT_EQ(solution.multipliers.size(), 2U);
         std::vector<double> known{-2 * pi * fast, -2 * pi * rest};
@@ -62,7 +62,7 @@ TEST(Multipliers, StiffRelaxationHasItsClosedForm) {
 TEST(Multipliers, ValuesBelowTheSmallestDoubleAreZero) {
     const Model model = relaxation(200, 0.1, 0.5);
     const Orbit orbit{parse_signature(model, "start"), {}, {{1, 0, 0}}, {2 * pi}, {}};
-    const OrbitSolution solution = solve_orbit(model, orbit);
+    const OrbitSolution solution = solve_orbit(System(model), orbit);
     ASSERT_EQ(solution.multipliers.size(), 2U);
     EXPECT_NEAR(solution.multipliers[0].real(), std::exp(-0.2 * pi), 1e-10);
     EXPECT_EQ(std::abs(solution.multipliers[1]), 0);
@@ -88,12 +88,11 @@ direction = "falling"
                                         "vdp.toml");
         AttractorOptions settle;
         settle.section = "turn";
-        const OrbitSolution solution = find_orbit(model, settle);
+        const OrbitSolution solution = find_orbit(System(model), settle);
         ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
-        const Simulation simulation(model);
+        const Simulation simulation{System(model)};
         ASSERT_EQ(solution.multipliers.size(), 1U);
-        Observer nobody;
-        Trajectory trajectory(simulation, model.parameter_values(), nobody);
+        Trajectory trajectory(simulation, model.parameter_values());
         trajectory.start(solution.orbit.starts[0], 0, 0, solution.orbit.period());
         JetSet jets(simulation, LaneKind::single);
         run(trajectory, jets);

@@ -54,7 +54,7 @@ Orbit orbit_of(const Model& model) {
     AttractorOptions settle;
     settle.section = "phase0";
     settle.cycles = 3000;
-    const OrbitSolution solution = find_orbit(model, settle);
+    const OrbitSolution solution = find_orbit(System(model), settle);
     EXPECT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
     return solution.orbit;
 }
@@ -64,7 +64,7 @@ protected:
     Equations() : model(model_of(GetParam().model)), orbit(orbit_of(model)) {}
 
     std::unique_ptr<OrbitEquations> make(std::vector<ParameterId> free, std::size_t intervals = 40) const {
-        const Simulation simulation(model, {}, {}, integration(1e-14));
+        const Simulation simulation(System(model), {}, {}, integration(1e-14));
         if (GetParam().method == Method::shooting)
             return std::make_unique<Shooting>(simulation, orbit, free);
         return std::make_unique<Collocation>(simulation, orbit, free, intervals);
@@ -101,7 +101,7 @@ TEST_P(Equations, NewtonsMethodConvergesToTheOrbitOfShooting) {
     EXPECT_LE(iterations, 6U);
     EXPECT_LT(at.residual, 1e-11);
     const Orbit found = equations->orbit_of(unknowns);
-    const OrbitSolution reference = solve_orbit(model, orbit);
+    const OrbitSolution reference = solve_orbit(System(model), orbit);
     ASSERT_EQ(found.segments(), reference.orbit.segments());
     for (std::size_t s = 0; s < found.segments(); ++s) {
         EXPECT_NEAR(found.durations[s], reference.orbit.durations[s], 1e-9 * reference.orbit.period());
@@ -170,7 +170,7 @@ TEST_P(Equations, TangentEqualsDifferencesOfOrbits) {
     for (const double sign : {1.0, -1.0}) {
         Orbit guess = orbit;
         guess.parameters[parameter().place()] += sign * step;
-        const OrbitSolution solution = solve_orbit(model, guess);
+        const OrbitSolution solution = solve_orbit(System(model), guess);
         ASSERT_EQ(solution.outcome, OrbitOutcome::converged);
         beside.push_back(solution.orbit);
     }
@@ -203,7 +203,7 @@ TEST(Collocation, ErrorFallsWithTheEighthPower) {
     const Orbit orbit = orbit_of(model);
     std::vector<double> errors;
     for (const std::size_t intervals : {2, 4, 8}) {
-        Collocation equations(Simulation(model, {}, {}, integration(1e-14)), orbit, {}, intervals);
+        Collocation equations(Simulation(System(model), {}, {}, integration(1e-14)), orbit, {}, intervals);
         Eigen::VectorXd unknowns = equations.unknowns_of(orbit);
         OrbitEvaluation at = equations.evaluation();
         std::size_t iterations = 0;
@@ -213,7 +213,7 @@ TEST(Collocation, ErrorFallsWithTheEighthPower) {
     }
     EXPECT_GT(errors[0] / errors[1], 150) << errors[0] << ' ' << errors[1];
     EXPECT_GT(errors[1] / errors[2], 150) << errors[1] << ' ' << errors[2];
-    EXPECT_THROW(Collocation(Simulation(model), orbit, {}, 0), InputError);
+    EXPECT_THROW(Collocation(Simulation(System(model)), orbit, {}, 0), InputError);
 }
 
 } // namespace

@@ -44,7 +44,8 @@ TEST(OrbitTable, GivesStartsAndDurations) {
 
 TEST(OrbitTable, IsAFirstGuessOfTheOrbit) {
     const Model model = oscillator();
-    const OrbitSolution solution = solve_orbit(model, parse_orbit_table(model, heading + rows, "", "orbit.csv"));
+    const OrbitSolution solution =
+        solve_orbit(System(model), parse_orbit_table(model, heading + rows, "", "orbit.csv"));
     ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
     EXPECT_TRUE(solution.certificate.admissible) << solution.certificate.reason;
     EXPECT_NEAR(solution.orbit.period(), 2 * 3.14159265358979312 / 2.2, 1e-14);

@@ -15,7 +15,7 @@ namespace {
 
 std::string refusal(const Model& model, const std::string& signature, const SignatureSearchOptions& search = {}) {
     try {
-        orbit_with_signature(model, parse_signature(model, signature), {}, {}, search);
+        orbit_with_signature(System(model), parse_signature(model, signature), {}, {}, search);
     } catch (const InputError& error) {
         return error.what();
     }
@@ -27,7 +27,7 @@ TEST(OrbitWithSignature, IdentityTransitionsAndSectionsCountWhereTheSignatureNam
     model.set_parameter("V", 0.2);
     OrbitSolution at_section;
     for (const char* signature : {"J5", "phase0", "longest", "J5 phase0"}) {
-        const auto found = orbit_with_signature(model, parse_signature(model, signature));
+        const auto found = orbit_with_signature(System(model), parse_signature(model, signature));
         ASSERT_TRUE(found) << signature;
         ASSERT_EQ(found->outcome, OrbitOutcome::converged) << signature << ' ' << found->detail;
         EXPECT_EQ(to_string(model, found->orbit.signature), signature);
@@ -49,7 +49,7 @@ TEST(OrbitWithSignature, SearchIsBoundedAndCanBeInterrupted) {
     search.steps = 100'000'000;
     int asked = 0;
     search.interrupted = [&] { return ++asked > 20; };
-    EXPECT_FALSE(orbit_with_signature(model, parse_signature(model, "J1 J8"), {}, {}, search));
+    EXPECT_FALSE(orbit_with_signature(System(model), parse_signature(model, "J1 J8"), {}, {}, search));
 }
 
 TEST(OrbitWithSignature, InadmissibleOrbitsAreRefusedUnlessAllowed) {
@@ -62,7 +62,7 @@ TEST(OrbitWithSignature, InadmissibleOrbitsAreRefusedUnlessAllowed) {
                   std::string::npos);
         SignatureSearchOptions search;
         search.unphysical = true;
-        const auto found = orbit_with_signature(model, parse_signature(model, "impact"), {}, {}, search);
+        const auto found = orbit_with_signature(System(model), parse_signature(model, "impact"), {}, {}, search);
         ASSERT_TRUE(found);
         EXPECT_EQ(found->outcome, OrbitOutcome::converged);
         EXPECT_FALSE(found->certificate.admissible);
@@ -93,7 +93,7 @@ TEST(OrbitWithSignature, SymmetricOrbitsAreReturnedAsHalfOrbits) {
     Model model = lorenz(350);
     double period = 0;
     for (const char* signature : {"level^2", "side"}) {
-        const auto found = orbit_with_signature(model, parse_signature(model, signature));
+        const auto found = orbit_with_signature(System(model), parse_signature(model, signature));
         ASSERT_TRUE(found);
         ASSERT_EQ(found->outcome, OrbitOutcome::converged) << found->detail;
         ASSERT_TRUE(found->orbit.symmetry) << signature;
@@ -105,7 +105,7 @@ TEST(OrbitWithSignature, SymmetricOrbitsAreReturnedAsHalfOrbits) {
         for (std::size_t i = 0; i < 3; ++i)
             model.set_initial(model.states[i].name, found->orbit.starts[0][i]);
         // The whole orbit has the same period and contracts volumes at the known rate.
-        const OrbitSolution whole = solve_orbit(model, whole_orbit(model, found->orbit));
+        const OrbitSolution whole = solve_orbit(System(model), whole_orbit(System(model), found->orbit));
         ASSERT_EQ(whole.outcome, OrbitOutcome::converged) << whole.detail;
         EXPECT_NEAR(whole.orbit.period(), period, 1e-11);
         EXPECT_NEAR(std::abs(whole.multipliers[0] - found->multipliers[0]), 0, 1e-8);

@@ -68,7 +68,7 @@ TEST(SolveOrbit, LinearImpactOscillatorHasItsClosedForm) {
             guess.parameters = model.parameter_values();
             guess.starts = {{sigma, known.speed * 1.02, known.phase + 0.02}};
             guess.durations = {2 * pi * n / omega * 0.99};
-            const OrbitSolution solution = solve_orbit(model, guess);
+            const OrbitSolution solution = solve_orbit(System(model), guess);
             ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
             EXPECT_NEAR(solution.orbit.starts[0][1], known.speed, 1e-12);
             EXPECT_NEAR(std::remainder(solution.orbit.starts[0][2] - known.phase, 2 * pi), 0, 1e-12);
@@ -109,10 +109,10 @@ TEST(SolveOrbit, PenetratingOrbitsAreMarkedInadmissible) {
                         {{0.02, known.speed, known.phase}},
                         {2 * pi * n / 2.4},
                         {}};
-            const OrbitSolution solution = solve_orbit(model, guess);
+            const OrbitSolution solution = solve_orbit(System(model), guess);
             ASSERT_EQ(solution.outcome, OrbitOutcome::converged);
             // The orbit is admissible if and only if simulation from its start first reaches the stop at its end.
-            const Simulation simulation(model);
+            const Simulation simulation{System(model)};
             const FollowedMotion motion = follow_motion(simulation, model.parameter_values(), solution.orbit.starts[0],
                                                         0, solution.orbit.period() * 1.001);
             const bool real = known.speed < 0 && !motion.durations.empty() &&
@@ -132,7 +132,7 @@ TEST(FindOrbit, TestbedHasThePublishedMultipliers) {
     AttractorOptions settle;
     settle.section = "phase0";
     settle.cycles = 600;
-    const OrbitSolution solution = find_orbit(model, settle);
+    const OrbitSolution solution = find_orbit(System(model), settle);
     ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
     ASSERT_TRUE(solution.orbit.symmetry);
     EXPECT_EQ(to_string(model, solution.orbit.signature), "impact^2");
@@ -142,7 +142,7 @@ TEST(FindOrbit, TestbedHasThePublishedMultipliers) {
     EXPECT_NEAR(solution.multipliers[1].real(), 0.1126, 5e-5);
     EXPECT_TRUE(solution.certificate.admissible) << solution.certificate.reason;
     // Half and whole orbit have the same multipliers.
-    const OrbitSolution whole = solve_orbit(model, whole_orbit(model, solution.orbit));
+    const OrbitSolution whole = solve_orbit(System(model), whole_orbit(System(model), solution.orbit));
     ASSERT_EQ(whole.outcome, OrbitOutcome::converged) << whole.detail;
     EXPECT_LE(whole.iterations, 2u);
     EXPECT_NEAR(std::abs(whole.multipliers[0] - solution.multipliers[0]), 0, 1e-8);
@@ -153,11 +153,11 @@ TEST(FindOrbit, AnOrbitWithoutContactEndsAtTheSection) {
     model.set_parameter("V0", 4.5);
     AttractorOptions settle;
     settle.section = "phase0";
-    const OrbitSolution solution = find_orbit(model, settle);
+    const OrbitSolution solution = find_orbit(System(model), settle);
     ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
     EXPECT_TRUE(solution.orbit.symmetry);
     EXPECT_EQ(to_string(model, solution.orbit.signature), "phase0");
-    const OrbitSolution whole = solve_orbit(model, whole_orbit(model, solution.orbit));
+    const OrbitSolution whole = solve_orbit(System(model), whole_orbit(System(model), solution.orbit));
     ASSERT_EQ(whole.outcome, OrbitOutcome::converged) << whole.detail;
     EXPECT_NEAR(std::abs(whole.multipliers[0] - solution.multipliers[0]), 0, 1e-10);
 }
@@ -168,7 +168,7 @@ TEST(SolveOrbit, TheFrameOfAMicroactuatorWithoutImpactsIsNeutral) {
     AttractorOptions settle;
     settle.section = "phase0";
     settle.cycles = 2000;
-    const OrbitSolution solution = find_orbit(model, settle);
+    const OrbitSolution solution = find_orbit(System(model), settle);
     ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
     EXPECT_EQ(solution.multipliers.size(), 2u);
     // By Liouville's formula the product of multipliers follows from the damping.
@@ -184,7 +184,7 @@ TEST(SolveOrbit, SlowForcingHasTheMultipliersOfTheFreeOscillation) {
     settle.section = "phase0";
     for (const double omega : {0.05, 0.1, 0.15, 0.2, 0.5}) {
         model.set_parameter("omega", omega);
-        const OrbitSolution solution = find_orbit(model, settle);
+        const OrbitSolution solution = find_orbit(System(model), settle);
         ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << omega;
         // Disturbances oscillate freely: the multipliers are the pair exp(-zeta T +- i sqrt(1 - zeta^2) T).
         const double T = 2 * pi / omega, zeta = 0.02;
@@ -204,14 +204,14 @@ TEST(SolveOrbit, ImpossibleCandidatesAreRefused) {
     orbit.parameters = model.parameter_values();
     orbit.starts = {{0.1, -0.5}};
     orbit.durations = {2};
-    EXPECT_THROW(solve_orbit(model, orbit), InputError);
+    EXPECT_THROW(solve_orbit(System(model), orbit), InputError);
     orbit.starts = {{0.1, -0.5, NAN}};
-    EXPECT_THROW(solve_orbit(model, orbit), InputError);
+    EXPECT_THROW(solve_orbit(System(model), orbit), InputError);
     orbit.starts = {{0.1, -0.5, 0}, {0.1, -0.5, 0}};
-    EXPECT_THROW(solve_orbit(model, orbit), InputError);
+    EXPECT_THROW(solve_orbit(System(model), orbit), InputError);
     orbit.starts = {{0.1, 1e5, 0}};
     orbit.durations = {1e-3};
-    const OrbitSolution lost = solve_orbit(model, orbit);
+    const OrbitSolution lost = solve_orbit(System(model), orbit);
     EXPECT_NE(lost.outcome, OrbitOutcome::converged);
     EXPECT_FALSE(lost.detail.empty());
 }
@@ -240,7 +240,7 @@ next = "only"
     orbit.signature = parse_signature(model, "fire");
     orbit.starts = {{0.1}};
     orbit.durations = {0.6};
-    const OrbitSolution found = solve_orbit(model, orbit);
+    const OrbitSolution found = solve_orbit(System(model), orbit);
     ASSERT_EQ(found.outcome, OrbitOutcome::converged);
     EXPECT_NEAR(found.orbit.period(), std::log(2.0), 1e-13);
     ASSERT_EQ(found.multipliers.size(), 1u);
@@ -257,9 +257,9 @@ TEST(FindOrbit, SlipsBelowRoundOffAreNotPartOfAnOrbit) {
     AttractorOptions settle;
     settle.section = "phase0";
     model.set_initial("x", 0.2);
-    EXPECT_THROW(find_orbit(model, settle), InputError);
+    EXPECT_THROW(find_orbit(System(model), settle), InputError);
     // Newton's method from two segments of the motion converges to where they vanish.
-    const Simulation simulation(model, {}, {}, {});
+    const Simulation simulation(System(model), {}, {}, {});
     for (const double left : {1e-4, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9, 1e-9}) {
         const FollowedMotion motion = follow_motion(simulation, model.parameter_values(),
                                                     std::vector{0.05 + left, 0.0, 0.0}, model.initial_mode, 10);
@@ -271,13 +271,13 @@ TEST(FindOrbit, SlipsBelowRoundOffAreNotPartOfAnOrbit) {
             candidate.starts.push_back(motion.starts[k]);
             candidate.durations.push_back(motion.durations[k]);
         }
-        const OrbitSolution solution = solve_orbit(model, candidate);
+        const OrbitSolution solution = solve_orbit(System(model), candidate);
         EXPECT_FALSE(solution.outcome == OrbitOutcome::converged && solution.certificate.admissible) << left;
     }
     // Where the force exceeds friction by 1 %, the orbit has small slips.
     model.set_parameter("friction_static", 0.99);
     model.set_parameter("friction_dynamic", 0.99);
-    const OrbitSolution slips = find_orbit(model, settle);
+    const OrbitSolution slips = find_orbit(System(model), settle);
     EXPECT_EQ(slips.outcome, OrbitOutcome::converged) << slips.detail;
     EXPECT_TRUE(slips.certificate.admissible) << slips.certificate.reason;
 }

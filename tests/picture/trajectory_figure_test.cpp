@@ -24,7 +24,7 @@ Figure drawn(const Model& model, double time, const std::vector<std::string>& co
     choice.marked.assign(model.events.size(), true);
     const Simulation simulation{System(model)};
     MotionRecorder recorder(simulation, choice);
-    Trajectory trajectory(simulation, model.parameter_values(), recorder);
+    Trajectory trajectory(simulation, model.parameter_values(), borrowed(recorder));
     trajectory.start(model.initial_state(), model.initial_mode, 0, time);
     JetSet jets(simulation, LaneKind::single);
     run(trajectory, jets);

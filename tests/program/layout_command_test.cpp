@@ -167,7 +167,7 @@ TEST_F(LayoutCommand, DrawsADesignedDeviceAndComparesItSlow) {
     const Printed given =
         run_graze({"layout", mine, "--from-design", found, "--set", "pressure=4000", "--format", "csv"});
     EXPECT_EQ(given.code, 3);
-    EXPECT_THAT(given.out, HasSubstr("not as designed: pressure is given by --set"));
+    EXPECT_THAT(given.out, HasSubstr("not as designed: pressure is given"));
     EXPECT_EQ(run_graze({"layout", mine, "--from-design", found, "--yield", "2"}).code, 2);
     // A device file without a heading does not tell its design: the wish of another design is missed by far.
     const std::string device = contents(found + "/device.toml");

@@ -12,7 +12,7 @@ TEST(Calibrated, ConvertsReadingsOfAPart) {
     const auto line = [](double t) { return t; };
     for (const std::size_t part : {1U, 7U, 1000U}) {
         StoredSamples source(named({"q", "v"}), sampled(10, 100, {line, line}), part);
-        Calibrated calibrated(source, {{{0, 2, 1, "mm"}}, 2.95, 5.05});
+        Calibrated calibrated(borrowed(source), {{{0, 2, 1, "mm"}}, 2.95, 5.05});
         EXPECT_EQ(calibrated.header().channels[0].unit, "mm");
         const Samples rows = read_all(calibrated, 1000);
         ASSERT_EQ(rows.rows(), 21U);
@@ -24,10 +24,10 @@ TEST(Calibrated, ConvertsReadingsOfAPart) {
 
 TEST(Calibrated, RefusesInvalidSettings) {
     StoredSamples source(named({"q"}), sampled(10, 100, {[](double) { return 1e300; }}));
-    EXPECT_THROW(Calibrated(source, {{{1, 2, 1, {}}}}), InputError);
-    EXPECT_THROW(Calibrated(source, {{{0, std::nan(""), 1, {}}}}), InputError);
-    EXPECT_THROW(Calibrated(source, {{}, 2, 1}), InputError);
-    Calibrated large(source, {{{0, 1e300, 0, {}}}});
+    EXPECT_THROW(Calibrated(borrowed(source), {{{1, 2, 1, {}}}}), InputError);
+    EXPECT_THROW(Calibrated(borrowed(source), {{{0, std::nan(""), 1, {}}}}), InputError);
+    EXPECT_THROW(Calibrated(borrowed(source), {{}, 2, 1}), InputError);
+    Calibrated large(borrowed(source), {{{0, 1e300, 0, {}}}});
     Samples rows;
     EXPECT_THROW(large.read(rows), InputError);
 }

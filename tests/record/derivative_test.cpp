@@ -19,7 +19,7 @@ constexpr double turn = 2 * std::numbers::pi;
 TEST(Derivative, IsExactForPolynomialsOfFourthDegree) {
     const auto p = [](double t) { return 1e3 + t * (2 + t * (-3 + t * (0.5 - 0.25 * t))); };
     StoredSamples source(named({"q"}), sampled(100, 500, {p}), 123);
-    WithDerivative derived(source, {0, 6, ""});
+    WithDerivative derived(borrowed(source), {0, 6, ""});
     EXPECT_EQ(derived.header().channels[1].name, "q_rate");
     EXPECT_EQ(derived.header().channels[2].name, "q_rate_error");
     const Samples rows = read_all(derived, 1000);
@@ -41,7 +41,7 @@ TEST(Derivative, ErrorsHaveTheStatedSize) {
                                                               0.3 * std::sin(3 * turn * f * t + 1) +
                                                               sigma * noise.normal();
                                                    }}));
-        WithDerivative derived(source, {0, 0, "v"});
+        WithDerivative derived(borrowed(source), {0, 0, "v"});
         const Samples rows = read_all(derived, 100'000);
         double squares = 0, said = 0, within = 0, plain = 0;
         for (std::size_t i = 0; i < rows.rows(); ++i) {
@@ -76,7 +76,7 @@ TEST(Derivative, StatedErrorsCoverTheTruthOfManyRecords) {
                            sigma * noise.normal();
                 };
                 StoredSamples source(named({"q"}), sampled(1000, 2000, {q}));
-                WithDerivative derived(source, {0, 0, "v"});
+                WithDerivative derived(borrowed(source), {0, 0, "v"});
                 const Samples rows = read_all(derived, 100'000);
                 for (std::size_t i = 0; i < rows.rows(); ++i, ++count) {
                     const double t = rows.times[i];
@@ -111,7 +111,7 @@ TEST(Derivative, UsesTheTimesOfAnUnevenClock) {
             samples.values[0].push_back(std::sin(w * samples.times.back()) + 1e-4 * noise.normal());
         }
         StoredSamples source(named({"q"}), samples);
-        WithDerivative derived(source, {0, 0, "v"});
+        WithDerivative derived(borrowed(source), {0, 0, "v"});
         const Samples rows = read_all(derived, 100'000);
         double squares = 0, said = 0, within = 0;
         for (std::size_t i = 0; i < rows.rows(); ++i) {
@@ -133,7 +133,7 @@ TEST(Derivative, RoundedTimesCountAsEven) {
         t = std::round(t * 1e3) / 1e3;
     const auto derivative = [](const Samples& samples) {
         StoredSamples source(named({"q"}), samples);
-        WithDerivative derived(source, {0, 6, "v"});
+        WithDerivative derived(borrowed(source), {0, 6, "v"});
         return read_all(derived, 10'000);
     };
     const Samples one = derivative(exact), other = derivative(rounded);
@@ -148,7 +148,7 @@ TEST(Derivative, OfADisplacementIsItsVelocityWithLargeErrorsAtJumps) {
     Noise noise(5);
     recorded.add_noise("q", 1e-7, noise);
     StoredSamples source(recorded.header, recorded.samples);
-    WithDerivative derived(source, {recorded.header.channel("q", "test"), 0, "rate"});
+    WithDerivative derived(borrowed(source), {recorded.header.channel("q", "test"), 0, "rate"});
     const Samples rows = read_all(derived, 100'000);
     const std::size_t v = recorded.header.channel("v", "test"), rate = derived.header().channel("rate", "test"),
                       error = rate + 1;
@@ -162,10 +162,10 @@ TEST(Derivative, OfADisplacementIsItsVelocityWithLargeErrorsAtJumps) {
 
 TEST(Derivative, RefusesInvalidSettings) {
     StoredSamples source(named({"q", "v"}), sampled(10, 10, {[](double t) { return t; }, [](double t) { return t; }}));
-    EXPECT_THROW(WithDerivative(source, {2, 0, ""}), InputError);
-    EXPECT_THROW(WithDerivative(source, {0, 3, ""}), InputError);
-    EXPECT_THROW(WithDerivative(source, {0, 0, "v"}), InputError);
-    WithDerivative derived(source, {0, 100, ""});
+    EXPECT_THROW(WithDerivative(borrowed(source), {2, 0, ""}), InputError);
+    EXPECT_THROW(WithDerivative(borrowed(source), {0, 3, ""}), InputError);
+    EXPECT_THROW(WithDerivative(borrowed(source), {0, 0, "v"}), InputError);
+    WithDerivative derived(borrowed(source), {0, 100, ""});
     Samples rows;
     EXPECT_THROW(derived.read(rows), InputError);
 }

@@ -20,7 +20,7 @@ TEST(Extremes, OfASineAreFoundBetweenSamples) {
     const auto wave = [](double t) { return 2 + 3 * std::sin(turn * 5 * t); };
     StoredSamples source(named({"V", "q"}),
                          sampled(1000, 3000, {[](double t) { return std::sin(turn * 5 * t + 0.3); }, wave}));
-    PeriodSplitter splitter(source, {});
+    PeriodSplitter splitter(borrowed(source), {});
     std::size_t count = 0;
     for (Period period; splitter.next(period); ++count) {
         const Extremes found = extremes(period, 1);
@@ -42,7 +42,7 @@ TEST(Extremes, DoNotOvershootAJump) {
     StoredSamples source(named({"V", "v"}), sampled(100, 1000,
                                                     {[](double t) { return std::sin(turn * t - 1); },
                                                      [&](double t) { return saw(t + 0.003); }}));
-    PeriodSplitter splitter(source, {});
+    PeriodSplitter splitter(borrowed(source), {});
     for (Period period; splitter.next(period);) {
         EXPECT_NEAR(extremes(period, 1).greatest, 0.993, 1e-12); // the last sample before the jump
         EXPECT_NEAR(extremes(period, 1).least, 0.003, 1e-12);
@@ -54,7 +54,7 @@ TEST(Extremes, AgreeWithTheSimulation) {
     const RecordedModel recorded(model, "theta", 4.0, 5000, 10'000);
     StoredSamples source(recorded.header, recorded.samples);
     const std::size_t q = recorded.header.channel("q", "test"), v = recorded.header.channel("v", "test");
-    PeriodSplitter splitter(source, {recorded.header.channel("drive", "test"), 0, 0});
+    PeriodSplitter splitter(borrowed(source), {recorded.header.channel("drive", "test"), 0, 0});
     std::size_t impacts = 0;
     for (Period period; splitter.next(period);) {
         double fastest = 0; // largest speed towards the stop

@@ -143,11 +143,11 @@ TEST(Impacts, RefuseInvalidSettings) {
         change(settings);
         return settings;
     };
-    EXPECT_THROW(ImpactFinder(source, with([](ImpactSettings& s) { s.velocity = 1; })), InputError);
-    EXPECT_THROW(ImpactFinder(source, with([](ImpactSettings& s) { s.displacement = 1; })), InputError);
-    EXPECT_THROW(ImpactFinder(source, with([](ImpactSettings& s) { s.window = 4; })), InputError);
-    EXPECT_THROW(ImpactFinder(source, with([](ImpactSettings& s) { s.significance = 0; })), InputError);
-    EXPECT_THROW(ImpactFinder(source, with([](ImpactSettings& s) { s.least_jump = -1; })), InputError);
+    EXPECT_THROW(ImpactFinder(borrowed(source), with([](ImpactSettings& s) { s.velocity = 1; })), InputError);
+    EXPECT_THROW(ImpactFinder(borrowed(source), with([](ImpactSettings& s) { s.displacement = 1; })), InputError);
+    EXPECT_THROW(ImpactFinder(borrowed(source), with([](ImpactSettings& s) { s.window = 4; })), InputError);
+    EXPECT_THROW(ImpactFinder(borrowed(source), with([](ImpactSettings& s) { s.significance = 0; })), InputError);
+    EXPECT_THROW(ImpactFinder(borrowed(source), with([](ImpactSettings& s) { s.least_jump = -1; })), InputError);
 }
 
 } // namespace graze::testing

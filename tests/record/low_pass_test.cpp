@@ -16,7 +16,7 @@ constexpr double turn = 2 * std::numbers::pi;
 
 Samples filtered(const LowPassSettings& settings, const std::function<double(double)>& wave, std::size_t part = 1000) {
     StoredSamples source(named({"q"}), sampled(1000, 20'000, {wave}), part);
-    LowPass filter(source, settings);
+    LowPass filter(borrowed(source), settings);
     return read_all(filter, 1'000'000);
 }
 
@@ -71,7 +71,7 @@ TEST(LowPass, RefusesUnevenClocks) {
             samples.values[0].push_back(std::sin(turn * 20 * samples.times.back()));
         }
         StoredSamples source(named({"q"}), samples);
-        LowPass filter(source, {22, 33, 80, 1});
+        LowPass filter(borrowed(source), {22, 33, 80, 1});
         return read_all(filter, 10'000);
     };
     EXPECT_THROW(filter_clock(1.1, 0), InputError);

@@ -16,7 +16,7 @@ namespace {
 constexpr double turn = 2 * std::numbers::pi;
 
 std::vector<Period> periods_of(SampleSource& source, const PeriodSettings& settings) {
-    PeriodSplitter splitter(source, settings);
+    PeriodSplitter splitter(borrowed(source), settings);
     std::vector<Period> all;
     for (Period period; splitter.next(period);)
         all.push_back(period);
@@ -93,9 +93,9 @@ TEST(Period, NoiseMakesNoCrossingsAndTheErrorsOfTheFitCoverTheTruth) {
 TEST(Period, AReferenceWithoutCrossingsHasNoPeriods) {
     StoredSamples source(named({"V"}), sampled(10, 100, {[](double) { return 1.0; }}));
     EXPECT_TRUE(periods_of(source, {}).empty());
-    EXPECT_THROW(PeriodSplitter(source, {1, 0, 0}), InputError);
-    EXPECT_THROW(PeriodSplitter(source, {0, 0, -1}), InputError);
-    EXPECT_THROW(PeriodSplitter(source, {0, std::nan(""), 0}), InputError);
+    EXPECT_THROW(PeriodSplitter(borrowed(source), {1, 0, 0}), InputError);
+    EXPECT_THROW(PeriodSplitter(borrowed(source), {0, 0, -1}), InputError);
+    EXPECT_THROW(PeriodSplitter(borrowed(source), {0, std::nan(""), 0}), InputError);
     EXPECT_THROW(fit_period(std::vector<double>{1}), InputError);
     EXPECT_EQ(fit_period(std::vector<double>{1, 3}).period, 2);
 }

@@ -76,7 +76,7 @@ TEST(ProcessedRecord, RefusesARecordWithoutRowsByTheNamesOfOptions) {
     RecordProcessing processing;
     processing.begin = 1e9;
     for (const auto& [asked_as, remedy] :
-         {std::pair("", "let `part` leave some"), std::pair("--", "let --from and --to")})
+         {std::pair("", "let `part` leave some"), std::pair("--", "let the times leave some")})
         try {
             processing.asked_as = asked_as;
             ProcessedRecord processed(record(), processing);

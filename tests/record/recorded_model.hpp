@@ -36,7 +36,7 @@ struct RecordedModel {
     /// @param skipped time before the first sample. @param phase name of the cyclic state
     RecordedModel(Model model, const std::string& phase, double skipped, double frequency, std::size_t count,
                   const std::vector<Probe>& probes = {}) {
-        const Simulation simulation(model, probes);
+        const Simulation simulation(System(model), probes);
         std::vector<double> periods;
         std::size_t cyclic = 0;
         for (std::size_t i = 0; i < model.states.size(); ++i) {
@@ -57,8 +57,8 @@ struct RecordedModel {
                                 samples.values[i].push_back(state[i]);
                             samples.values.back().push_back(std::sin(state[cyclic]));
                         });
-        Relay relay({&sampler, &truth});
-        Trajectory trajectory(simulation, model.parameter_values(), relay);
+        Relay relay({borrowed(sampler), borrowed(truth)});
+        Trajectory trajectory(simulation, model.parameter_values(), borrowed(relay));
         trajectory.start(model.initial_state(), model.initial_mode, 0,
                          skipped + static_cast<double>(count) / frequency);
         JetSet jets(simulation, LaneKind::single);

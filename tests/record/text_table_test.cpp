@@ -211,7 +211,7 @@ TEST(TextTable, UnitsAreUnderstoodInManySpellings) {
 
 TEST(TextTable, RemedyNamesACommentThatMayNameColumns) {
     EXPECT_THAT(refusal_of("# made by hand\n# t [s], v [V]\n0,1\n1,2\n"),
-                HasSubstr("or name them by --columns; if the comment in line 2 does, by --names-line 2"));
+                HasSubstr("or name them; if the comment in line 2 does, name that line"));
     EXPECT_THAT(refusal_of("# made by hand\n0,1\n1,2\n"), Not(HasSubstr("names-line")));
 }
 

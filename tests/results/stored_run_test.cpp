@@ -1,5 +1,6 @@
 #include "graze/results/stored_run.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/model/model_file.hpp"
 #include "graze/results/result_table.hpp"
@@ -10,6 +11,8 @@
 
 #include <cmath>
 #include <filesystem>
+#include <optional>
+#include <utility>
 
 namespace graze {
 namespace {
@@ -99,6 +102,15 @@ TEST_F(StoredRunTest, ColumnsHaveNamesUnitsAndTypes) {
     EXPECT_EQ(run().unit("label"), "");
 }
 
+TEST_F(StoredRunTest, RunsAndRowsKeepTheFileOpen) {
+    std::optional<StoredRun> read = run();
+    file_.reset(); // this handle; the run has another
+    EXPECT_EQ(read->points(), 4u);
+    ResultFile::Rows rows = read->rows({.quantities = {"omega"}});
+    read.reset();
+    EXPECT_THAT(column(std::move(rows), 0), ElementsAre(1, 2, 2, 1));
+}
+
 TEST_F(StoredRunTest, ReadsPointsByDirection) {
     EXPECT_THAT(column(run().rows({.quantities = {"omega"}}), 0), ElementsAre(1, 2, 2, 1));
     EXPECT_THAT(column(run().rows({.columns = {"number"}, .directions = {"down"}}), 0), ElementsAre(2, 3));
@@ -137,7 +149,7 @@ TEST_F(StoredRunTest, CountsAndFindsPoints) {
     EXPECT_EQ(run().nearest({{"omega", 1.1}}, {"down"}), 3u);
     EXPECT_EQ(run().nearest({}, {"up"}), 1u);
     EXPECT_FALSE(run().nearest({}, {"sideways"}));
-    EXPECT_THROW(run().nearest({{"sigma", 1}}, {}), std::out_of_range);
+    EXPECT_THROW(run().nearest({{"sigma", 1}}, {}), InputError);
     EXPECT_TRUE(run().parts().empty());
 }
 

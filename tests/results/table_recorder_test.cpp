@@ -13,15 +13,15 @@ TEST(TableRecorder, RunEndsWhenTheTableIsFull) {
     for (const TableKind kind : {TableKind::contacts, TableKind::minima}) {
         SimulationOptions options;
         options.minima = kind == TableKind::minima;
-        const Simulation simulation(model, {}, {}, options);
+        const Simulation simulation(System(model), {}, {}, options);
         TableRequest request;
         request.kind = kind;
         request.events = {true, true};
         request.most_cells = 1000;
-        const auto table = make_table_recorder(simulation, request);
-        RunControl control(*table, std::nullopt, request.events);
+        const std::shared_ptr<TableRecorder> table = make_table_recorder(simulation, request);
+        RunControl control(table, std::nullopt, request.events);
         control.end_when([&] { return table->is_full(); });
-        Trajectory trajectory(simulation, {}, control);
+        Trajectory trajectory(simulation, {}, borrowed(control));
         trajectory.start(model.initial_state(), 0, 0, 1e9);
         control.begin({}, 0, true);
         JetSet jets(simulation, LaneKind::single);

@@ -675,7 +675,7 @@ TEST_F(BranchRun, FollowsSymmetricOrbitsByTheirHalfWhereverTheyComeFrom) {
     EXPECT_NEAR(std::abs(asked->point.solution.multipliers[0]), std::abs(settled->point.solution.multipliers[0]), 1e-9);
     // The same as a table of the whole orbit.
     const Model model = load_model("impact-oscillator-two-stops");
-    const Orbit whole = whole_orbit(model, asked->point.solution.orbit);
+    const Orbit whole = whole_orbit(System(model), asked->point.solution.orbit);
     std::ofstream table(folder_ / "whole.csv");
     table.precision(12);
     table << "segment,t,x,v,theta,end\n";

@@ -154,8 +154,8 @@ direction = "both"
         settings.direction = -1;
         settings.least = 0.1;
         settings.stop_at = {PointType::grazing};
-        const Branch branch = follow_branch(there, find_orbit(there, settle).orbit, settings);
-        const ChatterLimit limit = climb(there, branch.special.back(), settings, 5).limit();
+        const Branch branch = follow_branch(System(there), find_orbit(System(there), settle).orbit, settings);
+        const ChatterLimit limit = climb(System(there), branch.special.back(), settings, 5).limit();
         ASSERT_TRUE(limit.direct) << limit.problem;
         EXPECT_NEAR(parameters[sigma], limit.direct->first, 1e-10);
     }

@@ -60,7 +60,7 @@ std::vector<double> after_end(const Model& model, const Segment& segment, const 
 
 void expect_closed(const Model& model, const OrbitRecord& record, const std::string& name) {
     const Orbit& stored = record.point.solution.orbit;
-    const Orbit whole = whole_orbit(model, stored);
+    const Orbit whole = whole_orbit(System(model), stored);
     const Model there = model_at(model, whole);
     const auto motion = orbit_motion(model, whole, 50);
     ASSERT_EQ(motion.size(), whole.segments()) << name;
@@ -142,7 +142,7 @@ TEST(OrbitMotion, OfASegmentWithoutEndIsInterrupted) {
         model.set_parameter(name, value);
     AttractorOptions options;
     options.section = "phase0";
-    const Orbit orbit = find_orbit(model, options).orbit;
+    const Orbit orbit = find_orbit(System(model), options).orbit;
     ASSERT_EQ(orbit_motion(model, orbit, 10).front().problem, "");
     for (const double duration : {1e300, -1e300, 1e12, std::numeric_limits<double>::infinity(),
                                   -std::numeric_limits<double>::infinity(), std::nan("")}) {

@@ -33,7 +33,7 @@ void simulate(const System& system, Bits& bits) {
     lowest.expression = named_value(model, model.states[0].name + " * 2", {}).value;
     const Simulation simulation(system, {lowest, section_probe(model, model.sections[0].name)});
     Recorder recorder;
-    Trajectory trajectory(simulation, model.parameter_values(), recorder);
+    Trajectory trajectory(simulation, model.parameter_values(), borrowed(recorder));
     JetSet jets(simulation, LaneKind::single);
     trajectory.start(model.initial_state(), model.initial_mode, 0, 60);
     run(trajectory, jets);

@@ -24,7 +24,7 @@ std::vector<std::size_t> contacts_of(const Model& model, const std::vector<doubl
     for (std::size_t event = 0; event < model.events.size(); ++event)
         contacts.events.push_back(event);
     returns.section = options.section;
-    const auto factory = transient_searches(model, options, {contacts, returns}, model.state_symbols(), {});
+    const auto factory = transient_searches(System(model), options, {contacts, returns}, model.state_symbols(), {});
     const auto search = factory->make();
     search->begin(model.parameter_values(), state, model.initial_mode);
     JetSet jets(factory->simulation(), LaneKind::single);

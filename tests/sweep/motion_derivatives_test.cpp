@@ -19,8 +19,9 @@ namespace {
 class Followed : public Observer {
 public:
     Followed(const Model& model, const std::string& section, const SimulationOptions& options = {})
-        : simulation_(model, {section_probe(model, section)}, {}, options), map_(simulation_, 0), modes_(map_),
-          maps_(modes_), derivatives(modes_, maps_), trajectory(simulation_, model.parameter_values(), *this) {}
+        : simulation_(System(model), {section_probe(model, section)}, {}, options), map_(simulation_, 0), modes_(map_),
+          maps_(modes_), derivatives(modes_, maps_),
+          trajectory(simulation_, model.parameter_values(), borrowed(static_cast<Observer&>(*this))) {}
 
     /// @param scale unit of each state
     void run(const std::vector<double>& state, std::size_t mode, double time, const std::vector<double>& scale) {
@@ -148,7 +149,7 @@ TEST(MotionDerivatives, AreInvalidIfTheyWouldTakeTooManyParts) {
 
 TEST(MotionDerivatives, OfAStepDoNotDependOnOtherLanes) {
     const Model model = load_model("electromagnetic-testbed");
-    const Simulation simulation(model, {section_probe(model, "phase0")});
+    const Simulation simulation(System(model), {section_probe(model, "phase0")});
     const SectionMap map(simulation, 0);
     const VariationalModes modes(map);
     ASSERT_TRUE(modes.suit());

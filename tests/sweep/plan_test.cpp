@@ -26,7 +26,7 @@ struct Setting {
         Sampling sampling;
         sampling.name = "phase0";
         sampling.section = "phase0";
-        searches = attractor_searches(model, options, {sampling}, {model.symbol("v"), model.symbol("I")}, {});
+        searches = attractor_searches(System(model), options, {sampling}, {model.symbol("v"), model.symbol("I")}, {});
         plan.chains = chains;
         plan.chain_length = length;
         plan.carry = carry;
@@ -151,7 +151,7 @@ TEST(Plan, AChainContinuesWhereACarriedStateIsInadmissible) {
     // The wall moves by more than the distance of the oscillator from it.
     for (const double start : {-3.0, 0.0}) {
         const Model model = walled(start);
-        const auto searches = attractor_searches(model, {.section = "s"}, {}, {}, {});
+        const auto searches = attractor_searches(System(model), {.section = "s"}, {}, {}, {});
         Plan plan;
         plan.chain_length = 6;
         plan.carry = true;
@@ -172,7 +172,7 @@ TEST(Plan, AChainContinuesWhereACarriedStateIsInadmissible) {
     }
     // An initial state that was not carried along is used unchanged.
     const Model model = walled(2);
-    const auto searches = attractor_searches(model, {.section = "s"}, {}, {}, {});
+    const auto searches = attractor_searches(System(model), {.section = "s"}, {}, {}, {});
     Plan plan;
     plan.start = [&](std::size_t) { return PointStart{{1}, model.initial_state(), model.initial_mode}; };
     EXPECT_TRUE(execute(plan, *searches, {}, {}, [&](std::size_t, const PointStart&, PointResult& result) {

@@ -20,7 +20,7 @@ inline PointResult settle(const Model& model, AttractorOptions options = {}, std
     Sampling sampling;
     sampling.name = "returns";
     sampling.section = options.section;
-    const auto factory = attractor_searches(model, options, {sampling}, model.state_symbols(), simulation);
+    const auto factory = attractor_searches(System(model), options, {sampling}, model.state_symbols(), simulation);
     const auto search = factory->make();
     if (state.empty())
         state = model.initial_state();

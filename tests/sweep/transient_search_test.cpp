@@ -47,7 +47,7 @@ function = "x - 9"
 }
 
 PointResult simulated(const Model& model, const TransientOptions& options) {
-    const auto factory = transient_searches(model, options, {}, {}, {});
+    const auto factory = transient_searches(System(model), options, {}, {}, {});
     const auto search = factory->make();
     search->begin(model.parameter_values(), model.initial_state(), model.initial_mode);
     JetSet jets(factory->simulation(), LaneKind::single);

@@ -16,14 +16,14 @@ namespace {
 struct Logistic {
     explicit Logistic(double r)
         : model(iterated(fmt::format("{}*z*(1 - z)", r), 0.3)), fixed(1 - 1 / r),
-          setting(model, {.section = "half"}, {}, {}, {}), maps(setting.variational),
+          setting(System(model), {.section = "half"}, {}, {}, {}), maps(setting.variational),
           derivatives(setting.variational, maps),
           finder(setting.map, setting.field, setting.layout, setting.image, setting.image_modes, &derivatives),
           motion(setting.map, 50, {}), jets(setting.simulation, LaneKind::single) {}
 
     /// Follows a motion that starts at z for some returns.
     void follow(double z, std::size_t returns) {
-        Trajectory trajectory(setting.simulation, {}, motion);
+        Trajectory trajectory(setting.simulation, {}, borrowed(motion));
         std::vector<double> thresholds(50, 0.0);
         motion.begin({}, periods, nullptr);
         motion.watch_recurrence(&thresholds, 6);

@@ -1,5 +1,6 @@
 #include "graze/symbolic/expression.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/symbolic/function.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "symbolic/operation_list.hpp"
@@ -158,16 +159,16 @@ TEST_F(ExpressionTest, DomainErrorsAreNeverHidden) {
 }
 
 TEST_F(ExpressionTest, MisuseThrows) {
-    EXPECT_THROW(number(std::numeric_limits<double>::infinity()), std::invalid_argument);
-    EXPECT_THROW(x * std::numeric_limits<double>::quiet_NaN(), std::invalid_argument);
-    EXPECT_THROW(x + Graph::create()->symbol("x"), std::invalid_argument);
-    EXPECT_THROW(x + Expression(), std::invalid_argument);
-    EXPECT_THROW(Expression() + x, std::invalid_argument);
-    EXPECT_THROW(sin(Expression()), std::invalid_argument);
-    EXPECT_THROW(Expression() * 2, std::invalid_argument);
-    EXPECT_THROW(graph->apply(Operation::add, x), std::invalid_argument);
-    EXPECT_THROW(graph->apply(Operation::sin, x, y), std::invalid_argument);
-    EXPECT_THROW(graph->apply(Operation::symbol, x), std::invalid_argument);
+    EXPECT_THROW(number(std::numeric_limits<double>::infinity()), InputError);
+    EXPECT_THROW(x * std::numeric_limits<double>::quiet_NaN(), InputError);
+    EXPECT_THROW(x + Graph::create()->symbol("x"), InputError);
+    EXPECT_THROW(x + Expression(), InputError);
+    EXPECT_THROW(Expression() + x, InputError);
+    EXPECT_THROW(sin(Expression()), InputError);
+    EXPECT_THROW(Expression() * 2, InputError);
+    EXPECT_THROW(graph->apply(Operation::add, x), InputError);
+    EXPECT_THROW(graph->apply(Operation::sin, x, y), InputError);
+    EXPECT_THROW(graph->apply(Operation::symbol, x), InputError);
 }
 
 TEST_F(ExpressionTest, KeepsItsGraphAlive) {

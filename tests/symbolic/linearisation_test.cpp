@@ -1,5 +1,6 @@
 #include "graze/symbolic/linearisation.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/symbolic/parser.hpp"
 #include "symbolic/multiplied_out.hpp"
 #include "symbolic/operation_list.hpp"
@@ -372,12 +373,12 @@ TEST_F(LinearisationTest, ForeignVariablesAndWrongNumbersThrow) {
     make(2);
     const auto other = Graph::create();
     const std::vector<Expression> foreign{other->symbol("x1")}, functions{x[0]};
-    EXPECT_THROW(linearise(functions, SymbolIndex(foreign), 1), std::invalid_argument);
-    EXPECT_THROW(linearise(functions, SymbolIndex(x), 3), std::invalid_argument);
-    EXPECT_THROW(linearise(functions, SymbolIndex(x), 2, 0), std::invalid_argument);
-    EXPECT_THROW(linearise(functions, SymbolIndex(x), 2, 1000001), std::invalid_argument);
-    EXPECT_THROW(linearise(std::vector{x[0], foreign[0]}, SymbolIndex(x), 2), std::invalid_argument);
-    EXPECT_THROW(linearise(std::vector{Expression()}, SymbolIndex(x), 2), std::invalid_argument);
+    EXPECT_THROW(linearise(functions, SymbolIndex(foreign), 1), InputError);
+    EXPECT_THROW(linearise(functions, SymbolIndex(x), 3), InputError);
+    EXPECT_THROW(linearise(functions, SymbolIndex(x), 2, 0), InputError);
+    EXPECT_THROW(linearise(functions, SymbolIndex(x), 2, 1000001), InputError);
+    EXPECT_THROW(linearise(std::vector{x[0], foreign[0]}, SymbolIndex(x), 2), InputError);
+    EXPECT_THROW(linearise(std::vector{Expression()}, SymbolIndex(x), 2), InputError);
 }
 
 /// Random functions with shared parts: each operation takes any two earlier results.

@@ -1,5 +1,6 @@
 #include "graze/symbolic/parser.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/symbolic/function.hpp"
 #include "graze/symbolic/transform.hpp"
 
@@ -254,7 +255,7 @@ TEST_F(ParserTest, MalformedConditionsAreRefused) {
 
 TEST_F(ParserTest, AScopeOfAnotherGraphThrows) {
     const Scope foreign{{"x", Graph::create()->symbol("x")}};
-    EXPECT_THROW(parse_expression(*graph, "x", foreign), std::invalid_argument);
+    EXPECT_THROW(parse_expression(*graph, "x", foreign), InputError);
 }
 
 TEST_F(ParserTest, DeepNestingNeedsNoStack) {

@@ -1,5 +1,7 @@
 #include "graze/symbolic/symbol_index.hpp"
 
+#include "graze/base/input_error.hpp"
+
 #include <gtest/gtest.h>
 
 #include <stdexcept>
@@ -35,9 +37,9 @@ TEST(SymbolIndex, KnowsItsGraph) {
 TEST(SymbolIndex, RefusesRepeatedSymbolsAndOtherExpressions) {
     const auto graph = Graph::create();
     const Expression x = graph->symbol("x");
-    EXPECT_THROW(SymbolIndex(std::vector{x, x}), std::invalid_argument);
-    EXPECT_THROW(SymbolIndex(std::vector{x + 1}), std::invalid_argument);
-    EXPECT_THROW(SymbolIndex(std::vector{Expression()}), std::invalid_argument);
+    EXPECT_THROW(SymbolIndex(std::vector{x, x}), InputError);
+    EXPECT_THROW(SymbolIndex(std::vector{x + 1}), InputError);
+    EXPECT_THROW(SymbolIndex(std::vector{Expression()}), InputError);
 }
 
 } // namespace

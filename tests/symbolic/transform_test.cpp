@@ -1,5 +1,6 @@
 #include "graze/symbolic/transform.hpp"
 
+#include "graze/base/input_error.hpp"
 #include "graze/symbolic/function.hpp"
 #include "graze/symbolic/parser.hpp"
 #include "symbolic/operation_list.hpp"
@@ -65,7 +66,7 @@ TEST_F(TransformTest, DirectionalDerivativesAreSumsOfPartialDerivatives) {
               graph->number(0));
     EXPECT_TRUE(differentiate_along({}, vector).empty());
     EXPECT_EQ(differentiate_along(std::vector{e}, {})[0], graph->number(0));
-    EXPECT_THROW(differentiate_along(std::vector{e}, std::vector<Component>{{x, u}, {x, y}}), std::invalid_argument);
+    EXPECT_THROW(differentiate_along(std::vector{e}, std::vector<Component>{{x, u}, {x, y}}), InputError);
 }
 
 TEST_F(TransformTest, JacobiansHaveTheirPartialDerivativesRowByRow) {
@@ -231,15 +232,15 @@ TEST_F(TransformTest, SymbolsAreFoundInOrder) {
 }
 
 TEST_F(TransformTest, MisuseThrows) {
-    EXPECT_THROW(differentiate(x, parse("x + 1")), std::invalid_argument);
-    EXPECT_THROW(differentiate(x, Graph::create()->symbol("x")), std::invalid_argument);
-    EXPECT_THROW(differentiate(Expression(), x), std::invalid_argument);
+    EXPECT_THROW(differentiate(x, parse("x + 1")), InputError);
+    EXPECT_THROW(differentiate(x, Graph::create()->symbol("x")), InputError);
+    EXPECT_THROW(differentiate(Expression(), x), InputError);
     const Replacement of_sum[] = {{parse("x + 1"), y}};
-    EXPECT_THROW(substitute(x, of_sum), std::invalid_argument);
+    EXPECT_THROW(substitute(x, of_sum), InputError);
     const Replacement twice[] = {{x, y}, {x, z}};
-    EXPECT_THROW(substitute(x, twice), std::invalid_argument);
+    EXPECT_THROW(substitute(x, twice), InputError);
     const Replacement foreign[] = {{x, Graph::create()->symbol("y")}};
-    EXPECT_THROW(substitute(x, foreign), std::invalid_argument);
+    EXPECT_THROW(substitute(x, foreign), InputError);
 }
 
 TEST_F(TransformTest, PrintsWithAsFewParenthesesAsPossible) {
@@ -303,7 +304,7 @@ TEST_F(TransformTest, OverlongTextsAreRefused) {
     Expression e = x;
     for (int level = 0; level < 100; ++level)
         e = sin(e * e);
-    EXPECT_THROW(to_string(e), std::length_error);
+    EXPECT_THROW(to_string(e), InputError);
 }
 
 /// Counts nodes instead of measuring times, since the work of every transform is constant for each node.

@@ -1,5 +1,7 @@
 #include "graze/tape/tape.hpp"
 
+#include "graze/base/input_error.hpp"
+
 #include "tape/problems.hpp"
 
 #include <gtest/gtest.h>
@@ -144,17 +146,17 @@ TEST(Tape, RefusesForeignSymbols) {
     try {
         p.tape();
         FAIL();
-    } catch (const std::invalid_argument& error) {
+    } catch (const InputError& error) {
         EXPECT_NE(std::string(error.what()).find("stranger"), std::string::npos);
     }
     p.rates.clear();
-    EXPECT_THROW(p.tape(), std::invalid_argument);
+    EXPECT_THROW(p.tape(), InputError);
     Problem other;
     p.rates = {other.state("x", 0)};
-    EXPECT_THROW(p.tape(), std::invalid_argument);
+    EXPECT_THROW(p.tape(), InputError);
     p.rates = {x};
     p.states = {2 * x};
-    EXPECT_THROW(p.tape(), std::invalid_argument);
+    EXPECT_THROW(p.tape(), InputError);
 }
 
 } // namespace

@@ -221,8 +221,8 @@ TEST(Adversarial, TheFirstOfSeveralBarriersIsMetFirst) {
     } observer;
     std::vector<std::unique_ptr<Simulation>> simulations;
     for (const double tolerance : {1e-6, 1e-9, 1e-12, 1e-15})
-        simulations.push_back(std::make_unique<Simulation>(model, std::vector<Probe>{}, std::vector<Expression>{},
-                                                           with_tolerance(tolerance)));
+        simulations.push_back(std::make_unique<Simulation>(System(model), std::vector<Probe>{},
+                                                           std::vector<Expression>{}, with_tolerance(tolerance)));
     long wrong = 0, late = 0;
     for (int i = 0; i < 8000; ++i) {
         const Simulation& simulation = *simulations[static_cast<std::size_t>(i % 4)];
@@ -234,7 +234,7 @@ TEST(Adversarial, TheFirstOfSeveralBarriersIsMetFirst) {
         observer.event = 9;
         observer.time = -1;
         JetSet jets(simulation, LaneKind::single);
-        Trajectory trajectory(simulation, parameters, observer);
+        Trajectory trajectory(simulation, parameters, borrowed(observer));
         trajectory.start(std::vector{x, v}, 0, 0, 7);
         graze::run(trajectory, jets);
         LinearOscillator oscillator(0, 2, 0);

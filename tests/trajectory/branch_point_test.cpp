@@ -106,9 +106,8 @@ TEST(BranchPoint, DerivativesPassHertzContacts) {
     // The position at a time as a function of the initial speed: differences of the closed form.
     const double p = 1.5, k = 20, width = 1, time = 2.2;
     const auto position = [&](double v) { return width - v * (time - 0.5 * width / v - contact_time(k, p, v)); };
-    const Simulation simulation(between_walls(k, width, p));
-    Observer nobody;
-    Trajectory trajectory(simulation, simulation.model().parameter_values(), nobody);
+    const Simulation simulation{System(between_walls(k, width, p))};
+    Trajectory trajectory(simulation, simulation.model().parameter_values());
     JetSet jets(simulation, LaneKind::single);
     trajectory.start(std::vector<double>{0.5 * width, 0.6}, 0, 0, time);
     trajectory.carry_derivatives(std::vector<std::string>{"v"});

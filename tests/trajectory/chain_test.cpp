@@ -34,10 +34,10 @@ struct Motion {
 };
 
 Motion motion_of(const Model& model, double end) {
-    const Simulation simulation(model, {}, {}, {.tolerance = tolerance});
+    const Simulation simulation(System(model), {}, {}, {.tolerance = tolerance});
     Motion motion{{}, ContactTimes(model.events.size())};
     JetSet jets(simulation, LaneKind::single);
-    Trajectory trajectory(simulation, model.parameter_values(), motion.contacts);
+    Trajectory trajectory(simulation, model.parameter_values(), borrowed(motion.contacts));
     trajectory.start(model.initial_state(), 0, 0, end);
     run(trajectory, jets);
     EXPECT_EQ(trajectory.outcome().ending, Ending::end_time) << trajectory.outcome().detail;
@@ -101,10 +101,10 @@ TEST(Chains, DerivativesThroughImpactsAgreeWithDifferences) {
     constexpr std::size_t n = 6;
     const double end = 2 * std::numbers::pi / 0.9;
     const Model model = testing::chain(n);
-    const Simulation simulation(model, {}, {}, {.tolerance = tolerance});
+    const Simulation simulation(System(model), {}, {}, {.tolerance = tolerance});
     JetSet jets(simulation, LaneKind::single);
     ContactTimes contacts(n);
-    Trajectory trajectory(simulation, model.parameter_values(), contacts);
+    Trajectory trajectory(simulation, model.parameter_values(), borrowed(contacts));
     trajectory.start(model.initial_state(), 0, 0, end);
     trajectory.carry_derivatives({"F", "v1"});
     run(trajectory, jets);

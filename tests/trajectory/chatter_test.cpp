@@ -31,8 +31,8 @@ struct Watcher : Observer {
 struct Watched {
     Watched(const Model& model, std::span<const double> state, double end_time, double tolerance = 1e-12,
             std::size_t mode = 0)
-        : simulation(model, {}, {}, options(tolerance)), trajectory(simulation, model.parameter_values(), watcher),
-          jets(simulation, LaneKind::single) {
+        : simulation(System(model), {}, {}, options(tolerance)),
+          trajectory(simulation, model.parameter_values(), borrowed(watcher)), jets(simulation, LaneKind::single) {
         trajectory.start(state, mode, 0, end_time);
         graze::run(trajectory, jets);
     }
@@ -208,8 +208,8 @@ TEST(Chatter, AccumulationsUnderFadingGravityAreCompletedOnlyIfReal) {
     const Model model = model_from(fading_gravity);
     std::vector<std::unique_ptr<Simulation>> simulations;
     for (const double tolerance : {1e-6, 1e-9, 1e-12, 1e-15})
-        simulations.push_back(std::make_unique<Simulation>(model, std::vector<Probe>{}, std::vector<Expression>{},
-                                                           Watched::options(tolerance)));
+        simulations.push_back(std::make_unique<Simulation>(System(model), std::vector<Probe>{},
+                                                           std::vector<Expression>{}, Watched::options(tolerance)));
     int completed = 0, escaped = 0, undecided = 0;
     double worst_impact = 0;
     for (int i = 0; i < 10000; ++i) {
@@ -227,7 +227,7 @@ TEST(Chatter, AccumulationsUnderFadingGravityAreCompletedOnlyIfReal) {
         if (!completes && impacts.size() > 4000)
             continue;
         Watcher watcher;
-        Trajectory trajectory(simulation, std::vector{1.0, b, e, height}, watcher);
+        Trajectory trajectory(simulation, std::vector{1.0, b, e, height}, borrowed(watcher));
         JetSet jets(simulation, LaneKind::single);
         trajectory.start(std::vector{height, 1.0, 0.0}, 0, 0, 3 / b);
         graze::run(trajectory, jets);

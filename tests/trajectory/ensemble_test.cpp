@@ -2,6 +2,8 @@
 
 #include "graze/trajectory/ensemble.hpp"
 
+#include "graze/base/input_error.hpp"
+
 #include "closed_form.hpp"
 #include "simulate.hpp"
 
@@ -85,7 +87,7 @@ Result result_of(const Trajectory& trajectory, const Transcript& transcript) {
 
 Result run_alone(const Simulation& simulation, const Task& task, InstructionSet set) {
     Transcript transcript;
-    Trajectory trajectory(simulation, task.parameters, transcript);
+    Trajectory trajectory(simulation, task.parameters, borrowed(transcript));
     trajectory.start(task.state, task.mode, 0, task.end_time);
     JetSet jets(simulation, LaneKind::single, set);
     graze::run(trajectory, jets);
@@ -96,7 +98,7 @@ std::vector<Result> run_together(const Simulation& simulation, const std::vector
     std::vector<Transcript> transcripts(tasks.size());
     std::vector<Trajectory> trajectories;
     for (std::size_t i = 0; i < tasks.size(); ++i) {
-        trajectories.emplace_back(simulation, tasks[i].parameters, transcripts[i]);
+        trajectories.emplace_back(simulation, tasks[i].parameters, borrowed(transcripts[i]));
         trajectories.back().start(tasks[i].state, tasks[i].mode, 0, tasks[i].end_time);
     }
     Ensemble(simulation, set).run(trajectories);
@@ -158,7 +160,7 @@ TEST(Ensemble, ShippedModelsInLanesEqualSeparateRuns) {
         const Model model = load_model(entry.name);
         SimulationOptions options = with_tolerance(1e-10);
         options.minima = true;
-        const Simulation simulation(model, all_probes(model), {}, options);
+        const Simulation simulation(System(model), all_probes(model), {}, options);
         for (const InstructionSet set : supported_sets())
             for (const int count : {1, 2, 3, 5, 8, 17, 40}) {
                 const std::vector<Task> tasks = draw_tasks(model, random, count);
@@ -193,7 +195,7 @@ initial = { mode = "burst" }
 )toml");
     SimulationOptions options;
     options.step_limit = 200;
-    const Simulation simulation(model, {}, {}, options);
+    const Simulation simulation(System(model), {}, {}, options);
     Random random(22);
     std::vector<Task> tasks;
     for (int i = 0; i < 60; ++i) {
@@ -221,14 +223,14 @@ initial = { mode = "burst" }
 
 TEST(Ensemble, CanBeContinuedAndReused) {
     const Model model = load_model("bouncing-ball");
-    const Simulation simulation(model);
+    const Simulation simulation{System(model)};
     Random random(23);
     std::vector<Task> tasks = draw_tasks(model, random, 13);
     Ensemble ensemble(simulation);
     std::vector<Transcript> transcripts(tasks.size());
     std::vector<Trajectory> trajectories;
     for (std::size_t i = 0; i < tasks.size(); ++i) {
-        trajectories.emplace_back(simulation, tasks[i].parameters, transcripts[i]);
+        trajectories.emplace_back(simulation, tasks[i].parameters, borrowed(transcripts[i]));
         trajectories.back().start(tasks[i].state, 0, 0, tasks[i].end_time);
     }
     ensemble.run(trajectories);
@@ -238,7 +240,7 @@ TEST(Ensemble, CanBeContinuedAndReused) {
     JetSet jets(simulation, LaneKind::single);
     for (std::size_t i = 0; i < tasks.size(); ++i) {
         Transcript transcript;
-        Trajectory alone(simulation, tasks[i].parameters, transcript);
+        Trajectory alone(simulation, tasks[i].parameters, borrowed(transcript));
         alone.start(tasks[i].state, 0, 0, tasks[i].end_time);
         graze::run(alone, jets);
         if (i % 2 == 0) {
@@ -252,12 +254,12 @@ TEST(Ensemble, CanBeContinuedAndReused) {
 
 // A motion may take too long: single and in lanes, it is left unfinished on request.
 TEST(Ensemble, LeavesMotionsUnfinishedOnRequest) {
-    const Simulation simulation(load_model("impact-oscillator"));
+    const Simulation simulation{System(load_model("impact-oscillator"))};
     Observer observer;
     for (const std::size_t count : {std::size_t{1}, std::size_t{9}}) {
         std::vector<Trajectory> trajectories;
         for (std::size_t i = 0; i < count; ++i) {
-            trajectories.emplace_back(simulation, simulation.model().parameter_values(), observer);
+            trajectories.emplace_back(simulation, simulation.model().parameter_values(), borrowed(observer));
             trajectories.back().start(simulation.model().initial_state(), 0, 0, 1e12);
         }
         Ensemble ensemble(simulation);
@@ -272,20 +274,19 @@ TEST(Ensemble, LeavesMotionsUnfinishedOnRequest) {
 }
 
 TEST(Ensemble, RefusesTrajectoriesOfOtherSimulations) {
-    const Simulation one(load_model("bouncing-ball")), other(load_model("mems-switch"));
-    Observer observer;
+    const Simulation one{System(load_model("bouncing-ball"))}, other{System(load_model("mems-switch"))};
     std::vector<Trajectory> trajectories;
-    trajectories.emplace_back(other, other.model().parameter_values(), observer);
-    EXPECT_THROW(Ensemble(one).run(trajectories), std::invalid_argument);
+    trajectories.emplace_back(other, other.model().parameter_values());
+    EXPECT_THROW(Ensemble(one).run(trajectories), InputError);
     JetSet jets(one, LaneKind::single), lanes(other, LaneKind::ensemble);
-    EXPECT_THROW(run(trajectories.front(), jets), std::invalid_argument);
-    EXPECT_THROW(run(trajectories.front(), lanes), std::invalid_argument);
+    EXPECT_THROW(run(trajectories.front(), jets), InputError);
+    EXPECT_THROW(run(trajectories.front(), lanes), InputError);
 }
 
 TEST(Ensemble, ThreadsCanShareASimulation) {
     for (const char* name : {"impact-microactuator", "electromagnetic-testbed"}) {
         const Model model = load_model(name);
-        const Simulation simulation(model, all_probes(model));
+        const Simulation simulation(System(model), all_probes(model));
         Random random(24);
         const std::vector<Task> tasks = draw_tasks(model, random, 24);
         std::vector<std::vector<Result>> results(3);

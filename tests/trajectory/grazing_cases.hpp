@@ -41,8 +41,8 @@ public:
     Bench(const Model& model, double from, double to, int count) {
         for (int i = 0; i < count; ++i) {
             const double tolerance = from * std::pow(to / from, count > 1 ? i / (count - 1.0) : 0);
-            simulations_.push_back(std::make_unique<Simulation>(model, std::vector<Probe>{}, std::vector<Expression>{},
-                                                                with_tolerance(tolerance)));
+            simulations_.push_back(std::make_unique<Simulation>(System(model), std::vector<Probe>{},
+                                                                std::vector<Expression>{}, with_tolerance(tolerance)));
             jets_.push_back(std::make_unique<JetSet>(*simulations_.back(), LaneKind::single));
         }
     }
@@ -54,7 +54,7 @@ public:
     Outcome run(std::span<const double> parameters, std::span<const double> state, double end_time, Witness& witness,
                 std::size_t mode = 0) {
         witness.clear();
-        Trajectory trajectory(*simulations_[drawn_], parameters, witness);
+        Trajectory trajectory(*simulations_[drawn_], parameters, borrowed(witness));
         trajectory.start(state, mode, 0, end_time);
         graze::run(trajectory, *jets_[drawn_]);
         steps = trajectory.steps();

@@ -29,9 +29,9 @@ public:
 
 std::vector<std::size_t> passages(const Model& model, const std::vector<Probe>& probes, double end_time,
                                   SimulationOptions options = {}) {
-    Simulation simulation(model, probes, {}, options);
+    Simulation simulation(System(model), probes, {}, options);
     Counter counter(probes.size());
-    Trajectory trajectory(simulation, model.parameter_values(), counter);
+    Trajectory trajectory(simulation, model.parameter_values(), borrowed(counter));
     JetSet jets(simulation, LaneKind::single);
     trajectory.start(model.initial_state(), model.initial_mode, 0, end_time);
     run(trajectory, jets);
@@ -337,9 +337,9 @@ TEST(Probe, StoppingAtPassagesLosesAndRepeatsNothing) {
     private:
         bool stop_ = false;
     };
-    Simulation simulation(model, probes, {}, with_tolerance(1e-14));
+    Simulation simulation(System(model), probes, {}, with_tolerance(1e-14));
     Stopper stopper;
-    Trajectory trajectory(simulation, model.parameter_values(), stopper);
+    Trajectory trajectory(simulation, model.parameter_values(), borrowed(stopper));
     JetSet jets(simulation, LaneKind::single);
     trajectory.start(model.initial_state(), 0, 0, 1000.5);
     run(trajectory, jets);
@@ -387,9 +387,9 @@ TEST(Probe, StoppingAtAPassageBeforeAContactKeepsTheContact) {
         bool stop_ = false;
     };
     const std::vector<Probe> probes = {section_probe(model, "turning"), section_probe(model, "phase0")};
-    Simulation simulation(model, probes, {}, with_tolerance(1e-14));
+    Simulation simulation(System(model), probes, {}, with_tolerance(1e-14));
     Stopper stopper;
-    Trajectory trajectory(simulation, model.parameter_values(), stopper);
+    Trajectory trajectory(simulation, model.parameter_values(), borrowed(stopper));
     JetSet jets(simulation, LaneKind::single);
     trajectory.start(model.initial_state(), 0, 0, 300);
     run(trajectory, jets);
@@ -418,9 +418,9 @@ TEST(CyclicStates, StayWithinTheirPeriodsForAMillionPeriods) {
     for (const double rate : {1.0, -1.0}) {
         const Model model = rotor(rate, 0.37 * rate);
         SimulationOptions options = with_tolerance(1e-14);
-        Simulation simulation(model, {}, {}, options);
+        Simulation simulation(System(model), {}, {}, options);
         Watch watch;
-        Trajectory trajectory(simulation, model.parameter_values(), watch);
+        Trajectory trajectory(simulation, model.parameter_values(), borrowed(watch));
         JetSet jets(simulation, LaneKind::single);
         const double end = 2 * pi * 1e6 + 1;
         trajectory.start(model.initial_state(), 0, 0, end);

@@ -298,7 +298,7 @@ TEST(ElectromagneticTestbed, LeastGapOverStepsAgreesWithTheExtremum) {
     const Model full = shipped_with("electromagnetic-testbed", {{"V0", 4.5}});
     SimulationOptions options = with_tolerance(1e-14);
     options.minima = true;
-    Simulation simulation(full, {extremum(full, "q", Direction::falling)}, {}, options);
+    Simulation simulation(System(full), {extremum(full, "q", Direction::falling)}, {}, options);
     Recorder recorder;
     double least = 1;
     ArcMinima minima([&](const ArcMinimum& minimum) {
@@ -306,8 +306,8 @@ TEST(ElectromagneticTestbed, LeastGapOverStepsAgreesWithTheExtremum) {
         EXPECT_LE(minimum.lower_bound, minimum.value);
         EXPECT_GE(minimum.lower_bound, minimum.value - 1e-16);
     });
-    Relay relay({&recorder, &minima});
-    Trajectory trajectory(simulation, full.parameter_values(), relay);
+    Relay relay({borrowed(recorder), borrowed(minima)});
+    Trajectory trajectory(simulation, full.parameter_values(), borrowed(relay));
     JetSet jets(simulation, LaneKind::single);
     trajectory.start(full.initial_state(), 0, 0, 8);
     run(trajectory, jets);

@@ -16,8 +16,8 @@ void run_switch(Observer& observer, bool minima = false) {
     SimulationOptions options;
     options.minima = minima;
     const Model model = load_model("mems-switch");
-    const Simulation simulation(model, {section_probe(model, "phase0")}, {}, options);
-    Trajectory trajectory(simulation, model.parameter_values(), observer);
+    const Simulation simulation(System(model), {section_probe(model, "phase0")}, {}, options);
+    Trajectory trajectory(simulation, model.parameter_values(), borrowed(observer));
     trajectory.start(model.initial_state(), model.initial_mode, 0, 100);
     JetSet jets(simulation, LaneKind::single);
     run(trajectory, jets);
@@ -48,7 +48,7 @@ TEST(Recorder, KeepsStatesOfContactsAndPassages) {
 
 TEST(Recorder, RelayForwardsToSeveralObservers) {
     Recorder one, other;
-    Relay relay({&one, &other});
+    Relay relay({borrowed(one), borrowed(other)});
     run_switch(relay);
     EXPECT_GT(one.contacts().size(), 4U);
     EXPECT_EQ(one.contacts().size(), other.contacts().size());
@@ -92,6 +92,24 @@ TEST(Sampler, CoarsensEvenly) {
     for (std::size_t i = 0; i < times.size(); ++i)
         EXPECT_EQ(times[i], static_cast<double>(i) * sampler.spacing());
     EXPECT_GT(sampler.next(), 27.3);
+}
+
+TEST(StepRecorder, KeepsTheMotionAtAnyTime) {
+    StepRecorder recorder;
+    std::vector<std::pair<double, std::vector<double>>> samples;
+    Sampler sampler(0, 0.7, 30, {0, 0, 0}, [&](double time, std::size_t, std::span<const double> state) {
+        samples.emplace_back(time, std::vector(state.begin(), state.end()));
+    });
+    Relay relay({borrowed(recorder), borrowed(sampler)});
+    run_switch(relay);
+    ASSERT_EQ(samples.size(), 30U);
+    std::size_t at = 0;
+    for (const RecordedStep& step : recorder.steps())
+        for (; at < samples.size() && samples[at].first <= step.start + step.length; ++at)
+            for (std::size_t i = 0; i < 2; ++i)
+                EXPECT_EQ(step.state(i, samples[at].first - step.start), samples[at].second[i]) << at;
+    EXPECT_EQ(at, samples.size());
+    EXPECT_THROW(recorder.steps().front().state(3, 0), InputError);
 }
 
 TEST(ArcMinima, CoverTheTrajectoryWithoutGaps) {

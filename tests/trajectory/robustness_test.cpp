@@ -62,9 +62,9 @@ TEST_P(Robustness, RandomParametersEndRegularly) {
             model.set_parameter(range.parameter, value);
             setting += std::string(" ") + range.parameter + "=" + std::to_string(value);
         }
-        const Simulation simulation(model, {}, {}, {.tolerance = tolerances[sample % 4], .step_limit = 3'000'000});
-        Observer nobody;
-        Trajectory trajectory(simulation, model.parameter_values(), nobody);
+        const Simulation simulation(System(model), {}, {},
+                                    {.tolerance = tolerances[sample % 4], .step_limit = 3'000'000});
+        Trajectory trajectory(simulation, model.parameter_values());
         trajectory.start(model.initial_state(), model.initial_mode, 0, scenario.time);
         JetSet jets(simulation, LaneKind::single);
         run(trajectory, jets);
@@ -117,9 +117,9 @@ struct Rest : Observer {
 TEST(StandStill, CrossingsThatAccumulateBetweenTwoModesComeToRest) {
     for (const bool with_rest : {true, false}) {
         const Model model = ridge(with_rest);
-        const Simulation simulation(model);
+        const Simulation simulation{System(model)};
         Rest rest;
-        Trajectory trajectory(simulation, model.parameter_values(), rest);
+        Trajectory trajectory(simulation, model.parameter_values(), borrowed(rest));
         trajectory.start(model.initial_state(), model.initial_mode, 0, 100);
         JetSet jets(simulation, LaneKind::single);
         run(trajectory, jets);

@@ -16,8 +16,8 @@ struct Seen : Observer {
 /// Runs a leg that is not shown and one that is. @return the contacts of the latter
 std::vector<double> contacts_of(const LegEnd& first, const LegEnd& second, RunControl& control, const Seen& seen) {
     const Model model = testing::ball_between_walls(0.5);
-    const Simulation simulation(model, {}, {}, {});
-    Trajectory trajectory(simulation, {}, control);
+    const Simulation simulation(System(model), {}, {}, {});
+    Trajectory trajectory(simulation, {}, borrowed(control));
     trajectory.start(model.initial_state(), 0, 0, 1e3);
     JetSet jets(simulation, LaneKind::single);
     control.begin(first, 0, false);
@@ -30,7 +30,7 @@ std::vector<double> contacts_of(const LegEnd& first, const LegEnd& second, RunCo
 
 TEST(RunControl, CountsSelectedContactsAndShowsOnlyTheirLeg) {
     Seen seen;
-    RunControl control(seen, std::nullopt, {true, false}); // contacts at the left wall count
+    RunControl control(borrowed(seen), std::nullopt, {true, false}); // contacts at the left wall count
     LegEnd first, second;
     first.contacts = 2;
     second.contacts = 3;
@@ -45,7 +45,7 @@ TEST(RunControl, CountsSelectedContactsAndShowsOnlyTheirLeg) {
 
 TEST(RunControl, EndsOnRequest) {
     Seen seen;
-    RunControl control(seen, std::nullopt, {true, true});
+    RunControl control(borrowed(seen), std::nullopt, {true, true});
     LegEnd first;
     first.contacts = 1;
     control.end_when([&] { return seen.times.size() >= 4; });

@@ -46,9 +46,9 @@ class Experiment {
 public:
     explicit Experiment(Model model, SimulationOptions options = {}, std::vector<Probe> probes = {},
                         std::vector<Expression> observed = {})
-        : simulation(std::move(model), std::move(probes), std::move(observed), options),
-          jets(simulation, LaneKind::single), observer({&recorder}),
-          trajectory(simulation, simulation.model().parameter_values(), observer) {}
+        : simulation(System(std::move(model)), std::move(probes), std::move(observed), options),
+          jets(simulation, LaneKind::single), observer({borrowed(recorder)}),
+          trajectory(simulation, simulation.model().parameter_values(), borrowed(observer)) {}
     Experiment(const Experiment&) = delete;
 
     const Outcome& run(double end_time) {

@@ -29,12 +29,11 @@ void judge_states(Counts& counts, const Family& family, Random& random, int case
     const Model model = model_from(family.model);
     for (int digits = 6; digits <= 15; ++digits) {
         const double tolerance = std::pow(10.0, -digits);
-        const Simulation simulation(model, {}, {}, with_tolerance(tolerance));
+        const Simulation simulation(System(model), {}, {}, with_tolerance(tolerance));
         JetSet jets(simulation, LaneKind::single);
         for (int i = 0; i < cases_each; ++i) {
             const ClosedMotion one = family.draw(random);
-            Observer nobody;
-            Trajectory trajectory(simulation, one.parameters, nobody);
+            Trajectory trajectory(simulation, one.parameters);
             trajectory.start(one.state, 0, 0, one.end);
             run(trajectory, jets);
             ++counts.cases;
@@ -139,14 +138,14 @@ initial = {{ mode = "one" }}
                                                family.function));
     for (int digits = 6; digits <= 15; ++digits) {
         const double tolerance = std::pow(10.0, -digits);
-        const Simulation simulation(model, {}, {}, with_tolerance(tolerance));
+        const Simulation simulation(System(model), {}, {}, with_tolerance(tolerance));
         JetSet jets(simulation, LaneKind::single);
         for (int i = 0; i < cases_each; ++i) {
             std::vector<double> parameters;
             double start = 0, time = 0, slope = 0;
             family.draw(random, parameters, start, time, slope);
             Recorder recorder;
-            Trajectory trajectory(simulation, parameters, recorder);
+            Trajectory trajectory(simulation, parameters, borrowed(recorder));
             trajectory.start(std::vector{start}, 0, 0, 1.5 * time);
             run(trajectory, jets);
             ++counts.cases;
@@ -204,10 +203,9 @@ transitions = [{{ mode = "one", event = "due", jump = "reset", next = "one" }}]
                                                    p, p + 1));
         for (int i = 0; i < 40; ++i) {
             const double tolerance = random.log_uniform(1e-15, 1e-6);
-            const Simulation simulation(model, {}, {}, with_tolerance(tolerance));
+            const Simulation simulation(System(model), {}, {}, with_tolerance(tolerance));
             JetSet jets(simulation, LaneKind::single);
-            Observer nobody;
-            Trajectory trajectory(simulation, std::vector{random.log_uniform(0.3, 30)}, nobody);
+            Trajectory trajectory(simulation, std::vector{random.log_uniform(0.3, 30)});
             const double speed = random.log_uniform(0.1, 10);
             trajectory.start(std::vector{0.0, speed, 0.0}, 0, 0, 20);
             run(trajectory, jets);
@@ -234,10 +232,9 @@ TEST(StepEvidence, ChainsThatStartAtZeroAreAccurate) {
         const Model model = model_from("[parameters]\nr = 1\n[states]\n" + states + "[modes.one.rates]\n" + rates);
         for (const double tolerance : {1e-6, 1e-9, 1e-12, 1e-15})
             for (const double rate : {1e-9, 1.0, 1e9}) {
-                const Simulation simulation(model, {}, {}, with_tolerance(tolerance));
+                const Simulation simulation(System(model), {}, {}, with_tolerance(tolerance));
                 JetSet jets(simulation, LaneKind::single);
-                Observer nobody;
-                Trajectory trajectory(simulation, std::vector{rate}, nobody);
+                Trajectory trajectory(simulation, std::vector{rate});
                 trajectory.start(std::vector(static_cast<std::size_t>(n), 0.0), 0, 0, n / rate);
                 run(trajectory, jets);
                 ASSERT_EQ(trajectory.outcome().ending, Ending::end_time) << trajectory.outcome().detail;
@@ -276,10 +273,9 @@ TEST(StepEvidence, DerivativesOfSteepMotionsAreAccurate) {
             const bool chirp = text[0] == 'c';
             const double k = chirp ? random.log_uniform(0.1, 1.5) : random.log_uniform(1, 1e3);
             const double c = chirp ? -1 : random.uniform(-1, 1), end = random.uniform(0.5, 2);
-            const Simulation simulation(model, {}, {}, with_tolerance(tolerance));
+            const Simulation simulation(System(model), {}, {}, with_tolerance(tolerance));
             JetSet jets(simulation, LaneKind::single);
-            Observer nobody;
-            Trajectory trajectory(simulation, std::vector{k, c}, nobody);
+            Trajectory trajectory(simulation, std::vector{k, c});
             trajectory.start(std::vector{0.0, -1.0}, 0, 0, end);
             trajectory.carry_tangents(std::vector{0.0, 0.0, 0.0, 1.0}, 1);
             run(trajectory, jets);

@@ -22,14 +22,14 @@ TEST(Stop, AtAPassageWhereAClockSwitchesLosesNothing) {
     // The pulse begins where the phase begins its period: the section and the event have the same surface.
     for (const char* name : {"microbeam", "mems-switch"}) {
         const Model model = load_model(name);
-        const Simulation simulation(model, {section_probe(model, "phase0")});
+        const Simulation simulation(System(model), {section_probe(model, "phase0")});
         JetSet jets(simulation, LaneKind::single);
         Stopper observer;
         std::vector<std::vector<double>> states;
         std::vector<std::size_t> modes, stops;
         for (const bool stopping : {false, true}) {
             observer.stops = stopping;
-            Trajectory trajectory(simulation, model.parameter_values(), observer);
+            Trajectory trajectory(simulation, model.parameter_values(), borrowed(observer));
             const double end = std::string(name) == "microbeam" ? 1.5 : 20;
             trajectory.start(model.initial_state(), model.initial_mode, 0, end);
             run(trajectory, jets);

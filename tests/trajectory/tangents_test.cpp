@@ -20,8 +20,8 @@ class Differentiated {
 public:
     Differentiated(const Model& model, std::vector<double> state, std::size_t mode, double end_time,
                    double tolerance = 1e-14)
-        : simulation_(model, {}, {}, with_tolerance(tolerance)),
-          trajectory_(simulation_, model.parameter_values(), recorder_),
+        : simulation_(System(model), {}, {}, with_tolerance(tolerance)),
+          trajectory_(simulation_, model.parameter_values(), borrowed(recorder_)),
           columns_(state.size() + trajectory_.parameters().size()) {
         std::vector<double> seeds(columns_ * columns_, 0.0);
         for (std::size_t i = 0; i < columns_; ++i)
@@ -218,7 +218,7 @@ End end_of(const Simulation& simulation, JetSet& jets, const std::vector<double>
            std::size_t mode, double end_time) {
     Recorder recorder;
     const std::span<const double> all(input);
-    Trajectory trajectory(simulation, all.subspan(states), recorder);
+    Trajectory trajectory(simulation, all.subspan(states), borrowed(recorder));
     trajectory.start(all.first(states), mode, 0, end_time);
     graze::run(trajectory, jets);
     End end{{trajectory.state().begin(), trajectory.state().end()}, {}};
@@ -249,7 +249,7 @@ TEST(Tangents, OfShippedModelsAgreeWithDifferences) {
         const std::size_t n = model.states.size();
         const Differentiated run(model, model.initial_state(), model.initial_mode, one.end);
         ASSERT_TRUE(run.trajectory().tangents_valid()) << one.name;
-        const Simulation simulation(model, {}, {}, with_tolerance(1e-15));
+        const Simulation simulation(System(model), {}, {}, with_tolerance(1e-15));
         JetSet jets(simulation, LaneKind::single);
         std::vector<double> input = model.initial_state();
         const auto parameters = model.parameter_values();

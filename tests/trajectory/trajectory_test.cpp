@@ -354,7 +354,7 @@ TEST(Options, AreValidated) {
     const auto with = [&](auto change) {
         SimulationOptions options;
         change(options);
-        EXPECT_THROW(Simulation(model, {}, {}, options), InputError);
+        EXPECT_THROW(Simulation(System(model), {}, {}, options), InputError);
     };
     const double nan = std::numeric_limits<double>::quiet_NaN();
     with([](auto& o) { o.tolerance = 0; });
@@ -644,8 +644,8 @@ TEST(Endings, TheObserverCanStopTheMotion) {
         int contacts = 0;
     } stopper;
     const Model model = shipped_with("impact-oscillator", {{"omega", 2.8}, {"sigma", 0}});
-    Simulation simulation(model);
-    Trajectory trajectory(simulation, model.parameter_values(), stopper);
+    Simulation simulation{System(model)};
+    Trajectory trajectory(simulation, model.parameter_values(), borrowed(stopper));
     JetSet jets(simulation, LaneKind::single);
     trajectory.start(model.initial_state(), 0, 0, 1000);
     run(trajectory, jets);
@@ -664,9 +664,8 @@ TEST(Singular, TimesOfKnownBlowUpsAreExact) {
     // lower.
     for (const double start : {0.0, 1000.0}) {
         const Model model = from_rates("x = 0", "x = \"1 + x^2\"");
-        Simulation simulation(model, {}, {}, with_tolerance(1e-14));
-        Observer nobody;
-        Trajectory trajectory(simulation, model.parameter_values(), nobody);
+        Simulation simulation(System(model), {}, {}, with_tolerance(1e-14));
+        Trajectory trajectory(simulation, model.parameter_values());
         JetSet jets(simulation, LaneKind::single);
         trajectory.start(std::vector<double>{0}, 0, start, start + 10);
         run(trajectory, jets);
@@ -678,9 +677,8 @@ TEST(Singular, TimesOfKnownBlowUpsAreExact) {
 TEST(Singular, FastMotionAtALateTimeIsNotSingular) {
     // Steps are short relative to the time, but do not shrink.
     const Model model = from_rates("x = 1\nv = 0", "x = \"1e6*v\", v = \"-1e6*x\"");
-    Simulation simulation(model, {}, {}, with_tolerance(1e-14));
-    Observer nobody;
-    Trajectory trajectory(simulation, model.parameter_values(), nobody);
+    Simulation simulation(System(model), {}, {}, with_tolerance(1e-14));
+    Trajectory trajectory(simulation, model.parameter_values());
     JetSet jets(simulation, LaneKind::single);
     trajectory.start(std::vector<double>{1, 0}, 0, 1e9, 1e9 + 1e-4);
     run(trajectory, jets);
@@ -688,11 +686,10 @@ TEST(Singular, FastMotionAtALateTimeIsNotSingular) {
 }
 
 TEST(Trajectory, CannotRunBeforeItIsStarted) {
-    const Simulation simulation(load_model("impact-oscillator"));
-    Observer nobody;
-    Trajectory trajectory(simulation, simulation.model().parameter_values(), nobody);
+    const Simulation simulation{System(load_model("impact-oscillator"))};
+    Trajectory trajectory(simulation, simulation.model().parameter_values());
     JetSet jets(simulation, LaneKind::single);
-    EXPECT_THROW(run(trajectory, jets), std::logic_error);
+    EXPECT_THROW(run(trajectory, jets), OrderError);
 }
 
 } // namespace

@@ -47,7 +47,7 @@ TEST(DisturbedTrip, RampOfALinearLagHasItsClosedForm) {
     for (const double c : {0.5, 20.0})
         for (const double rate : {1e-3, 1.0}) {
             const Relaxing one(c, 0.2, 1);
-            const RampedTrip ramped = ramped_trip(one.model, one.origin, rate, one.end);
+            const RampedTrip ramped = ramped_trip(System(one.model), one.origin, rate, one.end);
             ASSERT_TRUE(ramped.trip.ended);
             EXPECT_EQ(ramped.trip.ending, "level");
             const double t = ramped.trip.time, x = 0.2 + rate * (t - (1 - std::exp(-c * t)) / c);
@@ -55,9 +55,9 @@ TEST(DisturbedTrip, RampOfALinearLagHasItsClosedForm) {
             EXPECT_NEAR(ramped.value, 0.2 + rate * t, 1e-12);
         }
     const Relaxing falling(1, 2, 1);
-    EXPECT_LT(ramped_trip(falling.model, falling.origin, -0.1, falling.end).value, 1);
-    EXPECT_THROW(ramped_trip(falling.model, falling.origin, 0.1, falling.end), InputError);
-    EXPECT_THROW(ramped_trip(falling.model, falling.origin, 0, falling.end), InputError);
+    EXPECT_LT(ramped_trip(System(falling.model), falling.origin, -0.1, falling.end).value, 1);
+    EXPECT_THROW(ramped_trip(System(falling.model), falling.origin, 0.1, falling.end), InputError);
+    EXPECT_THROW(ramped_trip(System(falling.model), falling.origin, 0, falling.end), InputError);
 }
 
 TEST(DisturbedTrip, RampThroughAFoldHasTheAiryDelay) {
@@ -72,7 +72,7 @@ TEST(DisturbedTrip, RampThroughAFoldHasTheAiryDelay) {
         origin.parameters = {origin.value};
         TripOptions options;
         options.cycles = 10 / std::cbrt(rate);
-        const RampedTrip ramped = ramped_trip(model, origin, rate, {}, options);
+        const RampedTrip ramped = ramped_trip(System(model), origin, rate, {}, options);
         ASSERT_EQ(ramped.trip.ending, "singular");
         EXPECT_NEAR(ramped.value / scale, 2.338107410459767, 1e-9);
         FoldPassage fold;
@@ -85,21 +85,21 @@ TEST(DisturbedTrip, RampThroughAFoldOfAMapFollowsItsRecursion) {
     // Once per cycle x -> x + p + x^2, until a state that follows x within a cycle crosses 1.
     const Model model = map_model("p = -0.04", {"x + p + x^2", "0.1*y", "0"});
     BranchSettings settings = in_parameter(model, "p", -0.1, 0.1);
-    const Branch branch = follow_branch(model, fixed_point(model, {-0.2, 0, 0}), settings);
+    const Branch branch = follow_branch(System(model), fixed_point(model, {-0.2, 0, 0}), settings);
     ASSERT_FALSE(of_type(branch, PointType::fold).empty());
-    const FoldPassage fold = fold_passage(model, of_type(branch, PointType::fold)[0], settings.parameter);
+    const FoldPassage fold = fold_passage(System(model), of_type(branch, PointType::fold)[0], settings.parameter);
     // Starts in the middle of a cycle.
-    const TripOrigin origin = trip_origin(model, fold, -0.01);
+    const TripOrigin origin = trip_origin(System(model), fold, -0.01);
     EXPECT_NEAR(origin.state[0], -0.1, 1e-9);
     EXPECT_NEAR(origin.state[3], 0.5, 1e-12);
     // Beyond the validity of the normal form.
-    EXPECT_NEAR(trip_origin(model, fold, -0.09).state[0], -0.3, 1e-9);
+    EXPECT_NEAR(trip_origin(System(model), fold, -0.09).state[0], -0.3, 1e-9);
     // Direct recursion with the value of p at the end of each cycle.
     TripEnd end;
     end.quantity = named_value(model, "x*clock", {}).value;
     end.level = 1;
     const double rate = 1e-5;
-    const RampedTrip ramped = ramped_trip(model, origin, rate, end);
+    const RampedTrip ramped = ramped_trip(System(model), origin, rate, end);
     double x = -0.1, p = -0.01 + 0.5 * rate;
     int ticks = 0;
     for (; x <= 1; ++ticks, p += rate)
@@ -108,8 +108,8 @@ TEST(DisturbedTrip, RampThroughAFoldOfAMapFollowsItsRecursion) {
     EXPECT_NEAR(ramped.trip.time, ticks - 0.5 + 1 / x, 1e-7);
     EXPECT_NEAR(ramped.value, -0.01 + rate * ramped.trip.time, 1e-12);
     EXPECT_NEAR(ramped.value, delay_of_ramp(fold, rate), 5 * rate); // some cycles
-    EXPECT_THROW(trip_origin(model, fold, 0.01), InputError);
-    EXPECT_THROW(trip_origin(model, fold, 0), InputError);
+    EXPECT_THROW(trip_origin(System(model), fold, 0.01), InputError);
+    EXPECT_THROW(trip_origin(System(model), fold, 0), InputError);
 }
 
 TEST(DisturbedTrip, WaveOfALinearLagHasItsClosedForm) {
@@ -124,11 +124,11 @@ TEST(DisturbedTrip, WaveOfALinearLagHasItsClosedForm) {
     const Relaxing one(c, 0, 1);
     TripOptions options;
     options.cycles = 200;
-    EXPECT_FALSE(swung_trip(one.model, one.origin, (1 - 1e-8) / gain, period, one.end, options).ended);
-    const TripTime trip = swung_trip(one.model, one.origin, (1 + 1e-8) / gain, period, one.end, options);
+    EXPECT_FALSE(swung_trip(System(one.model), one.origin, (1 - 1e-8) / gain, period, one.end, options).ended);
+    const TripTime trip = swung_trip(System(one.model), one.origin, (1 + 1e-8) / gain, period, one.end, options);
     EXPECT_TRUE(trip.ended);
     EXPECT_LT(trip.time, period);
-    EXPECT_THROW(swung_trip(one.model, one.origin, 1, 0, one.end), InputError);
+    EXPECT_THROW(swung_trip(System(one.model), one.origin, 1, 0, one.end), InputError);
 }
 
 TEST(DisturbedTrip, NoiseOfAFastLagTripsWithTheProbabilityOfItsValues) {
@@ -141,7 +141,7 @@ TEST(DisturbedTrip, NoiseOfAFastLagTripsWithTheProbabilityOfItsValues) {
     settings.cycles = 20;
     double before = 0;
     for (const double level : {0.3, 0.4, 0.6}) {
-        const NoisyTrips trips = noisy_trips(one.model, one.origin, level, one.end, settings);
+        const NoisyTrips trips = noisy_trips(System(one.model), one.origin, level, one.end, settings);
         EXPECT_EQ(trips.motions, 4000U);
         EXPECT_EQ(trips.failed, 0U);
         EXPECT_EQ(trips.trips, trips.beyond);
@@ -151,7 +151,7 @@ TEST(DisturbedTrip, NoiseOfAFastLagTripsWithTheProbabilityOfItsValues) {
         EXPECT_GT(trips.probability.value, before);
         before = trips.probability.value;
     }
-    EXPECT_EQ(noisy_trips(one.model, one.origin, 0, one.end, settings).trips, 0U);
+    EXPECT_EQ(noisy_trips(System(one.model), one.origin, 0, one.end, settings).trips, 0U);
 }
 
 TEST(DisturbedTrip, NoiseWithAMemoryHasTheCorrelationOfItsProcess) {
@@ -165,12 +165,12 @@ TEST(DisturbedTrip, NoiseWithAMemoryHasTheCorrelationOfItsProcess) {
         settings.memory = memory;
         const double rho = memory > 0 ? std::exp(-1 / memory) : 0;
         settings.cycles = 2;
-        const NoisyTrips two = noisy_trips(one.model, one.origin, 1, one.end, settings);
+        const NoisyTrips two = noisy_trips(System(one.model), one.origin, 1, one.end, settings);
         const double rest_two = 0.25 + std::asin(rho) / (2 * pi);
         EXPECT_GT(1 - rest_two, two.probability.low) << memory;
         EXPECT_LT(1 - rest_two, two.probability.high) << memory;
         settings.cycles = 3;
-        const NoisyTrips three = noisy_trips(one.model, one.origin, 1, one.end, settings);
+        const NoisyTrips three = noisy_trips(System(one.model), one.origin, 1, one.end, settings);
         const double rest_three = 0.125 + (2 * std::asin(rho) + std::asin(rho * rho)) / (4 * pi);
         EXPECT_GT(1 - rest_three, three.probability.low) << memory;
         EXPECT_LT(1 - rest_three, three.probability.high) << memory;
@@ -186,7 +186,7 @@ TEST(DisturbedTrip, NoiseOfASlowLagFollowsItsRecursion) {
     settings.cycles = 30;
     settings.memory = memory;
     settings.confidence = 0.9999;
-    const NoisyTrips trips = noisy_trips(one.model, one.origin, level, one.end, settings);
+    const NoisyTrips trips = noisy_trips(System(one.model), one.origin, level, one.end, settings);
     std::mt19937_64 engine(7); // an independent generator
     std::normal_distribution<double> unit;
     constexpr int many = 400'000; // a tenth of the uncertainty of the simulation
@@ -211,23 +211,23 @@ TEST(DisturbedTrip, NoiseIsTheSameOnAnyNumberOfThreads) {
     NoiseSettings settings;
     settings.motions = 333;
     settings.cycles = 20;
-    const NoisyTrips alone = noisy_trips(one.model, one.origin, 1.5, one.end, settings);
+    const NoisyTrips alone = noisy_trips(System(one.model), one.origin, 1.5, one.end, settings);
     EXPECT_GT(alone.trips, 10U);
     for (const int jobs : {2, 5}) {
         settings.jobs = jobs;
-        const NoisyTrips together = noisy_trips(one.model, one.origin, 1.5, one.end, settings);
+        const NoisyTrips together = noisy_trips(System(one.model), one.origin, 1.5, one.end, settings);
         EXPECT_EQ(together.trips, alone.trips);
         EXPECT_EQ(together.half, alone.half);
         EXPECT_EQ(together.beyond, alone.beyond);
     }
     settings.seed = 2;
-    EXPECT_NE(noisy_trips(one.model, one.origin, 1.5, one.end, settings).trips, alone.trips);
+    EXPECT_NE(noisy_trips(System(one.model), one.origin, 1.5, one.end, settings).trips, alone.trips);
     settings.interrupted = [] { return true; };
-    const NoisyTrips interrupted = noisy_trips(one.model, one.origin, 1.5, one.end, settings);
+    const NoisyTrips interrupted = noisy_trips(System(one.model), one.origin, 1.5, one.end, settings);
     EXPECT_TRUE(interrupted.interrupted);
     EXPECT_LT(interrupted.motions, 333U);
     settings.motions = 0;
-    EXPECT_THROW(noisy_trips(one.model, one.origin, 1.5, one.end, settings), InputError);
+    EXPECT_THROW(noisy_trips(System(one.model), one.origin, 1.5, one.end, settings), InputError);
 }
 
 /// The switch of chapter 6 at its touch.
@@ -238,7 +238,7 @@ struct Switch {
         for (const char* state : {"q", "v", "theta"})
             model.set_initial(state, 0);
         BranchSettings settings = in_parameter(model, "V", 0.01, 0.4);
-        branch = follow_branch(model, settled(model, "phase0").orbit, settings);
+        branch = follow_branch(System(model), settled(model, "phase0").orbit, settings);
         parameter = settings.parameter;
     }
     Model model;

@@ -17,7 +17,7 @@ using std::numbers::pi;
 
 /// Returns the first fold of a branch.
 SpecialPoint fold_of(const Model& model, const Orbit& orbit, const BranchSettings& settings) {
-    const std::vector<SpecialPoint> folds = of_type(follow_branch(model, orbit, settings), PointType::fold);
+    const std::vector<SpecialPoint> folds = of_type(follow_branch(System(model), orbit, settings), PointType::fold);
     EXPECT_FALSE(folds.empty());
     return folds.at(0);
 }
@@ -39,7 +39,7 @@ Passing passing(double a, double b, double length) {
     settings.direction = -static_cast<int>(side);
     const SpecialPoint point =
         fold_of(model, fixed_point(model, {length * (1 + u), length * (2 + u * 0.3 / 0.9)}), settings);
-    FoldPassage fold = fold_passage(model, point, settings.parameter);
+    FoldPassage fold = fold_passage(System(model), point, settings.parameter);
     return {std::move(model), std::move(fold)};
 }
 
@@ -72,7 +72,8 @@ TEST(FoldPassage, CyclesAgreeWithSimulationAndTheIteratedMap) {
             const double overshoot = one.fold.side * std::pow(10, -decade);
             TripOptions options;
             options.cycles = 100'000;
-            const SimulatedPassage simulated = simulated_passage(one.model, one.fold, overshoot, {}, true, options);
+            const SimulatedPassage simulated =
+                simulated_passage(System(one.model), one.fold, overshoot, {}, true, options);
             ASSERT_TRUE(simulated.passed);
             // Direct iteration of the map for w = |a| u up to the same gate.
             double w = -0.05, last = w;
@@ -107,13 +108,13 @@ TEST(FoldPassage, HenonAndLogisticMapsHaveTheirCoefficients) {
     BranchSettings settings = in_parameter(henon, "a", -2, 5);
     settings.direction = -1;
     const SpecialPoint point = fold_of(henon, fixed_point(henon, {y, y}), settings);
-    const FoldPassage fold = fold_passage(henon, point, settings.parameter);
+    const FoldPassage fold = fold_passage(System(henon), point, settings.parameter);
     EXPECT_NEAR(fold.coefficient * std::abs(fold.rate), 1 / ((1 - b) * (1 - b)), 1e-5);
     EXPECT_EQ(fold.side, -1);
     TripOptions options;
     options.cycles = 50'000;
     for (const double overshoot : {-1e-4, -1e-6}) {
-        const SimulatedPassage simulated = simulated_passage(henon, fold, overshoot, {}, true, options);
+        const SimulatedPassage simulated = simulated_passage(System(henon), fold, overshoot, {}, true, options);
         ASSERT_TRUE(simulated.passed);
         EXPECT_NEAR(simulated.cycles, cycles_of_passage(fold, overshoot, -fold.gate, fold.gate), 3);
     }
@@ -136,7 +137,7 @@ TEST(FoldPassage, HenonAndLogisticMapsHaveTheirCoefficients) {
     }
     BranchSettings down = in_parameter(logistic, "r", 3.7, 3.9);
     down.direction = -1;
-    const FoldPassage third = fold_passage(logistic, fold_of(logistic, orbit, down), down.parameter);
+    const FoldPassage third = fold_passage(System(logistic), fold_of(logistic, orbit, down), down.parameter);
     EXPECT_NEAR(third.value, r, 1e-12);
     EXPECT_EQ(third.side, -1);
     EXPECT_EQ(third.cycle, 3);
@@ -146,7 +147,7 @@ TEST(FoldPassage, HenonAndLogisticMapsHaveTheirCoefficients) {
     EXPECT_NEAR(third.coefficient, std::abs(second),
                 1e-4 * third.coefficient); // differences of order h^2, and their round-off
     EXPECT_NEAR(third.coefficient * third.rate, second * by_r, 1e-4 * third.coefficient * std::abs(third.rate));
-    const SimulatedPassage simulated = simulated_passage(logistic, third, -1e-7, {}, true, options);
+    const SimulatedPassage simulated = simulated_passage(System(logistic), third, -1e-7, {}, true, options);
     ASSERT_TRUE(simulated.passed);
     EXPECT_NEAR(simulated.cycles, cycles_of_passage(third, -1e-7, -third.gate, third.gate), 3);
 }
@@ -164,8 +165,8 @@ TEST(FoldPassage, PointsWithoutPassageAreRefused) {
     expect_refusal([&] { cycles_of_passage(one.fold, -1e-3); }, "there are two orbits");
     expect_refusal([&] { cycles_of_passage(one.fold, 0); }, "at the fold itself");
     expect_refusal([&] { cycles_of_passage(one.fold, std::nan("")); }, "");
-    const Branch branch = follow_branch(one.model, one.fold.orbit, in_parameter(one.model, "p", -1, 1));
-    expect_refusal([&] { fold_passage(one.model, branch.special.back(), one.fold.parameter); }, "is no fold");
+    const Branch branch = follow_branch(System(one.model), one.fold.orbit, in_parameter(one.model, "p", -1, 1));
+    expect_refusal([&] { fold_passage(System(one.model), branch.special.back(), one.fold.parameter); }, "is no fold");
 }
 
 } // namespace

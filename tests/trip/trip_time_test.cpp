@@ -436,7 +436,7 @@ TEST(TripTime, TheLevelOfAStopIsReachedAtTheFirstContact) {
         state[1] = number(random);
         const std::vector<double> parameters = model.parameter_values();
         FirstContact first;
-        Trajectory trajectory(simulation, parameters, first);
+        Trajectory trajectory(simulation, parameters, borrowed(first));
         trajectory.start(state, model.initial_mode, 0, 50);
         JetSet jets(simulation, LaneKind::single);
         run(trajectory, jets);
@@ -457,13 +457,13 @@ TEST(TripTime, SlidingOnABeltGrowsLogarithmically) {
     Model model = testing::belt();
     model.set_parameter("nu", 2.2);
     const BranchSettings settings = testing::along(model, "nu", -1, 2, 2.4);
-    const Branch branch = follow_branch(model, testing::settled(model, "phase0").orbit, settings);
+    const Branch branch = follow_branch(System(model), testing::settled(model, "phase0").orbit, settings);
     std::size_t folds = 0;
     for (const SpecialPoint& point : testing::of_type(branch, PointType::grazing)) {
         CycleMapOptions options;
         options.parameter = settings.parameter;
-        const CycleMap map =
-            cycle_map(model, point.solution.orbit, {point.segment, point.event, point.time, point.at_end}, options);
+        const CycleMap map = cycle_map(System(model), point.solution.orbit,
+                                       {point.segment, point.event, point.time, point.at_end}, options);
         const Verdict verdict = verdict_of(map);
         if (verdict.outcome == GrazingOutcome::undecided)
             continue;
@@ -473,7 +473,7 @@ TEST(TripTime, SlidingOnABeltGrowsLogarithmically) {
             ASSERT_TRUE(predicted.ended) << predicted.ending;
             TripEnd end;
             end.speed = predicted.level;
-            const TripTime simulated = simulated_trip(model, map, settings.parameter, overshoot, end);
+            const TripTime simulated = simulated_trip(System(model), map, settings.parameter, overshoot, end);
             EXPECT_EQ(simulated.ending, "speed");
             EXPECT_NEAR(simulated.cycles, predicted.cycles, 1.1) << overshoot;
             const double log_growth = std::log(*verdict.leading),

@@ -52,7 +52,8 @@ struct AcquisitionReport {
 /// To resume an experiment, the device is returned to its stored state if it can (SampleDevice::return_to); otherwise
 /// the earlier levels are repeated without records, so that the system approaches the next one from the same side.
 /// @param options the generator's other options are those of the experiment
-/// @throws InputError when a record cannot be written, or the device lacks a channel
+/// @throws InputError when a record cannot be written, or the device lacks a channel; what a callback throws. Where the
+///         output could not be made safe nothing is thrown: `detail` then tells it
 AcquisitionReport acquire(const Experiment& experiment, InstrumentLine& generator, SampleDevice& device,
                           RecordFolder& folder, const AcquisitionOptions& options = {});
 

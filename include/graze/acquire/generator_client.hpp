@@ -1,11 +1,14 @@
 #pragma once
 
 #include "graze/acquire/instrument_line.hpp"
+#include "graze/base/require.hpp"
 
 #include <functional>
 #include <limits>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace graze {
@@ -36,8 +39,9 @@ struct GeneratorOptions {
 /// before the first level is sent, and read again before and after each level. If they are wrong, no level is sent.
 class GeneratorClient {
 public:
-    /// @param line must outlive this object
-    GeneratorClient(InstrumentLine& line, GeneratorOptions options) : line_(&line), options_(std::move(options)) {}
+    /// @param line is shared. @throws InputError for a null pointer
+    GeneratorClient(std::shared_ptr<InstrumentLine> line, GeneratorOptions options)
+        : line_(required(std::move(line), "a line")), options_(std::move(options)) {}
 
     /// Checks the generator's identity. Nothing is set before that, not even to make the output safe. @throws
     /// InstrumentError
@@ -99,7 +103,7 @@ private:
     void switch_on();
     void try_safe(double amplitude);
 
-    InstrumentLine* line_;
+    std::shared_ptr<InstrumentLine> line_;
     GeneratorOptions options_;
     std::string identity_;
     bool identified_ = false;

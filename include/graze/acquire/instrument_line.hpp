@@ -1,9 +1,11 @@
 #pragma once
 
+#include "graze/base/borrowed.hpp"
+#include "graze/base/error.hpp"
+
 #include <cstddef>
 #include <functional>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -24,10 +26,14 @@ enum class AcquisitionEnding {
 /// Stable name for tables and files, such as "line-lost".
 std::string_view name_of(AcquisitionEnding ending);
 
-/// Thrown when an instrument fails. `what()` is one line.
-class InstrumentError : public std::runtime_error {
+/// What helps after such an ending.
+std::string remedy_of(AcquisitionEnding ending);
+
+/// Thrown when an instrument fails.
+class InstrumentError : public Error {
 public:
-    InstrumentError(AcquisitionEnding ending, const std::string& what) : std::runtime_error(what), ending_(ending) {}
+    InstrumentError(AcquisitionEnding ending, const std::string& problem)
+        : Error(ErrorKind::instrument, {}, problem, remedy_of(ending)), ending_(ending) {}
     AcquisitionEnding ending() const { return ending_; }
 
 private:

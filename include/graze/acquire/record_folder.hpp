@@ -30,7 +30,7 @@ public:
     /// lives.
     /// @param wait time in s to wait for another process to release it
     /// @throws InputError when it cannot be created or written, is in use, or has records of another experiment
-    RecordFolder(std::string path, const Experiment& experiment, double wait = 10);
+    RecordFolder(std::string path, Experiment experiment, double wait = 10);
     ~RecordFolder();
     RecordFolder(const RecordFolder&) = delete;
     RecordFolder& operator=(const RecordFolder&) = delete;
@@ -58,7 +58,7 @@ private:
     void move_into_place(const std::string& name) const;
 
     std::string path_;
-    const Experiment* experiment_;
+    Experiment experiment_;
     int lock_ = -1;
     std::string begun_; ///< name of the record that is not committed yet
     std::map<std::size_t, RecordEntry> entries_;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 
 namespace graze {
 
@@ -42,12 +43,13 @@ public:
 class TextSampleDevice : public SampleDevice {
 public:
     /// Stops any acquisition that another client has begun, and asks for the channels.
-    /// @param line must outlive this object; @param timeout longest wait in s for each answer, and for each row in
+    /// @param line is shared; @param timeout longest wait in s for each answer, and for each row in
     /// addition to its time
     /// @param interrupted called while waiting; returning true ends the wait
     /// @param patience samples may take this many times their duration, plus `timeout`, to arrive
     /// @throws InstrumentError when it does not answer by the protocol
-    TextSampleDevice(InstrumentLine& line, double timeout, std::function<bool()> interrupted, double patience = 10);
+    TextSampleDevice(std::shared_ptr<InstrumentLine> line, double timeout, std::function<bool()> interrupted,
+                     double patience = 10);
 
     const RecordHeader& header() const override { return header_; }
     void set_rate(double rate) override;
@@ -65,7 +67,7 @@ private:
     void drain();
     void require_time() const;
 
-    InstrumentLine* line_;
+    std::shared_ptr<InstrumentLine> line_;
     double timeout_, patience_;
     std::function<bool()> interrupted_;
     RecordHeader header_;

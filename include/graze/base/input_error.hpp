@@ -1,37 +1,32 @@
 #pragma once
 
-#include <stdexcept>
+#include "graze/base/error.hpp"
+
 #include <string>
+#include <utility>
 
 namespace graze {
 
-/// A place in a text that a user wrote. Lines and columns count from 1; 0 means "not known".
-struct Place {
-    std::string file;
-    int line = 0;
-    int column = 0;
-
-    /// Returns `file:line:column`, leaving out the parts that are not known.
-    std::string text() const;
-};
-
-/// An error in a user's input. `what()` is one line: `file:line:col: what is wrong; what to do`.
-class InputError : public std::runtime_error {
+/// What was given cannot be used: of kind `input`, or `file`.
+class InputError : public Error {
 public:
     /// @param problem what is wrong
     /// @param remedy  what to do about it (may be empty)
-    InputError(Place place, const std::string& problem, const std::string& remedy);
-    /// Without a place, for values given from C++ or on a command line.
-    InputError(const std::string& problem, const std::string& remedy);
+    InputError(Place place, const std::string& problem, const std::string& remedy)
+        : Error(ErrorKind::input, std::move(place), problem, remedy) {}
+    /// Without a place, as for values given from C++ or on a command line.
+    InputError(const std::string& problem, const std::string& remedy) : InputError(Place{}, problem, remedy) {}
 
-    const Place& place() const { return place_; }
-    const std::string& problem() const { return problem_; }
-    const std::string& remedy() const { return remedy_; }
+protected:
+    using Error::Error;
+};
 
-private:
-    Place place_;
-    std::string problem_;
-    std::string remedy_;
+/// A file cannot be opened, read or written, or somebody else uses it.
+class FileError : public InputError {
+public:
+    /// @param path the place
+    FileError(std::string path, const std::string& problem, const std::string& remedy)
+        : InputError(ErrorKind::file, {std::move(path), 0, 0}, problem, remedy) {}
 };
 
 } // namespace graze

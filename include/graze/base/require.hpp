@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <string_view>
 
@@ -12,6 +13,7 @@ namespace require_detail {
 [[noreturn]] void refuse_size(std::size_t given, std::size_t needed, std::string_view what);
 [[noreturn]] void refuse_index(std::size_t index, std::size_t size, std::string_view what);
 [[noreturn]] void refuse_value(double value, std::string_view what);
+[[noreturn]] void refuse_nothing(std::string_view what);
 } // namespace require_detail
 
 /// @param what names the items in the plural, such as "states". @throws InputError unless given == needed
@@ -28,6 +30,14 @@ inline void require_room(std::size_t given, std::size_t needed, std::string_view
 inline void require_index(std::size_t index, std::size_t size, std::string_view what) {
     if (index >= size)
         require_detail::refuse_index(index, size, what);
+}
+/// @param what names the object in the message with its article, such as "a source". @throws InputError for a null
+/// pointer. @return the pointer
+template <class T>
+std::shared_ptr<T> required(std::shared_ptr<T> pointer, std::string_view what) {
+    if (!pointer)
+        require_detail::refuse_nothing(what);
+    return pointer;
 }
 /// @throws InputError for NaN and infinities. @param what names the value in the message
 void require_finite(double value, std::string_view what);

@@ -1,7 +1,10 @@
 #pragma once
 
+#include "graze/base/borrowed.hpp"
+
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,6 +18,7 @@ public:
     virtual ~ContinuationProblem() = default;
     virtual std::size_t unknowns() const = 0;
     /// Positive scales of the unknowns; constant between calls of `evaluate` that belong to one step.
+    /// The numbers must stay where they are until `accept`, as those of `weights`.
     virtual std::span<const double> scales() const = 0;
     /// Weights of the unknowns in lengths and angles: 0 for redundant unknowns. Empty: 1 for all.
     virtual std::span<const double> weights() const { return {}; }
@@ -97,8 +101,8 @@ std::string_view name_of(ContinuationOutcome outcome);
 /// class is independent of the meaning of the unknowns. It can be stopped after any step, inspected and resumed.
 class Continuation {
 public:
-    /// @param problem must outlive this object. @throws InputError for options out of range
-    explicit Continuation(ContinuationProblem& problem, const ContinuationOptions& options = {});
+    /// @param problem is shared, also with copies. @throws InputError for options out of range
+    explicit Continuation(std::shared_ptr<ContinuationProblem> problem, const ContinuationOptions& options = {});
 
     /// Starts near u, which is corrected with one unknown fixed if possible, in the direction in which that unknown
     /// increases (direction > 0) or decreases. @return false when the start failed; `outcome` says why
@@ -110,7 +114,7 @@ public:
     bool start_at(std::span<const double> u, std::span<const double> row);
 
     /// Computes the next point. @return false when the continuation has ended; `outcome` says why
-    /// @throws std::logic_error before any start
+    /// @throws OrderError before any start
     bool step();
     const ContinuationPoint& point() const { return point_; }
     const ContinuationPoint& previous() const { return previous_; }
@@ -142,7 +146,7 @@ private:
     bool closes();
     void weigh(std::span<const double> direction, std::vector<double>& row) const;
 
-    ContinuationProblem* problem_;
+    std::shared_ptr<ContinuationProblem> problem_;
     ContinuationOptions options_;
     ContinuationPoint point_, previous_, first_;
     ContinuationOutcome outcome_ = ContinuationOutcome::going;

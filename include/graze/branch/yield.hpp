@@ -35,11 +35,9 @@ struct YieldSettings {
     std::vector<double> quantiles{0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99};
     int jobs = 1; ///< number of threads; results do not depend on it
     LocatedValueOptions solver;
-    std::function<bool()> interrupted; ///< called from any thread; returns true to stop
-    /// Called with the number of finished devices, from the calling thread.
+    std::function<bool()> interrupted; ///< returns true to stop
+    /// Called with the number of finished devices.
     std::function<void(std::size_t devices)> progress;
-    /// Called with the solution of each device that was found, from any thread.
-    std::function<void(std::size_t device, const LocatedSolution& solution)> solved;
     /// @throws InputError naming the setting that is out of range
     void validate() const;
 };

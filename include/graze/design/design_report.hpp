@@ -60,8 +60,8 @@ struct DesignReport {
 /// Options of `report_of`.
 struct DesignReportOptions {
     int jobs = 1;
-    std::function<bool()> interrupted;                     ///< called from any thread; returning true interrupts
-    std::function<void(const std::string& what)> progress; ///< called with the present task, from the calling thread
+    std::function<bool()> interrupted;                     ///< returning true interrupts
+    std::function<void(const std::string& what)> progress; ///< called with the present task
 };
 
 /// Computes the report at a trip point.

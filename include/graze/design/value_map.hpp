@@ -24,8 +24,8 @@ struct MapSettings {
     std::size_t points = 41; ///< points in each direction
     int jobs = 1;            ///< threads; the results do not depend on their number
     LocatedValueOptions solver;
-    std::function<bool()> interrupted; ///< called from any thread; returning true interrupts
-    /// Called with the number of points or tiles done, from the calling thread.
+    std::function<bool()> interrupted; ///< returning true interrupts
+    /// Called with the number of points or tiles done.
     std::function<void(std::size_t done)> progress;
     /// @throws InputError naming what is out of range
     void validate() const;

@@ -20,7 +20,8 @@ public:
     /// series lost. Has no effect if called again.
     void add_tangents();
     bool has_tangents() const { return has_tangents_; }
-    /// Returns the jet of a mode. @throws InputError, here and below, when there is no such mode
+    /// Returns the jet of a mode, which exists until this object is destroyed or `add_tangents` is called; `computed`
+    /// exchanges the two jets of a mode. @throws InputError, here and below, when there is no such mode
     Jet& operator()(std::size_t mode) { return made(jets_, mode); }
     /// Returns the jet of a mode computed from states. If the states are those at the end of the last step, the jet
     /// from `next` continues from there.

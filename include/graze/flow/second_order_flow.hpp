@@ -31,7 +31,7 @@ public:
     /// @param derivatives of the final state at fixed time, states x variables, row by row
     /// @param second second derivatives contracted with the vector, in the same layout
     /// @throws InputError for a mode or numbers that do not match the system
-    /// @throws std::logic_error before parameters are set
+    /// @throws OrderError before parameters are set
     ModeFlow::Ending run(std::size_t mode, std::span<double> state, double duration, std::span<const double> vector,
                          std::span<double> derivatives, std::span<double> second);
 

@@ -45,8 +45,8 @@ public:
     void set_parameters(std::span<const double> parameters, std::span<const double> seeds);
 
     /// Begins a step.
-    /// @param jet single jet with tangents (see ModeJets), computed from the state; must not change during the step
-    /// @param state, matrix at the beginning of the step; must not change during the step
+    /// @param jet single jet with tangents (see ModeJets), computed from the state
+    /// @param state, matrix at the beginning of the step. All three must exist, unchanged, until the next step begins
     void begin(Jet& jet, std::size_t mode, std::span<const double> state, std::span<const double> matrix);
     /// Propagates all directions along the step, or along the longest part for which all series are accurate.
     /// @param next another jet of the mode, which is begun at the end; @param length of the step, may be negative

@@ -34,6 +34,9 @@ struct DeviceFile {
 
 /// Lengths in micrometres that override those of the file: of [device] by name, of [process] as "process.NAME".
 using GivenLengths = std::vector<std::pair<std::string, double>>;
+/// The place of such a length, "given NAME".
+Place given_place(const std::string& name);
+bool is_given_place(const Place& place);
 
 /// Parses such a number with or without a unit, such as "12 um" or "2*8 GPa", and returns it in its own unit.
 /// @throws InputError with the place

@@ -70,6 +70,7 @@ struct LayoutLibrary {
     std::string name;
     std::vector<LayoutCell> cells;
 
+    /// Null when there is none of that name; valid until cells are added or removed.
     const LayoutCell* find(std::string_view cell) const;
     bool has(std::string_view cell) const { return find(cell) != nullptr; }
 };
@@ -79,7 +80,7 @@ struct PlacedShape {
     MaskLayer layer;
     GridPolygon polygon;
 };
-/// Returns all polygons of a cell and of the cells in it. @throws std::out_of_range for an unknown cell
+/// Returns all polygons of a cell and of the cells in it. @throws InputError for an unknown cell
 /// @throws InputError unless each cell of the library follows those that it contains, and names are unique
 std::vector<PlacedShape> flattened(const LayoutLibrary& library, std::string_view cell);
 /// Returns the drawn area of a cell and of the cells in it by layer, in square micrometres; overlaps count twice.

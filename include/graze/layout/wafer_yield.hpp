@@ -17,10 +17,9 @@ namespace graze {
 struct WaferYieldSettings {
     std::size_t wafers = 25;
     std::uint64_t seed = 1;
-    int jobs = 1;                      ///< threads; the results do not depend on their number
-    std::function<bool()> interrupted; ///< called from any thread; returning true interrupts
-    std::function<void(std::size_t devices)>
-        progress; ///< called from the calling thread with the number of devices done
+    int jobs = 1;                                      ///< threads; the results do not depend on their number
+    std::function<bool()> interrupted;                 ///< returning true interrupts
+    std::function<void(std::size_t devices)> progress; ///< called with the number of devices done
 };
 
 /// One device of one wafer.

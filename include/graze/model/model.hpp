@@ -162,6 +162,7 @@ struct Model : ModelItems {
     std::optional<std::size_t> find_jump(std::string_view item) const;
     std::optional<std::size_t> find_section(std::string_view item) const;
     std::optional<std::size_t> find_quantity(std::string_view item) const;
+    /// Null when there is none; valid until transitions are added or removed.
     const Transition* find_transition(std::size_t mode, std::size_t event) const;
 
     /// Sets an independent parameter.

@@ -47,7 +47,7 @@ public:
     /// empty.
     const std::shared_ptr<const std::vector<Expression>>& shared() const { return shared_; }
     /// Replaces the shared images and passes each changed image to `visit_change` for modification.
-    /// @throws std::invalid_argument unless `shared` has as many images as before
+    /// @throws InputError unless `shared` has as many images as before
     void replace(std::shared_ptr<const std::vector<Expression>> shared,
                  const std::function<void(Expression&)>& visit_change);
 

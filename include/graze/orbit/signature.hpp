@@ -33,7 +33,7 @@ bool can_lead_to(const Transition& transition, std::size_t mode);
 /// The name of a cut in signatures: "~".
 const std::string& cut_name();
 /// Returns the name of a segment's end in signatures: the label of the transition, the name of the section, or "~" for
-/// a cut.
+/// a cut. The name is a part of the model, and exists as long.
 const std::string& end_name(const Model& model, const Segment& segment);
 
 /// Reads signatures such as "J1 J8", "{J1,J8}^2", "impact^4" or "(impact release)^2 impact": labels of transitions and

@@ -27,14 +27,14 @@ struct CalibratedSettings {
 /// A part of a source, with its readings converted by calibrations.
 class Calibrated : public SampleSource {
 public:
-    /// @param source must outlive this object. @throws InputError for invalid settings
-    Calibrated(SampleSource& source, CalibratedSettings settings);
+    /// @param source is shared. @throws InputError for invalid settings
+    Calibrated(std::shared_ptr<SampleSource> source, CalibratedSettings settings);
     const RecordHeader& header() const override { return header_; }
     /// @throws InputError when a result exceeds the range of a double
     bool read(Samples& samples) override;
 
 private:
-    SampleSource* source_;
+    std::shared_ptr<SampleSource> source_;
     CalibratedSettings settings_;
     RecordHeader header_;
 };

@@ -25,9 +25,9 @@ struct DerivativeSettings {
 /// they are, unless the deviations are at most their rounding.
 class WithDerivative : public SampleSource {
 public:
-    /// @param source must outlive this object
+    /// @param source is shared
     /// @throws InputError for invalid settings
-    WithDerivative(SampleSource& source, const DerivativeSettings& settings);
+    WithDerivative(std::shared_ptr<SampleSource> source, const DerivativeSettings& settings);
     ~WithDerivative() override;
     const RecordHeader& header() const override;
     /// @throws InputError when there are gaps between the samples, or the record is too short

@@ -51,9 +51,9 @@ ImpactSettings impact_settings(const RecordHeader& header, const std::string& ve
 /// which the polynomials through the displacement meet. Impacts closer to one another than the window may be missed.
 class ImpactFinder {
 public:
-    /// @param source must outlive this object
+    /// @param source is shared
     /// @throws InputError for invalid settings
-    ImpactFinder(SampleSource& source, const ImpactSettings& settings);
+    ImpactFinder(std::shared_ptr<SampleSource> source, const ImpactSettings& settings);
     ~ImpactFinder();
     ImpactFinder(const ImpactFinder&) = delete;
     ImpactFinder& operator=(const ImpactFinder&) = delete;

@@ -22,9 +22,9 @@ struct LowPassSettings {
 /// which the filter would need samples outside the record, are left out.
 class LowPass : public SampleSource {
 public:
-    /// @param source must outlive this object
+    /// @param source is shared
     /// @throws InputError for invalid settings
-    LowPass(SampleSource& source, const LowPassSettings& settings);
+    LowPass(std::shared_ptr<SampleSource> source, const LowPassSettings& settings);
     ~LowPass() override;
     const RecordHeader& header() const override;
     /// @throws InputError when the samples are not equidistant in time, or the record is shorter than the filter

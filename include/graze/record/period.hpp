@@ -3,6 +3,7 @@
 #include "graze/record/samples.hpp"
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -32,8 +33,8 @@ struct PeriodSettings {
 /// read with it.
 class PeriodSplitter {
 public:
-    /// @throws InputError for invalid settings
-    PeriodSplitter(SampleSource& source, const PeriodSettings& settings);
+    /// @param source is shared. @throws InputError for invalid settings
+    PeriodSplitter(std::shared_ptr<SampleSource> source, const PeriodSettings& settings);
     /// Finds the next whole period. @return false when there are no more
     /// @throws InputError when the reference does not cross its level for 4 million samples
     bool next(Period& period);
@@ -47,7 +48,7 @@ private:
     bool next_crossing(Crossing& crossing);
     double locate(std::size_t below, std::size_t above) const;
 
-    SampleSource* source_;
+    std::shared_ptr<SampleSource> source_;
     PeriodSettings settings_;
     Samples buffer_, part_;
     std::size_t scanned_ = 0; ///< rows of the buffer that have been searched

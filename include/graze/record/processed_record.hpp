@@ -37,15 +37,16 @@ struct RecordProcessing {
 class ProcessedRecord {
 public:
     /// @throws InputError for unknown channels, and invalid settings
-    ProcessedRecord(std::unique_ptr<SampleSource> source, const RecordProcessing& processing);
+    ProcessedRecord(std::shared_ptr<SampleSource> source, const RecordProcessing& processing);
     /// The record of a file. @throws InputError also when it cannot be read
     ProcessedRecord(const std::string& path, const RecordProcessing& processing)
         : ProcessedRecord(open_record(path, processing.layout), processing) {}
-    SampleSource& source() { return *stages_.back(); }
-    const RecordHeader& header() const { return stages_.back()->header(); }
+    /// Its last stage, which exists as long as this object.
+    SampleSource& source() { return *source_; }
+    const RecordHeader& header() const { return source_->header(); }
 
 private:
-    std::vector<std::unique_ptr<SampleSource>> stages_; ///< each stage reads from the one before
+    std::shared_ptr<SampleSource> source_; ///< the last stage, which reads from the one before it, and so on
 };
 
 } // namespace graze

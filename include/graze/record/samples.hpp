@@ -1,5 +1,7 @@
 #pragma once
 
+#include "graze/base/borrowed.hpp"
+
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -47,6 +49,7 @@ public:
     SampleSource(const SampleSource&) = delete;
     SampleSource& operator=(const SampleSource&) = delete;
 
+    /// The same as long as the source lives.
     virtual const RecordHeader& header() const = 0;
     /// Replaces `samples` by the next ones, at most some ten thousand rows.
     /// @return false at the end; `samples` then has no rows

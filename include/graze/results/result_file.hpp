@@ -86,17 +86,16 @@ struct PointRecord {
 
 /// The results of a study in one SQLite file (docs/result-file.md). One process can write while others read. Points are
 /// written in transactions: if the process is killed, the points of the last fraction of a second are lost, and every
-/// stored point is complete.
+/// stored point is complete. Copies are handles of the same open file, which is closed with the last of them.
 class ResultFile {
 public:
     enum class Access { read, write };
     /// Opens a file; with Access::write a missing file is created.
-    /// @throws InputError if it is no result file, has the format of another version, cannot be opened, or another
+    /// Files of older versions are read and continued; what they lack is `missing`, and read as absent. Files of newer
+    /// versions are read if these have only added something.
+    /// @throws InputError if it is no result file, has an incompatible format, cannot be opened, or another
     ///         process writes to it, and for the paths "" and ":memory:", which SQLite would not keep as files
     ResultFile(const std::string& path, Access access);
-    ~ResultFile();
-    ResultFile(const ResultFile&) = delete;
-    ResultFile& operator=(const ResultFile&) = delete;
 
     /// All runs, in the order of their numbers. @throws InputError if the contents of the file contradict each other
     std::vector<RunRecord> runs() const;
@@ -150,7 +149,8 @@ public:
     /// The orbit with this label, for example "GR1".
     std::optional<OrbitRecord> orbit(const std::string& run, const std::string& label) const;
 
-    /// Rows of a query, read one after the other. Each cell is a number, a text, or missing.
+    /// Rows of a query, read one after the other. Each cell is a number, a text, or missing. Rows may
+    /// outlive the file.
     class Rows {
     public:
         bool next();
@@ -181,6 +181,8 @@ public:
     void set_patience(std::chrono::milliseconds patience);
 
     const std::string& path() const;
+    /// What a file of another version lacks of what this version writes: "run.column", or the name of a table.
+    const std::vector<std::string>& missing() const;
     /// Number of the format of the file.
     int format() const;
 
@@ -188,7 +190,7 @@ private:
     struct State;
     std::vector<OrbitRecord> read_orbits(const std::string& run, const std::string& where, double number,
                                          const std::string& label) const;
-    std::unique_ptr<State> state_;
+    std::shared_ptr<State> state_;
 };
 
 } // namespace graze

@@ -18,7 +18,7 @@ struct ResultTableRequest {
     Place place_of_runs = {}, place_of_what = {}; ///< where the user named runs and table, for messages
 };
 
-/// Rows of a table and the units of its columns. The file must outlive it.
+/// Rows of a table and the units of its columns.
 struct ResultTable {
     ResultFile::Rows rows;
     std::vector<std::string> units;    ///< unit of each column; empty: none, or not the same in all rows

@@ -38,13 +38,13 @@ struct Selection {
 };
 
 /// One run of a result file that is read: its record, its model, its columns with their units, and its rows, which are
-/// read one after the other without keeping them all in memory. The file must outlive it.
+/// read one after the other without keeping them all in memory. It keeps the file open.
 struct StoredRun {
     /// @param place where the user named the run, for messages
     /// @throws InputError if there is no such run, or its model cannot be read
     StoredRun(const ResultFile& from, const std::string& name, const Place& place);
 
-    const ResultFile* file;
+    ResultFile file;
     RunRecord record;
     Model model;
 
@@ -78,7 +78,7 @@ struct StoredRun {
     /// Number of the point whose coordinates are nearest to the given ones, compared in their order; the last point if
     /// none are given. Only points of the given directions, or all if none are given. Nothing if there is no such
     /// point.
-    /// @throws std::out_of_range for a name that is no coordinate of the run
+    /// @throws InputError for a name that is no coordinate of the run
     std::optional<std::size_t> nearest(const std::vector<std::pair<std::string, double>>& at,
                                        const std::vector<std::string>& directions) const;
 };

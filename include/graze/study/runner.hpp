@@ -26,8 +26,8 @@ struct RunnerOptions {
     int jobs = 1;                      ///< threads, shared by runs that are independent and by the chains of each run
     bool one_by_one = false;           ///< runs follow one another, each with all threads that it can use
     std::vector<std::string> only;     ///< names of runs; those that they need are done as well; empty: all runs
-    std::function<bool()> interrupted; ///< true stops the study; called from any thread
-    /// Called after each point, from one thread at a time, as `orbit` is.
+    std::function<bool()> interrupted; ///< true stops the study
+    /// Called after each point.
     std::function<void(const StudyProgress& progress)> progress;
     /// Called with each orbit of a branch as it is found. Orbits of runs that go on side by side alternate.
     std::function<void(const std::string& run, const OrbitRecord& orbit)> orbit;
@@ -57,7 +57,7 @@ std::size_t points_of(const StudyRun& run);
 /// Number of chains of points, which can be computed side by side.
 std::size_t chains_of(const StudyRun& run);
 /// The points of a run: chains along its first axis, one for each combination of the values of the other axes.
-/// @param run must outlive the plan
+/// @param run is copied
 /// @param system of the run's model
 /// @param start at which the run begins; null: it begins at the model's initial state
 Plan plan_of(const StudyRun& run, const System& system, const PointRecord* start);
@@ -72,7 +72,7 @@ std::size_t direction_of(const StudyRun& run, std::size_t point);
 /// @return reports of the runs, in the order of the study; of an interrupted study some runs may be unfinished, and
 /// runs
 ///         that were not begun are missing
-/// @throws InputError when the file cannot be written
+/// @throws InputError when the file cannot be written; what a callback throws
 std::vector<RunReport> run_study(const Study& study, ResultFile& file, const RunnerOptions& options);
 
 } // namespace graze

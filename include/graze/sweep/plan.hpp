@@ -2,7 +2,6 @@
 
 #include "graze/sweep/point_search.hpp"
 
-#include <atomic>
 #include <cstddef>
 #include <functional>
 #include <optional>

@@ -41,7 +41,7 @@ enum class Operation : std::uint8_t {
 };
 
 /// Returns the number of operands: 0 for leaves, 1 for functions and negation, 2 for arithmetic.
-/// @throws std::invalid_argument for a value that is not an Operation
+/// @throws InputError for a value that is not an Operation
 int arity(Operation operation);
 
 /// Index of a node in its graph. Operands always have smaller indices than the node that uses them, so that a
@@ -62,20 +62,20 @@ public:
     static std::shared_ptr<Graph> create();
     /// Returns another graph with the same nodes at the same indices, which is not frozen.
     std::shared_ptr<Graph> copy() const;
-    /// Forbids appending, so that threads may share the graph: an attempt to append then throws std::logic_error.
+    /// Forbids appending, so that threads may share the graph: an attempt to append then throws OrderError.
     void freeze() { frozen_ = true; }
     bool is_frozen() const { return frozen_; }
     /// Returns the same expression in this graph; symbols are matched by name.
-    /// @throws std::invalid_argument for an empty expression
+    /// @throws InputError for an empty expression
     Expression adopt(const Expression& foreign);
 
-    /// @throws std::invalid_argument when the value is not finite. +0 and -0 are one node.
+    /// @throws InputError when the value is not finite. +0 and -0 are one node.
     Expression number(double value);
     /// Returns the symbol of this name; the same node for each call.
     Expression symbol(std::string_view name);
     /// Applies one operation, with the simplifications described in docs/expressions.md: results are equal to
     /// those of the unsimplified expression up to round-off.
-    /// @throws std::invalid_argument for operands of another graph, or a wrong number of operands
+    /// @throws InputError for operands of another graph, or a wrong number of operands
     Expression apply(Operation operation, const Expression& operand);
     Expression apply(Operation operation, const Expression& left, const Expression& right);
 
@@ -119,12 +119,12 @@ private:
 };
 
 /// A node of a graph that it keeps alive; cheap to copy. Two expressions of one graph are the same expression
-/// exactly if their indices are equal. Operators throw std::invalid_argument for operands of different graphs.
+/// exactly if their indices are equal. Operators throw InputError for operands of different graphs.
 class Expression {
 public:
     /// An empty expression: only assignment and `empty` may be used.
     Expression() = default;
-    /// @throws std::invalid_argument for an index that the graph does not have
+    /// @throws InputError for an index that the graph does not have
     Expression(std::shared_ptr<Graph> graph, NodeIndex index) : graph_(std::move(graph)), index_(index) {
         if (!graph_ || index >= graph_->size())
             refuse_node();
@@ -133,7 +133,7 @@ public:
     bool empty() const { return graph_ == nullptr; }
     const std::shared_ptr<Graph>& graph() const { return graph_; }
     NodeIndex index() const { return index_; }
-    /// @throws std::invalid_argument, here and below, when the expression is empty
+    /// @throws InputError, here and below, when the expression is empty
     const Node& node() const {
         if (!graph_)
             refuse_empty();
@@ -143,7 +143,7 @@ public:
     bool is_number() const { return operation() == Operation::number; }
     bool is_number(double value) const { return is_number() && node().value == value; }
     bool is_symbol() const { return operation() == Operation::symbol; }
-    /// Returns the name of a symbol. @throws std::invalid_argument for any other expression
+    /// Returns the name of a symbol. @throws InputError for any other expression
     const std::string& name() const {
         if (!is_symbol())
             refuse_name();

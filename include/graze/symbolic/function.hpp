@@ -15,7 +15,7 @@ namespace graze {
 class Function {
 public:
     Function() = default;
-    /// @throws std::invalid_argument when an output contains a symbol that is not among the inputs, or an input is
+    /// @throws InputError when an output contains a symbol that is not among the inputs, or an input is
     ///         not a symbol, is named twice, or belongs to another graph
     Function(std::span<const Expression> inputs, std::span<const Expression> outputs);
     Function(const SymbolIndex& inputs, std::span<const Expression> outputs);
@@ -30,7 +30,7 @@ public:
     /// Compiles a function most of whose outputs are 0 or copies of inputs; time and memory are proportional to the
     /// size of the given outputs, not to the number of all outputs.
     /// @param outputs number of all outputs; @param given outputs by rising place
-    /// @throws std::invalid_argument as above, when places do not rise, or when a copied output has no input of its
+    /// @throws InputError as above, when places do not rise, or when a copied output has no input of its
     /// index
     Function(const SymbolIndex& inputs, std::size_t outputs, std::span<const Output> given, Others others);
 
@@ -80,7 +80,7 @@ private:
 };
 
 /// Returns the value of an expression without symbols; NaN outside an operation's domain.
-/// @throws std::invalid_argument when the expression contains a symbol
+/// @throws InputError when the expression contains a symbol
 double constant_value(const Expression& expression);
 
 } // namespace graze

@@ -42,7 +42,7 @@ struct Linearisation {
 /// @param states number of states among the variables. Parameters do not affect the choice of intermediates
 /// @param directions number of directions that share the coefficients; forming coefficients costs products of series,
 /// and intermediates need fewer of them
-/// @throws std::invalid_argument for functions of several graphs, a variable of another graph, more states than
+/// @throws InputError for functions of several graphs, a variable of another graph, more states than
 /// variables, or a number of directions outside 1 .. 10^6
 Linearisation linearise(std::span<const Expression> functions, const SymbolIndex& variables, std::size_t states,
                         std::size_t directions = 8);

@@ -16,7 +16,7 @@ namespace graze {
 class SymbolIndex {
 public:
     SymbolIndex() = default;
-    /// @throws std::invalid_argument when an expression is empty or not a symbol, or a symbol occurs twice
+    /// @throws InputError when an expression is empty or not a symbol, or a symbol occurs twice
     explicit SymbolIndex(std::span<const Expression> symbols);
 
     std::size_t size() const { return symbols_.size(); }

@@ -17,7 +17,7 @@ Expression differentiate(const Expression& expression, const Expression& symbol)
 std::vector<Expression> differentiate(std::span<const Expression> expressions, const Expression& symbol);
 
 /// Returns all partial derivatives with respect to several symbols, row by row: expressions x symbols.
-/// @throws std::invalid_argument when a symbol occurs twice
+/// @throws InputError when a symbol occurs twice
 std::vector<Expression> jacobian(std::span<const Expression> expressions, std::span<const Expression> symbols);
 /// A partial derivative that is not identically 0.
 struct JacobianEntry {
@@ -43,7 +43,7 @@ std::vector<Expression> symbols_of(std::span<const Expression> expressions);
 
 /// Returns infix text that parses back to the same expression, provided that the names of its symbols are valid;
 /// numbers have as many digits as they need. Time is linear in the length of the text, which repeats shared parts.
-/// @throws std::length_error when the text would have about 1e9 characters
+/// @throws InputError when the text would have about 1e9 characters
 std::string to_string(const Expression& expression);
 
 } // namespace graze

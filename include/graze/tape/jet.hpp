@@ -59,14 +59,15 @@ public:
 
     /// Computes the deferred expressions of group 0 and of the given groups (an empty group is allowed).
     /// `begin_deferred` computes only their coefficients 0 and 1.
-    /// @throws std::logic_error unless `compute` (or, for `begin_deferred`, `begin`) has been called before
+    /// @throws OrderError unless `compute` (or, for `begin_deferred`, `begin`) has been called before
     virtual void compute_deferred(std::span<const std::uint32_t> groups) = 0;
     virtual void begin_deferred(std::span<const std::uint32_t> groups) = 0;
     /// Coefficients of a deferred expression, laid out as those of an output; only coefficient 0 if it is a constant.
     virtual const double* deferred(std::size_t index) const = 0;
     virtual std::size_t deferred_count() const = 0;
 
-    /// Series of lane 0 of all states, then of all outputs; lane l of each is l numbers later.
+    /// Series of lane 0 of all states, then of all outputs; lane l of each is l numbers later. Valid until the next
+    /// `compute`.
     virtual std::span<const Series> series() const = 0;
 
     /// Finds in each lane the largest step at which the last two terms of each series are at most a tolerance relative
@@ -96,7 +97,7 @@ public:
     /// number is not finite.
     /// @param end jet of the same tape and order, after `begin` at the ends; @param lengths [lane] of the steps
     /// @param values, slopes of the states at the ends, as from `evaluate_states`; @param worst [lane] the result
-    /// @throws std::invalid_argument for a jet of another tape
+    /// @throws InputError for a jet of another tape
     virtual void find_disagreement(const Jet& end, const EndAllowance& allowance, std::span<const double> lengths,
                                    std::span<const double> values, std::span<const double> slopes,
                                    std::span<double> worst) const = 0;
@@ -118,7 +119,7 @@ int lanes_of(LaneKind kind, InstructionSet set);
 
 /// Makes a jet; the tape is not needed afterwards. Computing does not allocate. Parameters are 0 until they are set.
 /// @param order 1 .. highest_order
-/// @throws std::invalid_argument when the instruction set is not supported or the order out of range
+/// @throws InputError when the instruction set is not supported or the order out of range
 std::unique_ptr<Jet> make_jet(const Tape& tape, int order, LaneKind kind, InstructionSet set = best_instruction_set());
 
 } // namespace graze

@@ -4,7 +4,8 @@
 
 namespace graze {
 
-/// Coefficients of a power series of one lane, in the memory of a jet; `stride` is the jet's number of lanes.
+/// Coefficients of a power series of one lane, in the memory of a jet until its next `compute`; `stride` is the jet's
+/// number of lanes.
 struct Series {
     const double* first = nullptr;
     std::size_t stride = 1;

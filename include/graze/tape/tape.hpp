@@ -94,7 +94,7 @@ struct DeferredExpression {
 /// value).
 /// @param states, parameters symbols; the expressions may contain no others
 /// @param deferred do not affect the code for rates and outputs, bit for bit
-/// @throws std::invalid_argument when an expression contains another symbol
+/// @throws InputError when an expression contains another symbol
 Tape compile_tape(std::span<const Expression> states, std::span<const Expression> parameters,
                   std::span<const Expression> rates, std::span<const Expression> outputs,
                   std::span<const DeferredExpression> deferred = {});

@@ -21,7 +21,7 @@ public:
     explicit Ensemble(const Simulation& simulation, InstructionSet set = best_instruction_set());
 
     /// Runs all trajectories to their ends. Finished ones are skipped.
-    /// @throws std::invalid_argument for a trajectory of another simulation
+    /// @throws InputError for a trajectory of another simulation
     void run(std::span<Trajectory> trajectories);
 
     /// Returns the trajectory to run in a slot after its trajectory has finished: the same one started anew, another
@@ -29,7 +29,7 @@ public:
     using NextTrajectory = std::function<Trajectory*(std::size_t slot)>;
     /// Runs the trajectories in the slots, and in each slot its successors. Slots may be empty (null); for a slot that
     /// begins with a finished trajectory the successor is requested at once.
-    /// @throws std::invalid_argument for a trajectory of another simulation
+    /// @throws InputError for a trajectory of another simulation
     void run(std::span<Trajectory* const> slots, const NextTrajectory& next_of);
 
     /// Leaves trajectories unfinished as soon as this returns true; called every few hundred steps. Null: never.

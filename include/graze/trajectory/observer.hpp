@@ -1,5 +1,6 @@
 #pragma once
 
+#include "graze/base/borrowed.hpp"
 #include "graze/flow/roots.hpp"
 
 #include <cstddef>
@@ -7,7 +8,8 @@
 
 namespace graze {
 
-/// One step of an arc: Taylor polynomials in s = time - start, valid for 0 <= s <= length.
+/// One step of an arc: Taylor polynomials in s = time - start, valid for 0 <= s <= length. Its series are there during
+/// the call that tells of it; RecordedStep is a copy.
 struct Step {
     double start = 0, length = 0;
     std::size_t mode = 0;
@@ -29,7 +31,8 @@ enum class ContactKind {
     sticking, ///< accumulation of contacts, or contact at zero speed: the transition's `chatter` is made
 };
 
-/// A contact: an occurrence at the surface of an event, where its function is zero.
+/// A contact: an occurrence at the surface of an event, where its function is zero. Recorder::RecordedContact is a
+/// copy.
 struct Contact {
     ContactKind kind = ContactKind::crossing;
     double time = 0;
@@ -43,7 +46,7 @@ struct Contact {
     std::span<const double> before, after; ///< states; valid during the call
 };
 
-/// The crossing of a probe's surface, or an extremum of its expression.
+/// The crossing of a probe's surface, or an extremum of its expression. Recorder::RecordedPassage is a copy.
 struct Passage {
     std::size_t probe = 0;
     double time = 0;

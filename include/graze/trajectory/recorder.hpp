@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -14,7 +15,7 @@ namespace graze {
 class Relay : public Observer {
 public:
     /// @throws InputError for a null observer
-    explicit Relay(std::vector<Observer*> observers);
+    explicit Relay(std::vector<std::shared_ptr<Observer>> observers);
 
     void step(const Step& step) override;
     void contact(const Contact& contact) override;
@@ -23,7 +24,7 @@ public:
     bool stop() override;
 
 private:
-    std::vector<Observer*> observers_;
+    std::vector<std::shared_ptr<Observer>> observers_;
 };
 
 /// Stores all contacts and passages, with their states.
@@ -48,6 +49,28 @@ public:
 private:
     std::vector<RecordedContact> contacts_;
     std::vector<RecordedPassage> passages_;
+};
+
+/// A copy of a step with all of its series.
+struct RecordedStep {
+    double start = 0, length = 0;
+    std::size_t mode = 0, states = 0;
+    int order = 0;
+    std::vector<double> coefficients; ///< of states, watched events, observed expressions: order + 1 of each
+
+    /// Returns a state at start + s. @throws InputError for an unknown state
+    double state(std::size_t index, double s) const;
+};
+
+/// Keeps copies of all steps, and so the states at any time. A step takes 8 (order + 1) bytes per series.
+class StepRecorder : public Observer {
+public:
+    void step(const Step& step) override;
+    const std::vector<RecordedStep>& steps() const { return steps_; }
+    void clear() { steps_.clear(); }
+
+private:
+    std::vector<RecordedStep> steps_;
 };
 
 /// Samples states at given times from the Taylor polynomials of the steps: accurate to the tolerance, without influence

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -25,9 +26,9 @@ struct LegEnd {
 /// Decides when a leg of a run is over, and forwards the legs that are to be shown to recorders.
 class RunControl : public Observer {
 public:
-    /// @param period_probe index of the probe whose passages are periods
+    /// @param recorders are shared; null: none. @param period_probe index of the probe whose passages are periods
     /// @param counted for each event, whether its contacts are counted
-    RunControl(Observer& recorders, std::optional<std::size_t> period_probe, std::vector<bool> counted);
+    RunControl(std::shared_ptr<Observer> recorders, std::optional<std::size_t> period_probe, std::vector<bool> counted);
 
     void begin(const LegEnd& end, double time, bool shown);
     /// Sets a condition that ends the run in any case; called after each step.
@@ -46,7 +47,7 @@ public:
 private:
     bool is_reached() const;
 
-    Observer* recorders_;
+    std::shared_ptr<Observer> recorders_;
     std::optional<std::size_t> period_probe_;
     std::vector<bool> counted_;
     std::function<bool()> ends_;

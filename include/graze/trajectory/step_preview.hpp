@@ -23,7 +23,7 @@ public:
     void find_steps(const Jet& jet);
     /// Evaluates the ends of the steps. @param next jet of the same mode, lanes and parameters, which is begun there
     void evaluate_ends(Jet& jet, Jet& next, std::size_t mode);
-    /// The jets of the last `evaluate_ends`; null before.
+    /// The jets of the last `evaluate_ends`, which belong to the caller; null before.
     Jet* jet() const { return jet_; }
     Jet* next() const { return next_; }
 

@@ -31,13 +31,15 @@ class Tangents;
 /// Every event function is a polynomial over a step; its roots are isolated: see docs/method.md.
 class Trajectory {
 public:
-    /// @param parameters in the order of the compiled model; @param observer must outlive the trajectory
+    /// @param parameters in the order of the compiled model
+    /// @param observer is shared; null: none
     /// @throws InputError for a wrong number of parameters
-    Trajectory(const Simulation& simulation, std::span<const double> parameters, Observer& observer);
+    Trajectory(const Simulation& simulation, std::span<const double> parameters,
+               std::shared_ptr<Observer> observer = {});
     ~Trajectory();
     Trajectory(Trajectory&&) noexcept;
 
-    /// Starts at a state; may be called again to start anew. All other functions throw std::logic_error before the
+    /// Starts at a state; may be called again to start anew. All other functions throw OrderError before the
     /// first call.
     /// @param end_time may be infinite, if the observer stops
     /// @throws InputError for a wrong number of states, for states or a time that are not finite, for an unknown mode,
@@ -64,6 +66,7 @@ public:
     bool finished() const { return outcome_.ending != Ending::running; }
     const Outcome& outcome() const { return outcome_; }
     double time() const { return time_; }
+    /// At the present time, as `tangents`: valid until the next step.
     std::span<const double> state() const { return state_; }
     std::size_t mode() const { return mode_; }
     std::span<const double> parameters() const { return parameters_; }
@@ -205,7 +208,7 @@ private:
 
     Simulation simulation_;
     const System::CompiledMode* compiled_mode_ = nullptr; ///< compiled mode_; null before the start
-    Observer* observer_;
+    std::shared_ptr<Observer> observer_;                  ///< never null
     std::vector<double> parameters_;
     StepSize step_size_;
     StepCheck step_check_;
@@ -254,7 +257,7 @@ private:
 };
 
 /// Runs one trajectory to its end.
-/// @throws std::invalid_argument for jets of another simulation, or of several lanes
+/// @throws InputError for jets of another simulation, or of several lanes
 void run(Trajectory& trajectory, JetSet& jets);
 
 } // namespace graze

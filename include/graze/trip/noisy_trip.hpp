@@ -22,8 +22,8 @@ struct NoiseSettings {
     double confidence = 0.95;          ///< confidence level of the probability's interval
     int jobs = 1;                      ///< number of threads; results do not depend on it
     double tolerance = 1e-12;          ///< relative tolerance of the integration
-    std::function<bool()> interrupted; ///< called from any thread; returns true to stop
-    /// Called with the number of finished motions, from the calling thread.
+    std::function<bool()> interrupted; ///< returns true to stop
+    /// Called with the number of finished motions.
     std::function<void(std::size_t motions)> progress;
     /// @throws InputError naming the setting that is out of range
     void validate() const;

@@ -18,7 +18,7 @@ struct OvershootTrip {
     std::optional<TripTime> continued; ///< by the map, then by simulation until the requested end
     std::optional<TripTime> simulated; ///< by simulation alone, where double precision resolves the overshoot
 
-    /// Returns the most accurate trip that reached the requested end; null if none did.
+    /// Returns the most accurate of these trips that reached the requested end; null if none did.
     const TripTime* best() const;
 };
 

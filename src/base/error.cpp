@@ -1,6 +1,8 @@
-#include "graze/base/input_error.hpp"
+#include "graze/base/error.hpp"
 
 #include "graze/base/printable.hpp"
+
+#include <utility>
 
 namespace graze {
 
@@ -34,10 +36,24 @@ std::string Place::text() const {
     return text;
 }
 
-InputError::InputError(Place place, const std::string& problem, const std::string& remedy)
-    : std::runtime_error(message(place, problem, remedy)), place_(std::move(place)), problem_(problem),
-      remedy_(remedy) {}
+std::string_view name_of(ErrorKind kind) {
+    switch (kind) {
+    case ErrorKind::input:
+        return "input";
+    case ErrorKind::file:
+        return "file";
+    case ErrorKind::instrument:
+        return "instrument";
+    case ErrorKind::order:
+        return "order";
+    case ErrorKind::internal:
+        break;
+    }
+    return "internal";
+}
 
-InputError::InputError(const std::string& problem, const std::string& remedy) : InputError(Place{}, problem, remedy) {}
+Error::Error(ErrorKind kind, Place place, const std::string& problem, const std::string& remedy)
+    : std::runtime_error(message(place, problem, remedy)), kind_(kind), place_(std::move(place)), problem_(problem),
+      remedy_(remedy) {}
 
 } // namespace graze

@@ -1,0 +1,96 @@
+#include "program/option_words.hpp"
+
+#include <algorithm>
+#include <regex>
+#include <string_view>
+#include <utility>
+
+namespace graze {
+
+namespace {
+
+/// What the library says, and what a user of the command line is told. Of several the first that is there.
+struct Words {
+    std::string_view said, told;
+};
+
+/// At the beginning: places.
+constexpr Words places[] = {
+    {"given ", "--set "},
+    {"port: ", "--port: "},
+    {"tcp: ", "--tcp: "},
+    {"the devices do not differ", "--plot: the devices do not differ"},
+};
+
+constexpr Words remedies[] = {
+    {"give a part without gaps", "give a part without gaps (graze identify ... --from T --to T)"},
+    {"from its release on", "from its release on (graze identify ... --from T --to T)"},
+    {"give a part of it that is free of that",
+     "give a part of it that is free of that (graze identify ... --from T --to T)"},
+    {"filter out higher frequencies", "filter out higher frequencies by graze record FILE --pass F --write FILE"},
+    {"(scale in the run that has the record)", "(--scale NAME=FACTOR, or scale in the run that has the record)"},
+    {"use another unit (scale ", "use another unit (graze identify ... --scale "},
+    {"and take three peaks or more", "and let --peaks be three or more"},
+    {"give velocities relative to the stop",
+     "give velocities relative to the stop (graze record FILE --what impacts shows them)"},
+    {"look at the sign of the current or the voltage",
+     "look at the sign of the current or the voltage (--scale NAME=-1)"},
+    {"look at the transitions of the model", "graze check MODEL lists the transitions; --graph FILE draws them"},
+    {"name a parameter that does", "name a parameter that does by --parameter NAME"},
+    {"or draw it all the same", "or draw it all the same by --despite-rules"},
+    {"let the times leave some", "let --from and --to leave some"},
+    {"give a part of the record whose clock is even", "give a part of the record whose clock is even (--from, --to)"},
+    {"name the group whose datasets are the channels", "name the group whose datasets are the channels by --group"},
+    {"lines before the names of columns can be passed over",
+     "lines before the names of columns are passed over by --skip N"},
+    {"say which line has the names, or pass over lines and say what the columns are",
+     "say which line has the names (--names-line N), or pass over lines (--skip N) and say what the columns are "
+     "(--columns)"},
+    {"or pass over lines and say what the columns are",
+     "or pass over lines (--skip N) and say what the columns are (--columns)"},
+    {"q [mm]', or name them", "q [mm]', or name them by --columns"},
+    {"permissions of the folder, or choose another one",
+     "permissions of the folder, or choose another one by --output"},
+    {"wait until it has ended, or choose another folder",
+     "wait until it has ended, or choose another folder by --output"},
+    {"run a study, which makes one", "graze run STUDY makes one, in the folder that --output names"},
+    {"or choose the folder that it leads to", "or choose the folder that it leads to by --output"},
+    {"export one of them at a time, or list their points",
+     "export one of them at a time, by --run NAME, or all into a folder, by --output FOLDER/, or see graze points FILE "
+     "--all"},
+    {"export one of them at a time",
+     "export one of them at a time, by --run NAME, or all into a folder, by --output FOLDER/"},
+    {"; name states or expressions", "; name states or expressions by --y"},
+};
+
+/// Regular expressions, where the option takes a name of the message.
+constexpr std::pair<const char*, const char*> patterns[] = {
+    {R"(make it by designing (\S+) into (\S+)$)", "make it by: graze design $1 --output $2"},
+    {R"(run '(\S+)' has no orbit number (\S+); give one of its (\d+) orbits$)",
+     "run '$1' has no orbit number $2; graze points --run $1 --all lists its $3 orbits"},
+    {R"(run '(\S+)' is of kind (.*); see its points$)",
+     "run '$1' is of kind $2; see its results by graze export --run $1"},
+    {R"(if the comment in line (\d+) does, name that line$)", "if the comment in line $1 does, by --names-line $1"},
+};
+
+} // namespace
+
+std::string in_options(const std::string& message) {
+    std::string text = message;
+    for (const Words& place : places)
+        if (text.starts_with(place.said)) {
+            text.replace(0, place.said.size(), place.told);
+            break;
+        }
+    const std::size_t behind = std::min(text.find("; "), text.size()); // what the problem quotes is not the library's
+    for (const Words& remedy : remedies)
+        if (const std::size_t at = text.find(remedy.said, behind); at != std::string::npos) {
+            text.replace(at, remedy.said.size(), remedy.told);
+            break;
+        }
+    for (const auto& [said, told] : patterns)
+        text = std::regex_replace(text, std::regex(said), told);
+    return text;
+}
+
+} // namespace graze
