@@ -2,6 +2,8 @@
 
 #include "graze/base/input_error.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace graze {
@@ -26,12 +28,13 @@ std::vector<MotionBeyond> motions_beyond(const CycleMap& map, const Verdict& ver
 
 } // namespace
 
-TouchReport touch_report(const System& system, const CycleMap& map, std::optional<ParameterId> parameter, bool verify) {
+TouchReport touch_report(const System& system, const CycleMap& map, std::optional<ParameterId> parameter, bool verify,
+                         const std::string& asked_as) {
     TouchReport report;
     report.verdict = verdict_of(map);
     if (verify && !parameter)
         throw InputError("no parameter is given that moves the orbit from its touch",
-                         "name a parameter by --parameter NAME");
+                         fmt::format("name a parameter by {}parameter NAME", asked_as));
     if (verify)
         report.trial = try_verdict(system, map, report.verdict, *parameter);
     if (parameter)
