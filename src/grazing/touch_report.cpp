@@ -2,8 +2,6 @@
 
 #include "graze/base/input_error.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
 namespace graze {
@@ -28,13 +26,11 @@ std::vector<MotionBeyond> motions_beyond(const CycleMap& map, const Verdict& ver
 
 } // namespace
 
-TouchReport touch_report(const System& system, const CycleMap& map, std::optional<ParameterId> parameter, bool verify,
-                         const std::string& asked_as) {
+TouchReport touch_report(const System& system, const CycleMap& map, std::optional<ParameterId> parameter, bool verify) {
     TouchReport report;
     report.verdict = verdict_of(map);
     if (verify && !parameter)
-        throw InputError("no parameter is given that moves the orbit from its touch",
-                         fmt::format("name a parameter by {}parameter NAME", asked_as));
+        throw InputError("no parameter is given that moves the orbit from its touch", "name a parameter that does");
     if (verify)
         report.trial = try_verdict(system, map, report.verdict, *parameter);
     if (parameter)

@@ -96,7 +96,7 @@ TEST(BranchPointCurve, DoesNotBeginWhereThePerturbationSeparatesTheBranches) {
     EXPECT_NE(found.curve.outcome, BranchOutcome::bound);
     for (const BranchPoint& point : found.curve.points) // the first point, and points that differ by round-off
         EXPECT_NEAR(point.solution.orbit.parameters[1], 0.8, 1e-5);
-    EXPECT_NE(found.curve.detail.find("part there"), std::string::npos) << found.curve.detail;
+    EXPECT_NE(found.curve.detail.find("separate there"), std::string::npos) << found.curve.detail;
 }
 
 /// Symmetry breaking of orbits with impacts, with the symmetry declared (half orbits) and undeclared (whole orbits).

@@ -1,7 +1,7 @@
 // What every computation promises of the callbacks that it is given: one is called at a time, and what one throws comes
 // out of the call, after which all is as if nothing had been begun.
 
-#include "misuse/right_things.hpp"
+#include "misuse/valid_objects.hpp"
 
 #include "acquire/bench_experiment.hpp"
 #include "base/temporary_folder.hpp"

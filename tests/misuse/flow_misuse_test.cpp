@@ -204,7 +204,7 @@ void jets(WrongUses& wrong) {
 /// Derivatives in two directions along a step of an oscillator with two states.
 void tangents(WrongUses& wrong) {
     struct Step {
-        System system(oscillator());
+        System system{oscillator()};
         ModeJets jets = ModeJets(system, 8, LaneKind::single);
         TangentSteps steps = TangentSteps(system, 1e-6, 2);
         std::vector<double> state = std::vector<double>(system.states(), 0.1),

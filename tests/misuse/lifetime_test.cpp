@@ -308,9 +308,9 @@ void searches(WrongUses& right) {
         std::optional<StudyRun> run(std::in_place);
         run->kind = RunKind::sweep;
         run->model = oscillator();
-        run->axes.emplace_back();
-        run->axes[0].values = {1, 2};
-        run->axes[0].parameter = run->model.independent_parameter("amplitude");
+        run->motion().axes.emplace_back();
+        run->motion().axes[0].values = {1, 2};
+        run->motion().axes[0].parameter = run->model.independent_parameter("amplitude");
         const Plan plan = plan_of(*run, System(run->model), nullptr);
         run.reset();
         keep(plan.start(plan.points() - 1));

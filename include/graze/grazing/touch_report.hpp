@@ -5,7 +5,6 @@
 #include "graze/grazing/verdict.hpp"
 
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace graze {
@@ -27,9 +26,7 @@ struct TouchReport {
 /// @param map of the touch, with respect to the parameter; @param parameter that moves the orbit from the touch; none:
 ///        nothing is told of the motion beyond it
 /// @param verify whether the verdict is checked by simulation
-/// @param asked_as what stands before names of settings in messages, such as "--"
 /// @throws InputError where it is to be checked and no parameter is given
-TouchReport touch_report(const System& system, const CycleMap& map, std::optional<ParameterId> parameter, bool verify,
-                         const std::string& asked_as = "");
+TouchReport touch_report(const System& system, const CycleMap& map, std::optional<ParameterId> parameter, bool verify);
 
 } // namespace graze
