@@ -1,5 +1,6 @@
 #include "graze/trip/overshoot_trip.hpp"
 
+#include "base/special_numbers.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace graze {
 
@@ -60,8 +60,7 @@ FoldTrip trip_of_fold(const System& system, const FoldPassage& fold, double over
 }
 
 std::vector<TripSummary> OvershootTrips::summaries() const {
-    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    const auto if_ended = [](const TripTime& trip, double value) { return trip.ended ? value : unknown; };
+    const auto if_ended = [](const TripTime& trip, double value) { return trip.ended ? value : not_a_number; };
     std::vector<TripSummary> result;
     for (const OvershootTrip& trip : of_touch)
         result.push_back({trip.overshoot, if_ended(*trip.predicted, trip.predicted->cycles),
@@ -69,7 +68,7 @@ std::vector<TripSummary> OvershootTrips::summaries() const {
                           if_ended(*trip.continued, trip.continued->time)});
     for (const FoldTrip& trip : of_fold) {
         TripSummary& one =
-            result.emplace_back(TripSummary{trip.overshoot, trip.cycles, trip.cycles * point.cycle, unknown});
+            result.emplace_back(TripSummary{trip.overshoot, trip.cycles, trip.cycles * point.cycle, not_a_number});
         if (trip.passage && end.given)
             one.end_time = if_ended(trip.passage->trip, trip.passage->trip.time);
         else if (trip.passage && trip.passage->passed)
