@@ -31,7 +31,7 @@ std::vector<Difference> differences(const Values& values, std::vector<double> in
     constexpr std::size_t rows = 8;
     constexpr double first = 0.01, smaller = 1.8;
     const double at = inputs[input];
-    double step = first * std::max(1.0, std::abs(at));
+    double step = first * (at == 0 ? 1 : std::abs(at));
     std::vector<Difference> best;
     std::array<std::array<std::vector<double>, rows>, rows> table;
     for (std::size_t i = 0; i < rows; ++i, step /= smaller) {

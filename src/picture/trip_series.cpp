@@ -1,7 +1,8 @@
 #include "graze/picture/trip_series.hpp"
 
-#include "base/special_numbers.hpp"
 #include "graze/base/require.hpp"
+
+#include "base/special_numbers.hpp"
 
 #include <fmt/format.h>
 

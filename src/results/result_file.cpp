@@ -51,7 +51,7 @@ void require_names(const RunRecord& run, const std::string& path) {
 std::int64_t needed_reader(const Database& database) {
     Statement row = database.prepare("SELECT CAST(value AS INTEGER) FROM meta WHERE key = ?");
     row.bind(1, std::string_view(oldest_reader_key));
-    return row.step() && !row.is_null(0) ? row.integer(0) : std::numeric_limits<std::int64_t>::max();
+    return row.step() && row.integer(0) > 0 ? row.integer(0) : std::numeric_limits<std::int64_t>::max();
 }
 
 } // namespace

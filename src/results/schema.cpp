@@ -41,6 +41,14 @@ std::string declared(const std::vector<RunColumn>& columns) {
     return text;
 }
 
+/// With the names of their table: SQLite takes a quoted name that is no column for a text.
+std::string select(const std::vector<RunColumn>& columns, const std::string& table) {
+    std::string text;
+    for (const RunColumn& column : columns)
+        text += (text.empty() ? "t." : ", t.") + quoted_name(column.column);
+    return fmt::format("SELECT {} FROM {} AS t", text, table);
+}
+
 std::string names_in(const std::vector<RunColumn>& columns) {
     std::string text;
     for (const RunColumn& column : columns)
@@ -210,11 +218,11 @@ std::string RunTables::insert_sample() const {
 }
 
 std::string RunTables::select_point() const {
-    return fmt::format("SELECT {} FROM {}", names_in(point_columns), points);
+    return select(point_columns, points);
 }
 
 std::string RunTables::select_sample() const {
-    return fmt::format("SELECT {} FROM {}", names_in(sample_columns), samples);
+    return select(sample_columns, samples);
 }
 
 } // namespace graze

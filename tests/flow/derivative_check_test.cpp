@@ -35,22 +35,21 @@ name = "corner"
 [parameters]
 p = 1
 [states]
-x = 0
+x = 1
 y = 1
 [modes.only]
-rates = { x = "p*y", y = "sqrt(x^2 + 1e-30)" }
+rates = { x = "p*y", y = "sqrt((x - 1)^2 + 1e-30)" }
 watch = ["root"]
-[events.root]
-function = "log(y - 1) + x"
-barrier = true
+[events]
+root = "log(y - 1) + x"
 )toml",
                                     "corner.toml"));
-    const auto findings = check_derivatives(system, std::vector{1e-9, 1.0}, std::vector{1.0});
+    const auto findings = check_derivatives(system, std::vector{1 + 1e-9, 1.0}, std::vector{1.0});
     ASSERT_THAT(findings, Contains(Field(&DerivativeFinding::what, "the rate of y by x")));
     for (const DerivativeFinding& finding : findings)
         if (finding.what == "the rate of y by x") {
             EXPECT_EQ(finding.part, "modes.only");
-            EXPECT_NEAR(finding.exact, 1, 1e-9);
+            EXPECT_NEAR(finding.exact, 1, 1e-6);
             EXPECT_NEAR(finding.difference, 0, 1e-3);
             EXPECT_THAT(finding.text(), HasSubstr("the derivative of the rate of y by x is 1, where differences give"));
         }

@@ -158,7 +158,7 @@ void stages(WrongUses& wrong) {
     wrong("derivative_without_source", [] { WithDerivative({}, {}); });
     wrong("splitter_without_source", [] { PeriodSplitter({}, {}); });
     wrong("impacts_without_source", [] { ImpactFinder({}, {}); });
-    wrong("processed_without_source", [] { ProcessedRecord({}, {}); });
+    wrong("processed_without_source", [] { ProcessedRecord(Source{}, {}); });
     for (const auto& [name, index] : wrong_indices(2)) {
         on_record("calibrated_channel_" + name,
                   [index = index](const Source& s) { Calibrated(s, {.calibrations = {{index}}}); });

@@ -269,7 +269,7 @@ TEST_F(ResultFileTest, RefusesUnreadableFiles) {
     { ResultFile file(path(), ResultFile::Access::write); }
     sqlite3* database = nullptr;
     ASSERT_EQ(sqlite3_open(path().c_str(), &database), SQLITE_OK);
-    sqlite3_exec(database, "PRAGMA user_version = 99", nullptr, nullptr, nullptr);
+    sqlite3_exec(database, "PRAGMA user_version = 99; DELETE FROM meta", nullptr, nullptr, nullptr);
     sqlite3_close(database);
     for (const auto access : {ResultFile::Access::read, ResultFile::Access::write})
         EXPECT_THAT(refusal(path(), access),

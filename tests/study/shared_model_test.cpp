@@ -101,18 +101,18 @@ constexpr int threads = 4;
 
 TEST(SharedModel, ThreadsThatCompileItGetTheBitsOfOneThread) {
     const Model model = load_model(model_name);
-    const Bits alone = all_of(load_model(model_name));
+    const Bits alone = all_of(System(load_model(model_name)));
     ASSERT_GT(alone.size(), 20u);
     std::vector<std::future<Bits>> results;
     for (int i = 0; i < threads; ++i)
-        results.push_back(std::async(std::launch::async, [&] { return all_of(model); }));
+        results.push_back(std::async(std::launch::async, [&] { return all_of(System(model)); }));
     for (auto& result : results)
         EXPECT_EQ(result.get(), alone);
 }
 
 TEST(SharedModel, ThreadsShareTapesWhichLiveUntilTheLastOneEnds) {
     std::vector<std::future<Bits>> results;
-    const Bits alone = all_of(load_model(model_name));
+    const Bits alone = all_of(System(load_model(model_name)));
     std::promise<void> others_are_done;
     {
         auto model = std::make_unique<Model>(load_model(model_name));
@@ -135,13 +135,13 @@ TEST(SharedModel, ThreadsShareTapesWhichLiveUntilTheLastOneEnds) {
 
 TEST(SharedModel, CopiesMayGrowWhileOthersCompile) {
     const Model model = load_model(model_name);
-    const Bits alone = all_of(model);
+    const Bits alone = all_of(System(model));
     std::vector<std::future<Bits>> results;
     for (int i = 0; i < threads; ++i)
         results.push_back(std::async(std::launch::async, [copy = model, i]() mutable {
             for (int k = 0; k < 200; ++k)
                 copy.symbol(copy.states[0].name) * static_cast<double>(1000 * i + k);
-            return all_of(copy);
+            return all_of(System(copy));
         }));
     for (auto& result : results)
         EXPECT_EQ(result.get(), alone);

@@ -5,6 +5,7 @@
 #include "graze/study/stored_study.hpp"
 #include "graze/study/study_catalogue.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

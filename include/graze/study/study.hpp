@@ -157,7 +157,7 @@ struct Study {
     std::vector<StudyPicture> pictures;
     std::vector<StudyTable> tables;
 
-    /// The run of this name, valid until runs are added or removed; null when there is none.
+    /// The run of this name; null when there is none. Valid until runs are added or removed.
     const StudyRun* find_run(const std::string& run) const;
 };
 
