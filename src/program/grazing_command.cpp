@@ -215,7 +215,7 @@ int grazing_command(const GrazingArguments& arguments, const Console& console) {
     TouchingOrbit orbit =
         find_touching_orbit(file, arguments.point, arguments.parameter, {"POINT", 0, 0}, {"--parameter", 0, 0});
     TouchReport report =
-        touch_report(System(orbit.stored.run.model), orbit.map, orbit.parameter, arguments.verify, "--");
+        touch_report(System(orbit.stored.run.model), orbit.map, orbit.parameter, arguments.verify);
     const Findings found{std::move(orbit), std::move(report)};
     GrazingFacts facts;
     add_contact(facts, found.stored.run.model, found.map);
