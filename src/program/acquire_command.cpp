@@ -154,8 +154,8 @@ AcquisitionReport run_experiment(const Experiment& experiment, RecordFolder& fol
     return report;
 }
 
-int tell(const AcquisitionReport& report, const Experiment& experiment, const std::string& folder,
-         const Console& console) {
+int tell_acquire(const AcquisitionReport& report, const Experiment& experiment, const std::string& folder,
+                 const Console& console) {
     console.out << fmt::format("{}: {} of {} records\n", folder, report.before + report.recorded,
                                experiment.levels.size());
     if (report.unsettled > 0)
@@ -197,7 +197,7 @@ int acquire_command(const AcquireArguments& arguments, const Console& console) {
         report = run_experiment(experiment, records, display);
         display.draw(true);
     }
-    return tell(report, experiment, folder, console);
+    return tell_acquire(report, experiment, folder, console);
 }
 
 } // namespace graze

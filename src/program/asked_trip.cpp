@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::size_t most_numbers = 1000;
 
-[[noreturn]] void refuse(const std::string& option, const std::string& text, const std::string& what,
-                         const char* example) {
+[[noreturn]] void refuse_trip(const std::string& option, const std::string& text, const std::string& what,
+                              const char* example) {
     throw InputError(Place{option + " " + text, 0, 0}, what, example);
 }
 
@@ -26,10 +26,10 @@ constexpr std::size_t most_numbers = 1000;
 void add_decades(std::vector<double>& values, double first, double last, const std::string& option,
                  const std::string& text) {
     if (!(first * last > 0))
-        refuse(option, text, "the ends of the range are not of one sign", "write 1e-3,1e-6 or 1e-2:1e-20");
+        refuse_trip(option, text, "the ends of the range are not of one sign", "write 1e-3,1e-6 or 1e-2:1e-20");
     const double decades = std::abs(std::log10(first / last));
     if (!(decades < most_numbers))
-        refuse(option, text, "the range is too long", "write 1e-3,1e-6 or 1e-2:1e-20");
+        refuse_trip(option, text, "the range is too long", "write 1e-3,1e-6 or 1e-2:1e-20");
     const auto count = static_cast<int>(std::floor(decades + 1e-9));
     constexpr int decimals = 15; // so that powers of ten are what people write
     for (int i = 0; i <= count; ++i) {
@@ -78,7 +78,7 @@ std::vector<double> numbers_by_decades(const Model& model, const std::vector<std
             add_decades(values, number(text.substr(0, colon)), number(text.substr(colon + 1)), option, text);
     }
     if (values.size() > most_numbers)
-        refuse(option, "", fmt::format("{} numbers are too many", values.size()), "write 1e-3,1e-6 or 1e-2:1e-20");
+        refuse_trip(option, "", fmt::format("{} numbers are too many", values.size()), "write 1e-3,1e-6 or 1e-2:1e-20");
     return values;
 }
 

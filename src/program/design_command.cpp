@@ -156,7 +156,7 @@ private:
 };
 
 /// Prints the most frequent problems of devices of the yield.
-void tell(const Yield& yield, const Console& console) {
+void tell_yield_of_design(const Yield& yield, const Console& console) {
     constexpr std::size_t most = 5;
     for (std::size_t i = 0; i < std::min(most, yield.problems.size()); ++i)
         console.err << fmt::format("graze: {} of {} devices: {}\n", yield.problems[i].second, yield.made,
@@ -269,7 +269,7 @@ int design_command(const DesignArguments& arguments, const Console& console) {
                 console.out << path << '\n';
     }
     if (report.yield)
-        tell(*report.yield, console);
+        tell_yield_of_design(*report.yield, console);
     const bool untried =
         report.trial.outcome == TrialOutcome::undecided && report.found.outcome != GrazingOutcome::undecided;
     if (untried)

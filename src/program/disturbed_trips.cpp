@@ -234,7 +234,7 @@ void noise(AskedTrips& asked) {
     asked.figure.panels.push_back(std::move(panel));
 }
 
-JsonObject heading_of(const ResultFile& file, const AskedTrips& asked) {
+JsonObject disturbed_heading(const ResultFile& file, const AskedTrips& asked) {
     JsonObject heading = heading_of(file, asked.trip);
     const TripArguments& arguments = asked.arguments;
     if (!arguments.at.empty())
@@ -288,7 +288,7 @@ int disturbed_trips(const ResultFile& file, const TripArguments& arguments, cons
     else
         noise(asked);
     if (arguments.plot.empty() || asked.interrupted) {
-        deliver(asked.table, arguments.output, heading_of(file, asked), console);
+        deliver(asked.table, arguments.output, disturbed_heading(file, asked), console);
     } else {
         draw_figure(asked.figure, arguments.plot, arguments.data);
         console.out << arguments.plot << '\n';

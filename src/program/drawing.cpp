@@ -23,7 +23,7 @@ namespace graze {
 
 namespace {
 
-std::string contents_of(const std::string& path) {
+std::string contents_of_script(const std::string& path) {
     std::ifstream stream(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
 }
@@ -36,10 +36,10 @@ std::string without_ending(const std::string& path) {
 /// beside the text, and the text refers to it by that name.
 void finish_latex(const FileReplacement& file, const std::string& path, double font) {
     const std::string drawn = without_ending(file.temporary_path());
-    const std::string lines = contents_of(drawn + ".pdf");
+    const std::string lines = contents_of_script(drawn + ".pdf");
     std::error_code error;
     std::filesystem::remove(drawn + ".pdf", error);
-    std::string text = contents_of(file.temporary_path());
+    std::string text = contents_of_script(file.temporary_path());
     const std::string name = std::filesystem::path(without_ending(path)).filename().string();
     for (std::size_t found = text.find(drawn); found != std::string::npos;
          found = text.find(drawn, found + name.size()))

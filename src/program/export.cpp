@@ -109,7 +109,7 @@ void write_csv(std::ostream& out, ResultFile::Rows& rows, int digits) {
     }
 }
 
-Table table_of(ResultTable& given) {
+Table export_table(ResultTable& given) {
     ResultFile::Rows& rows = given.rows;
     std::vector<Table::Column> columns;
     for (std::size_t c = 0; c < rows.columns(); ++c)
@@ -188,7 +188,7 @@ int export_command(const ExportArguments& arguments, const Console& console) {
     output.all = output.all || !arguments.sql.empty(); // a query chooses its columns itself
     JsonObject heading;
     heading.add("file", file.path());
-    deliver(table_of(table), output, heading, console,
+    deliver(export_table(table), output, heading, console,
             arguments.what == "estimates" ? std::vector<std::string>{"name", "unit", "value", "error", "low", "high"}
                                           : std::vector<std::string>{});
     return exit_success;

@@ -17,7 +17,7 @@ namespace graze {
 namespace {
 
 /// The orbit that touches, and what becomes of it.
-struct Findings : TouchingOrbit, TouchReport {};
+struct GrazingFindings : TouchingOrbit, TouchReport {};
 
 /// A table of facts: name, value, meaning.
 class GrazingFacts {
@@ -93,7 +93,7 @@ void add_contact(GrazingFacts& facts, const Model& model, const CycleMap& map) {
             facts.add("second_" + model.states[i].name, contact.second[i], texts.next);
 }
 
-void add_cycle(GrazingFacts& facts, const Findings& found) {
+void add_cycle(GrazingFacts& facts, const GrazingFindings& found) {
     const CycleMap& map = found.map;
     if (!map.exists() && !map.contact.ends)
         return;
@@ -120,7 +120,7 @@ void add_cycle(GrazingFacts& facts, const Findings& found) {
 }
 
 /// Adds what the map settles on at some distances beyond the touch, where an attractor remains.
-void add_attractors(GrazingFacts& facts, const Findings& found) {
+void add_attractors(GrazingFacts& facts, const GrazingFindings& found) {
     for (const MotionBeyond& one : found.beyond)
         facts.add(fmt::format("beyond_1e-{}", one.digits),
                   one.motion.period > 0 ? fmt::format("{} in {}", one.motion.contacts, one.motion.period) : "aperiodic",
@@ -140,7 +140,7 @@ void add_border(GrazingFacts& facts, const Verdict& verdict) {
         facts.add("beyond", fmt::format("{} in {}", verdict.slides, verdict.in), "times it slides in cycles");
 }
 
-void add_verdict(GrazingFacts& facts, const Findings& found) {
+void add_verdict(GrazingFacts& facts, const GrazingFindings& found) {
     const Verdict& verdict = found.verdict;
     const auto logarithm = [](const std::optional<double>& value) {
         return value ? std::optional(std::log10(*value)) : std::nullopt;
@@ -182,7 +182,7 @@ void add_verdict(GrazingFacts& facts, const Findings& found) {
         facts.add("trial", name_of(found.trial->outcome), found.trial->reason);
 }
 
-JsonObject heading_of(const ResultFile& file, const Findings& found, const GrazingFacts& facts) {
+JsonObject grazing_heading(const ResultFile& file, const GrazingFindings& found, const GrazingFacts& facts) {
     const OrbitRecord& record = found.stored.record;
     JsonObject heading;
     heading.add("graze", GRAZE_VERSION);
@@ -214,14 +214,13 @@ int grazing_command(const GrazingArguments& arguments, const Console& console) {
     const ResultFile file(result_path(arguments.file), ResultFile::Access::read);
     TouchingOrbit orbit =
         find_touching_orbit(file, arguments.point, arguments.parameter, {"POINT", 0, 0}, {"--parameter", 0, 0});
-    TouchReport report =
-        touch_report(System(orbit.stored.run.model), orbit.map, orbit.parameter, arguments.verify);
-    const Findings found{std::move(orbit), std::move(report)};
+    TouchReport report = touch_report(System(orbit.stored.run.model), orbit.map, orbit.parameter, arguments.verify);
+    const GrazingFindings found{std::move(orbit), std::move(report)};
     GrazingFacts facts;
     add_contact(facts, found.stored.run.model, found.map);
     add_cycle(facts, found);
     add_verdict(facts, found);
-    deliver(facts.table(), arguments.output, heading_of(file, found, facts), console);
+    deliver(facts.table(), arguments.output, grazing_heading(file, found, facts), console);
     const bool contradicted = found.trial && found.trial->outcome == TrialOutcome::contradicted;
     return contradicted ? exit_irregular : exit_success;
 }

@@ -33,7 +33,7 @@ void read_known_value(const std::string& text, const char* option, std::string& 
     known_error = sign == std::string::npos ? 0 : std::abs(number(text.substr(sign + 2)));
 }
 
-std::string text_of(const std::optional<double>& value) {
+std::string text_of_request(const std::optional<double>& value) {
     return value ? fmt::format("{}", *value) : "";
 }
 
@@ -55,19 +55,19 @@ StudyRun identify_request(const IdentifyArguments& arguments) {
         request.current = arguments.current;
     request.peaks = arguments.peaks;
     request.impacts = arguments.impacts;
-    request.gap = text_of(arguments.gap);
+    request.gap = text_of_request(arguments.gap);
     request.gap_error = arguments.gap_error;
-    request.stiffness = text_of(arguments.stiffness);
+    request.stiffness = text_of_request(arguments.stiffness);
     request.stiffness_error = arguments.stiffness_error;
     if (!arguments.noise.empty()) {
         request.displacement_noise = arguments.noise[0];
         request.current_noise = arguments.noise[1];
     }
     request.each_row = true;
-    request.frequency = text_of(arguments.frequency);
+    request.frequency = text_of_request(arguments.frequency);
     read_known_value(arguments.beta1, "--beta1", request.beta1, request.beta1_error);
     read_known_value(arguments.beta2, "--beta2", request.beta2, request.beta2_error);
-    request.clamped = text_of(arguments.clamped);
+    request.clamped = text_of_request(arguments.clamped);
     return run;
 }
 

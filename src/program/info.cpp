@@ -96,7 +96,7 @@ std::string size_text(double bytes) {
     return fmt::format("{:.3g} {}", bytes, unit);
 }
 
-std::string heading_of(const Facts& facts) {
+std::string info_heading(const Facts& facts) {
     const std::string path = facts.text("file", "", "path");
     std::string text = facts.text("file", "", "kind");
     if (path.empty())
@@ -221,8 +221,8 @@ std::string list_of(const Facts& facts, const std::string& item, const std::stri
     return text;
 }
 
-std::string text_of(const Facts& facts, bool all, std::size_t width) {
-    std::string text = heading_of(facts);
+std::string text_of_fact(const Facts& facts, bool all, std::size_t width) {
+    std::string text = info_heading(facts);
     for (const std::string& model : facts.names("model"))
         text += words_of(facts, "model", model, width) + counts_of(facts, model, width);
     for (const std::string& study : facts.names("study"))
@@ -245,7 +245,7 @@ std::string text_of(const Facts& facts, bool all, std::size_t width) {
     return text;
 }
 
-Table table_of(const Facts& facts) {
+Table info_table(const Facts& facts) {
     Table table({{"item", ""}, {"name", ""}, {"property", ""}, {"value", ""}, {"unit", ""}});
     for (const Fact& fact : facts.all()) {
         table.add(fact.item);
@@ -268,11 +268,11 @@ int info_command(const InfoArguments& arguments, const Console& console) {
         JsonObject heading;
         heading.add("graze", GRAZE_VERSION);
         heading.add("file", arguments.file);
-        deliver(table_of(facts), arguments.output, heading, console);
+        deliver(info_table(facts), arguments.output, heading, console);
     } else if (arguments.output.file.empty()) {
-        console.out << text_of(facts, arguments.all, console.width);
+        console.out << text_of_fact(facts, arguments.all, console.width);
     } else {
-        write_file(arguments.output.file, text_of(facts, arguments.all, common_line_width));
+        write_file(arguments.output.file, text_of_fact(facts, arguments.all, common_line_width));
     }
     return exit_success;
 }

@@ -13,7 +13,7 @@ namespace graze {
 
 namespace {
 
-Table table_of(const StoredLadder& found, const std::string& parameter, const std::string& unit) {
+Table ladder_table(const StoredLadder& found, const std::string& parameter, const std::string& unit) {
     Table table({{"grazing", ""}, {parameter, unit}, {"lambda", ""}, {"flip", unit}, {"fold", unit}});
     const std::vector<SpecialPoint>& grazings = found.ladder.grazings();
     const auto& leaving = found.leaving;
@@ -30,7 +30,7 @@ Table table_of(const StoredLadder& found, const std::string& parameter, const st
     return table;
 }
 
-JsonObject heading_of(const ResultFile& file, const StoredLadder& found) {
+JsonObject ladder_heading(const ResultFile& file, const StoredLadder& found) {
     const auto& [stored, parameter, ladder, leaving, limit, interrupted] = found;
     JsonObject heading;
     heading.add("graze", GRAZE_VERSION);
@@ -55,7 +55,8 @@ JsonObject heading_of(const ResultFile& file, const StoredLadder& found) {
 }
 
 /// Prints the end of the ladder and its limit for people, beside the table.
-void tell(const Ladder& ladder, const ChatterLimit& limit, const std::string& parameter, const Console& console) {
+void tell_ladder(const Ladder& ladder, const ChatterLimit& limit, const std::string& parameter,
+                 const Console& console) {
     if (!ladder.why().empty())
         console.err << fmt::format("graze: the ladder ends at grazing {}: {}\n", ladder.grazings().size(),
                                    ladder.why());
@@ -93,14 +94,14 @@ int ladder_command(const LadderArguments& arguments, const Console& console) {
     const Model& model = found.first.run.model;
     const std::string parameter = model.independent_parameters()[found.parameter.place()];
     const std::string unit = model.parameters[*model.find_parameter(parameter)].unit;
-    deliver(table_of(found, parameter, unit), arguments.output, heading_of(file, found), console);
+    deliver(ladder_table(found, parameter, unit), arguments.output, ladder_heading(file, found), console);
     const std::size_t grazings = found.ladder.grazings().size();
     if (found.interrupted) {
         console.err << fmt::format("graze: interrupted after grazing {} of {}\n", grazings, arguments.rungs);
         return InterruptGuard::exit_code();
     }
     if (arguments.output.format == TableFormat::table)
-        tell(found.ladder, found.limit, parameter, console);
+        tell_ladder(found.ladder, found.limit, parameter, console);
     return grazings > 1 ? exit_success : exit_irregular;
 }
 

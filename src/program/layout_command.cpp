@@ -54,7 +54,7 @@ void add_measures(Table& table, const DrawnDevice& device, const DeviceFile& fil
     add_lumped_rows(table, file, device);
 }
 
-Table table_of(const Layout& layout, const DeviceFile& file) {
+Table layout_table(const Layout& layout, const DeviceFile& file) {
     Table table({{"cell", ""}, {"what", ""}, {"value", ""}, {"unit", ""}});
     for (const DrawnDevice& device : layout.devices)
         add_measures(table, device, file);
@@ -170,7 +170,7 @@ int layout_command(const LayoutArguments& arguments, const Console& console) {
     const bool all_devices = arguments.yield && !arguments.wafer; // the wafer may have devices that differ
     const bool ruled = check_rules(file, all_devices ? draw_wafer_layout(file) : layout, arguments.despite_rules,
                                    arguments.markers, console);
-    const Table table = table_of(layout, file);
+    const Table table = layout_table(layout, file);
     if (!arguments.verilog.empty()) // first, since it throws for models that Verilog-A cannot express
         write_verilog_a(file, layout.devices.front(), arguments.verilog);
     if (!arguments.parameters.empty())

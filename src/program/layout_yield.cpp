@@ -25,8 +25,8 @@ namespace graze {
 
 namespace {
 
-std::string json_of(const DeviceFile& file, const WaferYieldSettings& settings, const Table& facts,
-                    const Table& devices) {
+std::string yield_json(const DeviceFile& file, const WaferYieldSettings& settings, const Table& facts,
+                       const Table& devices) {
     JsonObject report;
     report.add("graze", GRAZE_VERSION);
     report.add("design", file.name);
@@ -104,7 +104,7 @@ int layout_yield(const LayoutArguments& arguments, const DeviceFile& file, const
     const Table devices = wafer_device_table(found, wafer, design.model, design.control);
     write_file(written[0], csv_text(facts));
     write_file(written[1], csv_text(devices));
-    write_file(written[2], json_of(file, settings, facts, devices));
+    write_file(written[2], yield_json(file, settings, facts, devices));
     draw_maps(found, file, design, folder, settings.wafers, console, written);
     deliver(facts, arguments.output, {}, console);
     if (arguments.output.format == TableFormat::table)

@@ -201,13 +201,13 @@ bool given(const CLI::App& command, const std::string& option) {
     return command.count(option) > 0;
 }
 
-std::string value_of(const CLI::App& command, const std::string& option) {
+std::string option_value(const CLI::App& command, const std::string& option) {
     const auto values = command.get_option(option)->results();
     return values.empty() ? "" : values.front();
 }
 
-[[noreturn]] void refuse(const std::string& option, const std::string& other, const std::string& why,
-                         const std::string& remedy) {
+[[noreturn]] void refuse_option(const std::string& option, const std::string& other, const std::string& why,
+                                const std::string& remedy) {
     throw InputError(Place{}, fmt::format("{} has no effect {} {}", option, why, other), remedy);
 }
 
@@ -233,26 +233,28 @@ void refuse_useless_options(const CLI::App& app) {
         refuse_dashes(*command);
         for (const Excludes& rule : exclusions()) {
             if (name != rule.command || !given(*command, rule.option) ||
-                (rule.value && value_of(*command, rule.option) != rule.value))
+                (rule.value && option_value(*command, rule.option) != rule.value))
                 continue;
             for (const std::string& other : rule.others)
                 if (given(*command, other))
-                    refuse(other,
-                           fmt::format("{}{}{}", rule.option, rule.value ? " " : "", rule.value ? rule.value : ""),
-                           "beside", rule.remedy);
+                    refuse_option(
+                        other, fmt::format("{}{}{}", rule.option, rule.value ? " " : "", rule.value ? rule.value : ""),
+                        "beside", rule.remedy);
         }
         for (const NeedsValue& rule : needs_of_values())
             if (name == rule.command && given(*command, rule.option) && given(*command, rule.other) &&
                 !(rule.unless && given(*command, rule.unless)) &&
-                std::find(rule.values.begin(), rule.values.end(), value_of(*command, rule.other)) == rule.values.end())
-                refuse(rule.option, fmt::format("{} {}", rule.other, value_of(*command, rule.other)), "beside",
-                       fmt::format("leave it out, or choose {} {}", rule.other, fmt::join(rule.values, " or ")));
+                std::find(rule.values.begin(), rule.values.end(), option_value(*command, rule.other)) ==
+                    rule.values.end())
+                refuse_option(rule.option, fmt::format("{} {}", rule.other, option_value(*command, rule.other)),
+                              "beside",
+                              fmt::format("leave it out, or choose {} {}", rule.other, fmt::join(rule.values, " or ")));
         for (const Needs& rule : needs())
             if (name == rule.command && given(*command, rule.option) &&
                 std::none_of(rule.others.begin(), rule.others.end(),
                              [&](const std::string& other) { return given(*command, other); }))
-                refuse(rule.option, fmt::format("{}", fmt::join(rule.others, " or ")), "without",
-                       fmt::format("add {} or leave it out", rule.others.back()));
+                refuse_option(rule.option, fmt::format("{}", fmt::join(rule.others, " or ")), "without",
+                              fmt::format("add {} or leave it out", rule.others.back()));
     }
 }
 

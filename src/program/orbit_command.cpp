@@ -20,8 +20,8 @@ namespace {
 
 constexpr std::size_t default_samples = 200;
 
-Table table_of(const Model& model, const std::vector<SegmentMotion>& motion,
-               const std::vector<RequestedQuantity>& quantities) {
+Table orbit_table(const Model& model, const std::vector<SegmentMotion>& motion,
+                  const std::vector<RequestedQuantity>& quantities) {
     std::vector<Table::Column> columns{{"segment", ""}, {"mode", ""}, {"end", ""}, {"t", model.time_unit}};
     StateColumns states(model, quantities);
     states.declare(columns);
@@ -88,7 +88,7 @@ std::vector<JsonObject> list_of(const std::vector<std::complex<double>>& multipl
     return list;
 }
 
-JsonObject heading_of(const ResultFile& file, const StoredOrbit& stored) {
+JsonObject orbit_heading(const ResultFile& file, const StoredOrbit& stored) {
     const OrbitRecord& record = stored.record;
     const OrbitSolution& solution = record.point.solution;
     const Model& model = stored.run.model;
@@ -122,7 +122,8 @@ JsonObject heading_of(const ResultFile& file, const StoredOrbit& stored) {
     return heading;
 }
 
-void draw(const OrbitArguments& arguments, const ResultFile& file, const StoredOrbit& stored, const Console& console) {
+void draw_orbit(const OrbitArguments& arguments, const ResultFile& file, const StoredOrbit& stored,
+                const Console& console) {
     StudyPicture picture;
     picture.kind = arguments.x == "t" ? "history" : "portrait";
     picture.name = picture.title = "";
@@ -143,7 +144,7 @@ int orbit_command(const OrbitArguments& arguments, const Console& console) {
     const ResultFile file(result_path(arguments.file), ResultFile::Access::read);
     const StoredOrbit stored = find_stored_orbit(file, arguments.point, {"POINT", 0, 0});
     if (!arguments.plot.empty()) {
-        draw(arguments, file, stored, console);
+        draw_orbit(arguments, file, stored, console);
         return exit_success;
     }
     if (!arguments.x.empty() || !arguments.y.empty())
@@ -152,7 +153,7 @@ int orbit_command(const OrbitArguments& arguments, const Console& console) {
     const Model model = model_at(stored.run.model, orbit);
     const auto quantities = requested_quantities(model, arguments.quantities, "--quantity");
     const auto motion = orbit_motion(model, orbit, arguments.samples.value_or(default_samples));
-    deliver(table_of(model, motion, quantities), arguments.output, heading_of(file, stored), console,
+    deliver(orbit_table(model, motion, quantities), arguments.output, orbit_heading(file, stored), console,
             names_of(quantities));
     bool whole = true;
     for (std::size_t s = 0; s < motion.size(); ++s)

@@ -47,7 +47,7 @@ private:
     posix_spawn_file_actions_t actions_{};
 };
 
-std::string contents_of(std::FILE* file) {
+std::string contents_of_file(std::FILE* file) {
     std::string text;
     std::rewind(file);
     char block[4096];
@@ -94,7 +94,7 @@ ProcessResult run_process(const std::vector<std::string>& arguments, std::string
             throw std::system_error(errno, std::generic_category(), "lost sight of '" + arguments.front() + "'");
     ProcessResult result;
     result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    result.output = contents_of(out.get());
+    result.output = contents_of_file(out.get());
     return result;
 }
 

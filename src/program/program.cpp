@@ -45,7 +45,7 @@ int dispatch(std::span<const std::string> words, const Console& console) {
 }
 
 /// Prints one line for each error, at most as many as fit a terminal.
-void tell(const InputErrors& errors, const Console& console) {
+void tell_mistakes(const InputErrors& errors, const Console& console) {
     constexpr std::size_t most = 20;
     const std::size_t count = errors.all().size();
     for (std::size_t i = 0; i < std::min(count, most); ++i)
@@ -60,7 +60,7 @@ int tell_internal(const std::string& problem, const Console& console) {
     return exit_internal_error;
 }
 
-int tell(const Error& error, const Console& console) {
+int tell_mistakes(const Error& error, const Console& console) {
     if (error.kind() == ErrorKind::order || error.kind() == ErrorKind::internal)
         return tell_internal(error.problem(), console);
     console.err << "graze: " << in_options(error.what()) << '\n';
@@ -78,10 +78,10 @@ int run_program(std::span<const std::string> arguments, const Console& given) {
         require_delivered(console);
         return code;
     } catch (const InputErrors& errors) {
-        tell(errors, console);
+        tell_mistakes(errors, console);
         return exit_bad_input;
     } catch (const Error& error) {
-        return tell(error, console);
+        return tell_mistakes(error, console);
     } catch (const std::filesystem::filesystem_error& error) {
         console.err << "graze: " << shortened(error.path1().string(), 200) << ": " << error.code().message()
                     << "; give another path\n";

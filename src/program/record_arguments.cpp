@@ -45,7 +45,7 @@ void declare_processing(CLI::App& command, RecordArguments& arguments) {
         ->needs("--derivative");
 }
 
-void declare_tables(CLI::App& command, RecordArguments& arguments) {
+void declare_record_tables(CLI::App& command, RecordArguments& arguments) {
     const char* group = "What to show";
     declare_option(command, group, "--what", arguments.what, "TABLE",
                    "channels (default), samples, periods, sections, extremes, spectrum or impacts")
@@ -82,7 +82,7 @@ void declare_record(CLI::App& app, RecordArguments& arguments) {
     command.add_option("FILE", arguments.files, "Records; of several each row tells which")->type_name("")->required();
     declare_reading(command, arguments);
     declare_processing(command, arguments);
-    declare_tables(command, arguments);
+    declare_record_tables(command, arguments);
     declare_table(command, arguments.output);
     declare_option(command, "Output", "--write", arguments.write, "FILE",
                    "Write the processed record there instead: HDF5 where the name ends in .h5, otherwise text");

@@ -63,7 +63,7 @@ std::string estimates_text(const std::string& run, const ResultFile& file) {
 }
 
 /// The readable table of runs: the last column has "periodic 1330, chaotic 270; up: ..." and is broken into lines.
-Table table_of(const std::vector<RunReport>& reports, const ResultFile& file) {
+Table run_table(const std::vector<RunReport>& reports, const ResultFile& file) {
     Table table({{"run", ""}, {"points", ""}, {"seconds", "s"}, {"status", ""}, {"results", ""}});
     for (const RunReport& report : reports) {
         table.add(report.name);
@@ -168,7 +168,7 @@ struct StudyRequest {
 };
 
 /// Values as "k=50,m=2"
-std::string text_of(const ParameterValues& set) {
+std::string text_of_values(const ParameterValues& set) {
     std::string text;
     for (const auto& [name, value] : set)
         text += fmt::format("{}{}={}", text.empty() ? "" : ",", name, value);
@@ -186,7 +186,7 @@ void require_same_values(const Study& study, const ResultFile& file) {
     if (*stored == asked)
         return;
     const auto words = [](const ParameterValues& set) {
-        return set.empty() ? std::string("the study's own values") : text_of(set);
+        return set.empty() ? std::string("the study's own values") : text_of_values(set);
     };
     throw InputError(
         Place{file.path(), 0, 0},
@@ -211,7 +211,7 @@ StudyRequest study_request(const RunArguments& arguments) {
             if (!run.model.name.empty() && std::find(models.begin(), models.end(), run.model.name) == models.end())
                 models.push_back(run.model.name);
         require_models_of_files(arguments.set, models);
-        const std::string own = result.study.set.empty() ? "" : "-" + text_of(result.study.set);
+        const std::string own = result.study.set.empty() ? "" : "-" + text_of_values(result.study.set);
         result.folder = arguments.folder.empty() ? result.study.name + own : arguments.folder;
     } else {
         if (!arguments.set.empty())
@@ -276,7 +276,7 @@ int run_command(const RunArguments& arguments, const Console& console) {
         OutputArguments output = arguments.output;
         const bool for_people = output.format == TableFormat::table;
         output.digits = for_people ? 6 : 17;
-        const Table table = for_people ? table_of(reports, file) : cells_of(reports, file);
+        const Table table = for_people ? run_table(reports, file) : cells_of(reports, file);
         std::vector<std::string> every;
         for (const Table::Column& column : table.columns())
             every.push_back(column.name);

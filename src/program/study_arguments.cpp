@@ -62,25 +62,30 @@ constexpr const char* plot_examples = R"(Examples:
   graze plot results --run chain --kind portrait --point GR1 --output grazing.png)";
 
 template <class Value>
-CLI::Option* add(CLI::App& command, const char* name, Value& value, const char* type, const char* text) {
+CLI::Option* add_study_option(CLI::App& command, const char* name, Value& value, const char* type, const char* text) {
     return declare_option(command, "Options", name, value, type, text);
 }
 
 void declare_run(CLI::App& app, RunArguments& arguments) {
     CLI::App& command = *app.add_subcommand("run", run_text);
     command.footer(run_examples);
-    add(command, "STUDY", arguments.study, "", "Name of a shipped study, a study file, or results to continue");
-    add(command, "--output", arguments.folder, "FOLDER", "Folder of results and pictures (the study's name)");
-    add(command, "--jobs", arguments.jobs, "N", "Number of threads (one for each core); results do not depend on it")
+    add_study_option(command, "STUDY", arguments.study, "",
+                     "Name of a shipped study, a study file, or results to continue");
+    add_study_option(command, "--output", arguments.folder, "FOLDER",
+                     "Folder of results and pictures (the study's name)");
+    add_study_option(command, "--jobs", arguments.jobs, "N",
+                     "Number of threads (one for each core); results do not depend on it")
         ->check(whole_number(1, 1024));
-    add(command, "--set", arguments.set, "NAME=VALUE", "Values of parameters instead of those in the study");
-    add(command, "--only", arguments.only, "RUN",
-        "Compute only these runs and those that they start from, with their pictures (all)");
+    add_study_option(command, "--set", arguments.set, "NAME=VALUE",
+                     "Values of parameters instead of those in the study");
+    add_study_option(command, "--only", arguments.only, "RUN",
+                     "Compute only these runs and those that they start from, with their pictures (all)");
     command.add_flag("--list", arguments.list, "List the shipped studies");
     command.add_flag("--show", arguments.show, "Print the file of a shipped study instead of running it");
     std::vector<std::string> kinds = kinds_of_runs();
     kinds.emplace_back("all");
-    add(command, "--keys", arguments.keys, "KIND_OF_RUN",
+    add_study_option(
+        command, "--keys", arguments.keys, "KIND_OF_RUN",
         "List the keys of runs of this kind, such as sweep, or of all kinds: their values, defaults and meaning")
         ->check(one_of(kinds));
     command.add_flag("--schema", arguments.schema,
@@ -95,30 +100,33 @@ void declare_run(CLI::App& app, RunArguments& arguments) {
 void declare_info(CLI::App& app, InfoArguments& arguments) {
     CLI::App& command = *app.add_subcommand("info", info_text);
     command.footer(info_examples);
-    add(command, "FILE", arguments.file, "", "Result file, folder of a study, model or study")->required();
+    add_study_option(command, "FILE", arguments.file, "", "Result file, folder of a study, model or study")->required();
     command.add_flag("--all", arguments.all, "Show parameters and settings of runs too; csv and json always have them");
     declare_format(command, arguments.output)->group("Options");
-    add(command, "--output", arguments.output.file, "FILE", "Write to FILE instead of to standard output");
+    add_study_option(command, "--output", arguments.output.file, "FILE", "Write to FILE instead of to standard output");
 }
 
 void declare_export(CLI::App& app, ExportArguments& arguments) {
     CLI::App& command = *app.add_subcommand("export", export_text);
     command.footer(export_examples);
-    add(command, "FILE", arguments.file, "", "Result file, or the folder of a study")->required();
-    add(command, "--run", arguments.runs, "RUN", "Export only these runs (all)");
-    add(command, "--what", arguments.what, "TABLE",
+    add_study_option(command, "FILE", arguments.file, "", "Result file, or the folder of a study")->required();
+    add_study_option(command, "--run", arguments.runs, "RUN", "Export only these runs (all)");
+    add_study_option(
+        command, "--what", arguments.what, "TABLE",
         "points (default), samples, segments, multipliers, half_multipliers, minima, end_values, estimates, "
         "covariances or runs");
-    add(command, "--label", arguments.label, "LABEL",
+    add_study_option(
+        command, "--label", arguments.label, "LABEL",
         "Export only points with this label, such as periodic; for branches also a type, such as GR (all)");
-    add(command, "--direction", arguments.direction, "WAY", "Export only sweeps or branches in this direction (both)");
-    add(command, "--sql", arguments.sql, "QUERY", "Export the rows of this query in SQL instead");
-    add(command, "--format", arguments.hdf5, "FORMAT", "table (default), csv, json or hdf5")
+    add_study_option(command, "--direction", arguments.direction, "WAY",
+                     "Export only sweeps or branches in this direction (both)");
+    add_study_option(command, "--sql", arguments.sql, "QUERY", "Export the rows of this query in SQL instead");
+    add_study_option(command, "--format", arguments.hdf5, "FORMAT", "table (default), csv, json or hdf5")
         ->check(one_of({"table", "csv", "json", "hdf5"}));
-    add(command, "--output", arguments.output.file, "FILE",
-        "Write to FILE instead of to standard output; if it is a folder, each run to a file in it");
-    add(command, "--digits", arguments.output.digits, "N",
-        "Significant digits of numbers (8 in tables; 17, which is exact, in csv and json)")
+    add_study_option(command, "--output", arguments.output.file, "FILE",
+                     "Write to FILE instead of to standard output; if it is a folder, each run to a file in it");
+    add_study_option(command, "--digits", arguments.output.digits, "N",
+                     "Significant digits of numbers (8 in tables; 17, which is exact, in csv and json)")
         ->check(whole_number(1, 17));
     command.add_flag("--all", arguments.output.all,
                      "Show all columns of a table, even if they do not fit the terminal");
@@ -127,41 +135,54 @@ void declare_export(CLI::App& app, ExportArguments& arguments) {
 void declare_plot_results(CLI::App& app, PlotArguments& arguments) {
     CLI::App& command = *app.add_subcommand("plot", plot_text);
     command.footer(plot_examples);
-    add(command, "FILE", arguments.file, "", "Result file, or the folder of a study")->required();
-    add(command, "--run", arguments.runs, "RUN",
-        "Runs to be drawn (all): one picture for each run, but one for all branches with --output");
-    add(command, "--kind", arguments.kind, "KIND",
+    add_study_option(command, "FILE", arguments.file, "", "Result file, or the folder of a study")->required();
+    add_study_option(command, "--run", arguments.runs, "RUN",
+                     "Runs to be drawn (all): one picture for each run, but one for all branches with --output");
+    add_study_option(
+        command, "--kind", arguments.kind, "KIND",
         "bifurcation, branch, basin, map, spectrum, history, portrait, poincare, regression, scatter or residuals "
         "(chosen by the run)")
         ->check(one_of({"bifurcation", "branch", "basin", "map", "spectrum", "history", "portrait", "poincare",
                         "regression", "scatter", "residuals"}));
-    add(command, "--x", arguments.x, "NAME", "Horizontal axis: a state or quantity (the parameter that varies)");
-    add(command, "--y", arguments.y, "NAME", "Vertical axes: states or quantities, one panel each (all values)");
-    add(command, "--sample", arguments.samples, "NAME", "Draw only these samplings, such as sections (all)");
-    add(command, "--direction", arguments.directions, "WAY", "Draw only sweeps or branches in this direction (both)");
-    add(command, "--at", arguments.at, "NAME=VALUE",
-        "Portraits, histories, Poincare sections and spectra: draw the point nearest to this value");
-    add(command, "--point", arguments.points, "POINT",
-        "Portraits and histories: draw these orbits of a branch, by label or number");
-    add(command, "--x-range", arguments.x_range, "A:B", "Limits of the horizontal axis (the range of the data)");
-    add(command, "--y-range", arguments.y_range, "A:B", "Limits of the vertical axes (the range of the data)");
-    add(command, "--fit", arguments.fit, "A:B", "Regression: range of x that is used (all)");
-    add(command, "--group", arguments.group, "NAME", "Regression: variable with one line for each of its values");
+    add_study_option(command, "--x", arguments.x, "NAME",
+                     "Horizontal axis: a state or quantity (the parameter that varies)");
+    add_study_option(command, "--y", arguments.y, "NAME",
+                     "Vertical axes: states or quantities, one panel each (all values)");
+    add_study_option(command, "--sample", arguments.samples, "NAME",
+                     "Draw only these samplings, such as sections (all)");
+    add_study_option(command, "--direction", arguments.directions, "WAY",
+                     "Draw only sweeps or branches in this direction (both)");
+    add_study_option(command, "--at", arguments.at, "NAME=VALUE",
+                     "Portraits, histories, Poincare sections and spectra: draw the point nearest to this value");
+    add_study_option(command, "--point", arguments.points, "POINT",
+                     "Portraits and histories: draw these orbits of a branch, by label or number");
+    add_study_option(command, "--x-range", arguments.x_range, "A:B",
+                     "Limits of the horizontal axis (the range of the data)");
+    add_study_option(command, "--y-range", arguments.y_range, "A:B",
+                     "Limits of the vertical axes (the range of the data)");
+    add_study_option(command, "--fit", arguments.fit, "A:B", "Regression: range of x that is used (all)");
+    add_study_option(command, "--group", arguments.group, "NAME",
+                     "Regression: variable with one line for each of its values");
     command.add_flag("--successive", arguments.successive, "Regression: draw each value over the preceding one");
-    add(command, "--log", arguments.logarithmic, "AXIS", "Logarithmic axes: x, y or both")->check(one_of({"x", "y"}));
-    add(command, "--title", arguments.title, "TEXT", "Title of the picture (chosen by its contents)");
-    add(command, "--name", arguments.names, "NAME=TEXT",
-        "Text shown instead of the name of a run, value or sampling in legends, titles and axes");
-    add(command, "--x-label", arguments.x_label, "TEXT", "Label of the horizontal axis with its unit (made by graze)");
-    add(command, "--y-label", arguments.y_labels, "TEXT",
-        "Labels of the vertical axes with their units (made by graze)");
-    add(command, "--size", arguments.style.size, "W[xH]",
+    add_study_option(command, "--log", arguments.logarithmic, "AXIS", "Logarithmic axes: x, y or both")
+        ->check(one_of({"x", "y"}));
+    add_study_option(command, "--title", arguments.title, "TEXT", "Title of the picture (chosen by its contents)");
+    add_study_option(command, "--name", arguments.names, "NAME=TEXT",
+                     "Text shown instead of the name of a run, value or sampling in legends, titles and axes");
+    add_study_option(command, "--x-label", arguments.x_label, "TEXT",
+                     "Label of the horizontal axis with its unit (made by graze)");
+    add_study_option(command, "--y-label", arguments.y_labels, "TEXT",
+                     "Labels of the vertical axes with their units (made by graze)");
+    add_study_option(
+        command, "--size", arguments.style.size, "W[xH]",
         "Width in mm, such as 85 or 170 for the columns of a journal (170), and height (chosen by the contents)");
-    add(command, "--font", arguments.style.font, "FONT", "Font size in points, font name, or NAME,SIZE (9)");
+    add_study_option(command, "--font", arguments.style.font, "FONT",
+                     "Font size in points, font name, or NAME,SIZE (9)");
     command.add_flag("--grey", arguments.style.grey, "Draw in grey, for print without colours");
-    add(command, "--output", arguments.output, "FILE", "Picture: .png (default), .svg, .pdf, .eps or, for LaTeX, .tex");
-    add(command, "--data", arguments.data, "FILE",
-        "Keep the data and commands of the picture; `gnuplot FILE` draws it again after changes");
+    add_study_option(command, "--output", arguments.output, "FILE",
+                     "Picture: .png (default), .svg, .pdf, .eps or, for LaTeX, .tex");
+    add_study_option(command, "--data", arguments.data, "FILE",
+                     "Keep the data and commands of the picture; `gnuplot FILE` draws it again after changes");
 }
 
 } // namespace

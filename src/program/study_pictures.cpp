@@ -90,7 +90,7 @@ private:
 };
 
 /// @return the files that were written
-std::vector<std::string> draw(const StudyPicture& picture, const PictureFiles& files, const ResultFile& file) {
+std::vector<std::string> draw_pictures(const StudyPicture& picture, const PictureFiles& files, const ResultFile& file) {
     std::vector<std::string> written;
     const ResultPicture made = make_picture(picture, file);
     if (made.table.rows() > 0) {
@@ -146,7 +146,7 @@ DrawnPictures draw_study_pictures(const Study& study, ResultFile& file, const st
             if (!paths.empty())
                 ++drawn.kept;
             else
-                files.remember(paths = draw(picture, files, file));
+                files.remember(paths = draw_pictures(picture, files, file));
             drawn.paths.insert(drawn.paths.end(), paths.begin(), paths.end());
         } catch (const InputError& error) {
             if ((drawn.interrupted = InterruptGuard::requested())) // Ctrl-C has also ended gnuplot

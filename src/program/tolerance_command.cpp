@@ -184,7 +184,7 @@ Statistics statistics_of(const Findings& found) {
     return result;
 }
 
-JsonObject heading_of(const ResultFile& file, const Findings& found) {
+JsonObject tolerance_heading(const ResultFile& file, const Findings& found) {
     const OrbitRecord& record = found.stored.record;
     JsonObject heading;
     heading.add("graze", GRAZE_VERSION);
@@ -222,7 +222,7 @@ void show(const ResultFile& file, const Findings& found, const OutputArguments& 
         text << fmt::format("{} = {:.{}g}{}{}\n\n", found.name, found.located.value(), output.shown_digits(),
                             found.unit.empty() ? "" : " ", found.unit);
     if (output.format != TableFormat::csv || !found.yield)
-        deliver(derivatives_of(found), here, heading_of(file, found), inner);
+        deliver(derivatives_of(found), here, tolerance_heading(file, found), inner);
     if (output.format == TableFormat::table && found.yield)
         text << '\n';
     if (output.format != TableFormat::json && found.yield)
@@ -236,7 +236,7 @@ void show(const ResultFile& file, const Findings& found, const OutputArguments& 
 }
 
 /// Prints why devices failed, beside the tables.
-void tell(const Yield& yield, const Console& console) {
+void tell_tolerance(const Yield& yield, const Console& console) {
     constexpr std::size_t most = 5;
     for (std::size_t i = 0; i < std::min(most, yield.problems.size()); ++i)
         console.err << fmt::format("graze: {} of {} devices: {}\n", yield.problems[i].second, yield.made,
@@ -267,7 +267,7 @@ int tolerance_command(const ToleranceArguments& arguments, const Console& consol
     show(file, found, arguments.output, console);
     if (!found.yield)
         return exit_success;
-    tell(*found.yield, console);
+    tell_tolerance(*found.yield, console);
     if (!arguments.plot.empty() && !found.yield->interrupted)
         draw_figure(yield_picture(*found.yield, found.name, found.unit, found.settings.least, found.settings.greatest),
                     arguments.plot, arguments.data);

@@ -31,7 +31,7 @@ std::vector<double> overshoots_of(const LossPoint& point, const std::vector<std:
     return usual_overshoots(point.value, point.side);
 }
 
-TripOptions options_of(const LossPoint& point, const TripArguments& arguments) {
+TripOptions trip_options(const LossPoint& point, const TripArguments& arguments) {
     TripOptions options;
     constexpr long usual = 2000;
     options.cycles = static_cast<double>(arguments.cycles.value_or(usual));
@@ -159,7 +159,7 @@ int trip_command(const TripArguments& arguments, const Console& console) {
             overshoot = &one == &asked.front() ? overshoot : one.point.side * std::abs(overshoot);
         if (!all.empty() && all.front().interrupted)
             own.clear();
-        all.push_back(overshoot_trips(one.point, one.end, own, options_of(one.point, arguments), "--"));
+        all.push_back(overshoot_trips(one.point, one.end, own, trip_options(one.point, arguments), "--"));
         const std::vector<std::string> here = lacks_of(all.back());
         lacks.insert(lacks.end(), here.begin(), here.end());
     }

@@ -9,7 +9,7 @@
 namespace graze {
 namespace {
 
-using Numbers = std::vector<double>;
+using Values = std::vector<double>;
 
 using namespace graze::testing;
 
@@ -95,40 +95,40 @@ void continuations(WrongUses& wrong) {
         });
     };
     for (const auto& [kind, length] : wrong_lengths(2)) {
-        of("start_u_" + kind, [n = length](Circle& c) { keep(c.continuation.start(Numbers(n, 1.0), 0, 1)); });
+        of("start_u_" + kind, [n = length](Circle& c) { keep(c.continuation.start(Values(n, 1.0), 0, 1)); });
         of("along_u_" + kind, [n = length](Circle& c) {
-            keep(c.continuation.start_along(Numbers(n, 1.0), Numbers{0, 1}, 0.1));
+            keep(c.continuation.start_along(Values(n, 1.0), Values{0, 1}, 0.1));
         });
         of("along_direction_" + kind,
-           [n = length](Circle& c) { keep(c.continuation.start_along(c.point, Numbers(n, 1.0), 0.1)); });
-        of("at_u_" + kind, [n = length](Circle& c) { keep(c.continuation.start_at(Numbers(n, 1.0), Numbers{0, 1})); });
-        of("at_row_" + kind, [n = length](Circle& c) { keep(c.continuation.start_at(c.point, Numbers(n, 1.0))); });
+           [n = length](Circle& c) { keep(c.continuation.start_along(c.point, Values(n, 1.0), 0.1)); });
+        of("at_u_" + kind, [n = length](Circle& c) { keep(c.continuation.start_at(Values(n, 1.0), Values{0, 1})); });
+        of("at_row_" + kind, [n = length](Circle& c) { keep(c.continuation.start_at(c.point, Values(n, 1.0))); });
     }
     for (const auto& [kind, index] : wrong_indices(2))
         of("start_unknown_" + kind, [i = index](Circle& c) { keep(c.continuation.start(c.point, i, 1)); });
     of("start_direction_0", [](Circle& c) { keep(c.continuation.start(c.point, 1, 0)); });
     for (const auto& [kind, value] : not_finite()) {
-        of("start_" + kind, [v = value](Circle& c) { keep(c.continuation.start(Numbers{1, v}, 1, 1)); });
+        of("start_" + kind, [v = value](Circle& c) { keep(c.continuation.start(Values{1, v}, 1, 1)); });
         of("along_" + kind, [v = value](Circle& c) {
-            keep(c.continuation.start_along(Numbers{1, v}, Numbers{0, 1}, 0.1));
+            keep(c.continuation.start_along(Values{1, v}, Values{0, 1}, 0.1));
         });
         of("along_direction_" + kind, [v = value](Circle& c) {
-            keep(c.continuation.start_along(c.point, Numbers{0, v}, 0.1));
+            keep(c.continuation.start_along(c.point, Values{0, v}, 0.1));
         });
         of("along_distance_" + kind, [v = value](Circle& c) {
-            keep(c.continuation.start_along(c.point, Numbers{0, 1}, v));
+            keep(c.continuation.start_along(c.point, Values{0, 1}, v));
         });
-        of("at_" + kind, [v = value](Circle& c) { keep(c.continuation.start_at(Numbers{1, v}, Numbers{0, 1})); });
-        of("at_row_" + kind, [v = value](Circle& c) { keep(c.continuation.start_at(c.point, Numbers{0, v})); });
+        of("at_" + kind, [v = value](Circle& c) { keep(c.continuation.start_at(Values{1, v}, Values{0, 1})); });
+        of("at_row_" + kind, [v = value](Circle& c) { keep(c.continuation.start_at(c.point, Values{0, v})); });
         of("between_" + kind, [v = value](Circle& c) {
             c.started().step();
             ContinuationPoint point;
             keep(c.continuation.between(v, point));
         });
     }
-    of("along_direction_zero", [](Circle& c) { keep(c.continuation.start_along(c.point, Numbers{0, 0}, 0.1)); });
-    of("along_distance_negative", [](Circle& c) { keep(c.continuation.start_along(c.point, Numbers{0, 1}, -1)); });
-    of("at_row_zero", [](Circle& c) { keep(c.continuation.start_at(c.point, Numbers{0, 0})); });
+    of("along_direction_zero", [](Circle& c) { keep(c.continuation.start_along(c.point, Values{0, 0}, 0.1)); });
+    of("along_distance_negative", [](Circle& c) { keep(c.continuation.start_along(c.point, Values{0, 1}, -1)); });
+    of("at_row_zero", [](Circle& c) { keep(c.continuation.start_at(c.point, Values{0, 0})); });
     of("step_before_start", [](Circle& c) { keep(c.continuation.step()); });
     for (const auto& [kind, value] : not_positive()) {
         of("next_step_" + kind, [v = value](Circle& c) { c.started().set_next_step(v); });
@@ -255,15 +255,15 @@ void branches(WrongUses& wrong) {
     for (const std::size_t length : {0, 1, 2, 4}) {
         const std::string count = std::to_string(length);
         branch("along_start_of_" + count, [length](OrbitBranch& b) {
-            keep(b.start_along({{Numbers(length, 1.0)}, {0}, {1}}, 0.01));
+            keep(b.start_along({{Values(length, 1.0)}, {0}, {1}}, 0.01));
         });
         if (length == 1)
             continue;
         branch("along_starts_of_" + count, [length](OrbitBranch& b) {
-            keep(b.start_along({std::vector(length, Numbers{0, 0, 0}), {0}, {1}}, 0.01));
+            keep(b.start_along({std::vector(length, Values{0, 0, 0}), {0}, {1}}, 0.01));
         });
         branch("along_durations_of_" + count, [length](OrbitBranch& b) {
-            keep(b.start_along({{{0, 0, 0}}, Numbers(length, 0.0), {1}}, 0.01));
+            keep(b.start_along({{{0, 0, 0}}, Values(length, 0.0), {1}}, 0.01));
         });
     }
     branch("along_no_parameter", [](OrbitBranch& b) { keep(b.start_along({{{0, 0, 0}}, {0}, {}}, 0.01)); });
@@ -331,7 +331,7 @@ void branches(WrongUses& wrong) {
     wrong("name_of_no_branch_outcome", [] { keep(std::string(name_of(static_cast<BranchOutcome>(99)))); });
 }
 
-std::vector<WrongUse> wrong_uses() {
+std::vector<WrongUse> wrong_branch_uses() {
     WrongUses wrong;
     problems(wrong);
     continuations(wrong);
@@ -341,7 +341,7 @@ std::vector<WrongUse> wrong_uses() {
 }
 
 TEST(WrongBranchUse, IsRefused) {
-    each_of(wrong_uses(), expect_refusal);
+    each_of(wrong_branch_uses(), expect_refusal);
 }
 
 } // namespace

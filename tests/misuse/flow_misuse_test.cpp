@@ -87,7 +87,7 @@ void tapes(WrongUses& wrong) {
     by_hand("literal_that_is_not_there", [](Tape& t) { t.literals.push_back({1'000'000, 1.0}); });
 }
 
-void jets(WrongUses& wrong) {
+void wrong_jets(WrongUses& wrong) {
     for (const LaneKind kind : {LaneKind::single, LaneKind::ensemble}) {
         const std::string of = "jet_" + std::to_string(static_cast<int>(kind)) + "_";
         const std::size_t width =
@@ -455,10 +455,10 @@ void second_order_flows(WrongUses& wrong) {
     });
 }
 
-std::vector<WrongUse> wrong_uses() {
+std::vector<WrongUse> wrong_flow_uses() {
     WrongUses wrong;
     tapes(wrong);
-    jets(wrong);
+    wrong_jets(wrong);
     tangents(wrong);
     steps(wrong);
     systems(wrong);
@@ -468,7 +468,7 @@ std::vector<WrongUse> wrong_uses() {
 }
 
 TEST(WrongFlowUse, IsRefused) {
-    each_of(wrong_uses(), expect_refusal);
+    each_of(wrong_flow_uses(), expect_refusal);
 }
 
 } // namespace

@@ -157,7 +157,7 @@ void tables(WrongUses& wrong) {
     wrong("table_of_no_columns", [] { keep(Table().number(0, 0)); });
 }
 
-std::vector<WrongUse> wrong_uses() {
+std::vector<WrongUse> wrong_layout_uses() {
     WrongUses wrong;
     drawings(wrong);
     parts(wrong);
@@ -167,7 +167,7 @@ std::vector<WrongUse> wrong_uses() {
 }
 
 TEST(WrongLayoutUse, IsRefused) {
-    each_of(wrong_uses(), expect_refusal);
+    each_of(wrong_layout_uses(), expect_refusal);
 }
 
 /// A copy of a table owns its texts.

@@ -32,7 +32,7 @@ void run_alone(Trajectory& trajectory) {
         throw OrderError(trajectory.outcome().detail);
 }
 
-void expressions(WrongUses& right) {
+void outlived_expressions(WrongUses& right) {
     right("expression_outlives_graph_handle", [] { keep(to_string(sin(Graph::create()->symbol("x")) + 1)); });
     right("expression_outlives_model", [] {
         const Expression force = oscillator().definitions[0].value;
@@ -79,7 +79,7 @@ void expressions(WrongUses& right) {
     });
 }
 
-void systems(WrongUses& right) {
+void outlived_systems(WrongUses& right) {
     right("system_outlives_model", [] {
         std::optional<Model> model = oscillator();
         const System system(*model);
@@ -218,7 +218,7 @@ void trajectories(WrongUses& right) {
     right("ensemble_of_nothing", [] { Ensemble(Simulation(System(oscillator()))).run(std::span<Trajectory>{}); });
 }
 
-void searches(WrongUses& right) {
+void outlived_searches(WrongUses& right) {
     right("search_outlives_factory_and_model", [] {
         std::unique_ptr<PointSearch> search;
         {
@@ -323,10 +323,10 @@ void searches(WrongUses& right) {
 
 std::vector<WrongUse> right_uses() {
     WrongUses right;
-    expressions(right);
-    systems(right);
+    outlived_expressions(right);
+    outlived_systems(right);
     trajectories(right);
-    searches(right);
+    outlived_searches(right);
     return right.list();
 }
 

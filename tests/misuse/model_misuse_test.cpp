@@ -294,7 +294,7 @@ void microbeams(WrongUses& wrong) {
             });
 }
 
-std::vector<WrongUse> wrong_uses() {
+std::vector<WrongUse> wrong_model_uses() {
     WrongUses wrong;
     defective_models(wrong);
     moved_models(wrong);
@@ -305,7 +305,7 @@ std::vector<WrongUse> wrong_uses() {
 }
 
 TEST(WrongModelUse, IsRefused) {
-    each_of(wrong_uses(), expect_refusal);
+    each_of(wrong_model_uses(), expect_refusal);
 }
 
 } // namespace

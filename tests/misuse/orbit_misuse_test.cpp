@@ -14,13 +14,13 @@ namespace {
 
 using namespace graze::testing;
 
-struct Defect {
+struct OrbitDefect {
     std::string name;
     std::function<void(Orbit&)> make;
 };
 
-std::vector<Defect> defects() {
-    std::vector<Defect> list = {
+std::vector<OrbitDefect> orbit_defects() {
+    std::vector<OrbitDefect> list = {
         {"by_default", [](Orbit& o) { o = {}; }},
         {"signature_empty", [](Orbit& o) { o.signature.clear(); }},
         {"signature_longer", [](Orbit& o) { o.signature.push_back(o.signature[0]); }},
@@ -59,7 +59,7 @@ void defective_orbits(WrongUses& wrong) {
                       .starts = {{0.1, 0.1, 0}},
                       .durations = {5.2},
                       .symmetry = std::nullopt};
-    for (const Defect& defect : defects()) {
+    for (const OrbitDefect& defect : orbit_defects()) {
         const auto with = [&](const std::string& name, const std::function<void(const Model&, const Orbit&)>& use) {
             wrong(name + "_" + defect.name, [make = defect.make, right, use] {
                 Orbit orbit = right;
@@ -121,12 +121,12 @@ void signatures(WrongUses& wrong) {
     wrong("orbit_with_signature_empty", [] { keep(orbit_with_signature(System(oscillator()), {})); });
 }
 
-void options(WrongUses& wrong) {
+void wrong_orbit_options(WrongUses& wrong) {
     const auto option = [&](const std::string& name, const std::function<void(OrbitOptions&)>& set) {
         const auto made = [set] {
-            OrbitOptions options;
-            set(options);
-            return options;
+            OrbitOptions wrong_orbit_options;
+            set(wrong_orbit_options);
+            return wrong_orbit_options;
         };
         wrong("orbit_options_" + name, [made] { made().validate(); });
         wrong("solve_orbit_with_" + name,
@@ -203,17 +203,17 @@ void motions(WrongUses& wrong) {
     wrong("name_of_no_orbit_outcome", [] { keep(std::string(name_of(static_cast<OrbitOutcome>(99)))); });
 }
 
-std::vector<WrongUse> wrong_uses() {
+std::vector<WrongUse> wrong_orbit_uses() {
     WrongUses wrong;
     defective_orbits(wrong);
     signatures(wrong);
-    options(wrong);
+    wrong_orbit_options(wrong);
     motions(wrong);
     return wrong.list();
 }
 
 TEST(WrongOrbitUse, IsRefused) {
-    each_of(wrong_uses(), expect_refusal);
+    each_of(wrong_orbit_uses(), expect_refusal);
 }
 
 } // namespace

@@ -166,10 +166,10 @@ void stages(WrongUses& wrong) {
                   [index = index](const Source& s) { WithDerivative(s, {.channel = index, .name = {}}); });
         on_record("splitter_channel_" + name,
                   [index = index](const Source& s) { PeriodSplitter(s, {.reference = index}); });
-        on_record("impacts_channel_" + name,
-                  [index = index](const Source& s) { ImpactFinder(s, {.velocity = index}); });
-        on_record("impacts_displacement_" + name,
-                  [index = index](const Source& s) { ImpactFinder(s, {.displacement = index}); });
+        on_record("impacts_channel_" + name, [index = index](const Source& s) { ImpactFinder(s, {{}, index}); });
+        on_record("impacts_displacement_" + name, [index = index](const Source& s) {
+            ImpactFinder(s, {{}, 0, index});
+        });
         on_record("spectrum_channel_" + name, [index = index](const Source& s) { averaged_spectrum(*s, index, 16); });
         wrong("extremes_channel_" + name, [index = index] { extremes(period(), index); });
         wrong("amplitude_channel_" + name, [index = index] { keep(amplitude(period(), index)); });
@@ -198,8 +198,9 @@ void stages(WrongUses& wrong) {
             on_record("low_pass_pass_" + name, [value = value](const Source& s) { LowPass(s, {.pass = value}); });
             on_record("low_pass_stop_" + name,
                       [value = value](const Source& s) { LowPass(s, {.pass = 1, .stop = value}); });
-            on_record("impacts_significance_" + name,
-                      [value = value](const Source& s) { ImpactFinder(s, {.significance = value}); });
+            on_record("impacts_significance_" + name, [value = value](const Source& s) {
+                ImpactFinder(s, {{}, 0, {}, value});
+            });
         }
     on_record("impacts_window", [](const Source& s) { ImpactFinder(s, {{.window = 4}}); });
     on_record("derivative_width", [](const Source& s) { WithDerivative(s, {.half_width = 3, .name = {}}); });
@@ -277,7 +278,7 @@ void experiments(WrongUses& wrong) {
     wrong("watch_period_huge", [] { RepeatWatch({0.1}, 1, huge); });
 }
 
-std::vector<WrongUse> wrong_uses() {
+std::vector<WrongUse> wrong_record_uses() {
     WrongUses wrong;
     samples(wrong);
     writers(wrong);
@@ -288,7 +289,7 @@ std::vector<WrongUse> wrong_uses() {
 }
 
 TEST(WrongRecordUse, IsRefused) {
-    each_of(wrong_uses(), expect_refusal);
+    each_of(wrong_record_uses(), expect_refusal);
 }
 
 /// Huge repetition counts must not overflow.

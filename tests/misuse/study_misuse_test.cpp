@@ -368,7 +368,7 @@ void studies(WrongUses& wrong) {
     }
 }
 
-std::vector<WrongUse> wrong_uses() {
+std::vector<WrongUse> wrong_study_uses() {
     WrongUses wrong;
     result_files(wrong);
     rows(wrong);
@@ -377,7 +377,7 @@ std::vector<WrongUse> wrong_uses() {
 }
 
 TEST(WrongStudyUse, IsRefused) {
-    each_of(wrong_uses(), expect_refusal);
+    each_of(wrong_study_uses(), expect_refusal);
 }
 
 } // namespace

@@ -220,7 +220,7 @@ void executions(WrongUses& wrong) {
     wrong("name_of_no_label", [] { keep(std::string(name_of(static_cast<Label>(99)))); });
 }
 
-std::vector<WrongUse> wrong_uses() {
+std::vector<WrongUse> wrong_sweep_uses() {
     WrongUses wrong;
     attractor_options(wrong);
     transient_options(wrong);
@@ -231,7 +231,7 @@ std::vector<WrongUse> wrong_uses() {
 }
 
 TEST(WrongSweepUse, IsRefused) {
-    each_of(wrong_uses(), expect_refusal);
+    each_of(wrong_sweep_uses(), expect_refusal);
 }
 
 } // namespace

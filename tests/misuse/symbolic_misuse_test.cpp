@@ -317,7 +317,7 @@ void texts(WrongUses& wrong) {
     wrong("read_too_long", [] { keep(read_text_file("/etc/passwd", "file", 1)); });
 }
 
-std::vector<WrongUse> wrong_uses() {
+std::vector<WrongUse> wrong_symbolic_uses() {
     WrongUses wrong;
     operators(wrong);
     graphs(wrong);
@@ -328,7 +328,7 @@ std::vector<WrongUse> wrong_uses() {
 }
 
 TEST(WrongSymbolicUse, IsRefused) {
-    each_of(wrong_uses(), expect_refusal);
+    each_of(wrong_symbolic_uses(), expect_refusal);
 }
 
 } // namespace

@@ -11,17 +11,17 @@ namespace {
 
 using namespace graze::testing;
 
-void options(WrongUses& wrong) {
+void wrong_trajectory_options(WrongUses& wrong) {
     const auto option = [&](const std::string& name, const std::function<void(SimulationOptions&)>& set) {
         wrong("simulation_options_" + name, [set] {
-            SimulationOptions options;
-            set(options);
-            options.validate();
+            SimulationOptions wrong_trajectory_options;
+            set(wrong_trajectory_options);
+            wrong_trajectory_options.validate();
         });
         wrong("simulation_with_" + name, [set] {
-            SimulationOptions options;
-            set(options);
-            keep(Simulation(System(oscillator()), {}, {}, options));
+            SimulationOptions wrong_trajectory_options;
+            set(wrong_trajectory_options);
+            keep(Simulation(System(oscillator()), {}, {}, wrong_trajectory_options));
         });
     };
     for (const double value : {0.0, -1.0, 1.0, 1e-17, not_a_number, infinity})
@@ -172,7 +172,7 @@ void starts(WrongUses& wrong) {
     });
 }
 
-void carried(WrongUses& wrong) {
+void wrongly_carried(WrongUses& wrong) {
     wrong("carry_unknown", [] {
         Motion motion;
         motion.begun().carry_derivatives({"unknown"});
@@ -421,12 +421,12 @@ void observers(WrongUses& wrong) {
     wrong("name_of_no_ending", [] { keep(std::string(name_of(static_cast<Ending>(99)))); });
 }
 
-std::vector<WrongUse> wrong_uses() {
+std::vector<WrongUse> wrong_trajectory_uses() {
     WrongUses wrong;
-    options(wrong);
+    wrong_trajectory_options(wrong);
     probes(wrong);
     starts(wrong);
-    carried(wrong);
+    wrongly_carried(wrong);
     order_of_calls(wrong);
     drivers(wrong);
     observers(wrong);
@@ -434,7 +434,7 @@ std::vector<WrongUse> wrong_uses() {
 }
 
 TEST(WrongTrajectoryUse, IsRefused) {
-    each_of(wrong_uses(), expect_refusal);
+    each_of(wrong_trajectory_uses(), expect_refusal);
 }
 
 } // namespace

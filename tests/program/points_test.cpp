@@ -66,7 +66,7 @@ TEST_F(Points, ShowsMonitorsAndColumnsThatFit) {
     // Tables show eight digits.
     EXPECT_THAT(people.out, HasSubstr("1.4285714 "));
     EXPECT_THAT(run_graze({"points", path, "--run", "first", "--digits", "17"}).out, HasSubstr("1.4285714285714286"));
-    EXPECT_THAT(people.out, HasSubstr("event 'floor' come ..."));
+    EXPECT_THAT(people.out, HasSubstr("event 'floor' happ ..."));
     const std::string all = run_graze({"points", path, "--run", "first", "--all"}).out;
     EXPECT_THAT(all, HasSubstr("event 'floor' happens within segment 1"));
     EXPECT_THAT(header(all), StartsWith("run "));
