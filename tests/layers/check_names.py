@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Fails when two types of the same name are defined in two places: the linker takes either one for both, silently.
+"""Fails when two types of the same name are defined in two places, since the linker silently takes either one for both;
+and when tests/sanitizers/long_tests names a suite or test that does not exist.
 
 usage: check_names.py REPOSITORY
 """
@@ -26,4 +27,14 @@ for name, where in wrong.items():
     print(f"{name} is defined at {' and at '.join(where)}: give one of them another name.", file=sys.stderr)
 if not places:
     sys.exit("there are no types")
-sys.exit(1 if wrong else 0)
+
+tests = set()
+for source in root.glob("tests/**/*.cpp"):
+    for suite, test in re.findall(r"^TEST(?:_F|_P)?\((\w+),\s*(\w+)\)", source.read_text(encoding="utf-8"), re.MULTILINE):
+        tests.add(f"{suite}.{test}")
+lines = (root / "tests/sanitizers/long_tests").read_text(encoding="utf-8").splitlines()
+# In lower case, or with ^, are tests that are not compiled.
+stale = [one for one in lines if re.match("[A-Z]", one) and not any(re.search(one, test) for test in tests)]
+for one in stale:
+    print(f"tests/sanitizers/long_tests: there is no test {one}", file=sys.stderr)
+sys.exit(1 if wrong or stale else 0)
