@@ -170,25 +170,33 @@ BranchStart with_events_reordered(const System& system, const SpecialPoint& poin
     const Simulation simulation(system, {}, {}, integration(settings.orbit.tolerance));
     const Orbit& orbit = point.solution.orbit;
     std::string why = "the branch's direction is not known";
+    const auto remember = [&why](const std::string& reason) {
+        if (!reason.empty())
+            why = reason;
+    };
     OrbitProblem problem(simulation, orbit, settings.parameter);
     const std::vector<double> u = problem.unknowns_of(orbit);
     if (!point.tangent.is_empty() && problem.evaluate(u)) {
         const std::vector<double> tangent = problem.unknowns_of(point.tangent);
+        why = "the motion there has the same events in the same order";
         for (const PeriodsTaken& periods : all_choices)
             for (const double distance : distances)
                 for (const double side : {1.0, -1.0}) {
                     const Eigen::VectorXd there =
                         OrbitProblem::vector_of(u) + side * distance * OrbitProblem::vector_of(tangent);
                     const Orbit beyond = problem.equations().orbit_of(there);
-                    const auto candidate = followed_motion(simulation, beyond, periods, why);
+                    std::string reason;
+                    const auto candidate = followed_motion(simulation, beyond, periods, reason);
+                    remember(reason);
                     if (!candidate || have_same_segments(*candidate, orbit))
                         continue;
                     if (auto start = start_from(simulation, *candidate, settings,
-                                                orbit.parameters[settings.parameter.place()], why))
+                                                orbit.parameters[settings.parameter.place()], reason))
                         return *start;
+                    remember(reason);
                 }
     }
-    throw InputError(fmt::format("no orbit was found beyond: {}", why), "the branch may end here");
+    throw InputError(fmt::format("no orbit was found beyond the point: {}", why), "the branch may end here");
 }
 
 } // namespace graze

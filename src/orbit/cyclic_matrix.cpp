@@ -52,7 +52,7 @@ struct CycleSpectrum {
 /// them.
 Eigen::MatrixXd plane_of_close(const CycleSpectrum& others, double middle) {
     constexpr double share = 0.1;   // offset of the shift, as a share of the distance to the nearest other multiplier
-    constexpr int repetitions = 20; // each reduces components outside the plane to a tenth or less
+    constexpr int repetitions = 20; // each reduces components outside the plane to about a ninth or less
     const auto& [first, last] = others.relation;
     double nearest = std::abs(middle);
     for (const Complex one : others.all)

@@ -27,11 +27,10 @@ void describe_record_sampling(Fields& fields, One& sampling) {
 
 template <class Fields, class Processing>
 void describe_processing(Fields& fields, Processing& processing) {
-    fields.line({"columns", "what the columns of a text are called, if it does not say"}, processing.layout.columns);
+    fields.line({"columns", "names of the columns of a text that does not give them"}, processing.layout.columns);
     fields.line({"group", "the group of HDF5"}, processing.layout.group);
-    fields.table({"lines",
-                  "of an instrument's text, where what is found by itself is not what is meant: how many lines to "
-                  "pass over, and the lines that have the names and the units, from 1 on"},
+    fields.table({"lines", "for an instrument's text whose layout is recognised wrongly: the number of lines to skip, "
+                           "and the numbers (from 1) of the lines with names and units"},
                  "{ skip = 3, names = 4, units = 5 }", [&layout = processing.layout](auto& one) {
                      const auto line = [&](const char* name, const char* stored, auto& number, std::size_t least) {
                          if (one.has(stored, number > 0))
@@ -49,15 +48,18 @@ void describe_processing(Fields& fields, Processing& processing) {
         one.field("offset", scale.offset);
         one.optional("unit", scale.unit);
     });
-    fields.form({"part", "of the record, from one time to another"}, "[t0, t1]", &read_part);
+    fields.form({"part", "part of the record, between two times"}, "[t0, t1]", &read_part);
     fields.field("begin", processing.begin);
     fields.field("end", processing.end);
-    fields.form({"filter", "a low-pass filter: frequencies up to which all passes, and from which nothing does"},
-                "{ pass, stop }", &read_filter);
+    fields.form(
+        {"filter",
+         "low-pass filter: the frequency up to which it passes everything, and that from which it passes nothing"},
+        "{ pass, stop }", &read_filter);
     fields.field("pass", processing.pass);
     fields.field("stop", processing.stop);
-    fields.count({"every", "keep every so many-th sample"}, processing.every, {1, RecordProcessing::most_every});
-    fields.form({"derivative", "a channel more: the rate of change of this one"}, "\"q\" or { channel, half_width }",
+    fields.count({"every", "decimation: every N-th sample is kept"}, processing.every,
+                 {1, RecordProcessing::most_every});
+    fields.form({"derivative", "adds a channel: the rate of change of this one"}, "\"q\" or { channel, half_width }",
                 &read_derivative);
     fields.field("derivative", processing.derivative);
     fields.field("half_width", processing.half_width);
@@ -110,22 +112,23 @@ void describe_bench(Fields& fields, Bench& bench) {
 template <class Fields, class Vary>
 void describe_levels(Fields& fields, Vary& vary) {
     if constexpr (!Fields::stored) {
-        fields.form({"set", "parameters of the model on a virtual bench"}, "{ V = 1 }", read_apart);
+        fields.form({"set", "values of parameters of the model on a virtual bench"}, "{ V = 1 }", read_apart);
         fields.form({"from", "its initial states"}, "{ x = 0.1 }", read_apart);
         fields.form({"mode", "its initial mode"}, "\"NAME\"", read_apart);
-        fields.form({"vary", "the parameter that a virtual bench steps, with its levels"}, "{ V = { from, to, step } }",
-                    &read_vary);
+        fields.form({"vary", "the parameter that a virtual bench varies in steps, with its levels"},
+                    "{ V = { from, to, step } }", &read_vary);
         fields.choice({"direction", "how it steps them"}, vary.direction, {"up", "down", "both"});
-        fields.truth({"carry", "the motion goes on from level to level; `false`: each begins at the initial state"},
-                     vary.carry);
-        fields.count({"seed", "of the noise of a virtual bench"}, vary.seed, any_seed);
+        fields.truth(
+            {"carry", "the motion continues from level to level; `false`: each level begins in the initial state"},
+            vary.carry);
+        fields.count({"seed", "seed of the noise of a virtual bench"}, vary.seed, any_seed);
     }
 }
 
 template <class Fields, class Request>
 void describe_record(Fields& fields, Request& request) {
-    fields.form({"files", "names relative to the study, in its folder or below it; `*` in the last part means all that "
-                          "fit, in the order of their names"},
+    fields.form({"files", "files relative to the study, in its folder or below it; `*` in the last part stands for all "
+                          "files that match, in the order of their names"},
                 "\"NAME.csv\", [...] or { up = [...], down = [...] }", read_apart);
     fields.form({"bench", "a virtual bench in place of files: what it measures, how often and how long"},
                 "{ channels, rate, time, settle, repeats, bits, anti_alias, time_unit }", read_apart);
@@ -143,8 +146,8 @@ void describe_record(Fields& fields, Request& request) {
         }
     fields.field("directions", request.directions);
     fields.object("processing", [&](auto& one) { describe_processing(one, request.processing); });
-    fields.form({"channels", "those that are there for values, as they are called or under names that expressions can "
-                             "use (all)"},
+    fields.form({"channels",
+                 "the channels that values may use, by their own names or under others that expressions accept (all)"},
                 "[\"V\"] or { v = \"dq/dt\" }", read_apart);
     fields.list("channels", request.channels, [](auto& one, auto& kept) {
         one.field("name", kept.name);
@@ -155,16 +158,17 @@ void describe_record(Fields& fields, Request& request) {
     fields.field("reference", request.reference);
     fields.field("level", request.level);
     fields.field("hysteresis", request.hysteresis);
-    fields.line({"coordinate", "what the amplitude of the reference, averaged over the record, is called (amplitude): "
-                               "what diagrams are drawn over"},
+    fields.line({"coordinate", "name of the reference's amplitude, averaged over the record, which is the horizontal "
+                               "axis of diagrams (amplitude)"},
                 request.coordinate);
-    fields.form({"sample", "named samplings (`record`: all rows; with a reference also `section`, at its crossings)"},
-                "{ NAME = { ... } }", read_apart);
+    fields.form(
+        {"sample", "named samplings (`record`: all rows; with a reference also `section`: its rising crossings)"},
+        "{ NAME = { ... } }", read_apart);
     fields.list("samplings", request.samplings,
                 [](auto& one, auto& sampling) { describe_record_sampling(one, sampling); });
-    fields.count(
-        {"keep", "rows of a record that are kept. Of a longer one there is what was taken from it, and its hash"},
-        request.keep, {0, 10'000'000});
+    fields.count({"keep", "number of rows of a record that are stored. Of a longer record only the sampled values and "
+                          "the hash of its file are stored"},
+                 request.keep, {0, 10'000'000});
 }
 
 /// Makes keys that only some estimates have: in runs of other estimates they are refused.
@@ -195,7 +199,7 @@ void describe_fit(Fields& fields, Request& request) {
         one.field("greatest", unknown.greatest);
     });
     fields.form(key("readings",
-                    "what values of the records are in the model; `true` for a gain or offset that is to be found",
+                    "meaning of the records' values in the model; `true` for a gain or offset that is to be found",
                     of_fits),
                 "[\"q\"] or { q = { value, gain, offset, noise } }", &read_readings);
     fields.list("readings", request.readings, [](auto& one, auto& reading) {
@@ -209,13 +213,14 @@ void describe_fit(Fields& fields, Request& request) {
         if (one.has("may_lack", reading.may_lack))
             one.field("may_lack", reading.may_lack);
     });
-    fields.form(key("known",
-                    "states that begin as the model (or `from`) says, or `true`: all of them. Others are found",
-                    of_fits),
-                "[\"x\"] or true", &read_known);
+    fields.form(
+        key("known",
+            "states whose initial values are those of the model (or `from`); `true`: all states. The others are found",
+            of_fits),
+        "[\"x\"] or true", &read_known);
     fields.field("known", request.known);
     fields.field("all_known", request.all_known);
-    fields.choice(key("loss", "how large residuals count", of_fits), request.loss, names_of_losses());
+    fields.choice(key("loss", "loss: the weight of large residuals", of_fits), request.loss, names_of_losses());
     fields.number(key("piece",
                       "length of the pieces that records are cut into, in the model's time: shorter ones bear worse "
                       "guesses (by itself)",
@@ -228,16 +233,15 @@ void describe_identify(Fields& fields, Request& request) {
     using What = IdentifyRequest::What;
     const KeyOfEstimate key(request);
     fields.choice({"what", "what is found"}, request.what, kinds_of_estimates());
-    fields.form({"records", "runs of kind `record`, all of whose records count"}, "\"RUN\" or [\"RUN\"]",
+    fields.form({"records", "runs of kind `record`, of which all records are used"}, "\"RUN\" or [\"RUN\"]",
                 &read_records);
     fields.field("records", request.records);
-    fields.form({"gives", "which parameters of the model are what is found"}, "{ damping_ratio = \"zeta\" }",
-                &read_gives);
+    fields.form({"gives", "the parameter that each number found becomes"}, "{ damping_ratio = \"zeta\" }", &read_gives);
     fields.list("gives", request.gives, [](auto& one, auto& gives) {
         one.field("name", gives.first);
         one.field("parameter", gives.second);
     });
-    fields.line(key("channel", "value of the records that is looked at", {What::decrement, What::restitution}),
+    fields.line(key("channel", "value of the records that is evaluated", {What::decrement, What::restitution}),
                 request.channel);
     fields.line(
         key("displacement", "value of the records that is the displacement", {What::restitution, What::coupling}),
@@ -260,20 +264,21 @@ void describe_identify(Fields& fields, Request& request) {
                         request.beta1);
     fields.later_number(key("beta2", "the second number of that coupling", {What::impedance}), request.beta2);
     fields.later_number(key("clamped", "displacement at which the mass was held", {What::impedance}), request.clamped);
-    fields.later_number(
-        key("frequency", "about that of the voltage, by unit of time (found by itself)", {What::impedance}),
-        request.frequency);
-    fields.count(key("peaks", "peaks that count at most, from the first", {What::decrement}), request.peaks,
-                 {2, 100'000});
+    fields.later_number(key("frequency",
+                            "rough frequency of the voltage, in cycles per unit of time (estimated from the record)",
+                            {What::impedance}),
+                        request.frequency);
+    fields.count(key("peaks", "largest number of peaks that are used, from the first one", {What::decrement}),
+                 request.peaks, {2, 100'000});
     fields.count(key("window",
-                     "samples that tell the velocities at an impact. Records with fewer than three impacts are passed "
-                     "over, unless all are so",
+                     "number of samples on each side of an impact from which its velocities are fitted. Records with "
+                     "fewer than three impacts are left out, unless all have fewer",
                      {What::restitution}),
                  request.impacts.window, {ImpactWindow::least_window, ImpactWindow::most_window});
-    fields.count(key("transition", "samples beside an impact that are left out", {What::restitution}),
+    fields.count(key("transition", "number of samples next to an impact that are left out", {What::restitution}),
                  request.impacts.transition, {0, ImpactWindow::most_window});
     fields.number(
-        key("least_jump", "by which the velocity changes at an impact at least (by the noise)", {What::restitution}),
+        key("least_jump", "least change of the velocity at an impact (chosen by the noise)", {What::restitution}),
         request.impacts.least_jump, positive_number);
     const auto error_of = [&](const char* name, const char* meaning, What of, auto& error) {
         if (fields.has(name, error > 0))
@@ -281,14 +286,14 @@ void describe_identify(Fields& fields, Request& request) {
     };
     error_of("gap_error", "standard error of the gap, besides that of its parameters (none)", What::coupling,
              request.gap_error);
-    error_of("stiffness_error", "that of the stiffness (none)", What::coupling, request.stiffness_error);
+    error_of("stiffness_error", "standard error of the stiffness (none)", What::coupling, request.stiffness_error);
     error_of("beta1_error", "that of beta1 (none)", What::impedance, request.beta1_error);
     error_of("beta2_error", "that of beta2 (none)", What::impedance, request.beta2_error);
     if (fields.has("each_row", request.each_row))
         fields.truth(key("each_row", "of several records, too, each row is an equilibrium, not the mean of all",
                          {What::coupling}),
                      request.each_row);
-    fields.table(key("noise", "standard deviations of the readings, where they are known", {What::coupling}),
+    fields.table(key("noise", "standard deviations of the readings, if they are known", {What::coupling}),
                  "{ displacement, current }", [&request](auto& one) {
                      one.number(key_in_table("displacement", "displacement_noise"), request.displacement_noise,
                                 positive_number);
@@ -303,18 +308,18 @@ template <class Fields, class Run>
 void describe_found_by(Fields& fields, Run& run) {
     const KeyOfEstimate key(run.identify());
     if constexpr (!Fields::stored) {
-        fields.form({"set", "more parameters, for this run"}, "{ V = 1 }", read_apart);
-        fields.form(key("from", "guesses of states at the beginning", {IdentifyRequest::What::fit}), "{ x = 0.1 }",
-                    read_apart);
+        fields.form({"set", "values of further parameters in this run"}, "{ V = 1 }", read_apart);
+        fields.form(key("from", "guesses of initial states", {IdentifyRequest::What::fit}), "{ x = 0.1 }", read_apart);
         fields.form(key("mode", "the initial mode", {IdentifyRequest::What::fit}), "\"NAME\"", read_apart);
     }
     fields.object("identify", [&](auto& one) { describe_identify(one, run.identify()); });
-    fields.form({"parameters", "other runs of this kind, whose parameters are known, with their errors"},
-                "\"RUN\" or [\"RUN\"]", &read_parameters);
+    fields.form(
+        {"parameters", "other runs of this kind, whose results are used as known parameters, with their errors"},
+        "\"RUN\" or [\"RUN\"]", &read_parameters);
     fields.field("parameters", run.parameters);
-    fields.number(
-        key("tolerance", "of the integration, for each step relative to each state", {IdentifyRequest::What::fit}),
-        run.identify().simulation.tolerance, positive_number);
+    fields.number(key("tolerance", "tolerance of the integration in each step, relative to each state",
+                      {IdentifyRequest::What::fit}),
+                  run.identify().simulation.tolerance, positive_number);
 }
 
 } // namespace graze

@@ -88,22 +88,21 @@ template <class Fields, class Run>
 void describe_path(Fields& fields, Run& run, const std::vector<std::string>& parameters) {
     auto& branch = run.branch().settings;
     const bool plane = run.kind == RunKind::curve, ladder = run.kind == RunKind::ladder;
-    fields.form(
-        {"along", plane ? "both parameters, with their bounds" : "the parameter that is followed, and its bounds"},
-        plane    ? "{ omega = [0, 3], V = [0, 1] }"
-        : ladder ? "{ V = [0, 1] }"
-                 : "{ V = [0, 1] } or \"V\"",
-        &read_along);
+    fields.form({"along", plane ? "the two parameters, with their bounds"
+                                : "the parameter along which orbits are followed, with its bounds"},
+                plane    ? "{ omega = [0, 3], V = [0, 1] }"
+                : ladder ? "{ V = [0, 1] }"
+                         : "{ V = [0, 1] } or \"V\"",
+                &read_along);
     fields.named("along", branch.parameter, parameters);
     fields.count({"steps", "steps at most, each way"}, branch.steps, {1, most_branch_steps});
     if (fields.has("work", branch.work != BranchSettings().work))
         fields.field("work", branch.work);
     fields.form({"free",
-                 plane
-                     ? "further parameters, one for each monitor that is fixed, and one for a point VS. Where monitors "
-                       "are fixed and none is freed besides, they are held instead of what the point is"
-                     : "further parameters that vary, one for each monitor that is fixed; the branch ends where one "
-                       "leaves its range. A list of names: without ranges",
+                 plane ? "further parameters that vary: one for each fixed monitor, and one for a point VS. Without "
+                         "`free`, fixed monitors are held in place of the point's own condition"
+                       : "further parameters that vary, one for each fixed monitor; the branch ends where one of them "
+                         "leaves its range. A list of names gives no ranges",
                  !ladder},
                 "{ omega = [0.1, 10] } or [\"omega\"]", &read_free);
     fields.named("free", branch.free, parameters);
@@ -121,34 +120,33 @@ template <class Fields, class Run>
 void describe_continuation(Fields& fields, Run& run) {
     auto& branch = run.branch().settings;
     describe_path(fields, run, run.model.independent_parameters());
-    fields.denied(
-        {"unphysical", "go on where the model itself would not follow (drawn faint)", run.kind != RunKind::ladder},
-        "stop_when_unphysical", branch.stop_when_unphysical);
+    fields.denied({"unphysical", "continue along orbits that the model itself would not follow; they are drawn faint",
+                   run.kind != RunKind::ladder},
+                  "stop_when_unphysical", branch.stop_when_unphysical);
     fields.field("reorder", branch.reorder);
     fields.optional("least", branch.least);
     fields.optional("greatest", branch.greatest);
-    fields.table({"step",
-                  "of the continuation: first, smallest and largest step, in units of the orbit's size (0.01, "
-                  "1e-8, 0.05), and the largest angle in radians (0.35). Where the branch is straight, steps are "
-                  "up to ten times as long as `largest`, if states are larger than what they vary by"},
-                 "{ first, smallest, largest, angle }", [&step = branch.continuation](auto& one) {
-                     one.number(key_in_table("first", "first_step"), step.first_step, positive_number);
-                     one.number(key_in_table("smallest", "smallest_step"), step.smallest_step, positive_number);
-                     one.number(key_in_table("largest", "largest_step"), step.largest_step, positive_number);
-                     one.field("step_accuracy", step.accuracy);
-                     one.number(key_in_table("angle", "largest_angle"), step.largest_angle, positive_number);
-                     one.field("step_iterations", step.iterations);
-                 });
+    fields.table(
+        {"step", "steps of the continuation: the first, smallest and largest one in units of the orbit's size (0.01, "
+                 "1e-8, 0.05), and the largest angle between two in radians (0.35). Where the branch is straight and "
+                 "states are larger than their variation along the orbit, steps are up to ten times `largest`"},
+        "{ first, smallest, largest, angle }", [&step = branch.continuation](auto& one) {
+            one.number(key_in_table("first", "first_step"), step.first_step, positive_number);
+            one.number(key_in_table("smallest", "smallest_step"), step.smallest_step, positive_number);
+            one.number(key_in_table("largest", "largest_step"), step.largest_step, positive_number);
+            one.field("step_accuracy", step.accuracy);
+            one.number(key_in_table("angle", "largest_angle"), step.largest_angle, positive_number);
+            one.field("step_iterations", step.iterations);
+        });
     if (run.kind == RunKind::ladder)
-        fields.count({"rungs", "grazings at most, the first one included"}, run.branch().rungs, {2, most_rungs});
+        fields.count({"rungs", "largest number of grazings, the first one included"}, run.branch().rungs,
+                     {2, most_rungs});
     if (fields.has("grazing", run.branch().touches))
-        fields.truth({"grazing",
-                      "tell of orbits that touch what becomes of them, as `graze grazing` does: of grazings, "
-                      "and of all points of curves of touches"},
+        fields.truth({"grazing", "store what becomes of orbits that touch, as `graze grazing` computes it: at "
+                                 "grazings, and at all points of curves of touches"},
                      run.branch().touches);
-    fields.form({"point_names",
-                 "what special points are called besides their labels, in pictures, tables and wherever a "
-                 "point is asked for. Another name is no reason to compute anything again"},
+    fields.form({"point_names", "further names of special points, for pictures, tables and wherever a point is "
+                                "requested. A changed name does not make the run be computed again"},
                 "{ GR1 = \"G-1\" }", &read_point_names);
 }
 
@@ -157,25 +155,27 @@ void describe_branch(Fields& fields, Run& run) {
     auto& branch = run.branch().settings;
     const bool begins = run.kind == RunKind::orbit || run.kind == RunKind::follow;
     fields.form({"signature",
-                 "segments of the orbit: labels of transitions or names of sections. The motion from the "
-                 "initial state is followed until a piece of it with these segments leads to an orbit",
+                 "segments of the orbit: labels of transitions or names of sections. The motion from the initial state "
+                 "is followed until a part with these segments leads to an orbit",
                  begins},
                 "\"J1 J8\"", &read_signature);
     fields.field("signature", run.branch().signature);
     fields.form({"table",
-                 "file with a motion that the orbit is like: a CSV file with columns `segment`, `t` and the "
-                 "states, of which the first and the last row of each segment count",
+                 "CSV file with a motion close to the orbit: columns `segment`, `t` and the states. The first and the "
+                 "last row of each segment are used",
                  begins},
                 "\"FILE.csv\"", &read_orbit_table);
     if constexpr (Fields::reading)
         fields.field("table", run.branch().table_text);
     else
         fields.field("table", text_of_table(run.branch()));
-    fields.form({"monitors", "numbers of each orbit, by name (the period and the maxima of the states)"},
+    fields.form({"monitors", "named numbers that are computed of each orbit (the period and the maxima of the states)"},
                 "{ NAME = { ... } }", &read_monitors);
     fields.list("monitors", branch.monitors, [](auto& one, auto& monitor) { describe_monitor(one, monitor); });
-    fields.number({"accuracy", "of Newton's last correction, of orbits and along branches, relative to each unknown"},
-                  branch.orbit.accuracy, positive_number);
+    fields.number(
+        {"accuracy",
+         "largest last correction by Newton's method, for orbits and along branches, relative to each unknown"},
+        branch.orbit.accuracy, positive_number);
     fields.field("orbit_tolerance", branch.orbit.tolerance);
     fields.field("orbit_iterations", branch.orbit.iterations);
     fields.field("error_estimate", branch.orbit.error_estimate);
@@ -183,30 +183,30 @@ void describe_branch(Fields& fields, Run& run) {
     if (run.is_followed())
         describe_continuation(fields, run);
     else
-        fields.denied({"unphysical", "take an orbit of this signature that is not admissible"}, "stop_when_unphysical",
-                      branch.stop_when_unphysical);
+        fields.denied({"unphysical", "accept an orbit of this signature that is not admissible"},
+                      "stop_when_unphysical", branch.stop_when_unphysical);
 }
 
 template <class Fields, class Transient>
 void describe_transient(Fields& fields, Transient& transient) {
-    fields.form(
-        {"section", "whose passages are returns and periods (the first section of a phase, or the first of all)"},
-        "\"NAME\"", &read_section);
+    fields.form({"section", "section whose passages are counted as returns and periods (the first section of a phase, "
+                            "or the first of all)"},
+                "\"NAME\"", &read_section);
     fields.field("section", transient.section);
-    fields.form({"skip", "let this pass first, of which nothing is sampled"}, "{ time = T } or { periods = N }",
+    fields.form({"skip", "initial part of the motion that is not sampled"}, "{ time = T } or { periods = N }",
                 &read_skip);
     fields.field("skip_time", transient.skip_time);
-    fields.number({"time", "how long, in units of the model's time: time, periods or contacts, whichever end first"},
+    fields.number({"time", "duration in units of the model's time; the motion ends by `time`, `periods` or `contacts`, "
+                           "whichever comes first"},
                   transient.time, positive_number);
     fields.field("skip_periods", transient.skip_periods);
-    fields.count({"periods", "how many passages of the section"}, transient.periods, {1});
-    fields.count({"contacts",
-                  "how many contacts. Without a time the motion is given up as `failed` after a million steps "
-                  "in which nothing happens that is counted"},
+    fields.count({"periods", "number of passages of the section after which the motion ends"}, transient.periods, {1});
+    fields.count({"contacts", "number of contacts after which the motion ends. Without `time` the motion is given up "
+                              "as `failed` after a million steps without a counted contact or passage"},
                  transient.contacts, {1});
-    fields.form({"events", "whose contacts count (all barriers)"}, "[\"NAME\"] or true", &read_counted);
+    fields.form({"events", "events whose contacts are counted (all barriers)"}, "[\"NAME\"] or true", &read_counted);
     fields.field("counted", transient.counted);
-    fields.number({"greatest_speed", "of approach at a counted contact, after which the motion is ended"},
+    fields.number({"greatest_speed", "approach speed at a counted contact beyond which the motion ends"},
                   transient.greatest_speed, positive_number);
 }
 
@@ -215,41 +215,41 @@ void describe_attractor(Fields& fields, Attractor& attractor, RunKind kind) {
     const bool labels = seeks_attractors(kind);
     const bool settles = labels || kind == RunKind::orbit || kind == RunKind::follow;
     fields.form({"section",
-                 "whose passages are returns and periods (the first section of a phase, or the first of all)", settles},
+                 "section whose passages are counted as returns and periods (the first section of a phase, or the "
+                 "first of all)",
+                 settles},
                 "\"NAME\"", &read_section);
     fields.field("section", attractor.section);
     fields.count({"cycles", "returns after which the search gives up", settles}, attractor.cycles,
                  {1, AttractorOptions::most_cycles});
-    fields.count({"keep", "last returns that are sampled where the motion is not periodic", labels}, attractor.keep,
-                 {1, AttractorOptions::most_kept});
-    fields.count({"largest_period", "longest period that is looked for, in returns", settles}, attractor.largest_period,
-                 {1, AttractorOptions::most_returns});
-    fields.number({"recurrence",
-                   "how close to an earlier return, relative to the extent of the states, Newton's method "
-                   "is tried",
-                   settles},
-                  attractor.recurrence, {0, AttractorOptions::most_distance, false});
+    fields.count({"keep", "number of last returns that are sampled if the motion is not periodic", labels},
+                 attractor.keep, {1, AttractorOptions::most_kept});
+    fields.count({"largest_period", "longest period, in returns, of orbits that are searched for", settles},
+                 attractor.largest_period, {1, AttractorOptions::most_returns});
+    fields.number(
+        {"recurrence",
+         "distance from an earlier return, relative to the extent of the states, below which Newton's method is tried",
+         settles},
+        attractor.recurrence, {0, AttractorOptions::most_distance, false});
     fields.number({"disturbance",
-                   "by which a motion that sits on an unstable orbit or equilibrium, or looks chaotic and "
-                   "lies on a plane, is displaced: relative to the extent of the states or, where nothing "
-                   "moves, to the length over which the field is linear. 0: never; such a motion is "
-                   "`unsettled`, and `detail` says so",
+                   "displacement of a motion that sits on an unstable orbit or equilibrium, or that looks chaotic and "
+                   "lies on a plane: relative to the extent of the states or, at rest, to the length over which the "
+                   "field is linear. 0: no displacement; such a motion is `unsettled`, and `detail` says why",
                    settles},
                   attractor.disturbance, {0, AttractorOptions::most_distance});
     fields.count({"lyapunov_cycles",
-                  "the last of `cycles`, over which the Lyapunov exponent is averaged at least: over "
-                  "the second half of `cycles` if that is more, and over all returns that come behind. "
-                  "0: none, and no chaos told apart",
+                  "how many of the last `cycles` the Lyapunov exponent is averaged over (half of `cycles` if that is "
+                  "more); later returns count too. 0: no exponent, and chaos is not recognised",
                   labels},
                  attractor.lyapunov_cycles, {0, AttractorOptions::most_cycles});
     fields.count({"chaos_cycles",
-                  "returns for which a motion must remain chaotic, once it looks so, before it is called "
-                  "so; `cycles` if that is more",
+                  "number of returns for which a motion that looks chaotic must remain so before it is labelled "
+                  "`chaotic`; `cycles` if that is more",
                   labels},
                  attractor.chaos_cycles, {0, AttractorOptions::most_cycles});
     fields.number({"longest_return",
-                   "time without a return after which a point is given up, however many steps that "
-                   "takes (without it after 100,000 steps)",
+                   "time without a return after which a point is given up, whatever the number of steps (without it, "
+                   "after 100,000 steps)",
                    settles},
                   attractor.longest_return, positive_number);
 }
@@ -269,12 +269,12 @@ template <class Fields, class Run, class Motion, class Request>
 void describe_axes(Fields& fields, Run& run, Motion& motion, Request& request) {
     const bool points = run.has_motions();
     fields.form(
-        {"vary", "what changes from point to point: parameters or initial states. Several lists make a grid", points},
+        {"vary", "parameters or initial states that differ from point to point. Several lists make a grid", points},
         "{ V = { from, to, step } }", &read_vary);
     fields.list("vary", motion.axes, [](auto& one, auto& axis) { describe_axis(one, axis); });
     fields.form({"from",
-                 points ? "initial states (those of the model). They may be expressions in what varies, "
-                          "parameters or other initial states: then they have another value at each point"
+                 points ? "initial states (those of the model). They may be expressions in the varied parameters and "
+                          "initial states, which are evaluated at each point"
                         : "initial states (those of the model)",
                  points || run.kind == RunKind::orbit || run.kind == RunKind::follow},
                 "{ x = 0.1 }", read_apart);
@@ -286,35 +286,38 @@ void describe_axes(Fields& fields, Run& run, Motion& motion, Request& request) {
     fields.form({"mode", "the initial mode (that of the model)",
                  points || run.kind == RunKind::orbit || run.kind == RunKind::follow},
                 "\"NAME\"", read_apart);
-    fields.form({"set", "more parameters, for this run", run.kind != RunKind::ladder}, "{ V = 1 }", read_apart);
+    fields.form({"set", "values of further parameters in this run", run.kind != RunKind::ladder}, "{ V = 1 }",
+                read_apart);
     fields.named("set", run.set, run.model.independent_parameters());
     if (fields.has("draws", motion.draws > 0)) {
-        fields.count({"draws", "how many points are drawn at random for each combination of the other values", points},
-                     motion.draws, {1});
-        fields.count({"seed", "from which they are drawn", points}, motion.seed, any_seed);
+        fields.count(
+            {"draws", "number of points that are drawn at random for each combination of the listed values", points},
+            motion.draws, {1});
+        fields.count({"seed", "seed of the random numbers", points}, motion.seed, any_seed);
     }
     if (run.kind == RunKind::sweep)
-        fields.choice({"direction", "how the first of what varies goes: `both` is up, then down from where that ended"},
-                      request.direction, {"up", "down", "both"});
+        fields.choice(
+            {"direction", "direction of the first varied value: `both` is up, then down from where that ended"},
+            request.direction, {"up", "down", "both"});
     else if (run.is_followed())
-        fields.choice({"direction",
-                       "how the parameter changes at first, for the branch turns at folds. Where a start at "
-                       "a point leads onto another branch that branch has ways of its own, and `direction` "
-                       "says nothing"},
-                      request.direction, {"up", "down", "both"});
+        fields.choice(
+            {"direction", "direction of the parameter at first, since the branch turns at folds. It has no effect if "
+                          "the run starts at a point and leads onto another branch, which has directions of its own"},
+            request.direction, {"up", "down", "both"});
     if (run.kind == RunKind::sweep)
-        fields.truth({"carry", "every point begins where the one before ended; `false`: at the initial state"},
-                     motion.carry);
+        fields.truth(
+            {"carry", "each point begins in the state in which the last one ended; `false`: in the initial state"},
+            motion.carry);
 }
 
 template <class Fields, class Run, class Simulation>
 void describe_integration(Fields& fields, const Run& run, Simulation& simulation) {
     const bool chosen = run.has_motions() || run.kind == RunKind::orbit || run.kind == RunKind::follow;
-    fields.number({"tolerance", "of the integration, for each step relative to each state", true,
+    fields.number({"tolerance", "tolerance of the integration in each step, relative to each state", true,
                    run.is_branch() ? "1e-13 of orbits, 1e-12 of what leads to them" : nullptr},
                   simulation.tolerance, positive_number);
-    fields.count({"order", "of the Taylor polynomials", chosen, "by tolerance"}, simulation.order);
-    fields.number({"largest_step", "of the integration, in units of the model's time (no bound)", chosen},
+    fields.count({"order", "order of the Taylor polynomials", chosen, "by tolerance"}, simulation.order);
+    fields.number({"largest_step", "largest step of the integration, in units of the model's time (no limit)", chosen},
                   simulation.largest_step, positive_number);
     fields.field("step_limit", simulation.step_limit);
     fields.field("contacts_at_once", simulation.contacts_at_once);
@@ -333,21 +336,22 @@ void describe_simulated(Fields& fields, Run& run, Motion& motion, Request& reque
         describe_transient(fields, motion.transient);
     else
         describe_attractor(fields, request.attractor, run.kind);
-    fields.form({"bounds", "a motion that leaves them has escaped", begins}, "{ q = [-1, 1] }", &read_bounds);
+    fields.form({"bounds", "ranges of states; a motion that leaves them has escaped", begins}, "{ q = [-1, 1] }",
+                &read_bounds);
     describe_bounds(fields, transient ? motion.transient.bounds : request.attractor.bounds, run.model);
-    fields.form({"sample", "where values are taken (at the section)", points}, "\"SECTION\" or { NAME = { ... } }",
-                &read_samplings);
+    fields.form({"sample", "samplings: when values are taken (at the section)", points},
+                "\"SECTION\" or { NAME = { ... } }", &read_samplings);
     fields.list("samplings", motion.samplings,
                 [&](auto& one, auto& sampling) { describe_sampling(one, sampling, run.model); });
     fields.form({"values",
-                 "states, quantities, definitions, parameters or expressions; \"name = expression\" gives a "
-                 "name (all states but phases and drifting ones)",
+                 "states, quantities, definitions, parameters or expressions that are sampled; \"name = expression\" "
+                 "gives a name (all states except phases and drifting ones)",
                  points},
                 "[\"q\", \"speed = 2*v\"]", &read_values);
     fields.expressions("values", run.values);
     fields.field("value_names", run.value_names);
-    fields.form({"start", run.is_branch() ? "the orbit that it begins with: a point of another run"
-                                          : "begin where a point of another run of the same model ended"},
+    fields.form({"start", run.is_branch() ? "the first orbit: a point of another run"
+                                          : "the start: the last state of a point of another run of the same model"},
                 "{ run, at, direction, point, onto }", &read_start);
     if constexpr (Fields::stored)
         if (fields.has("start", run.start.has_value())) {
@@ -371,7 +375,7 @@ void describe_measured(Fields& fields, Run& run) {
     if (run.kind == RunKind::record) {
         describe_levels(fields, run.record().vary);
         fields.object("record", [&](auto& one) { describe_record(one, run.record()); });
-        fields.form({"values", "channels or expressions of them, as of other runs (all channels)"}, "[\"q\"]",
+        fields.form({"values", "channels, or expressions of channels, as in other runs (all channels)"}, "[\"q\"]",
                     read_apart);
         fields.expressions("values", run.values);
         return;

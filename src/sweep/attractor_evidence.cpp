@@ -121,7 +121,8 @@ void AttractorSearch::keep_chaos() {
     chaos_ = Chaos{last.state, last.mode, recorder_.samples(), exponent_.value(), exponent_.error()};
 }
 
-/// Restores the state of the motion after `cycles`, whatever happened later.
+/// For a motion that looked chaotic after `cycles`: restores the state and samples of that time, with the label
+/// `transient` if the motion has settled since. Does nothing if it is unsettled or failed.
 void AttractorSearch::return_to_chaos() {
     const bool chaotic = result_.label == Label::chaotic;
     if (!chaotic && (result_.label == Label::unsettled || result_.label == Label::failed))

@@ -19,7 +19,8 @@ struct StoredColumn {
     ColumnType type = ColumnType::real;
 };
 
-/// Which rows and columns of a run are read. The columns of the rows are in the order of the four lists.
+/// Which rows and columns of a run are read. The columns of the rows are in the order of `columns`, `quantities`,
+/// `values`, `statistics`.
 struct Selection {
     /// true: a row for each sample, or for each segment of an orbit; false: a row for each point.
     bool samples = false;
