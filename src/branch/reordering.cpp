@@ -58,7 +58,7 @@ std::optional<Orbit> followed_motion(const Simulation& simulation, const Orbit& 
         return std::nullopt;
     Orbit like = orbit;
     if (periods.taken > 1)
-        like.symmetry.reset(); // two half periods are the whole orbit
+        like.symmetry.reset(); // taken twice, a half orbit is a whole one, which needs no symmetry
     return motion.segments.empty()
                ? close_at_section(simulation.system(), orbit.parameters, state, mode, period, "", like.symmetry)
                : std::optional(begun_after_first_contact(simulation.system(), like, motion, period));

@@ -41,7 +41,7 @@ public:
                 here_.modes[piece.record] = piece.mode;
         for (const MeasuredOutput& output : rows.task().outputs)
             outputs_.push_back(rows.system().with_gradient(output.value));
-        signs_ = first_signs(here_, point.shared);
+        first_readings_ = first_readings(here_, point.shared);
         find_changes();
         find_symmetries();
     }
@@ -154,9 +154,10 @@ private:
         return true;
     }
 
-    /// Values and rates of all outputs at the first time of each record. Alternative solutions have the same; this
-    /// rejects most candidates before any motion is computed.
-    std::vector<double> first_signs(const InitialConditions& at, const Eigen::VectorXd& shared) const {
+    /// Values and rates of all outputs at the first time of each record: values in units of the range of readings,
+    /// rates as a share of the sum of the sizes of their terms. Alternative solutions have the same; this rejects most
+    /// candidates before any motion is computed.
+    std::vector<double> first_readings(const InitialConditions& at, const Eigen::VectorXd& shared) const {
         const System& system = rows_->system();
         const std::size_t states = rows_->layout.states;
         std::vector<double> signs, gradient(1 + states + system.parameters()), rates(states), work(system.workspace());
@@ -184,9 +185,9 @@ private:
     }
     bool starts_alike(const InitialConditions& there, const Eigen::VectorXd& shared) const {
         constexpr double alike = 1e-6;
-        const std::vector<double> signs = first_signs(there, shared);
+        const std::vector<double> signs = first_readings(there, shared);
         for (std::size_t i = 0; i < signs.size(); ++i)
-            if (!(std::abs(signs[i] - signs_[i]) <= alike))
+            if (!(std::abs(signs[i] - first_readings_[i]) <= alike))
                 return false;
         return true;
     }
@@ -268,7 +269,7 @@ private:
     const Fit* fit_;
     InitialConditions here_;
     std::vector<Function> outputs_; ///< with gradients
-    std::vector<double> signs_;
+    std::vector<double> first_readings_;
     std::vector<Change> changes_, symmetries_;
     std::vector<std::size_t> gains_; ///< indices of gains among the shared unknowns
 };

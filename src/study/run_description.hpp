@@ -12,15 +12,18 @@
 namespace graze {
 
 // The keys of runs and the fields that are stored of them, each described once to a visitor `fields`: KeyReader reads
-// studies, SettingsWriter and SettingsReader store settings and read them, KeyList lists the keys. Runs are constant
-// for the writer. Stored texts are compared, so that the order of the fields must not change, and a new field is
-// written only where it differs from its default.
+// studies, SettingsWriter and SettingsReader store settings and read them, KeyList lists the keys. The writer gets
+// constant runs, hence the template parameters. Verbs: `form` is a key with a syntax of its own, read by the function
+// given; `field` is stored without a key; `has` tells whether an optional field is or was written; `denied` is a key
+// whose negation is stored; `later_number` is evaluated when the run is carried out; keys that are `read_apart` have
+// their reader elsewhere. Stored texts are compared, so that the order of the fields must not change, and a new field
+// is written only where it differs from its default.
 
 std::vector<std::string> short_names_of_points();
 /// The contents of the file of a run's table. Empty when the file cannot be read: the error is thrown when the run is
 /// carried out.
 std::string text_of_table(const BranchRequest& branch);
-/// What is stored with a branch as if it were a motion: a sampling at the section of its attractor.
+/// The part of a motion's settings that branches store too: a sampling at the section of the attractor.
 MotionRequest motion_of_branch(const BranchRequest& branch);
 
 template <class Fields, class Axis>
@@ -126,18 +129,18 @@ void describe_continuation(Fields& fields, Run& run) {
     fields.field("reorder", branch.reorder);
     fields.optional("least", branch.least);
     fields.optional("greatest", branch.greatest);
-    fields.table(
-        {"step", "steps of the continuation: the first, smallest and largest one in units of the orbit's size (0.01, "
-                 "1e-8, 0.05), and the largest angle between two in radians (0.35). Where the branch is straight and "
-                 "states are larger than their variation along the orbit, steps are up to ten times `largest`"},
-        "{ first, smallest, largest, angle }", [&step = branch.continuation](auto& one) {
-            one.number(key_in_table("first", "first_step"), step.first_step, positive_number);
-            one.number(key_in_table("smallest", "smallest_step"), step.smallest_step, positive_number);
-            one.number(key_in_table("largest", "largest_step"), step.largest_step, positive_number);
-            one.field("step_accuracy", step.accuracy);
-            one.number(key_in_table("angle", "largest_angle"), step.largest_angle, positive_number);
-            one.field("step_iterations", step.iterations);
-        });
+    fields.table({"step",
+                  "steps of the continuation: the first, smallest and largest one in units of the orbit's size (0.01, "
+                  "1e-8, 0.05), and the largest angle between two in radians (0.35). Where the branch is straight and "
+                  "states are larger than their variation along the orbit, steps are up to ten times `largest`"},
+                 "{ first, smallest, largest, angle }", [&step = branch.continuation](auto& one) {
+                     one.number(key_in_table("first", "first_step"), step.first_step, positive_number);
+                     one.number(key_in_table("smallest", "smallest_step"), step.smallest_step, positive_number);
+                     one.number(key_in_table("largest", "largest_step"), step.largest_step, positive_number);
+                     one.field("step_accuracy", step.accuracy);
+                     one.number(key_in_table("angle", "largest_angle"), step.largest_angle, positive_number);
+                     one.field("step_iterations", step.iterations);
+                 });
     if (run.kind == RunKind::ladder)
         fields.count({"rungs", "largest number of grazings, the first one included"}, run.branch().rungs,
                      {2, most_rungs});
@@ -300,10 +303,10 @@ void describe_axes(Fields& fields, Run& run, Motion& motion, Request& request) {
             {"direction", "direction of the first varied value: `both` is up, then down from where that ended"},
             request.direction, {"up", "down", "both"});
     else if (run.is_followed())
-        fields.choice(
-            {"direction", "direction of the parameter at first, since the branch turns at folds. It has no effect if "
-                          "the run starts at a point and leads onto another branch, which has directions of its own"},
-            request.direction, {"up", "down", "both"});
+        fields.choice({"direction",
+                       "direction of the parameter at first, since the branch turns at folds. It has no effect if "
+                       "the run starts at a point and leads onto another branch, which has directions of its own"},
+                      request.direction, {"up", "down", "both"});
     if (run.kind == RunKind::sweep)
         fields.truth(
             {"carry", "each point begins in the state in which the last one ended; `false`: in the initial state"},

@@ -12,14 +12,14 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t longest_stay = 20;  ///< longest test with one orbit, in `cycles`
-constexpr std::size_t beside_orbits = 10; ///< factor of the test for chaos if the motion may settle by chance
-constexpr double last_share = 0.25;       ///< last share of the returns in which neighbours must still separate
-constexpr double part_still = 0.25;       ///< at least at this share of the mean rate
+constexpr std::size_t longest_stay = 20;  ///< longest test whether the motion stays with an orbit, in `cycles`
+constexpr std::size_t beside_orbits = 10; ///< factor by which the test for chaos is longer if the motion may settle
+constexpr double last_share = 0.25;       ///< share of the returns, the last ones, with an exponent of their own
+constexpr double part_still = 0.25;       ///< least ratio of that exponent to the exponent over all returns
 
 } // namespace
 
-/// Half of the cycles counts as transient, unless the exponent is requested over more returns.
+/// Returns over which the exponent is taken: the second half of `cycles`, or `lyapunov_cycles` if that is more.
 std::size_t AttractorSearch::exponent_cycles() const {
     const AttractorOptions& options = setting_->options;
     return options.lyapunov_cycles == 0
@@ -74,8 +74,8 @@ bool AttractorSearch::go_on_staying() {
     if (verdict == OrbitStay::Verdict::staying && !repeating_ && stay_.gone(watcher_) >= most) {
         finish(Label::unsettled);
         result_.outcome.detail = fmt::format(
-            "the motion has stayed close to a stable orbit of period {} for {} returns, of {} after which it "
-            "could be known not to leave again; raise `cycles`",
+            "the motion has stayed close to a stable orbit of period {} for {} returns; to know that it does not "
+            "leave again takes {}: raise `cycles`",
             finder_.period(), stay_.gone(watcher_), stay_.needed());
         return false;
     }
@@ -92,11 +92,11 @@ bool AttractorSearch::go_on_staying() {
     if (finder_.period() < thresholds_.size())
         thresholds_[finder_.period()] /= 3; // the next attempt starts closer to the orbit
     if (++tries_ > most_tries && finder_.period() < thresholds_.size())
-        thresholds_[finder_.period()] = -1;
+        thresholds_[finder_.period()] = -1; // no further attempt
     return go_on();
 }
 
-/// Records an orbit that the motion does not settle on.
+/// Records the period of a stable orbit that the motion has left.
 void AttractorSearch::note_passed_orbit() {
     const auto& multipliers = finder_.multipliers();
     if (multipliers.empty() || std::abs(multipliers.front()) < 1)
@@ -109,8 +109,8 @@ std::size_t AttractorSearch::usual_chaos() const {
 
 /// Returns the number of returns for which a motion must remain chaotic: more than usual if it has passed by a stable
 /// orbit, on which it may settle by chance; or if all neighbours have merged, or may have, at an accumulation of
-/// contacts, as when a ball comes to rest on its table. If this happens repeatedly there is no chaos, however much
-/// neighbours separate in between: the motion is the same after each such time.
+/// contacts, as when a ball comes to rest on its table. If neighbours merge repeatedly there is no chaos, however
+/// much they separate in between, since the motion is the same after each merging.
 std::size_t AttractorSearch::chaos_needed() const {
     return passed_period_ > 0 || collapses_ > 0 || landing_unseen_ ? beside_orbits * usual_chaos() : usual_chaos();
 }
@@ -146,8 +146,8 @@ void AttractorSearch::return_to_chaos() {
     result_.samples = std::move(chaos_->samples);
 }
 
-/// Many transients look chaotic until they suddenly settle: follows the motion for longer. Also searches a stable orbit
-/// at the centre of the motion.
+/// Many transients look chaotic until they suddenly settle: follows the motion for longer. Also searches for a stable
+/// orbit at the centre of the motion.
 std::optional<bool> AttractorSearch::confirm_chaos() {
     confirming_ = true;
     if (++chaotic_ == 1 && setting_->options.stay_in_transients)
@@ -160,7 +160,8 @@ std::optional<bool> AttractorSearch::confirm_chaos() {
     return try_next_guess();
 }
 
-/// Accumulations of contacts affect neighbours too: an unexpected one is lost for the exponent, the others are counted.
+/// Contacts accumulate for neighbours too. After an accumulation that the derivatives could not follow the exponent
+/// starts again; one at which all neighbours merge is counted as a collapse.
 void AttractorSearch::add_to_exponent() {
     const bool lost = exponent_.external_derivatives() && of_motion_->broken(), stuck = watcher_.has_stuck(1);
     landing_unseen_ = lost || (landing_unseen_ && !stuck);
@@ -182,8 +183,8 @@ void AttractorSearch::add_to_exponent() {
     limit_ = chaotic_since_ + (collapses_repeatedly() ? usual_chaos() : chaos_needed());
 }
 
-/// Returns whether the motion between two collapses of all neighbours is determined: otherwise round-off, amplified as
-/// neighbours separate, would affect it, and repetitions would be by chance.
+/// Returns whether the motion between two collapses of all neighbours follows from its start beyond round-off:
+/// otherwise round-off, amplified as neighbours separate, would decide, and repetitions would be by chance.
 bool AttractorSearch::follows_from_rest() const {
     constexpr double most_grown = 25; ///< logarithm of the growth from round-off to 1e-5 of the extents
     return collapses_repeatedly() && std::max(last_grown_, grown_before_) < most_grown;

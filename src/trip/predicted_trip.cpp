@@ -18,13 +18,14 @@ void require_trip(const CycleMap& map, double overshoot, std::span<const double>
         throw InputError("there is no map of the contact: " + (map.reason.empty() ? map.contact.reason : map.reason),
                          "choose another touch");
     if (!map.clearance_rate || *map.clearance_rate == 0 || map.steady.size() != map.active.size())
-        throw InputError("no parameter is known that moves the orbit from its touch", "compute the map with a parameter");
+        throw InputError("no parameter is known that moves the orbit from its touch",
+                         "compute the map with a parameter");
     if (!std::isfinite(overshoot))
         throw InputError("the overshoot is not finite", "give the distance of the parameter from the touch");
     if (!disturbance.empty() && disturbance.size() != map.contact.touch.state.size())
-        throw InputError(
-            fmt::format("{} numbers disturb {} states", disturbance.size(), map.contact.touch.state.size()),
-            "give one for each");
+        throw InputError(fmt::format("the disturbance has {} numbers for {} states", disturbance.size(),
+                                     map.contact.touch.state.size()),
+                         "give one for each");
     if (std::any_of(disturbance.begin(), disturbance.end(), [](double one) { return !std::isfinite(one); }))
         throw InputError("a disturbance is not finite", "give a number for each state");
     if (overshoot * std::copysign(1.0, *map.clearance_rate) > 0)

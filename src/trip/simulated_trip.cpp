@@ -83,7 +83,8 @@ void TripOptions::validate() const {
 
 double least_overshoot(const CycleMap& map, ParameterId parameter) {
     if (!map.exists() || !map.clearance_rate || *map.clearance_rate == 0)
-        throw InputError("no parameter is known that moves the orbit from its touch", "give a map with one");
+        throw InputError("no parameter is known that moves the orbit from its touch",
+                         "compute the map with a parameter");
     double size = 0;
     const TouchState& touch = map.contact.touch;
     for (std::size_t i = 0; i < touch.state.size(); ++i)

@@ -83,7 +83,8 @@ bool TripOrigin::counts(const Contact& contact) const {
 TripOrigin trip_origin(const System& system, const Orbit& orbit, const CycleMap& map, ParameterId parameter,
                        double value) {
     if (!map.exists() || !map.clearance_rate || *map.clearance_rate == 0)
-        throw InputError("no parameter is known that moves the orbit from its touch", "give a map with one");
+        throw InputError("no parameter is known that moves the orbit from its touch",
+                         "compute the map with a parameter");
     const double point = map.contact.touch.parameters.at(parameter.place());
     require_before(system, parameter, value, point, *map.clearance_rate < 0 ? 1 : -1);
     const Orbit whole = whole_orbit(system, orbit);

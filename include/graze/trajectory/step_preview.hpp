@@ -11,17 +11,19 @@
 namespace graze {
 
 /// Evaluates the next steps of all lanes of a jet at once: the lengths of steps; the states at the ends of steps of
-/// given lengths, and whether the model agrees with the polynomials there (see StepCheck); and bounds that exclude
-/// watched events within the steps. Nearly all steps need nothing else.
+/// given lengths, and whether the model agrees with the polynomials there (see graze/flow/step_check.hpp); and bounds
+/// that exclude watched events within the steps. In nearly all steps the bounds exclude all events, and a trajectory
+/// needs nothing else.
 class StepPreview {
 public:
     StepPreview(const Simulation& simulation, int width);
 
     /// Lengths of the last steps, one for each lane, to be set before `find_steps`, which replaces them by the lengths
-    /// found. These may be changed before `evaluate_ends`.
+    /// found. The caller may shorten them before `evaluate_ends`.
     std::span<double> lengths() { return lengths_; }
     void find_steps(const Jet& jet);
-    /// Evaluates the ends of the steps. @param next jet of the same mode, lanes and parameters, which is begun there
+    /// Evaluates the ends of the steps. @param next another jet of the same mode, lanes and
+    /// parameters, whose series then begin at these ends
     void evaluate_ends(Jet& jet, Jet& next, std::size_t mode);
     /// The jets of the last `evaluate_ends`, which belong to the caller; null before.
     Jet* jet() const { return jet_; }
