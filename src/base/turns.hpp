@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <exception>
 #include <functional>
 #include <memory>
@@ -28,19 +29,24 @@ public:
         };
     }
     /// The same question whether to stop. Nobody waits to ask it: while another callback is being called the answer is
-    /// no.
+    /// no, unless it has been yes before.
     std::function<bool()> asking(std::function<bool()> interrupted) const {
         if (!interrupted)
             return {};
         return [turns = *this, interrupted = std::move(interrupted)] {
+            if (turns.state_->is_stopped)
+                return true;
             const std::unique_lock lock(turns.state_->mutex, std::try_to_lock);
-            return lock.owns_lock() && turns.attempt(interrupted);
+            if (lock.owns_lock() && turns.attempt(interrupted))
+                turns.state_->is_stopped = true;
+            return turns.state_->is_stopped.load();
         };
     }
-    /// Whether one has thrown.
-    bool have_ended() const {
+    /// Throws what one has thrown, if any has.
+    void rethrow() const {
         const std::lock_guard lock(state_->mutex);
-        return state_->thrown != nullptr;
+        if (state_->thrown)
+            std::rethrow_exception(state_->thrown);
     }
 
 private:
@@ -59,6 +65,7 @@ private:
     struct State {
         std::mutex mutex{};
         std::exception_ptr thrown{};
+        std::atomic<bool> is_stopped{false};
     };
     std::shared_ptr<State> state_ = std::make_shared<State>();
 };

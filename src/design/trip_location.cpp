@@ -17,9 +17,10 @@ bool follow(const Study& study, ResultFile& file, const DesignReportOptions& opt
     RunnerOptions running;
     running.jobs = options.jobs;
     running.interrupted = options.interrupted;
-    running.orbit = [&](const std::string& run, const OrbitRecord& record) {
-        options.progress(fmt::format("run '{}': orbit {}", run, record.number));
-    };
+    if (options.progress)
+        running.orbit = [&](const std::string& run, const OrbitRecord& record) {
+            options.progress(fmt::format("run '{}': orbit {}", run, record.number));
+        };
     const std::vector<RunReport> reports = run_study(study, file, running);
     return std::none_of(reports.begin(), reports.end(),
                         [](const RunReport& report) { return report.outcome == RunOutcome::interrupted; });

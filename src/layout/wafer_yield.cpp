@@ -67,6 +67,8 @@ public:
         result_.yield = yield_of(
             trip_->system, trip_->point, trip_->control, made, yield,
             [this](std::size_t i, const LocatedSolution& solution) { classify(result_.devices[i], solution); });
+        if (interrupted_ && interrupted_())
+            result_.yield.interrupted = true;
         for (std::size_t i = 0; i < result_.devices.size(); ++i) {
             result_.devices[i].outcome = result_.yield.devices[i].outcome;
             result_.devices[i].value = result_.yield.devices[i].value;

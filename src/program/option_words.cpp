@@ -65,7 +65,7 @@ constexpr Words remedies[] = {
 
 /// Regular expressions, where the option takes a name of the message.
 constexpr std::pair<const char*, const char*> patterns[] = {
-    {R"(make it by designing (\S+) into (\S+)$)", "make it by: graze design $1 --output $2"},
+    {R"(make it by designing (.+) into (.+)$)", "make it by: graze design $1 --output $2"},
     {R"(run '(\S+)' has no orbit number (\S+); give one of its (\d+) orbits$)",
      "run '$1' has no orbit number $2; graze points --run $1 --all lists its $3 orbits"},
     {R"(run '(\S+)' is of kind (.*); see its points$)",

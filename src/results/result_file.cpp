@@ -128,6 +128,8 @@ ResultFile::ResultFile(const std::string& path, Access access) {
             state_->missing = bring_into_this_form(database, runs());
             if (!state_->missing.empty()) {
                 database.execute(fmt::format("PRAGMA user_version = {}", result_format));
+                database.execute(
+                    fmt::format("INSERT OR REPLACE INTO meta VALUES('{}', '{}')", oldest_reader_key, oldest_reader));
                 state_->format = result_format;
             }
         });

@@ -208,8 +208,8 @@ private:
             else
                 run.is_branch() ? do_branch(with_found(run), work) : do_points(with_found(run), work);
         } catch (const InputError& error) {
-            // The file cannot be written: neither can other runs. Or a callback has thrown it.
-            if (error.place().file == path_ || turns_.have_ended())
+            turns_.rethrow();                // a callback has thrown: that ends all runs
+            if (error.place().file == path_) // the file cannot be written, by other runs neither
                 throw;
             file_.with([&](ResultFile& file) {
                 file.flush();

@@ -116,8 +116,11 @@ TEST_F(Info, ShowsHowAndWhenResultsWereComputed) {
 }
 
 TEST_F(Info, ListsRunsWithinAHundredColumns) {
-    for (const char* name : {"microactuator", "microbeam", "electromagnetic-testbed", "mems-switch"}) {
-        std::istringstream text(run_graze(std::vector<std::string>{"info", name}).out);
+    for (const char* name : {"microactuator", "microbeam", "electromagnetic-testbed", "mems-switch",
+                             "testbed-experiment", "ball-and-shaker"}) {
+        const Printed printed = run_graze(std::vector<std::string>{"info", name});
+        EXPECT_EQ(printed.code, 0) << name << printed.err;
+        std::istringstream text(printed.out);
         for (std::string line; std::getline(text, line);)
             EXPECT_LE(line.size(), 110U) << name << ": " << line; // some letters have two bytes
     }
@@ -126,7 +129,7 @@ TEST_F(Info, ListsRunsWithinAHundredColumns) {
 TEST_F(Info, RefusesEmptyAndSpecialFiles) {
     const Folder begun;
     const auto refused = [&](const std::string& name, const std::string& words) {
-        const Printed printed = run_graze({"info", name});
+        const Printed printed = run_graze(std::vector<std::string>{"info", name});
         EXPECT_EQ(printed.code, exit_bad_input) << name;
         EXPECT_THAT(printed.err, HasSubstr(words)) << name;
     };
