@@ -46,14 +46,21 @@ TEST(Turns, NobodyWaitsToAsk) {
     EXPECT_TRUE(ask());
 }
 
+TEST(Turns, AnAnswerToStopHoldsWhileAnotherCallbackRuns) {
+    const Turns turns;
+    const std::function<bool()> ask = turns.asking([] { return true; });
+    EXPECT_TRUE(ask());
+    turns.in_turn([&] { std::jthread([&] { EXPECT_TRUE(ask()); }); });
+}
+
 TEST(Turns, EndWithTheFirstException) {
     const Turns turns;
     int told = 0;
     const std::function<void()> tell = turns.taking(std::function<void()>([&] { ++told; }));
     tell();
-    EXPECT_FALSE(turns.have_ended());
+    EXPECT_NO_THROW(turns.rethrow());
     EXPECT_THROW(turns.in_turn([] { throw std::domain_error("mine"); }), std::domain_error);
-    EXPECT_TRUE(turns.have_ended());
+    EXPECT_THROW(turns.rethrow(), std::domain_error);
     EXPECT_THROW(tell(), std::domain_error);
     EXPECT_THROW(turns.asking([] { return false; })(), std::domain_error);
     EXPECT_EQ(told, 1);
