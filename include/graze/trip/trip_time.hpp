@@ -11,7 +11,9 @@ namespace graze {
 /// The duration of a trip: a motion that starts where the orbit touches, with the parameter moved beyond.
 struct TripTime {
     bool ended = false; ///< the requested end was reached, or the motion ended itself
-    std::string ending; ///< "speed", "level", or as trajectories end: "singular", "terminal", ...
+    /// "speed" or "level" when the motion is lost; "too-far": beyond the validity of the map; "none": not lost;
+    /// otherwise as trajectories end: "singular", "terminal", ...
+    std::string ending;
     /// Cycles until the end: passes of the touch for the map, time divided by that of a cycle for simulations.
     double cycles = 0;
     double time = 0;
