@@ -15,7 +15,6 @@
 
 #include <cmath>
 #include <complex>
-#include <limits>
 
 namespace graze {
 

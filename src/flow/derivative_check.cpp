@@ -1,5 +1,6 @@
 #include "graze/flow/derivative_check.hpp"
 
+#include "base/special_numbers.hpp"
 #include "graze/base/require.hpp"
 #include "graze/flow/mode_flow.hpp"
 
@@ -9,20 +10,17 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <utility>
 
 namespace graze {
 
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
 /// Numbers that depend on states and parameters. Empty where they are not defined.
 using Values = std::function<std::vector<double>(const std::vector<double>& inputs)>;
 
 struct Difference {
-    double value = 0, error = infinite;
+    double value = 0, error = infinity;
 };
 
 /// Derivatives of all values by one input: central differences at smaller and smaller steps, extrapolated to none, each

@@ -4,8 +4,6 @@
 #include "flow/kept_sign.hpp"
 #include "graze/flow/roots.hpp"
 
-#include <limits>
-
 namespace graze::roots {
 
 double guess_of_monotone(std::span<const double> c, double length, const PointValue& end) {

@@ -9,7 +9,6 @@
 
 #include <array>
 #include <cctype>
-#include <limits>
 #include <optional>
 
 namespace graze {

@@ -3,7 +3,6 @@
 #include "base/special_numbers.hpp"
 
 #include <cmath>
-#include <limits>
 
 namespace graze {
 

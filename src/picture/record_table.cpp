@@ -1,5 +1,6 @@
 #include "graze/picture/record_table.hpp"
 
+#include "base/special_numbers.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/record/impacts.hpp"
 #include "graze/record/spectrum.hpp"
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -18,7 +18,6 @@ namespace graze {
 
 namespace {
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); ///< an empty cell
 constexpr std::size_t most_rows = 2'000'000;
 constexpr std::size_t most_drawn = 4000; ///< pairs of least and greatest values of a curve
 
@@ -149,10 +148,10 @@ public:
             rows().add(header.channels[channels[c]].unit);
             numbers[c].put(rows());
             rows().add(count);
-            rows().add(count > 0 ? first : nothing);
-            rows().add(count > 0 ? last : nothing);
-            rows().add(count > 1 ? steps.least : nothing);
-            rows().add(count > 1 ? steps.greatest : nothing);
+            rows().add(count > 0 ? first : not_a_number);
+            rows().add(count > 0 ? last : not_a_number);
+            rows().add(count > 1 ? steps.least : not_a_number);
+            rows().add(count > 1 ? steps.greatest : not_a_number);
         }
     }
     Figure figure() const override { return histories_.figure(several()); }
@@ -169,8 +168,8 @@ private:
         }
         void put(Table& table) const {
             for (const double value : {least, greatest, mean})
-                table.add(count > 0 ? value : nothing);
-            table.add(count > 1 ? std::sqrt(squares / (count - 1)) : nothing);
+                table.add(count > 0 ? value : not_a_number);
+            table.add(count > 1 ? std::sqrt(squares / (count - 1)) : not_a_number);
         }
     };
     Histories histories_;

@@ -1,5 +1,6 @@
 #include "program/disturbed_trips.hpp"
 
+#include "base/special_numbers.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/with_place.hpp"
 #include "graze/picture/figure_script.hpp"
@@ -8,7 +9,6 @@
 #include "program/asked_trip.hpp"
 #include "program/commands.hpp"
 #include "program/drawing.hpp"
-#include "program/empty_cell.hpp"
 #include "program/interrupt.hpp"
 #include "program/status_line.hpp"
 #include "program/values.hpp"
@@ -110,16 +110,16 @@ void ramp(AskedTrips& asked) {
     note_rows(asked, rates.size(), rows.size());
     for (const RampRow& row : rows) {
         const TripTime& trip = row.ramped.trip;
-        const double delay = row.delay.value_or(nothing);
+        const double delay = row.delay.value_or(not_a_number);
         if (!trip.ended)
             asked.lacks.push_back(fmt::format("the ramp of {:g} has not come to its end: {}", row.rate,
                                               why_not(trip, "give more --cycles, or another end by --until")));
         asked.table.add(row.rate);
         asked.table.add(row.from);
-        asked.table.add(trip.ended ? row.ramped.value : nothing);
+        asked.table.add(trip.ended ? row.ramped.value : not_a_number);
         asked.table.add(delay);
         asked.table.add(delay / (row.rate * point.cycle));
-        asked.table.add(trip.ended ? trip.time : nothing);
+        asked.table.add(trip.ended ? trip.time : not_a_number);
         asked.table.add(trip.ending);
         if (delay / row.rate > 0)
             simulated.points.push_back({std::abs(row.rate), std::abs(delay)});
@@ -156,8 +156,8 @@ void wave(AskedTrips& asked) {
                             why_not(trip, "look at whether the parameter has a meaning as far as it swings")));
         asked.table.add(amplitudes[i]);
         asked.table.add(trip.ended ? "yes" : "no");
-        asked.table.add(trip.ended ? trip.cycles : nothing);
-        asked.table.add(trip.ended ? trip.time : nothing);
+        asked.table.add(trip.ended ? trip.cycles : not_a_number);
+        asked.table.add(trip.ended ? trip.time : not_a_number);
         asked.table.add(trip.ending);
         if (trip.ended && amplitudes[i] != 0)
             times.points.push_back({std::abs(amplitudes[i]), trip.time});
@@ -221,7 +221,7 @@ void noise(AskedTrips& asked) {
         asked.table.add(static_cast<double>(trips.motions));
         asked.table.add(static_cast<double>(trips.trips));
         for (const double one : {trips.probability.value, trips.probability.low, trips.probability.high, share,
-                                 trips.half.value_or(nothing), static_cast<double>(trips.failed)})
+                                 trips.half.value_or(not_a_number), static_cast<double>(trips.failed)})
             asked.table.add(one);
         if (level == 0) // has no place on the axis
             continue;

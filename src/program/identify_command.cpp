@@ -1,10 +1,10 @@
+#include "base/special_numbers.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/picture/figure_script.hpp"
 #include "graze/picture/residual_figure.hpp"
 #include "graze/study/identify_records.hpp"
 #include "program/commands.hpp"
 #include "program/drawing.hpp"
-#include "program/empty_cell.hpp"
 #include "program/identify_arguments.hpp"
 #include "program/identify_fit.hpp"
 #include "program/identify_request.hpp"
@@ -36,10 +36,10 @@ int identify_command(const IdentifyArguments& arguments, const Console& console)
         table.add(value.name);
         table.add(value.unit);
         table.add(estimate.value);
-        table.add(known ? estimate.error : nothing);
-        table.add(known ? estimate.value - estimate.half_width() : nothing);
-        table.add(known ? estimate.value + estimate.half_width() : nothing);
-        table.add(known ? estimate.freedom : nothing);
+        table.add(known ? estimate.error : not_a_number);
+        table.add(known ? estimate.value - estimate.half_width() : not_a_number);
+        table.add(known ? estimate.value + estimate.half_width() : not_a_number);
+        table.add(known ? estimate.freedom : not_a_number);
     }
     JsonObject heading;
     heading.add("graze", GRAZE_VERSION);

@@ -1,4 +1,5 @@
 #include "program/identify_fit.hpp"
+#include "base/special_numbers.hpp"
 #include "program/drawing.hpp"
 
 #include "graze/base/input_error.hpp"
@@ -7,7 +8,6 @@
 #include "graze/picture/figure.hpp"
 #include "graze/picture/figure_script.hpp"
 #include "program/commands.hpp"
-#include "program/empty_cell.hpp"
 #include "program/fit_request.hpp"
 #include "program/interrupt.hpp"
 #include "program/output_file.hpp"
@@ -31,9 +31,9 @@ Table numbers_table(const Fit& fit) {
         table.add(number.name);
         table.add(number.unit);
         table.add(estimate.value);
-        table.add(known ? estimate.error : nothing);
-        table.add(known ? estimate.value - estimate.half_width() : nothing);
-        table.add(known ? estimate.value + estimate.half_width() : nothing);
+        table.add(known ? estimate.error : not_a_number);
+        table.add(known ? estimate.value - estimate.half_width() : not_a_number);
+        table.add(known ? estimate.value + estimate.half_width() : not_a_number);
         table.add(std::string(number.at_bound ? "at its bound" : known ? "" : "not determined"));
     }
     return table;
@@ -56,7 +56,7 @@ Table outputs_table(const FitOfRecords& found) {
         table.add(static_cast<double>(output.readings));
         table.add(output.deviation);
         table.add(output.share);
-        table.add(found.task.outputs[o].noise > 0 ? output.chi_square : nothing);
+        table.add(found.task.outputs[o].noise > 0 ? output.chi_square : not_a_number);
         table.add(output.correlation);
         table.add(static_cast<double>(output.outliers));
     }
@@ -72,7 +72,7 @@ Table correlations_table(const Fit& fit) {
         table.add(fit.numbers[i].name);
         for (std::size_t j = 0; j < fit.numbers.size(); ++j) {
             const bool known = fit.numbers[i].estimate.freedom > 0 && fit.numbers[j].estimate.freedom > 0;
-            table.add(known ? fit.correlations[i * fit.numbers.size() + j] : nothing);
+            table.add(known ? fit.correlations[i * fit.numbers.size() + j] : not_a_number);
         }
     }
     return table;
@@ -91,7 +91,7 @@ Table readings_table(const FitOfRecords& found, const Channel& time) {
             table.add(static_cast<double>(r + 1));
             table.add(record.times[i]);
             for (std::size_t o = 0; o < found.channels.size(); ++o) {
-                double read = nothing, fitted = nothing;
+                double read = not_a_number, fitted = not_a_number;
                 for (std::size_t c = 0; c < record.readings.size(); ++c)
                     if (record.readings[c].output == o) {
                         read = record.readings[c].values[i];
@@ -133,7 +133,7 @@ Figure fit_figure(const FitOfRecords& found, const Channel& time) {
                     fitted.points.push_back({t, f});
                     left.points.push_back({t, f - y});
                 }
-                fitted.points.push_back({nothing, nothing});
+                fitted.points.push_back({not_a_number, not_a_number});
             }
         }
         panel.series = {std::move(read), std::move(fitted)};

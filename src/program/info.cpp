@@ -1,3 +1,4 @@
+#include "base/special_numbers.hpp"
 #include "graze/base/text_file.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/model/microbeam.hpp"
@@ -6,7 +7,6 @@
 #include "graze/study/study_catalogue.hpp"
 #include "program/commands.hpp"
 #include "program/describe.hpp"
-#include "program/empty_cell.hpp"
 #include "program/output_file.hpp"
 #include "program/table_fit.hpp"
 
@@ -16,7 +16,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <sstream>
 
 namespace graze {
@@ -197,7 +196,7 @@ std::string list_of_runs(const Facts& facts, std::size_t width) {
             else if (column.name == "run")
                 table.add(run);
             else
-                table.add(nothing);
+                table.add(not_a_number);
     // The columns `begun` and `seconds` are shown if they fit the width; otherwise the heading tells the first
     // beginning.
     std::vector<std::string> kept;

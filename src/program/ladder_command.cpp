@@ -1,6 +1,6 @@
+#include "base/special_numbers.hpp"
 #include "graze/study/stored_ladder.hpp"
 #include "program/commands.hpp"
-#include "program/empty_cell.hpp"
 #include "program/interrupt.hpp"
 #include "program/status_line.hpp"
 
@@ -23,9 +23,9 @@ Table ladder_table(const StoredLadder& found, const std::string& parameter, cons
         const bool has_ratio = k + 2 < grazings.size();
         table.add(has_ratio ? (grazings[k + 2].parameter - grazings[k + 1].parameter) /
                                   (grazings[k + 1].parameter - grazings[k].parameter)
-                            : nothing);
-        table.add(k < leaving.size() ? leaving[k].flip.value_or(nothing) : nothing);
-        table.add(k < leaving.size() ? leaving[k].fold.value_or(nothing) : nothing);
+                            : not_a_number);
+        table.add(k < leaving.size() ? leaving[k].flip.value_or(not_a_number) : not_a_number);
+        table.add(k < leaving.size() ? leaving[k].fold.value_or(not_a_number) : not_a_number);
     }
     return table;
 }

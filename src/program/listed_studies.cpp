@@ -1,9 +1,9 @@
 #include "program/listed_studies.hpp"
 
+#include "base/special_numbers.hpp"
 #include "graze/study/study_catalogue.hpp"
 #include "graze/study/study_keys.hpp"
 #include "program/commands.hpp"
-#include "program/empty_cell.hpp"
 #include "program/table.hpp"
 #include "program/wrapped_text.hpp"
 
@@ -67,8 +67,8 @@ int list_study_keys(const RunArguments& arguments, const Console& console) {
             table.add(key.name);
             table.add(key.words.empty() ? key.type : fmt::format("{}", fmt::join(key.words, ", ")));
             table.add(key.standard);
-            table.add(key.least.value_or(nothing));
-            table.add(key.most.value_or(nothing));
+            table.add(key.least.value_or(not_a_number));
+            table.add(key.most.value_or(not_a_number));
             table.add(key.meaning);
         }
     }

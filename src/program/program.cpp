@@ -60,7 +60,7 @@ int tell_internal(const std::string& problem, const Console& console) {
     return exit_internal_error;
 }
 
-int tell_mistakes(const Error& error, const Console& console) {
+int tell_error(const Error& error, const Console& console) {
     if (error.kind() == ErrorKind::order || error.kind() == ErrorKind::internal)
         return tell_internal(error.problem(), console);
     console.err << "graze: " << in_options(error.what()) << '\n';
@@ -81,7 +81,7 @@ int run_program(std::span<const std::string> arguments, const Console& given) {
         tell_mistakes(errors, console);
         return exit_bad_input;
     } catch (const Error& error) {
-        return tell_mistakes(error, console);
+        return tell_error(error, console);
     } catch (const std::filesystem::filesystem_error& error) {
         console.err << "graze: " << shortened(error.path1().string(), 200) << ": " << error.code().message()
                     << "; give another path\n";

@@ -1,3 +1,4 @@
+#include "base/special_numbers.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/with_place.hpp"
 #include "graze/branch/yield.hpp"
@@ -6,7 +7,6 @@
 #include "graze/results/located_point.hpp"
 #include "program/commands.hpp"
 #include "program/drawing.hpp"
-#include "program/empty_cell.hpp"
 #include "program/interrupt.hpp"
 #include "program/output_file.hpp"
 #include "program/status_line.hpp"
@@ -116,7 +116,8 @@ Table derivatives_of(const Findings& found) {
         table.add(names[parameter.place()]);
         table.add(located.values()[i]);
         table.add(located.derivatives()[i]);
-        table.add(located.value() != 0 ? located.derivatives()[i] * located.values()[i] / located.value() : nothing);
+        table.add(located.value() != 0 ? located.derivatives()[i] * located.values()[i] / located.value()
+                                       : not_a_number);
         if (!found.yield)
             continue;
         const auto& tolerances = found.settings.tolerances;
@@ -125,9 +126,9 @@ Table derivatives_of(const Findings& found) {
                                             [&](const Tolerance& one) { return one.parameter == parameter; });
         const auto part = std::find_if(parts.begin(), parts.end(),
                                        [&](const Contribution& one) { return one.parameter == parameter; });
-        table.add(tolerance == tolerances.end() ? nothing : tolerance->deviation());
-        table.add(part == parts.end() ? nothing : part->deviation);
-        table.add(part == parts.end() ? nothing : part->share);
+        table.add(tolerance == tolerances.end() ? not_a_number : tolerance->deviation());
+        table.add(part == parts.end() ? not_a_number : part->deviation);
+        table.add(part == parts.end() ? not_a_number : part->share);
     }
     return table;
 }
@@ -149,7 +150,7 @@ public:
         }
     }
     void add(const std::string& name, double value, const std::string& meaning) {
-        add(name, value, nothing, nothing, meaning);
+        add(name, value, not_a_number, not_a_number, meaning);
     }
     void add(const std::string& name, const std::optional<ConfidenceInterval>& one, const std::string& meaning) {
         if (one)
@@ -176,8 +177,8 @@ Statistics statistics_of(const Findings& found) {
     result.add("linear_deviation", yield.linear_deviation, "the same by the derivatives alone");
     result.add("largest_departure", yield.largest_departure, "of a device from what the derivatives say");
     for (const QuantileEstimate& one : yield.quantiles)
-        result.add(fmt::format("quantile_{:g}", one.share), one.value, one.low.value_or(nothing),
-                   one.high.value_or(nothing), "this share lies below");
+        result.add(fmt::format("quantile_{:g}", one.share), one.value, one.low.value_or(not_a_number),
+                   one.high.value_or(not_a_number), "this share lies below");
     result.add("within", yield.within, "share of all devices that is wanted");
     if (yield.linear_within)
         result.add("linear_within", *yield.linear_within, "the same by the derivatives alone");

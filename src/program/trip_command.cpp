@@ -1,3 +1,4 @@
+#include "base/special_numbers.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/picture/figure_script.hpp"
 #include "graze/picture/trip_series.hpp"
@@ -6,7 +7,6 @@
 #include "program/commands.hpp"
 #include "program/disturbed_trips.hpp"
 #include "program/drawing.hpp"
-#include "program/empty_cell.hpp"
 #include "program/interrupt.hpp"
 #include "program/values.hpp"
 
@@ -53,7 +53,7 @@ std::vector<std::string> lacks_of(const OvershootTrips& trips) {
 
 /// A cell of the table: empty where the end has not come.
 double if_ended(const TripTime& trip, double value) {
-    return trip.ended ? value : nothing;
+    return trip.ended ? value : not_a_number;
 }
 
 Table table_of_touch(const OvershootTrips& trips) {
@@ -75,7 +75,7 @@ Table table_of_touch(const OvershootTrips& trips) {
         table.add(if_ended(*row.continued, row.continued->cycles));
         table.add(if_ended(*row.continued, row.continued->time));
         table.add(row.continued->ending);
-        table.add(row.simulated ? if_ended(*row.simulated, row.simulated->time) : nothing);
+        table.add(row.simulated ? if_ended(*row.simulated, row.simulated->time) : not_a_number);
     }
     return table;
 }
@@ -96,11 +96,11 @@ Table table_of_fold(const OvershootTrips& trips) {
         table.add(row.cycles);
         table.add(row.cycles * point.cycle);
         table.add(row.gate_cycles);
-        table.add(row.passage && row.passage->passed ? row.passage->cycles : nothing);
-        table.add(row.passage && row.passage->passed ? row.passage->time : nothing);
+        table.add(row.passage && row.passage->passed ? row.passage->cycles : not_a_number);
+        table.add(row.passage && row.passage->passed ? row.passage->time : not_a_number);
         if (!until_end)
             continue;
-        table.add(row.passage ? if_ended(row.passage->trip, row.passage->trip.time) : nothing);
+        table.add(row.passage ? if_ended(row.passage->trip, row.passage->trip.time) : not_a_number);
         table.add(row.passage ? row.passage->trip.ending : "");
     }
     return table;

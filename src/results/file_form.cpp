@@ -114,70 +114,67 @@ std::vector<std::pair<std::string, std::string>> lacking_tables(const Database& 
     return lacking;
 }
 
-void note_missing(const TableForm& form, const std::string& run, std::vector<std::string>& missing) {
-    for (const Counterpart& column : form.columns)
-        if (column.there.empty())
-            missing.push_back(run + "." + column.name);
-}
-
-} // namespace
-
-std::vector<std::string> show_in_this_form(const Database& database, const std::vector<RunRecord>& runs) {
+/// Makes the tables that are lacking, and gives those of another form to `change`, with their run. Tables without what
+/// every file has stay as they are. @param kind of the tables made: "" or "TEMP "
+/// @return what is missing
+template <class Change>
+std::vector<std::string> change_forms(const Database& database, const std::vector<RunRecord>& runs, const char* kind,
+                                      const Change& change) {
     std::vector<std::string> missing;
     for (const auto& [name, columns] : lacking_tables(database)) {
         missing.push_back(name);
-        database.execute(fmt::format("CREATE TEMP TABLE {}({}) WITHOUT ROWID", name, columns));
+        database.execute(fmt::format("CREATE {}TABLE {}({}) WITHOUT ROWID", kind, name, columns));
     }
     for (const RunRecord& run : runs)
         for (const TableForm& form : forms_of(database, run)) {
             if (form.is_this_form() || !form.can_be_shown())
                 continue;
-            note_missing(form, run.name, missing);
-            std::vector<std::string> cells;
             for (const Counterpart& column : form.columns)
-                cells.push_back(fmt::format("{} AS {}", column.there.empty() ? "NULL" : quoted_name(column.there),
-                                            quoted_name(column.name)));
-            if (form.with_rowid)
-                cells.emplace_back("rowid AS rowid");
-            // Names without a schema are those of temporary views first.
-            database.execute(
-                fmt::format("CREATE TEMP VIEW {0} AS SELECT {1} FROM main.{0}", form.table, fmt::join(cells, ", ")));
+                if (column.there.empty())
+                    missing.push_back(run.name + "." + column.name);
+            change(run, form);
         }
     return missing;
+}
+
+} // namespace
+
+std::vector<std::string> show_in_this_form(const Database& database, const std::vector<RunRecord>& runs) {
+    return change_forms(database, runs, "TEMP ", [&](const RunRecord&, const TableForm& form) {
+        std::vector<std::string> cells;
+        for (const Counterpart& column : form.columns)
+            cells.push_back(fmt::format("{} AS {}", column.there.empty() ? "NULL" : quoted_name(column.there),
+                                        quoted_name(column.name)));
+        if (form.with_rowid)
+            cells.emplace_back("rowid AS rowid");
+        // Names without a schema are those of temporary views first.
+        database.execute(
+            fmt::format("CREATE TEMP VIEW {0} AS SELECT {1} FROM main.{0}", form.table, fmt::join(cells, ", ")));
+    });
 }
 
 std::vector<std::string> bring_into_this_form(const Database& database, const std::vector<RunRecord>& runs) {
     // What a run's own columns are called from now on.
     Statement own_name =
         database.prepare("UPDATE columns SET column_name = ? WHERE run = ? AND place = ? AND position = ?");
-    std::vector<std::string> missing;
-    for (const auto& [name, columns] : lacking_tables(database)) {
-        missing.push_back(name);
-        database.execute(fmt::format("CREATE TABLE {}({}) WITHOUT ROWID", name, columns));
-    }
-    for (const RunRecord& run : runs)
-        for (const TableForm& form : forms_of(database, run)) {
-            if (form.is_this_form() || !form.can_be_shown())
-                continue;
-            note_missing(form, run.name, missing);
-            for (const auto& [group, place] : places_of_own_names) {
-                const std::vector<std::string> names = RunTables(run).names_of(group);
-                for (std::size_t i = 0; i < names.size(); ++i)
-                    own_name.bind(1, std::string_view(names[i]))
-                        .bind(2, std::string_view(run.name))
-                        .bind(3, place)
-                        .bind(4, i)
-                        .run();
-            }
-            for (const Counterpart& column : form.columns)
-                if (!column.there.empty() && column.there != column.name)
-                    database.execute(fmt::format("ALTER TABLE {} RENAME COLUMN {} TO {}", form.table,
-                                                 quoted_name(column.there), quoted_name(column.name)));
-            for (const Counterpart& column : form.columns)
-                if (column.there.empty())
-                    database.execute(fmt::format("ALTER TABLE {} ADD COLUMN {}", form.table, quoted_name(column.name)));
+    return change_forms(database, runs, "", [&](const RunRecord& run, const TableForm& form) {
+        for (const auto& [group, place] : places_of_own_names) {
+            const std::vector<std::string> names = RunTables(run).names_of(group);
+            for (std::size_t i = 0; i < names.size(); ++i)
+                own_name.bind(1, std::string_view(names[i]))
+                    .bind(2, std::string_view(run.name))
+                    .bind(3, place)
+                    .bind(4, i)
+                    .run();
         }
-    return missing;
+        for (const Counterpart& column : form.columns)
+            if (!column.there.empty() && column.there != column.name)
+                database.execute(fmt::format("ALTER TABLE {} RENAME COLUMN {} TO {}", form.table,
+                                             quoted_name(column.there), quoted_name(column.name)));
+        for (const Counterpart& column : form.columns)
+            if (column.there.empty())
+                database.execute(fmt::format("ALTER TABLE {} ADD COLUMN {}", form.table, quoted_name(column.name)));
+    });
 }
 
 } // namespace graze

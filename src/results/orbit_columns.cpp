@@ -1,5 +1,7 @@
 #include "results/orbit_columns.hpp"
 
+#include "base/special_numbers.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -11,8 +13,6 @@
 namespace graze {
 
 namespace {
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 using Context = OrbitContext;
 using Type = ColumnType;
@@ -67,7 +67,7 @@ void write_of_event(const OrbitRecord& record, CellWriter& cell, Write write) {
 
 /// Writes a number that only touching orbits can have.
 void write_touch(const OrbitRecord& record, CellWriter& cell, std::optional<double> TouchFindings::*number) {
-    cell.real(record.touch ? ((*record.touch).*number).value_or(unknown) : unknown);
+    cell.real(record.touch ? ((*record.touch).*number).value_or(not_a_number) : not_a_number);
 }
 void read_touch(OrbitRecord& record, CellReader& cell, std::optional<double> TouchFindings::*number) {
     if (record.touch && !cell.is_nothing())
@@ -76,7 +76,7 @@ void read_touch(OrbitRecord& record, CellReader& cell, std::optional<double> Tou
 
 /// Least speed at which the orbit meets an event; unknown if it meets none. It goes to zero where a contact is lost.
 double slowest_approach(const OrbitSolution& solution) {
-    double slowest = unknown;
+    double slowest = not_a_number;
     const std::vector<double>& speeds = solution.certificate.approach_speeds;
     for (std::size_t s = 0; s < std::min(speeds.size(), solution.orbit.segments()); ++s)
         if (solution.orbit.signature[s].end == SegmentEnd::event)
@@ -137,7 +137,7 @@ const ColumnsOf<OrbitContext, OrbitRecord>& orbit_columns() {
         {{"", Type::real, Unit::own, false, ColumnGroup::values},
          [](const Context& context, const Record& r, CellWriter& cells) {
              for (std::size_t m = 0; m < context.run->values.size(); ++m)
-                 cells.extended(m < r.point.monitors.size() ? r.point.monitors[m] : unknown);
+                 cells.extended(m < r.point.monitors.size() ? r.point.monitors[m] : not_a_number);
          },
          [](const Context& context, Record& r, CellReader& cells) {
              for (std::size_t m = 0; m < context.run->values.size(); ++m)
@@ -181,7 +181,9 @@ const ColumnsOf<OrbitContext, OrbitRecord>& orbit_columns() {
          [](const Context&, const Record& r, CellWriter& cell) { cell.real(r.point.solution.residual); },
          [](const Context&, Record& r, CellReader& cell) { r.point.solution.residual = cell.real(); }},
         {added({"error", Type::real, Unit::none, true}),
-         [](const Context&, const Record& r, CellWriter& cell) { cell.real(r.point.solution.error.value_or(unknown)); },
+         [](const Context&, const Record& r, CellWriter& cell) {
+             cell.real(r.point.solution.error.value_or(not_a_number));
+         },
          [](const Context&, Record& r, CellReader& cell) {
              if (!cell.is_nothing())
                  r.point.solution.error = cell.number();

@@ -1,3 +1,4 @@
+#include "base/special_numbers.hpp"
 #include "graze/base/require.hpp"
 #include "results/detail_rows.hpp"
 #include "results/orbit_columns.hpp"
@@ -11,11 +12,10 @@ namespace graze {
 namespace {
 
 void write_segments(Statement& statement, const OrbitContext& context, const OrbitRecord& record) {
-    constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
     const Orbit& orbit = record.point.solution.orbit;
     const Certificate& certificate = record.point.solution.certificate;
     const auto value = [](const std::vector<double>& values, std::size_t s) {
-        return s < values.size() ? values[s] : nothing;
+        return s < values.size() ? values[s] : not_a_number;
     };
     for (std::size_t s = 0; s < orbit.segments(); ++s) {
         const Segment& segment = orbit.signature[s];

@@ -1,5 +1,6 @@
 #include "graze/results/point_list.hpp"
 
+#include "base/special_numbers.hpp"
 #include "graze/base/rounded.hpp"
 
 #include <fmt/format.h>
@@ -211,7 +212,7 @@ private:
         if (with_parameter_)
             table_.add(followed);
         if (with_parameter_)
-            table_.add(followed.empty() ? nothing : value_of_parameter(list_, point, followed));
+            table_.add(followed.empty() ? not_a_number : value_of_parameter(list_, point, followed));
         else if (!list_.followed.empty())
             table_.add(value_of_parameter(list_, point, list_.followed));
         for (const std::string& name : list_.differing)
@@ -220,7 +221,7 @@ private:
         if (for_people_)
             table_.add(numbers_text(solution.orbit.durations, 6));
         for (std::size_t s = 0; !for_people_ && s < segments_; ++s)
-            table_.add(s < solution.orbit.segments() ? solution.orbit.durations[s] : nothing);
+            table_.add(s < solution.orbit.segments() ? solution.orbit.durations[s] : not_a_number);
         table_.add(to_string(list_.run_of(point).model, solution.orbit.signature));
         if (with_symmetry_)
             table_.add(solution.orbit.symmetry ? list_.run_of(point).model.symmetries[*solution.orbit.symmetry].name
@@ -229,8 +230,8 @@ private:
         add_multiplier(solution);
         for (std::size_t m = 0; !for_people_ && m < multipliers_; ++m) {
             const bool known = m < solution.multipliers.size();
-            table_.add_extended(known ? solution.multipliers[m].real() : nothing);
-            table_.add_extended(known ? solution.multipliers[m].imag() : nothing);
+            table_.add_extended(known ? solution.multipliers[m].real() : not_a_number);
+            table_.add_extended(known ? solution.multipliers[m].imag() : not_a_number);
         }
         if (with_reason_ && for_people_)
             table_.add(solution.certificate.admissible ? "yes" : is_unphysical(record) ? "no" : "limit");
@@ -257,14 +258,14 @@ private:
     }
     void add_verdict(const TouchFindings& touch) {
         table_.add(touch.verdict);
-        table_.add(touch.next_contact > 0 ? static_cast<double>(touch.next_contact) : nothing);
+        table_.add(touch.next_contact > 0 ? static_cast<double>(touch.next_contact) : not_a_number);
         if (for_people_)
             return;
         table_.add(touch.map);
         table_.add(touch.reason);
         for (const std::optional<double>& number : {touch.projection, touch.growth, touch.jump_growth, touch.reach,
                                                     touch.clearance_rate, touch.speed_factor, touch.fold_distance})
-            table_.add(number.value_or(nothing));
+            table_.add(number.value_or(not_a_number));
     }
     std::string cut(std::string text) const {
         constexpr std::size_t longest = 22;
@@ -284,13 +285,13 @@ private:
     }
     /// Adds the largest modulus. CSV and JSON have a number or a missing cell, people also read words.
     void add_multiplier(const OrbitSolution& solution) {
-        const double largest = solution.multipliers.empty() ? nothing : std::abs(solution.multipliers.front());
+        const double largest = solution.multipliers.empty() ? not_a_number : std::abs(solution.multipliers.front());
         if (std::isinf(largest))
             table_.add(for_people_ ? "infinite" : "inf");
         else if (for_people_ && solution.multipliers.empty())
             table_.add(multipliers_text(solution, digits_));
         else
-            table_.add(std::isfinite(largest) ? few_digits(largest) : nothing);
+            table_.add(std::isfinite(largest) ? few_digits(largest) : not_a_number);
     }
     double monitor_of(const ListedPoint& point, const std::string& name) const {
         const std::vector<ResultColumn>& values = list_.run_of(point).record.values;
@@ -298,7 +299,7 @@ private:
         for (std::size_t m = 0; m < std::min(values.size(), monitors.size()); ++m)
             if (values[m].name == name)
                 return monitors[m];
-        return nothing;
+        return not_a_number;
     }
     void add_truth(bool holds) {
         if (for_people_)
@@ -315,7 +316,6 @@ private:
         return text;
     }
 
-    static constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
     const PointList& list_;
     bool for_people_, brief_, with_run_, with_symmetry_, with_reason_, with_bracket_, with_detail_, with_verdict_,
         with_name_, with_type_, with_parameter_;

@@ -71,7 +71,7 @@ SpecialPoint regular_point(const BranchPoint& point, bool again) {
     result.solution = point.solution;
     result.solution.iterations = point.iterations;
     result.parameter = point.parameter;
-    result.bracket = {unknown_value, unknown_value};
+    result.bracket = {not_a_number, not_a_number};
     result.arclength = point.arclength;
     result.step = point.step;
     result.tangent = point.tangent;
@@ -89,7 +89,7 @@ SpecialPoint failed_start(const BranchPart& part, const StudyRun& run, const std
     point.solution.certificate.admissible = false;
     point.solution.certificate.reason = "no orbit was found";
     point.parameter = part.orbit.parameters[run.branch().settings.parameter.place()];
-    point.bracket = {unknown_value, unknown_value};
+    point.bracket = {not_a_number, not_a_number};
     return point;
 }
 

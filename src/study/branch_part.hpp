@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/special_numbers.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/with_place.hpp"
 #include "graze/branch/switching.hpp"
@@ -8,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -17,7 +17,6 @@
 namespace graze {
 
 /// A value of a point that is not known, which is NULL in the file.
-inline constexpr double unknown_value = std::numeric_limits<double>::quiet_NaN();
 
 /// A branch that a run follows from an orbit in one direction.
 struct BranchPart {

@@ -294,7 +294,7 @@ bool compute_orbit(const Study& study, const StudyRun& run, const System& system
         point.solution.certificate.reason = "no orbit was found";
     }
     point.parameter = orbit.parameters.empty() ? 0 : orbit.parameters[run.branch().settings.parameter.place()];
-    point.bracket = {unknown_value, unknown_value};
+    point.bracket = {not_a_number, not_a_number};
     writer.add("", point, is_stable(point.solution));
     writer.end("");
     return true;

@@ -184,12 +184,8 @@ void add_facts(Facts& facts, const Study& study) {
     add_words(facts, "study", study.name, study.text, study.source);
     for (const StudyRun& run : study.runs) {
         facts.add("run", run.name, "kind", std::string(name_of(run.kind)));
-        if (!run.is_branch()) {
-            const std::size_t planned = run.kind == RunKind::record ? run.record().records()
-                                        : run.has_motions()         ? points_of(run)
-                                                                    : 1;
-            facts.add("run", run.name, "planned", static_cast<double>(planned));
-        }
+        if (!run.is_branch())
+            facts.add("run", run.name, "planned", static_cast<double>(points_of(run)));
         facts.add("run", run.name, "model", run.model.name);
         add_axes(facts, run);
     }

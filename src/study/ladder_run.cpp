@@ -62,7 +62,7 @@ std::vector<double> monitors_of(const System& system, const Orbit& orbit, const 
     try {
         return OrbitMonitors(system, orbit.signature, monitors, run.branch().settings.orbit.tolerance)(orbit);
     } catch (const InputError&) {
-        return std::vector<double>(monitors.size(), unknown_value);
+        return std::vector<double>(monitors.size(), not_a_number);
     }
 }
 
@@ -70,7 +70,7 @@ bool run_ladder(const StudyRun& run, const System& system, const OrbitRecord& fi
                 const RunnerOptions& options) {
     Ladder ladder = at_place(run.start->place, run, [&] { return Ladder(system, first.point, run.branch().settings); });
     SpecialPoint begin = ladder.grazings().front();
-    begin.monitors.assign(run.branch().settings.monitors.size(), unknown_value);
+    begin.monitors.assign(run.branch().settings.monitors.size(), not_a_number);
     writer.add(name_of_rung(1), begin, first.stable);
     writer.end("");
     const auto follow = [&](std::size_t number, const BranchStart& start) -> std::optional<RungEnd> {

@@ -94,10 +94,14 @@ std::vector<double> coordinates_of(const StudyRun& run, std::size_t point) {
 }
 
 std::size_t chains_of(const StudyRun& run) {
+    if (!run.has_motions())
+        return 1;
     return combinations(run) * std::max<std::size_t>(run.motion().draws, 1);
 }
 
 std::size_t points_of(const StudyRun& run) {
+    if (run.kind == RunKind::record)
+        return run.record().records();
     return chains_of(run) * chain_length_of(run);
 }
 

@@ -105,7 +105,7 @@ public:
         for (const StudyRun& run : study.runs)
             if (wanted.contains(run.name)) {
                 runs_.push_back(&run);
-                (run.is_branch() ? progress_.branches_left : progress_.study_points) += planned_points(run);
+                (run.is_branch() ? progress_.branches_left : progress_.study_points) += points_of(run);
             }
     }
 
@@ -113,7 +113,7 @@ public:
         std::vector<ScheduledRun> schedule;
         for (const StudyRun* run : runs_) {
             ScheduledRun& one = schedule.emplace_back();
-            one.threads = run->is_branch() || run->is_measured() ? 1 : chains_of(*run);
+            one.threads = chains_of(*run);
             for (std::size_t r = 0; r + 1 < schedule.size(); ++r)
                 for (const auto& need : run->needs())
                     if (runs_[r]->name == need.first)
@@ -145,12 +145,6 @@ private:
         std::optional<RunTimes> times; ///< none: it computes nothing
     };
 
-    static std::size_t planned_points(const StudyRun& run) {
-        if (run.kind == RunKind::record)
-            return run.record().records();
-        return run.is_branch() || run.kind == RunKind::identify ? 1 : points_of(run);
-    }
-
     void do_one(std::size_t index, int threads) {
         const StudyRun& run = *runs_[index];
         const auto begun = Clock::now();
@@ -173,7 +167,7 @@ private:
         if (run.is_branch())
             --progress_.branches_left;
         else
-            progress_.study_done += planned_points(run) - work.counted;
+            progress_.study_done += points_of(run) - work.counted;
         if (!work.report.problem.empty())
             file.fail_run(run.name, work.report.problem + "; " + work.report.remedy);
         if (!work.times)
@@ -271,7 +265,7 @@ private:
     /// Carries out a run of kind record or identify.
     void do_measured(const StudyRun& wanted, Work& work) {
         const StudyRun run = file_.with([&](const ResultFile& file) { return measured_run(wanted, file); });
-        work.report.points = planned_points(run);
+        work.report.points = points_of(run);
         const bool done = is_there_or_begins(run, work.report.points, work);
         if (done)
             return;

@@ -1,26 +1,24 @@
 #include "graze/study/study_table.hpp"
 
+#include "base/special_numbers.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/results/stored_run.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <limits>
 #include <variant>
 
 namespace graze {
 
 namespace {
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-
 using Cell = std::variant<double, std::string>;
 
 Cell cell_of(const ResultFile::Rows& rows, std::size_t column) {
     if (rows.is_text(column))
         return rows.text(column);
-    return rows.is_null(column) ? nothing : rows.number(column);
+    return rows.is_null(column) ? not_a_number : rows.number(column);
 }
 
 /// Whether an expression has this name in it.
@@ -130,14 +128,14 @@ private:
     }
     double number(std::size_t row, std::size_t column) const {
         const double* value = row < rows_.size() ? std::get_if<double>(&rows_[row][column]) : nullptr;
-        return value && std::isfinite(*value) ? *value : nothing;
+        return value && std::isfinite(*value) ? *value : not_a_number;
     }
     double ratio_at(std::size_t row, const std::string& name) const {
         std::size_t column = heading_;
         while (asked_->columns[column - heading_].name != name)
             ++column;
         const double before = number(row + 1, column) - number(row, column);
-        return before == 0 ? nothing : (number(row + 2, column) - number(row + 1, column)) / before;
+        return before == 0 ? not_a_number : (number(row + 2, column) - number(row + 1, column)) / before;
     }
 
     const StudyTable* asked_;

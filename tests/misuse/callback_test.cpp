@@ -115,7 +115,7 @@ cycles = 10
 
 } // namespace
 
-TEST(Callbacks, OfAMotion) {
+TEST(Callbacks, AnExceptionEndsAMotion) {
     expect_promises([](Watch& watch) {
         Motion motion;
         Trajectory trajectory(motion.simulation, motion.model.parameter_values(), std::make_shared<Thrower>(watch));
@@ -124,7 +124,7 @@ TEST(Callbacks, OfAMotion) {
     });
 }
 
-TEST(Callbacks, OfAnEnsembleThatCanBeUsedAgain) {
+TEST(Callbacks, AnExceptionLeavesAnEnsembleUsable) {
     const Simulation simulation{System(oscillator())};
     Ensemble ensemble(simulation);
     const auto run_in = [&](Watch& watch) {
@@ -146,7 +146,7 @@ TEST(Callbacks, OfAnEnsembleThatCanBeUsedAgain) {
     run_in(calm);
 }
 
-TEST(Callbacks, OfAPlan) {
+TEST(Callbacks, AnExceptionEndsAPlan) {
     for (const bool carry : {false, true})
         for (const int jobs : {1, 3})
             expect_promises([&](Watch& watch) {
@@ -167,7 +167,7 @@ TEST(Callbacks, OfAPlan) {
             });
 }
 
-TEST(Callbacks, OfOrbitsAndBranches) {
+TEST(Callbacks, AnExceptionEndsOrbitsAndBranches) {
     const System system(calm_oscillator());
     expect_promises([&](Watch& watch) {
         find_orbit(system, by_phase(), {}, {}, [&] {
@@ -209,7 +209,7 @@ TEST(Callbacks, OfOrbitsAndBranches) {
     });
 }
 
-TEST(Callbacks, OfAStudy) {
+TEST(Callbacks, AnExceptionEndsAStudy) {
     const TemporaryFolder folder;
     int files = 0;
     for (const int jobs : {1, 3})
@@ -233,7 +233,7 @@ TEST(Callbacks, OfAStudy) {
     EXPECT_THROW(run_study(study(), file, options), InputError);
 }
 
-TEST(Callbacks, OfAFit) {
+TEST(Callbacks, AnExceptionEndsAFit) {
     const Model model = calm_oscillator();
     FitTask task;
     task.parameters = {{.parameter = model.independent_parameter("amplitude"), .guess = 0.1}};
@@ -261,7 +261,7 @@ TEST(Callbacks, OfAFit) {
     });
 }
 
-TEST(Callbacks, OfAnAcquisition) {
+TEST(Callbacks, AnExceptionEndsAnAcquisition) {
     const TemporaryFolder folder;
     int files = 0;
     const Experiment experiment = parse_experiment(experiment_text(), "sweep.toml");

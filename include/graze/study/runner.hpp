@@ -52,9 +52,10 @@ struct RunReport {
     bool complete() const { return outcome == RunOutcome::complete; }
 };
 
-/// Number of points of a run of motions. @throws InputError here and below for other runs
+/// Number of points of a run that are known beforehand: those of motions, or the records. A branch or an estimate
+/// counts as one.
 std::size_t points_of(const StudyRun& run);
-/// Number of chains of points, which can be computed side by side.
+/// Number of chains of points, which can be computed side by side; 1 for runs without motions.
 std::size_t chains_of(const StudyRun& run);
 /// The points of a run: chains along its first axis, one for each combination of the values of the other axes.
 /// @param run is copied

@@ -89,15 +89,15 @@ private:
     [[noreturn]] void refuse_request() const;
     template <class Request>
     const Request& require() const {
-        if (!std::holds_alternative<Request>(request))
-            refuse_request();
-        return *std::get_if<Request>(&request);
+        if (const auto* one = std::get_if<Request>(&request))
+            return *one;
+        refuse_request();
     }
     template <class Request>
     Request& require() {
-        if (!std::holds_alternative<Request>(request))
-            refuse_request();
-        return *std::get_if<Request>(&request);
+        if (auto* one = std::get_if<Request>(&request))
+            return *one;
+        refuse_request();
     }
 };
 
