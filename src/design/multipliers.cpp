@@ -3,8 +3,6 @@
 #include "base/linear_systems.hpp"
 #include "orbit/eigen_index.hpp"
 
-#include <Eigen/Core>
-
 #include <algorithm>
 #include <vector>
 

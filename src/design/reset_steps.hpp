@@ -2,8 +2,6 @@
 
 #include "graze/design/reset.hpp"
 
-#include <span>
-
 namespace graze {
 
 /// Finds the reset value of a motion that must be simulated: one at rest, or one that does not settle on an orbit. The

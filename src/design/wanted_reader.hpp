@@ -3,8 +3,6 @@
 #include "graze/design/design.hpp"
 #include "study/study_reader.hpp"
 
-#include <string>
-
 namespace graze {
 
 /// Reads the requirements of a design, whose model, dimensions and yield are known.

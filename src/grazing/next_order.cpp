@@ -4,8 +4,6 @@
 #include "graze/symbolic/transform.hpp"
 #include "orbit/eigen_index.hpp"
 
-#include <Eigen/Core>
-
 #include <vector>
 
 namespace graze {

@@ -5,7 +5,6 @@
 #include "orbit/certify.hpp"
 #include "orbit/eigen_index.hpp"
 
-#include <algorithm>
 #include <array>
 #include <vector>
 

@@ -4,7 +4,6 @@
 #include "graze/symbolic/transform.hpp"
 #include "orbit/eigen_index.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace graze {

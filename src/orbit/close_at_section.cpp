@@ -2,7 +2,6 @@
 
 #include "graze/trajectory/trajectory.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace graze {

@@ -3,8 +3,6 @@
 #include "base/decompositions.hpp"
 #include "orbit/eigen_index.hpp"
 
-#include <Eigen/Core>
-
 #include <algorithm>
 #include <cmath>
 

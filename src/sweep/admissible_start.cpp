@@ -1,6 +1,5 @@
 #include "sweep/admissible_start.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

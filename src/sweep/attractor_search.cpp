@@ -2,8 +2,6 @@
 
 #include "base/special_numbers.hpp"
 #include "graze/base/require.hpp"
-#include "sweep/approach.hpp"
-#include "sweep/quasi_periodic.hpp"
 #include "sweep/transient_search.hpp"
 
 #include <algorithm>

@@ -4,8 +4,6 @@
 #include "base/linear_systems.hpp"
 #include "flow/cyclic.hpp"
 
-#include <Eigen/Core>
-
 #include <algorithm>
 #include <cmath>
 #include <complex>

@@ -2,8 +2,6 @@
 
 #include "base/decompositions.hpp"
 
-#include <Eigen/Core>
-
 #include <cmath>
 
 namespace graze {

@@ -2,7 +2,6 @@
 
 #include "base/special_numbers.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 

@@ -3,7 +3,6 @@
 #include "graze/base/require.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace graze {
 

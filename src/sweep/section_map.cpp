@@ -5,8 +5,6 @@
 #include "flow/cyclic.hpp"
 #include "graze/symbolic/transform.hpp"
 
-#include <Eigen/Core>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

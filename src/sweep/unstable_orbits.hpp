@@ -4,7 +4,6 @@
 #include "sweep/return_watcher.hpp"
 
 #include <cstddef>
-#include <span>
 #include <vector>
 
 namespace graze {

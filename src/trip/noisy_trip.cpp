@@ -12,11 +12,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <memory>
-#include <utility>
-#include <vector>
 
 namespace graze {
 

@@ -3,7 +3,6 @@
 #include "graze/branch/special_point.hpp"
 #include "graze/trip/simulated_trip.hpp"
 
-#include <cstddef>
 #include <vector>
 
 namespace graze {
