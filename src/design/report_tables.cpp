@@ -1,3 +1,4 @@
+#include "base/enumerator_name.hpp"
 #include "base/special_numbers.hpp"
 #include "graze/design/design_report.hpp"
 #include "graze/sweep/attractor.hpp"
@@ -10,15 +11,17 @@ namespace graze {
 
 namespace {
 
+/// Adds the cells of one row.
+template <class... Cells>
+void add_row(Table& table, const Cells&... cells) {
+    (table.add(cells), ...);
+}
+
 /// The table of facts.
 class FactRows {
 public:
-    FactRows() : table_({{"quantity", ""}, {"value", ""}, {"unit", ""}, {"meaning", ""}}) {}
     void add(const std::string& name, double value, const std::string& unit, const std::string& meaning) {
-        table_.add(name);
-        table_.add(value);
-        table_.add(unit);
-        table_.add(meaning);
+        add_row(table_, name, value, unit, meaning);
     }
     void add(const std::string& name, const std::optional<double>& value, const std::string& unit,
              const std::string& meaning) {
@@ -26,23 +29,25 @@ public:
             add(name, *value, unit, meaning);
     }
     void add(const std::string& name, std::string_view value, const std::string& meaning) {
-        table_.add(name);
-        table_.add(value);
-        table_.add("");
-        table_.add(meaning);
+        add_row(table_, name, value, "", meaning);
     }
     Table take() { return std::move(table_); }
 
 private:
-    Table table_;
+    Table table_{{{"quantity", ""}, {"value", ""}, {"unit", ""}, {"meaning", ""}}};
 };
 
 std::string unit_of(const Model& model, const std::string& parameter) {
     return model.parameters[*model.find_parameter(parameter)].unit;
 }
 
-double if_ended(const std::optional<TripTime>& trip, double TripTime::*number) {
+/// @param trip optional TripTime, or a prediction of one
+double if_ended(const auto& trip, double TripTime::*number) {
     return trip && trip->ended ? (*trip).*number : not_a_number;
+}
+
+double value_of(const MappedValue& one) {
+    return one.found ? one.value : not_a_number;
 }
 
 std::string_view name_of_class(const MappedValue& one) {
@@ -122,6 +127,10 @@ void add_wishes(FactRows& facts, const MetWishes& wishes) {
     }
 }
 
+std::string_view yes_or_no(bool yes) {
+    return yes ? "yes" : "no";
+}
+
 /// A cell for a bound; empty if it is infinite.
 double bound_of(double value) {
     return std::isfinite(value) ? value : not_a_number;
@@ -132,37 +141,23 @@ Table wishes_table(const MetWishes& wishes) {
         {{"what", ""}, {"least", ""}, {"greatest", ""}, {"value", ""}, {"met", ""}, {"binds", ""}, {"weight", ""}});
     for (std::size_t i = 0; i < wishes.found.wants.size(); ++i) {
         const FoundWant& one = wishes.found.wants[i];
-        table.add(wishes.list.wants[i].name);
-        table.add(bound_of(wishes.list.wants[i].least));
-        table.add(bound_of(wishes.list.wants[i].most));
-        table.add(one.value.value_or(not_a_number));
-        table.add(one.met ? "yes" : "no");
-        table.add(one.binds ? "yes" : "no");
-        table.add(one.weight);
+        const Want& want = wishes.list.wants[i];
+        add_row(table, want.name, bound_of(want.least), bound_of(want.most), one.value.value_or(not_a_number),
+                yes_or_no(one.met), yes_or_no(one.binds), one.weight);
     }
     for (std::size_t i = 0; i < wishes.found.dimensions.size(); ++i) {
         const FoundDimension& one = wishes.found.dimensions[i];
-        table.add(wishes.list.dimensions[i].name);
-        table.add(bound_of(wishes.list.dimensions[i].lowest));
-        table.add(bound_of(wishes.list.dimensions[i].highest));
-        table.add(one.value);
-        table.add("");
-        table.add(one.binds ? "yes" : "no");
-        table.add(one.weight);
+        const Dimension& range = wishes.list.dimensions[i];
+        add_row(table, range.name, bound_of(range.lowest), bound_of(range.highest), one.value, "", yes_or_no(one.binds),
+                one.weight);
     }
     return table;
 }
 
 Table earlier_table(const TripPoint& trip, const std::string& control, const std::string& unit) {
     Table table({{"run", ""}, {"label", ""}, {"type", ""}, {control, unit}, {"changes", ""}, {"detail", ""}});
-    for (const EarlierPoint& one : trip.earlier) {
-        table.add(one.run);
-        table.add(one.label);
-        table.add(name_of(one.type));
-        table.add(one.value);
-        table.add(one.changes ? "yes" : "no");
-        table.add(one.detail);
-    }
+    for (const EarlierPoint& one : trip.earlier)
+        add_row(table, one.run, one.label, name_of(one.type), one.value, yes_or_no(one.changes), one.detail);
     return table;
 }
 
@@ -176,11 +171,6 @@ Table sensitivity_table(const Design& design, const DesignReport& report, const 
                  {"effect", unit},
                  {"share", ""}});
     for (const Sensitivity& one : report.sensitivities) {
-        table.add(one.name);
-        table.add(one.value);
-        table.add(one.unit);
-        table.add(one.derivative);
-        table.add(one.relative.value_or(not_a_number));
         double deviation = not_a_number, effect = not_a_number, share = not_a_number;
         if (report.yield) {
             for (const Tolerance& tolerance : report.yield_settings.tolerances)
@@ -190,9 +180,8 @@ Table sensitivity_table(const Design& design, const DesignReport& report, const 
                 if (part.parameter == one.parameter)
                     effect = part.deviation, share = part.share;
         }
-        table.add(deviation);
-        table.add(effect);
-        table.add(share);
+        add_row(table, one.name, one.value, one.unit, one.derivative, one.relative.value_or(not_a_number), deviation,
+                effect, share);
     }
     return table;
 }
@@ -207,59 +196,33 @@ Table times_table(const DesignReport& report, const std::string& unit, const std
                  {"ending", ""},
                  {"simulated_time", time_unit}});
     for (const OvershootTrip& row : report.times.rows) {
-        table.add(row.overshoot);
-        table.add(row.continued ? row.predicted->first_speed : not_a_number);
-        const bool ended = row.predicted && row.predicted->ended;
-        table.add(ended ? row.predicted->cycles : not_a_number);
-        table.add(ended ? row.predicted->time : not_a_number);
-        table.add(if_ended(row.continued, &TripTime::cycles));
-        table.add(if_ended(row.continued, &TripTime::time));
-        table.add(row.continued ? row.continued->ending : row.simulated ? row.simulated->ending : "");
-        table.add(if_ended(row.simulated, &TripTime::time));
+        add_row(table, row.overshoot, row.continued ? row.predicted->first_speed : not_a_number,
+                if_ended(row.predicted, &TripTime::cycles), if_ended(row.predicted, &TripTime::time),
+                if_ended(row.continued, &TripTime::cycles), if_ended(row.continued, &TripTime::time),
+                row.continued   ? row.continued->ending
+                : row.simulated ? row.simulated->ending
+                                : "",
+                if_ended(row.simulated, &TripTime::time));
     }
     return table;
-}
-
-void add_mapped(Table& table, const MappedValue& one) {
-    table.add(one.found ? one.value : not_a_number);
-    table.add(name_of_class(one));
-    table.add(one.problem);
 }
 
 Table tuning_table(const Tuning& tuning, const Design& design, const DesignDimension& stop, const std::string& unit) {
     Table table({{design.control, unit}, {stop.name, stop.unit}, {"usable", ""}, {"problem", ""}});
     for (const TuningPoint& one : tuning.points) {
-        table.add(one.value);
-        table.add(one.found ? one.position : not_a_number);
         const bool usable = one.value >= tuning.least && one.value <= tuning.greatest;
-        table.add(usable ? "yes" : "no");
-        table.add(one.problem);
+        add_row(table, one.value, one.found ? one.position : not_a_number, yes_or_no(usable), one.problem);
     }
     return table;
 }
 
-std::string_view outcome_name(DeviceOutcome outcome) {
-    switch (outcome) {
-    case DeviceOutcome::found:
-        return "found";
-    case DeviceOutcome::inadmissible:
-        return "inadmissible";
-    case DeviceOutcome::failed:
-        return "failed";
-    case DeviceOutcome::not_made:
-        break;
-    }
-    return "not made";
-}
-
 Table device_table(const Yield& yield, const std::string& control, const std::string& unit) {
+    constexpr std::string_view outcomes[] = {"found", "inadmissible", "failed", "not made"}; // of DeviceOutcome
     Table table({{"device", ""}, {control, unit}, {"linear", unit}, {"outcome", ""}});
     for (std::size_t i = 0; i < yield.devices.size(); ++i) {
         const Device& device = yield.devices[i];
-        table.add(static_cast<double>(i + 1));
-        table.add(device.outcome == DeviceOutcome::found ? device.value : not_a_number);
-        table.add(device.linear);
-        table.add(outcome_name(device.outcome));
+        add_row(table, static_cast<double>(i + 1), device.outcome == DeviceOutcome::found ? device.value : not_a_number,
+                device.linear, enumerator_name(outcomes, device.outcome, "not made"));
     }
     return table;
 }
@@ -335,20 +298,15 @@ std::vector<NamedTable> tables_of(const Design& design, const TripPoint& trip, c
     for (const DimensionCurve& curve : report.curves) {
         const DesignDimension& one = design.dimensions[curve.dimension];
         Table table({{one.name, one.unit}, {design.control, unit}, {"class", ""}, {"problem", ""}});
-        for (const MappedValue& point : curve.points) {
-            table.add(point.x);
-            add_mapped(table, point);
-        }
+        for (const MappedValue& point : curve.points)
+            add_row(table, point.x, value_of(point), name_of_class(point), point.problem);
         tables.push_back({"curve-" + one.name, std::move(table)});
     }
     for (const DimensionPlane& plane : report.planes) {
         const DesignDimension &x = design.dimensions[plane.across], &y = design.dimensions[plane.up];
         Table table({{x.name, x.unit}, {y.name, y.unit}, {design.control, unit}, {"class", ""}, {"problem", ""}});
-        for (const MappedValue& point : plane.points) {
-            table.add(point.x);
-            table.add(point.y);
-            add_mapped(table, point);
-        }
+        for (const MappedValue& point : plane.points)
+            add_row(table, point.x, point.y, value_of(point), name_of_class(point), point.problem);
         tables.push_back({fmt::format("plane-{}-{}", x.name, y.name), std::move(table)});
     }
     if (report.tuning)

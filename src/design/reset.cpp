@@ -35,17 +35,9 @@ Model beyond(const TripPoint& trip, const Orbit& orbit, double overshoot) {
 /// Whether the motion is lost or changes at a point. At other types, such as events that change their order, orbits of
 /// the same kind continue.
 bool ends_motion(PointType type) {
-    switch (type) {
-    case PointType::fold:
-    case PointType::flip:
-    case PointType::torus:
-    case PointType::branch_point:
-    case PointType::asymmetry:
-    case PointType::grazing:
-        return true;
-    default:
-        return false;
-    }
+    using enum PointType;
+    constexpr PointType ends[] = {fold, flip, torus, branch_point, asymmetry, grazing};
+    return std::ranges::find(ends, type) != std::end(ends);
 }
 
 /// Continues the tripped orbit back until it is no longer stable or admissible.

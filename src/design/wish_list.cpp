@@ -1,5 +1,6 @@
 #include "graze/design/wish_list.hpp"
 
+#include "base/enumerator_name.hpp"
 #include "design/multipliers.hpp"
 #include "graze/base/input_error.hpp"
 #include "orbit/eigen_index.hpp"
@@ -337,19 +338,8 @@ void WishOptions::validate() const {
 }
 
 std::string_view name_of(WishOutcome outcome) {
-    switch (outcome) {
-    case WishOutcome::met:
-        return "met";
-    case WishOutcome::unmet:
-        return "unmet";
-    case WishOutcome::unfinished:
-        return "unfinished";
-    case WishOutcome::interrupted:
-        return "interrupted";
-    case WishOutcome::nowhere:
-        break;
-    }
-    return "nowhere";
+    constexpr std::string_view names[] = {"met", "unmet", "unfinished", "interrupted", "nowhere"};
+    return enumerator_name(names, outcome, "nowhere");
 }
 
 FoundDesign design_for(const WishList& wishes, const WishOptions& options) {

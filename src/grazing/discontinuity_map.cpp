@@ -1,5 +1,6 @@
 #include "graze/grazing/discontinuity_map.hpp"
 
+#include "base/enumerator_name.hpp"
 #include "base/linear_systems.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
@@ -99,44 +100,21 @@ void project_onto_touch(const TouchFunctions& functions, TouchState& touch, Touc
 } // namespace
 
 std::string_view name_of(MapOrder order) {
-    switch (order) {
-    case MapOrder::square_root:
-        return "square-root";
-    case MapOrder::three_halves:
-        return "three-halves";
-    case MapOrder::linear:
-        return "linear";
-    case MapOrder::none:
-        break;
-    }
-    return "none";
+    constexpr std::string_view names[] = {"none", "square-root", "three-halves", "linear"};
+    return enumerator_name(names, order, "none");
 }
 
 double DiscontinuityMap::by_depth(double depth) const {
-    switch (order) {
-    case MapOrder::square_root:
-        return std::sqrt(2 * acceleration * depth);
-    case MapOrder::three_halves:
-        return depth * std::sqrt(depth);
-    case MapOrder::linear:
-        return depth;
-    case MapOrder::none:
-        break;
-    }
-    return 0;
+    return order == MapOrder::square_root    ? std::sqrt(2 * acceleration * depth)
+           : order == MapOrder::three_halves ? depth * std::sqrt(depth)
+           : order == MapOrder::linear       ? depth
+                                             : 0;
 }
 
 double DiscontinuityMap::second_by_depth(double depth) const {
-    switch (order) {
-    case MapOrder::square_root:
-        return 2 * acceleration * depth;
-    case MapOrder::linear:
-        return depth * std::sqrt(depth);
-    case MapOrder::three_halves:
-    case MapOrder::none:
-        break;
-    }
-    return 0;
+    return order == MapOrder::square_root ? 2 * acceleration * depth
+           : order == MapOrder::linear    ? depth * std::sqrt(depth)
+                                          : 0;
 }
 
 DiscontinuityMap discontinuity_map(const System& system, const TouchState& touch) {

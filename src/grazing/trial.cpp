@@ -1,5 +1,6 @@
 #include "graze/grazing/trial.hpp"
 
+#include "base/enumerator_name.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/grazing/map_motion.hpp"
 #include "graze/trajectory/trajectory.hpp"
@@ -228,15 +229,8 @@ void TrialOptions::validate() const {
 }
 
 std::string_view name_of(TrialOutcome outcome) {
-    switch (outcome) {
-    case TrialOutcome::agreed:
-        return "agreed";
-    case TrialOutcome::contradicted:
-        return "contradicted";
-    case TrialOutcome::undecided:
-        break;
-    }
-    return "undecided";
+    constexpr std::string_view names[] = {"agreed", "contradicted", "undecided"};
+    return enumerator_name(names, outcome, "undecided");
 }
 
 Trial try_verdict(const System& system, const CycleMap& map, const Verdict& verdict, ParameterId parameter,

@@ -1,6 +1,7 @@
 #include "graze/grazing/verdict.hpp"
 
 #include "base/decompositions.hpp"
+#include "base/enumerator_name.hpp"
 #include "base/linear_systems.hpp"
 #include "graze/grazing/map_motion.hpp"
 #include "orbit/eigen_index.hpp"
@@ -295,45 +296,18 @@ void classify_sliding(const CycleMap& map, Verdict& verdict) {
 } // namespace
 
 std::string_view name_of(GrazingOutcome outcome) {
-    switch (outcome) {
-    case GrazingOutcome::persists:
-        return "persists";
-    case GrazingOutcome::lost:
-        return "lost";
-    case GrazingOutcome::folds:
-        return "folds";
-    case GrazingOutcome::undecided:
-        break;
-    }
-    return "undecided";
+    constexpr std::string_view names[] = {"persists", "lost", "folds", "undecided"};
+    return enumerator_name(names, outcome, "undecided");
 }
 
 std::string_view name_of(AttractorKind kind) {
-    switch (kind) {
-    case AttractorKind::period_adding:
-        return "period-adding";
-    case AttractorKind::periodic_windows:
-        return "periodic-windows";
-    case AttractorKind::chaotic:
-        return "chaotic";
-    case AttractorKind::periodic:
-        return "periodic";
-    case AttractorKind::none:
-        break;
-    }
-    return "none";
+    constexpr std::string_view names[] = {"none", "period-adding", "periodic-windows", "chaotic", "periodic"};
+    return enumerator_name(names, kind, "none");
 }
 
 std::string_view name_of(BorderCollision collision) {
-    switch (collision) {
-    case BorderCollision::persistence:
-        return "persistence";
-    case BorderCollision::fold:
-        return "fold";
-    case BorderCollision::none:
-        break;
-    }
-    return "none";
+    constexpr std::string_view names[] = {"none", "persistence", "fold"};
+    return enumerator_name(names, collision, "none");
 }
 
 Verdict verdict_of(const CycleMap& map, std::size_t shown) {

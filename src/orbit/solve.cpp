@@ -1,5 +1,6 @@
 #include "graze/orbit/solve.hpp"
 
+#include "base/enumerator_name.hpp"
 #include "graze/base/input_error.hpp"
 #include "orbit/certify.hpp"
 #include "orbit/eigen_index.hpp"
@@ -43,17 +44,8 @@ void OrbitOptions::validate() const {
 }
 
 std::string_view name_of(OrbitOutcome outcome) {
-    switch (outcome) {
-    case OrbitOutcome::converged:
-        return "converged";
-    case OrbitOutcome::not_converged:
-        return "not converged";
-    case OrbitOutcome::singular:
-        return "singular";
-    case OrbitOutcome::undefined:
-        return "undefined";
-    }
-    return "";
+    constexpr std::string_view names[] = {"converged", "not converged", "singular", "undefined"};
+    return enumerator_name(names, outcome, "");
 }
 
 namespace {

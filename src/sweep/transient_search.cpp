@@ -167,16 +167,10 @@ bool TransientSearch::proceed() {
 }
 
 Label label_of(Ending ending) {
-    switch (ending) {
-    case Ending::singular:
-        return Label::singular;
-    case Ending::chatter:
-        return Label::chattering;
-    case Ending::terminal:
-        return Label::ended;
-    default:
-        return Label::failed;
-    }
+    return ending == Ending::singular   ? Label::singular
+           : ending == Ending::chatter  ? Label::chattering
+           : ending == Ending::terminal ? Label::ended
+                                        : Label::failed;
 }
 
 namespace {
