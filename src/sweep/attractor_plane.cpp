@@ -1,7 +1,9 @@
 // Motions on invariant planes, such as that of equal states or of a zero state: they are displaced off the plane.
 
+#include "base/decompositions.hpp"
 #include "sweep/attractor_search.hpp"
-#include "sweep/invariant_plane.hpp"
+
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +13,34 @@ namespace graze {
 namespace {
 
 constexpr double next_to_zero = 1e-9; ///< relative size of a state that keeps its sign and counts as almost zero
+
+/// Allowed distance of points from a common plane: larger than rounding, smaller than any disturbance.
+constexpr double in_plane = 1e-9;
+
+/// Returns the normals of the smallest plane that contains all points, to within round-off: the directions in which the
+/// points do not differ. A motion on such a plane gives no information on its neighbours beside it.
+/// @param points in rows, in units in which the extent of each coordinate is about one
+/// @param away a direction that is excluded, such as the one that leads off a section; zero: none
+/// @return normals in columns, orthonormal; none if there are too few points
+Eigen::MatrixXd normals_of_plane(const Eigen::MatrixXd& points, const Eigen::VectorXd& away) {
+    const Eigen::Index count = points.rows(), size = points.cols();
+    if (size == 0 || count < 2 * size + 2)
+        return Eigen::MatrixXd(size, 0);
+    Eigen::MatrixXd rows(count + 1, size);
+    rows.topRows(count) = points.rowwise() - points.row(0);
+    const double length = away.norm();
+    rows.bottomRows(1).setZero();
+    if (length > 0)
+        rows.bottomRows(1) = away.transpose() / length * std::sqrt(static_cast<double>(count));
+    if (!rows.allFinite())
+        return Eigen::MatrixXd(size, 0);
+    const SingularValues factors = singular_values(rows, SingularVectors::right);
+    const double most = in_plane * std::sqrt(static_cast<double>(count));
+    Eigen::Index normals = 0;
+    while (normals < size && factors.values[size - 1 - normals] <= most)
+        ++normals;
+    return factors.right.rightCols(normals);
+}
 
 } // namespace
 

@@ -396,28 +396,12 @@ std::vector<double> AttractorSearch::extents_of_visited() const {
     return extents;
 }
 
-namespace {
-
-class AttractorSearches : public SearchFactory {
-public:
-    AttractorSearches(const System& system, const AttractorOptions& options, const std::vector<Sampling>& samplings,
-                      const std::vector<Expression>& values, const SimulationOptions& simulation_options)
-        : setting_(std::make_shared<const AttractorSetting>(system, options, samplings, values, simulation_options)) {}
-
-    const Simulation& simulation() const override { return setting_->simulation; }
-    std::unique_ptr<PointSearch> make() const override { return std::make_unique<AttractorSearch>(setting_); }
-
-private:
-    std::shared_ptr<const AttractorSetting> setting_;
-};
-
-} // namespace
-
 std::unique_ptr<SearchFactory> attractor_searches(const System& system, const AttractorOptions& options,
                                                   const std::vector<Sampling>& samplings,
                                                   const std::vector<Expression>& values,
                                                   const SimulationOptions& simulation) {
-    return std::make_unique<AttractorSearches>(system, options, samplings, values, simulation);
+    return std::make_unique<SearchesOf<AttractorSetting, AttractorSearch>>(system, options, samplings, values,
+                                                                           simulation);
 }
 
 } // namespace graze

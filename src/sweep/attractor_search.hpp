@@ -7,7 +7,6 @@
 #include "sweep/exponent.hpp"
 #include "sweep/growth_watch.hpp"
 #include "sweep/orbit_finder.hpp"
-#include "sweep/orbit_stay.hpp"
 #include "sweep/quasi_periodic.hpp"
 #include "sweep/return_watcher.hpp"
 #include "sweep/sample_recorder.hpp"

@@ -24,12 +24,10 @@ constexpr double nearly = 0.1;               ///< allowed nonlinear part relativ
 constexpr double ill = 1e-7;                 ///< reciprocal condition number of nearly parallel eigenvectors
 constexpr double largest_number = 1e150;     ///< beyond which squares leave the range of numbers
 constexpr double unbalanced = 1e3; ///< ratio of row and column sizes of the field above which scales are meaningless
-constexpr double golden = 0.6180339887498949; ///< golden ratio: its multiples fill the unit interval evenly
 
 /// Returns element k of a fixed, evenly spread sequence in [-1, 1].
 double spread_number(std::size_t k) {
-    const double x = golden * static_cast<double>(k + 1);
-    return 2 * (x - std::floor(x)) - 1;
+    return 2 * even_place(k) - 1;
 }
 
 } // namespace
@@ -107,9 +105,24 @@ bool EquilibriumFinder::classify(Equilibrium& equilibrium) {
     return true;
 }
 
+/// Returns the rates of the active states in their scales, and sets their derivatives.
+Eigen::VectorXd EquilibriumFinder::linearise(const Equilibrium& equilibrium, std::span<const double> state,
+                                             Eigen::MatrixXd& field) {
+    field_->evaluate(workspace_, equilibrium.mode, state);
+    const Eigen::Index size = equilibrium.scale.size();
+    Eigen::VectorXd rates(size);
+    for (Eigen::Index i = 0; i < size; ++i) {
+        const std::size_t row = equilibrium.active[static_cast<std::size_t>(i)];
+        rates[i] = workspace_.rates[row] / equilibrium.scale[i];
+        for (Eigen::Index j = 0; j < size; ++j)
+            field(i, j) = workspace_.jacobian[row * state.size() + equilibrium.active[static_cast<std::size_t>(j)]] *
+                          equilibrium.scale[j] / equilibrium.scale[i];
+    }
+    return rates;
+}
+
 bool EquilibriumFinder::solve(Equilibrium& equilibrium, std::span<const double> extents) {
     const auto size = static_cast<Eigen::Index>(equilibrium.active.size());
-    const std::size_t count = field_->states();
     equilibrium.scale.resize(size);
     equilibrium.field.resize(size, size);
     std::vector<bool> has_size(static_cast<std::size_t>(size));
@@ -121,16 +134,7 @@ bool EquilibriumFinder::solve(Equilibrium& equilibrium, std::span<const double> 
     }
     double before = std::numeric_limits<double>::infinity();
     for (std::size_t iteration = 0; iteration < most_newton_steps && size > 0; ++iteration) {
-        field_->evaluate(workspace_, equilibrium.mode, equilibrium.state);
-        Eigen::VectorXd rates(size);
-        for (Eigen::Index i = 0; i < size; ++i) {
-            const std::size_t row = equilibrium.active[static_cast<std::size_t>(i)];
-            rates[i] = workspace_.rates[row] / equilibrium.scale[i];
-            for (Eigen::Index j = 0; j < size; ++j)
-                equilibrium.field(i, j) =
-                    workspace_.jacobian[row * count + equilibrium.active[static_cast<std::size_t>(j)]] *
-                    equilibrium.scale[j] / equilibrium.scale[i];
-        }
+        Eigen::VectorXd rates = linearise(equilibrium, equilibrium.state, equilibrium.field);
         if (!equilibrium.field.allFinite() || !rates.allFinite())
             return false;
         if (iteration == 0) {
@@ -184,31 +188,26 @@ void EquilibriumFinder::balance(Equilibrium& equilibrium, const std::vector<bool
         }
 }
 
+/// Returns value k of a clock among evenly spread ones.
+double EquilibriumFinder::phase_of(std::size_t k, std::size_t clock) const {
+    return periods_[clocks_[clock]] * 0.5 * (1 + spread_number(k * (clock + 1) + 3 * clock));
+}
+
 /// A clock may disturb a state that is at rest at one of its phases only.
 bool EquilibriumFinder::rests_at_all_phases(Equilibrium& equilibrium) {
     if (clocks_.empty() || equilibrium.active.empty())
         return true;
-    const auto size = static_cast<Eigen::Index>(equilibrium.active.size());
-    const std::size_t count = field_->states();
     const FullLU<double> factors(equilibrium.field);
+    Eigen::MatrixXd now = equilibrium.field;
     const double largest = equilibrium.field.cwiseAbs().maxCoeff();
     std::vector<double> at = equilibrium.state;
     for (std::size_t k = 0; k < phases; ++k) {
         for (std::size_t c = 0; c < clocks_.size(); ++c)
-            at[clocks_[c]] = periods_[clocks_[c]] * 0.5 * (1 + spread_number(k * (c + 1) + 3 * c));
-        field_->evaluate(workspace_, equilibrium.mode, at);
-        Eigen::VectorXd rates(size);
-        for (Eigen::Index i = 0; i < size; ++i) {
-            const std::size_t row = equilibrium.active[static_cast<std::size_t>(i)];
-            rates[i] = workspace_.rates[row] / equilibrium.scale[i];
-            for (Eigen::Index j = 0; j < size; ++j) {
-                const double now = workspace_.jacobian[row * count + equilibrium.active[static_cast<std::size_t>(j)]] *
-                                   equilibrium.scale[j] / equilibrium.scale[i];
-                equilibrium.driven =
-                    equilibrium.driven || !(std::abs(now - equilibrium.field(i, j)) <= round_off_of_field * largest);
-            }
-        }
-        if (size > 0 && !(factors.solve(rates).cwiseAbs().maxCoeff() <= round_off_of_field))
+            at[clocks_[c]] = phase_of(k, c);
+        const Eigen::VectorXd rates = linearise(equilibrium, at, now);
+        if (!((now - equilibrium.field).cwiseAbs().array() <= round_off_of_field * largest).all())
+            equilibrium.driven = true;
+        if (!(factors.solve(rates).cwiseAbs().maxCoeff() <= round_off_of_field))
             return false;
     }
     return true;
@@ -298,7 +297,7 @@ bool EquilibriumFinder::events_are_away(const Equilibrium& equilibrium, double d
     std::vector<int> sides(watched, 0);
     for (std::size_t k = 0; watched > 0 && k < (clocks_.empty() ? 1 : phases); ++k) {
         for (std::size_t c = 0; c < clocks_.size() && k > 0; ++c)
-            at[clocks_[c]] = periods_[clocks_[c]] * 0.5 * (1 + spread_number(k * (c + 1) + 3 * c));
+            at[clocks_[c]] = phase_of(k, c);
         field_->evaluate_events(workspace_, equilibrium.mode, at);
         for (std::size_t w = 0; w < watched; ++w) {
             const double value = workspace_.events[w];

@@ -63,6 +63,8 @@ public:
 
 private:
     void balance(Equilibrium& equilibrium, const std::vector<bool>& has_size) const;
+    Eigen::VectorXd linearise(const Equilibrium& equilibrium, std::span<const double> state, Eigen::MatrixXd& field);
+    double phase_of(std::size_t k, std::size_t clock) const;
     bool solve(Equilibrium& equilibrium, std::span<const double> extents);
     bool classify(Equilibrium& equilibrium);
     bool rests_at_all_phases(Equilibrium& equilibrium);

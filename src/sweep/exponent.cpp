@@ -163,7 +163,7 @@ double Exponent::time_per_return() const {
 }
 
 double Exponent::value() const {
-    return std::accumulate(growth_.begin(), growth_.end(), 0.0) / std::accumulate(times_.begin(), times_.end(), 0.0);
+    return std::accumulate(growth_.begin(), growth_.end(), 0.0) / time();
 }
 
 double Exponent::value_over_last(double share) const {
@@ -215,12 +215,11 @@ double Exponent::error() const {
     // Random error: the mean of ten batches has Student's distribution.
     const double random = student * standard_error();
     // Error that decreases like 1/time, since the vector's length varies between bounds.
-    const double time = std::accumulate(times_.begin(), times_.end(), 0.0);
-    const double bounded = variation() / time;
+    const double bounded = variation() / time();
     // Error that decreases more slowly, for example where neighbours separate in proportion to time.
     const double drifting = std::abs(growth(0, half) - growth(half, count));
     const double integration =
-        map_->simulation().options().tolerance * integration_errors * static_cast<double>(count) / time;
+        map_->simulation().options().tolerance * integration_errors * static_cast<double>(count) / time();
     return std::max({random, bounded, drifting}) + integration;
 }
 

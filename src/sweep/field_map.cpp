@@ -71,14 +71,13 @@ bool is_affine(const Model& model, const std::vector<Expression>& jacobian, cons
     });
 }
 
-/// Returns element k of a sequence that fills the unit interval evenly.
+} // namespace
+
 double even_place(std::size_t k) {
-    constexpr double golden = 0.6180339887498949;
+    constexpr double golden = 0.6180339887498949; // golden ratio: its multiples fill the unit interval evenly
     const double x = golden * static_cast<double>(k + 1);
     return x - std::floor(x);
 }
-
-} // namespace
 
 FieldMap::FieldMap(const System& system) : system_(system) {
     Model model = system.model();

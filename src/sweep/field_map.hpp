@@ -11,6 +11,9 @@ namespace graze {
 /// Largest states that are examined for unlimited growth: products of two such numbers are still finite.
 inline constexpr double end_of_growth = 1e150;
 
+/// Returns element k of a sequence that fills the unit interval evenly.
+double even_place(std::size_t k);
+
 /// The vector fields of all modes with their derivatives by the states. Immutable; threads may share it.
 class FieldMap {
 public:

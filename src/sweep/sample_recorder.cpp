@@ -45,6 +45,13 @@ SampleRecorder::Layout::Layout(const System& system, const std::vector<Sampling>
     }
 }
 
+std::vector<Probe> SampleRecorder::Layout::probes(const Model& model, const std::string& section) const {
+    std::vector<Probe> probes = probes_;
+    if (!section.empty())
+        probes.push_back(section_probe(model, section));
+    return probes;
+}
+
 SampleRecorder::SampleRecorder(const Layout& layout, std::size_t first_probe)
     : layout_(&layout), first_probe_(first_probe), inputs_(layout.states_ + layout.parameters_), image_(layout.states_),
       periods_(layout.states_) {

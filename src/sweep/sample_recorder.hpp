@@ -21,8 +21,9 @@ public:
     public:
         /// @throws InputError for sections that the model does not have
         Layout(const System& system, const std::vector<Sampling>& samplings, const std::vector<Expression>& values);
-        /// Returns the probes for samplings at sections and extrema, in their order.
-        const std::vector<Probe>& probes() const { return probes_; }
+        /// Returns the probes for samplings at sections and extrema, in their order, then that of a section if it has a
+        /// name: its probe may end trajectories, and simultaneous passages must be reported before.
+        std::vector<Probe> probes(const Model& model, const std::string& section) const;
 
     private:
         friend class SampleRecorder;

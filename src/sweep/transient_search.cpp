@@ -1,7 +1,6 @@
 #include "sweep/transient_search.hpp"
 
 #include "base/special_numbers.hpp"
-#include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 
 #include <fmt/format.h>
@@ -17,41 +16,13 @@ namespace {
 /// motion at rest makes a single step with endless passages.)
 constexpr std::size_t patience = 1'000'000;
 
-[[noreturn]] void refuse(const std::string& problem, const std::string& remedy) {
-    throw InputError(problem, remedy);
-}
-
-std::vector<Probe> probes_of(const Model& model, const TransientOptions& options,
-                             const SampleRecorder::Layout& layout) {
-    std::vector<Probe> probes = layout.probes();
-    if (!options.section.empty())
-        probes.push_back(section_probe(model, options.section));
-    return probes;
-}
-
 } // namespace
-
-void TransientOptions::validate(const Model& model) const {
-    if (!(skip_time >= 0) || !(time >= 0))
-        refuse("a time is negative", "give 0 or more");
-    if ((skip_periods > 0 || periods > 0) && section.empty())
-        refuse("nothing says what a period is", "name a section whose passages are counted");
-    if (!section.empty())
-        section_probe(model, section);
-    for (const std::size_t event : counted)
-        require_index(event, model.events.size(), "event that is counted");
-    validate_bounds(model, bounds);
-    if (!(greatest_speed >= 0))
-        refuse("the greatest speed is negative", "give 0 for any, or a positive one");
-    if (!(time > 0) && periods == 0 && contacts == 0 && !(greatest_speed > 0))
-        refuse("nothing ends the simulation", "give a time, a number of periods or of contacts");
-}
 
 TransientSetting::TransientSetting(const System& system, const TransientOptions& given,
                                    const std::vector<Sampling>& samplings, const std::vector<Expression>& values,
                                    const SimulationOptions& simulation_options)
     : options((given.validate(system.model()), given)), layout(system, samplings, values),
-      simulation(system, probes_of(system.model(), options, layout), {}, simulation_options),
+      simulation(system, layout.probes(system.model(), options.section), {}, simulation_options),
       counted(system.model().events.size()) {
     for (const std::size_t event : options.counted)
         counted.at(event) = true;
@@ -173,28 +144,12 @@ Label label_of(Ending ending) {
                                         : Label::failed;
 }
 
-namespace {
-
-class TransientSearches : public SearchFactory {
-public:
-    TransientSearches(const System& system, const TransientOptions& options, const std::vector<Sampling>& samplings,
-                      const std::vector<Expression>& values, const SimulationOptions& simulation_options)
-        : setting_(std::make_shared<const TransientSetting>(system, options, samplings, values, simulation_options)) {}
-
-    const Simulation& simulation() const override { return setting_->simulation; }
-    std::unique_ptr<PointSearch> make() const override { return std::make_unique<TransientSearch>(setting_); }
-
-private:
-    std::shared_ptr<const TransientSetting> setting_;
-};
-
-} // namespace
-
 std::unique_ptr<SearchFactory> transient_searches(const System& system, const TransientOptions& options,
                                                   const std::vector<Sampling>& samplings,
                                                   const std::vector<Expression>& values,
                                                   const SimulationOptions& simulation) {
-    return std::make_unique<TransientSearches>(system, options, samplings, values, simulation);
+    return std::make_unique<SearchesOf<TransientSetting, TransientSearch>>(system, options, samplings, values,
+                                                                           simulation);
 }
 
 } // namespace graze

@@ -15,6 +15,19 @@ namespace graze {
 /// Returns the label of a motion that ended by itself before the requested end.
 Label label_of(Ending ending);
 
+/// Creates searches that share a setting, made from the arguments of `attractor_searches` or `transient_searches`.
+template <class Setting, class Search>
+class SearchesOf : public SearchFactory {
+public:
+    explicit SearchesOf(const auto&... arguments) : setting_(std::make_shared<const Setting>(arguments...)) {}
+
+    const Simulation& simulation() const override { return setting_->simulation; }
+    std::unique_ptr<PointSearch> make() const override { return std::make_unique<Search>(setting_); }
+
+private:
+    std::shared_ptr<const Setting> setting_;
+};
+
 /// Data shared by all searches of a run.
 struct TransientSetting {
     TransientSetting(const System& system, const TransientOptions& given, const std::vector<Sampling>& samplings,

@@ -33,7 +33,11 @@ struct SampleSet {
     std::vector<double> values;         ///< [sample * width + value]
 
     std::size_t size() const { return times.size(); }
-    void clear();
+    void clear() {
+        samplings.clear();
+        times.clear();
+        values.clear();
+    }
 };
 
 } // namespace graze
