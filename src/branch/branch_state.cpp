@@ -5,7 +5,6 @@
 #include "branch/sensitivity_condition.hpp"
 #include "graze/base/input_error.hpp"
 #include "orbit/cut.hpp"
-#include "orbit/family.hpp"
 #include "orbit/newton.hpp"
 #include "orbit/shooting.hpp"
 

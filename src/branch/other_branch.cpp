@@ -2,7 +2,6 @@
 
 #include "branch/orbit_problem.hpp"
 #include "graze/base/input_error.hpp"
-#include "orbit/drift.hpp"
 #include "orbit/newton.hpp"
 
 namespace graze {

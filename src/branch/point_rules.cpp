@@ -1,7 +1,7 @@
 #include "branch/point_rules.hpp"
 
 #include "branch/point_kind.hpp"
-#include "orbit/half_orbit.hpp"
+#include "orbit/newton.hpp"
 #include "orbit/orbit_flow.hpp"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include "branch/orbit_problem.hpp"
 #include "graze/base/input_error.hpp"
 #include "orbit/certify.hpp"
-#include "orbit/close_at_section.hpp"
+#include "orbit/cut.hpp"
 #include "orbit/newton.hpp"
 
 #include <fmt/format.h>

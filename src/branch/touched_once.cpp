@@ -1,6 +1,5 @@
 #include "branch/touched_once.hpp"
 
-#include "grazing/local_map.hpp"
 #include "grazing/return_map.hpp"
 #include "orbit/certify.hpp"
 

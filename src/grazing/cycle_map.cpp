@@ -2,6 +2,7 @@
 
 #include "base/decompositions.hpp"
 #include "base/linear_systems.hpp"
+#include "base/special_numbers.hpp"
 #include "flow/cyclic.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
@@ -24,23 +25,6 @@ namespace {
 
 /// A minimum of an event function below this share of its size counts as a touch.
 constexpr double touching = 1e-7;
-
-std::vector<double> rows_of(const Eigen::MatrixXd& matrix) {
-    std::vector<double> rows;
-    for (Eigen::Index i = 0; i < matrix.rows(); ++i)
-        for (Eigen::Index j = 0; j < matrix.cols(); ++j)
-            rows.push_back(matrix(i, j));
-    return rows;
-}
-
-Eigen::MatrixXd matrix_of(const CycleMap& map) {
-    const Eigen::Index n = index(map.active.size());
-    Eigen::MatrixXd matrix(n, n);
-    for (Eigen::Index i = 0; i < n; ++i)
-        for (Eigen::Index j = 0; j < n; ++j)
-            matrix(i, j) = map.matrix[static_cast<std::size_t>(i * n + j)];
-    return matrix;
-}
 
 Eigen::VectorXd active_part(const std::vector<std::size_t>& active, const Eigen::VectorXd& all) {
     Eigen::VectorXd result(index(active.size()));
@@ -201,6 +185,21 @@ std::vector<OrbitTouch> touches_in(Shooting& shooting, const OrbitEvaluation& at
 
 } // namespace
 
+Eigen::MatrixXd matrix_of(const CycleMap& map) {
+    const Eigen::Index n = index(map.active.size());
+    return Eigen::Map<const RowMajor>(map.matrix.data(), n, n);
+}
+
+ScaledCycleMap::ScaledCycleMap(const CycleMap& map) : matrix(matrix_of(map)) {
+    const Eigen::Index n = matrix.rows();
+    const Eigen::Map<const Eigen::VectorXd> scales(map.scales.data(), n);
+    for (Eigen::Index i = 0; i < n; ++i)
+        for (Eigen::Index j = 0; j < n; ++j)
+            matrix(i, j) = matrix(i, j) * scales[j] / scales[i];
+    impact = Eigen::Map<const Eigen::VectorXd>(map.impact.data(), n).cwiseQuotient(scales);
+    gradient = Eigen::Map<const Eigen::VectorXd>(map.gradient.data(), n).cwiseProduct(scales);
+}
+
 std::vector<OrbitTouch> touches_of(const System& system, const Orbit& orbit, const CycleMapOptions& options) {
     validate_orbit(system.model(), orbit);
     const Simulation simulation = simulation_of(system, options);
@@ -232,11 +231,9 @@ CycleMap cycle_map_of(const OrbitEquations& equations, const OrbitEvaluation& at
     const Eigen::Index n = index(system.states());
     map.active = at.active;
     map.scales = list_of(active_part(map.active, at.scales.head(n)));
-    Eigen::MatrixXd matrix(index(map.active.size()), index(map.active.size()));
-    for (std::size_t i = 0; i < map.active.size(); ++i)
-        for (std::size_t j = 0; j < map.active.size(); ++j)
-            matrix(index(i), index(j)) = back.matrix(index(map.active[i]), index(map.active[j]));
-    map.matrix = rows_of(matrix);
+    for (const std::size_t i : map.active)
+        for (const std::size_t j : map.active)
+            map.matrix.push_back(back.matrix(index(i), index(j)));
     map.gradient = list_of(active_part(map.active, back.geometry.gradient.head(n)));
     map.multipliers = multipliers_of(map);
     if (free)
@@ -293,6 +290,16 @@ std::vector<double> CycleMap::image(std::span<const double> state, double cleara
     if (!second.empty())
         after += Eigen::Map<const Eigen::VectorXd>(second.data(), n) * contact.second_by_depth(depth);
     return list_of(after);
+}
+
+bool CycleMap::is_at_touch(double since, double recurs) const {
+    const auto distance = [&](const std::vector<double>& times) {
+        double least = infinity;
+        for (const double one : times)
+            least = std::min(least, std::abs(without_turns(since - one, recurs)));
+        return least;
+    };
+    return contact_times.empty() || distance(touch_times) < distance(contact_times);
 }
 
 std::vector<double> CycleMap::projections(std::size_t count) const {

@@ -4,12 +4,9 @@
 #include "base/linear_systems.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
-#include "grazing/compliant_contact.hpp"
 #include "grazing/contact_chain.hpp"
-#include "grazing/local_map.hpp"
-#include "grazing/next_order.hpp"
-#include "grazing/sliding_contact.hpp"
-#include "grazing/touch_geometry.hpp"
+#include "grazing/contact_effect.hpp"
+#include "grazing/return_map.hpp"
 #include "orbit/eigen_index.hpp"
 
 #include <Eigen/Core>
@@ -163,23 +160,17 @@ DiscontinuityMap local_map(const TouchFunctions& functions, const TouchState& to
         map.reason = "the contact is not rigid";
         return map;
     }
-    if (!chain.leaves_by_surface) {
-        const SlidingContact contact =
-            sliding_contact(functions, map.touch, geometry, sizes, chain.modes.front(), chain.contacts);
-        map.reason = contact.reason;
-        if (!map.reason.empty())
-            return map;
-        map.order = MapOrder::linear;
-        map.direction = without_remnants(contact.gain, sizes.scales());
-        map.second = without_remnants(contact.next, sizes.scales());
-        return map;
-    }
-    const CompliantContact contact = compliant_contact(functions, map.touch, geometry, sizes, chain.modes.front());
-    map.reason = contact.reason;
+    const bool slides = !chain.leaves_by_surface;
+    const std::size_t mode = chain.modes.front();
+    const ContactEffect effect = slides ? sliding_contact(functions, map.touch, geometry, sizes, mode, chain.contacts)
+                                        : compliant_contact(functions, map.touch, geometry, sizes, mode);
+    map.reason = effect.reason;
     if (!map.reason.empty())
         return map;
-    map.order = MapOrder::three_halves;
-    map.direction = without_remnants(contact.gain, sizes.scales());
+    map.order = slides ? MapOrder::linear : MapOrder::three_halves;
+    map.direction = without_remnants(effect.gain, sizes.scales());
+    if (slides)
+        map.second = without_remnants(effect.next, sizes.scales());
     return map;
 }
 

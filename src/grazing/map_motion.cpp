@@ -1,7 +1,7 @@
 #include "graze/grazing/map_motion.hpp"
 
 #include "graze/base/input_error.hpp"
-#include "orbit/eigen_index.hpp"
+#include "grazing/return_map.hpp"
 
 #include <Eigen/Core>
 #include <fmt/format.h>
@@ -25,33 +25,23 @@ namespace {
 /// Iterates the map in scaled states.
 class ScaledMap {
 public:
-    ScaledMap(const CycleMap& map, double clearance) : map_(map), clearance_(clearance) {
-        const Eigen::Index n = index(map.active.size());
-        const Eigen::Map<const Eigen::VectorXd> scales(map.scales.data(), n), impact(map.impact.data(), n),
-            gradient(map.gradient.data(), n);
-        matrix_.resize(n, n);
-        for (Eigen::Index i = 0; i < n; ++i)
-            for (Eigen::Index j = 0; j < n; ++j)
-                matrix_(i, j) = map.matrix[static_cast<std::size_t>(i * n + j)] * scales[j] / scales[i];
-        impact_ = impact.cwiseQuotient(scales);
-        gradient_ = gradient.cwiseProduct(scales);
-        state_ = Eigen::VectorXd::Zero(n);
-    }
+    ScaledMap(const CycleMap& map, double clearance)
+        : map_(map), clearance_(clearance), scaled_(map), state_(Eigen::VectorXd::Zero(scaled_.impact.size())) {}
 
     const Eigen::VectorXd& state() const { return state_; }
     /// Advances by one cycle. @return approach speed or depth of its contact, 0 without one
     double step() {
-        const double depth = std::max(0.0, -(clearance_ + gradient_.dot(state_)));
-        state_ += impact_ * map_.contact.by_depth(depth);
-        state_ = (matrix_ * state_).eval();
+        const double depth = std::max(0.0, -(clearance_ + scaled_.gradient.dot(state_)));
+        state_ += scaled_.impact * map_.contact.by_depth(depth);
+        state_ = (scaled_.matrix * state_).eval();
         return map_.contact.order == MapOrder::three_halves ? depth : std::sqrt(2 * map_.contact.acceleration * depth);
     }
 
 private:
     const CycleMap& map_;
     double clearance_;
-    Eigen::MatrixXd matrix_;
-    Eigen::VectorXd impact_, gradient_, state_;
+    ScaledCycleMap scaled_;
+    Eigen::VectorXd state_;
 };
 
 } // namespace

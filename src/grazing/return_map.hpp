@@ -1,7 +1,6 @@
 #pragma once
 
 #include "graze/grazing/cycle_map.hpp"
-#include "grazing/local_map.hpp"
 #include "grazing/touch_geometry.hpp"
 #include "orbit/orbit_equations.hpp"
 
@@ -12,6 +11,17 @@
 #include <string>
 
 namespace graze {
+
+/// The contacts for which a map is computed. Compliant contacts and next orders are expensive: they need second
+/// derivatives of the vector fields.
+enum class AskedContacts {
+    all,
+    rigid,
+    rigid_beside, ///< rigid contacts; the touch may be slightly off the surface and is first projected onto it
+};
+
+/// Computes `discontinuity_map` with the touched function already compiled.
+DiscontinuityMap local_map(const TouchFunctions& functions, const TouchState& touch, AskedContacts asked);
 
 /// The derivative of the return of an orbit from a touch to itself, on the surface where the touched function has zero
 /// rate.
@@ -30,6 +40,15 @@ struct ReturnMap {
 /// @param free index, among the free parameters of the equations, of the one to differentiate by
 ReturnMap return_map(const OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,
                      const TouchFunctions& functions, std::optional<std::size_t> free);
+
+/// Returns the matrix P of a cycle map.
+Eigen::MatrixXd matrix_of(const CycleMap& map);
+/// A cycle map in scaled states.
+struct ScaledCycleMap {
+    explicit ScaledCycleMap(const CycleMap& map);
+    Eigen::MatrixXd matrix;
+    Eigen::VectorXd impact, gradient;
+};
 
 /// Computes the cycle map from the return map. @param free as above
 CycleMap cycle_map_of(const OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,

@@ -12,8 +12,6 @@ namespace graze {
 
 namespace {
 
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
 /// Propagates a state x + s first + s^2 second along an orbit.
 class SecondOrderCarrier {
 public:
@@ -54,11 +52,8 @@ private:
 
     bool follow(std::size_t piece, std::vector<double>& state, double time) {
         RowMajor derivatives(n_, n_), along(n_, n_);
-        const auto numbers = [](RowMajor& matrix) {
-            return std::span(matrix.data(), static_cast<std::size_t>(matrix.size()));
-        };
         const std::vector<double> vector(first_.begin(), first_.end());
-        if (flow_.run(equations_.mode_of(piece), state, time, vector, numbers(derivatives), numbers(along)) !=
+        if (flow_.run(equations_.mode_of(piece), state, time, vector, numbers_of(derivatives), numbers_of(along)) !=
             ModeFlow::Ending::done)
             return false;
         second_ = (derivatives * second_ + 0.5 * (along * first_)).eval();

@@ -4,7 +4,6 @@
 #include "graze/base/input_error.hpp"
 #include "graze/grazing/map_motion.hpp"
 #include "graze/trajectory/trajectory.hpp"
-#include "grazing/pass_times.hpp"
 #include "orbit/newton.hpp"
 
 #include <fmt/format.h>
@@ -55,7 +54,7 @@ public:
     double depth() const { return depth_; }
 
 private:
-    bool is_new(double time) const { return is_at_touch(map_, time - start_, map_.period); }
+    bool is_new(double time) const { return map_.is_at_touch(time - start_, map_.period); }
 
     const System& system_;
     const CycleMap& map_;

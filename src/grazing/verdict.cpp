@@ -4,6 +4,7 @@
 #include "base/enumerator_name.hpp"
 #include "base/linear_systems.hpp"
 #include "graze/grazing/map_motion.hpp"
+#include "grazing/return_map.hpp"
 #include "orbit/eigen_index.hpp"
 
 #include <Eigen/Core>
@@ -24,29 +25,13 @@ constexpr double vanishing = 1e-9;
 constexpr double stable = 1 - 1e-9;
 constexpr std::size_t most_cycles = 1'000'000;
 
-/// The map in scaled states.
-struct Scaled {
-    explicit Scaled(const CycleMap& map) {
-        const Eigen::Index n = index(map.active.size());
-        const Eigen::Map<const Eigen::VectorXd> scales(map.scales.data(), n);
-        matrix.resize(n, n);
-        for (Eigen::Index i = 0; i < n; ++i)
-            for (Eigen::Index j = 0; j < n; ++j)
-                matrix(i, j) = map.matrix[static_cast<std::size_t>(i * n + j)] * scales[j] / scales[i];
-        impact = Eigen::Map<const Eigen::VectorXd>(map.impact.data(), n).cwiseQuotient(scales);
-        gradient = Eigen::Map<const Eigen::VectorXd>(map.gradient.data(), n).cwiseProduct(scales);
-    }
-    Eigen::MatrixXd matrix;
-    Eigen::VectorXd impact, gradient;
-};
-
 /// Projections as sums over multipliers: weight_i multiplier_i^k.
 struct Modes {
     std::vector<Complex> multipliers, weights; ///< in order of decreasing magnitude of the multipliers
     bool known = false; ///< false: the sums do not reproduce the projections, as with double multipliers
 };
 
-Modes modes_of(const Scaled& map, const std::vector<double>& projections) {
+Modes modes_of(const ScaledCycleMap& map, const std::vector<double>& projections) {
     const auto system = eigensystem(map.matrix);
     Modes modes;
     if (!system)
@@ -147,7 +132,7 @@ AttractorKind kind_of_multiplier(double leading) {
 }
 
 void classify_rigid(const CycleMap& map, Verdict& verdict) {
-    const Scaled scaled(map);
+    const ScaledCycleMap scaled(map);
     const Modes modes = modes_of(scaled, map.projections(std::max<std::size_t>(8, 2 * map.active.size())));
     if (map.clearance_rate)
         verdict.speed_factor = std::sqrt(2 * map.contact.acceleration * std::abs(*map.clearance_rate));
@@ -184,7 +169,7 @@ void classify_rigid(const CycleMap& map, Verdict& verdict) {
 }
 
 /// Returns the largest multiplier at a depth. @param root square root of the depth
-Complex largest_multiplier(const Scaled& map, double root) {
+Complex largest_multiplier(const ScaledCycleMap& map, double root) {
     constexpr double three_halves = 1.5;
     const Eigen::MatrixXd here = map.matrix * (Eigen::MatrixXd::Identity(map.matrix.rows(), map.matrix.cols()) -
                                                three_halves * root * map.impact * map.gradient.transpose());
@@ -195,7 +180,7 @@ Complex largest_multiplier(const Scaled& map, double root) {
 
 /// Returns the square root of the smallest depth at which the orbit loses stability. @param greatest largest root that
 /// is searched @return empty if the orbit stays stable
-std::optional<double> loss_of_stability(const Scaled& map, double greatest) {
+std::optional<double> loss_of_stability(const ScaledCycleMap& map, double greatest) {
     constexpr int parts = 200;
     double before = 0;
     for (int part = 1; part <= parts; ++part) {
@@ -216,7 +201,7 @@ std::optional<double> loss_of_stability(const Scaled& map, double greatest) {
 }
 
 void classify_compliant(const CycleMap& map, Verdict& verdict) {
-    const Scaled scaled(map);
+    const ScaledCycleMap scaled(map);
     const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(scaled.matrix.rows(), scaled.matrix.cols());
     const Eigen::VectorXd passed = scaled.matrix * scaled.impact;
     const Eigen::VectorXd settled = FullLU<double>(identity - scaled.matrix).solve(passed);
@@ -252,7 +237,7 @@ std::size_t count_beyond(const Eigen::VectorXcd& multipliers, double sign) {
 }
 
 void classify_sliding(const CycleMap& map, Verdict& verdict) {
-    const Scaled scaled(map);
+    const ScaledCycleMap scaled(map);
     const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(scaled.matrix.rows(), scaled.matrix.cols());
     const Eigen::VectorXcd multipliers =
         eigenvalues_or_nan(scaled.matrix * (identity - scaled.impact * scaled.gradient.transpose()));

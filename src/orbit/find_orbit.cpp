@@ -4,7 +4,7 @@
 #include "graze/sweep/point_search.hpp"
 #include "graze/trajectory/trajectory.hpp"
 #include "orbit/certify.hpp"
-#include "orbit/close_at_section.hpp"
+#include "orbit/cut.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "orbit/half_orbit.hpp"
+#include "orbit/newton.hpp"
 
 #include "flow/cyclic.hpp"
 #include "graze/base/input_error.hpp"

@@ -16,5 +16,17 @@ OrbitOutcome solve_equations(OrbitEquations& equations, Eigen::VectorXd& unknown
 /// @param held constraint at the limit of admissibility, if any
 void describe_orbit(OrbitEquations& equations, const OrbitEvaluation& at, OrbitSolution& solution,
                     const std::optional<HeldLimit>& held = std::nullopt);
+/// True when an orbit belongs to a family of orbits at the same parameters, as in models that conserve a quantity: its
+/// equations are singular, and displaced along the null vector Newton's method converges to another orbit there, whose
+/// equations are singular too. At folds and branch points such orbits exist only at other parameters, or not at all.
+/// @param equations without free parameters; @param at their evaluation at the orbit
+bool is_in_family(OrbitEquations& equations, const OrbitEvaluation& at);
+/// Shifts the drifting states of each start to where the segment before ends. An orbit composed of parts, such as one
+/// of twice the period, has gaps in its drifting states. The orbit does not depend on them, but a search for the
+/// nearest solution would count the gaps as a distance.
+void join_drifts(const Simulation& simulation, Orbit& orbit);
+/// Returns the first half of an orbit that is its own image under a symmetry of the model; empty if it is not.
+/// @param equations of this or a similar orbit, whose scales measure differences
+std::optional<Orbit> half_of(const OrbitEquations& equations, const Orbit& orbit, double tolerance);
 
 } // namespace graze

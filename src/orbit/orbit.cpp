@@ -2,7 +2,7 @@
 
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
-#include "orbit/close_at_section.hpp"
+#include "orbit/cut.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,6 @@
 #include "graze/orbit/orbit.hpp"
 #include "orbit/orbit_evaluation.hpp"
 #include "orbit/orbit_flow.hpp"
-#include "orbit/orbit_layout.hpp"
 #include "orbit/orbit_scales.hpp"
 #include "orbit/segment_ends.hpp"
 

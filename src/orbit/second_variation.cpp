@@ -6,12 +6,6 @@
 
 namespace graze {
 
-namespace {
-
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-} // namespace
-
 SecondVariation::SecondVariation(const OrbitEquations& equations)
     : system_(equations.system(), equations.free()),
       flow_(system_, equations.simulation().options().tolerance, equations.simulation().order()),
@@ -73,11 +67,8 @@ bool SecondVariation::follow(const OrbitEquations& equations, const OrbitEvaluat
     std::vector<double> vector(gain.begin(), gain.end());
     vector.resize(system_.variables(), 0.0);
     RowMajor first(n, n + q), second(n, n + q);
-    const auto numbers = [](RowMajor& matrix) {
-        return std::span(matrix.data(), static_cast<std::size_t>(matrix.size()));
-    };
-    if (flow_.run(mode, result.state, at.unknowns[index(equations.layout().duration_of(piece))], vector, numbers(first),
-                  numbers(second)) != ModeFlow::Ending::done)
+    if (flow_.run(mode, result.state, at.unknowns[index(equations.layout().duration_of(piece))], vector,
+                  numbers_of(first), numbers_of(second)) != ModeFlow::Ending::done)
         return false;
     // The variation of the end is (x_e)_x v + f tau, with the rates f at the end; its derivatives need those of f.
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(q), carried = first.leftCols(n) * gain;

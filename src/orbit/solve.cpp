@@ -4,7 +4,6 @@
 #include "graze/base/input_error.hpp"
 #include "orbit/certify.hpp"
 #include "orbit/eigen_index.hpp"
-#include "orbit/family.hpp"
 #include "orbit/newton.hpp"
 #include "orbit/shooting.hpp"
 
@@ -87,7 +86,7 @@ bool improves(OrbitEquations& equations, const Eigen::VectorXd& unknowns, const 
 
 OrbitOutcome solve_equations(OrbitEquations& equations, Eigen::VectorXd& unknowns, const OrbitOptions& options,
                              OrbitEvaluation& at, std::size_t& iterations, std::string& detail) {
-    const Eigen::MatrixXd no_borders(0, static_cast<Eigen::Index>(equations.unknowns()));
+    const Eigen::MatrixXd no_borders(0, index(equations.unknowns()));
     const Eigen::VectorXd nothing(0);
     if (!equations.evaluate(unknowns, at)) {
         detail = at.problem;
@@ -146,6 +145,53 @@ void describe_orbit(OrbitEquations& equations, const OrbitEvaluation& at, OrbitS
             multiplier *= multiplier;
     }
     solution.certificate = certify(equations, at, held);
+}
+
+bool is_in_family(OrbitEquations& equations, const OrbitEvaluation& at) {
+    // Displacement in units of the scales; share of it that must remain after the corrections.
+    constexpr double distance = 1e-2, kept_share = 0.5;
+    constexpr double solved = 1e-11;
+    constexpr int iterations = 8;
+    const Eigen::MatrixXd no_borders(0, index(at.system.unknowns()));
+    Eigen::VectorXd direction; // null vector in units of the scales
+    if (at.system.undetermined() == 0 || !at.system.null_vector(no_borders, direction))
+        return false;
+    const double length = direction.cwiseAbs().maxCoeff();
+    Eigen::VectorXd unknowns = at.unknowns + distance / length * direction.cwiseProduct(at.scales), step;
+    OrbitEvaluation there = equations.evaluation();
+    std::size_t deficiency = at.system.undetermined();
+    for (int i = 0; i < iterations; ++i) {
+        if (!equations.evaluate(unknowns, there))
+            return false;
+        if (there.residual < solved)
+            return there.system.undetermined() > 0 &&
+                   largest(unknowns - at.unknowns, at.scales) > kept_share * distance;
+        if (!equations.solve_nearest(there, step, deficiency))
+            return false;
+        unknowns += step;
+    }
+    return false;
+}
+
+void join_drifts(const Simulation& simulation, Orbit& orbit) {
+    const auto& states = simulation.model().states;
+    if (orbit.segments() < 2 ||
+        std::none_of(states.begin(), states.end(), [](const State& one) { return one.drifting; }))
+        return;
+    Shooting shooting(simulation, orbit, {});
+    OrbitEvaluation at = shooting.evaluation();
+    if (!shooting.evaluate(shooting.unknowns_of(orbit), at))
+        return;
+    // The motion does not depend on drifting states, so all segments are integrated before any start is shifted.
+    std::vector<double> shift(states.size(), 0.0);
+    for (std::size_t s = 0; s + 1 < orbit.segments(); ++s)
+        for (std::size_t i = 0; i < states.size(); ++i) {
+            if (!states[i].drifting)
+                continue;
+            const double end = at.pieces[shooting.layout().last_piece(s)].after[i] + shift[i];
+            shift[i] = end - orbit.starts[s + 1][i];
+            orbit.starts[s + 1][i] = end;
+        }
 }
 
 namespace {
@@ -215,7 +261,7 @@ OrbitSolution solve_orbit(const System& system, const Orbit& candidate, const Or
         Shooting again(tighter, solution.orbit, {});
         Eigen::VectorXd step;
         OrbitEvaluation there = again.evaluation();
-        const Eigen::MatrixXd no_borders(0, static_cast<Eigen::Index>(again.unknowns()));
+        const Eigen::MatrixXd no_borders(0, index(again.unknowns()));
         std::size_t deficiency = 0;
         const bool defined = again.evaluate(again.unknowns_of(solution.orbit), there);
         if (defined && there.system.undetermined() > 0

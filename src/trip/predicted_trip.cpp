@@ -2,6 +2,7 @@
 
 #include "graze/base/input_error.hpp"
 #include "graze/base/rounded.hpp"
+#include "grazing/return_map.hpp"
 #include "orbit/eigen_index.hpp"
 #include "trip/trip_start.hpp"
 
@@ -57,10 +58,7 @@ public:
         : slides_(map.contact.order == MapOrder::linear), acceleration_(map.contact.acceleration),
           overshoot_(overshoot), unit_(disturbance.empty() ? std::abs(overshoot) : 1) {
         const Eigen::Index n = index(map.active.size());
-        matrix_.resize(n, n);
-        for (Eigen::Index i = 0; i < n; ++i)
-            for (Eigen::Index j = 0; j < n; ++j)
-                matrix_(i, j) = map.matrix[static_cast<std::size_t>(i * n + j)];
+        matrix_ = matrix_of(map);
         impact_ = Eigen::Map<const Eigen::VectorXd>(map.impact.data(), n);
         gradient_ = Eigen::Map<const Eigen::VectorXd>(map.gradient.data(), n);
         rate_ = *map.clearance_rate;
@@ -113,8 +111,7 @@ private:
             set_speed(explicit_rate(map) * (overshoot_ / unit_));
             return;
         }
-        const TouchMeeting meeting = meeting_of(map, overshoot_, disturbance);
-        speed_ = meeting.speed;
+        speed_ = meeting_of(map, overshoot_, disturbance).speed;
     }
 
     /// Skips all passes without contact by repeated squaring of the map.

@@ -1,7 +1,6 @@
 #include "graze/trip/simulated_trip.hpp"
 
 #include "graze/base/input_error.hpp"
-#include "grazing/pass_times.hpp"
 #include "orbit/certify.hpp"
 #include "trip/end_watch.hpp"
 #include "trip/trip_start.hpp"
@@ -44,7 +43,7 @@ TripTime follow(const System& system, const CycleMap& map, TouchStart begin, con
     const auto counts = [&](const Contact& contact) {
         return (contact.event == map.touch.event ||
                 (map.half && !is_identity_transition(system, contact.transition))) &&
-               is_at_touch(map, contact.time - early, period);
+               map.is_at_touch(contact.time - early, period);
     };
     EndWatch watch(end, counts, options.interrupted);
     TripTime trip =

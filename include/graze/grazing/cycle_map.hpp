@@ -70,6 +70,10 @@ struct CycleMap {
     std::vector<double> steady;
 
     bool exists() const { return reason.empty() && contact.exists(); }
+    /// True when a contact with the touched surface belongs to the touch: its time is nearer to that of a touch than to
+    /// those of the orbit's other contacts with the surface. @param time since a touch; @param period of the orbit, or
+    /// half of it where the surface may be mapped to its image
+    bool is_at_touch(double time, double period) const;
     /// Returns g P^k B for k = 1, 2, ..., count: the change of the clearance k cycles after a contact, per unit of its
     /// approach speed (per unit of depth^(3/2) or of depth for compliant contacts or sliding). A negative one leads to
     /// another contact.

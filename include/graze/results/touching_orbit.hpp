@@ -2,7 +2,6 @@
 
 #include "graze/results/stored_orbit.hpp"
 #include "graze/trip/loss_point.hpp"
-#include "graze/trip/touching_map.hpp"
 
 #include <string>
 #include <vector>
