@@ -1,8 +1,10 @@
 #include "graze/design/design_report.hpp"
 
-#include "design/design_yield.hpp"
+#include "design/yield_score.hpp"
 #include "graze/base/input_error.hpp"
+#include "graze/base/with_place.hpp"
 #include "graze/results/orbit_motion.hpp"
+#include "graze/study/runner.hpp"
 
 #include <fmt/format.h>
 
@@ -12,6 +14,20 @@
 namespace graze {
 
 namespace {
+
+/// Computes the runs that lead to the trip point, or reuses those in the file. @return whether they are complete
+bool follow(const Study& study, ResultFile& file, const DesignReportOptions& options) {
+    RunnerOptions running;
+    running.jobs = options.jobs;
+    running.interrupted = options.interrupted;
+    if (options.progress)
+        running.orbit = [&](const std::string& run, const OrbitRecord& record) {
+            options.progress(fmt::format("run '{}': orbit {}", run, record.number));
+        };
+    const std::vector<RunReport> reports = run_study(study, file, running);
+    return std::none_of(reports.begin(), reports.end(),
+                        [](const RunReport& report) { return report.outcome == RunOutcome::interrupted; });
+}
 
 /// Computes the parts of the report in turn, and reports progress.
 class Reporter {
@@ -148,6 +164,15 @@ private:
 };
 
 } // namespace
+
+std::optional<TripPoint> locate_trip(const Design& design, const std::string& path,
+                                     const DesignReportOptions& options) {
+    const Study study = approach_study(design);
+    ResultFile file(path, ResultFile::Access::write);
+    if (!follow(study, file, options))
+        return std::nullopt;
+    return with_place(design.approach.place, [&] { return find_trip_point(design, study, file); });
+}
 
 DesignReport report_of(const Design& design, const TripPoint& trip, const DesignReportOptions& options) {
     return Reporter(design, trip, options).make();

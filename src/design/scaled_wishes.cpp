@@ -31,6 +31,15 @@ double scale_of(const Want& want) {
     return std::max(least, most) / want.importance;
 }
 
+double scattered_share(std::size_t number, std::size_t base) {
+    double part = 1, share = 0;
+    for (; number > 0; number /= base) {
+        part /= static_cast<double>(base);
+        share += part * static_cast<double>(number % base);
+    }
+    return share;
+}
+
 ScaledWishes::ScaledWishes(const WishList& wishes, const WishOptions& options)
     : wishes_(wishes), options_(options), scale_(index(wishes.dimensions.size())), lowest_(scale_.size()),
       highest_(scale_.size()) {

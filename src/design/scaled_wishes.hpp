@@ -29,6 +29,10 @@ struct LimitRow {
 /// Unit of violations of a requirement.
 double scale_of(const Want& want);
 
+/// Returns number `number` of the van der Corput sequence of a base: the coordinates of the Halton sequence, which
+/// fills ranges evenly (J. H. Halton, Numer. Math. 2, 1960).
+double scattered_share(std::size_t number, std::size_t base);
+
 /// Why no more designs are evaluated.
 enum class StopReason { none, interrupted, exhausted, exception };
 

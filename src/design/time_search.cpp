@@ -1,5 +1,7 @@
 #include "design/time_search.hpp"
 
+#include "design/scaled_wishes.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -56,17 +58,12 @@ bool TimeSearch::is_met(const FoundDesign& one) const {
     return one.wants.size() > others_.wants.size() && one.wants.back().met;
 }
 
-/// Returns point `number` of the Halton sequence within the ranges (J. H. Halton, Numer. Math. 2, 1960).
+/// Returns point `number` of the Halton sequence within the ranges.
 std::vector<double> TimeSearch::scattered(std::size_t number) const {
     constexpr std::size_t primes[] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37};
     std::vector<double> result;
     for (std::size_t d = 0; d < first_.size(); ++d) {
-        const std::size_t base = primes[d % std::size(primes)];
-        double part = 1, share = 0;
-        for (std::size_t rest = number; rest > 0; rest /= base) {
-            part /= static_cast<double>(base);
-            share += part * static_cast<double>(rest % base);
-        }
+        const double share = scattered_share(number, primes[d % std::size(primes)]);
         const Dimension& one = others_.dimensions[d];
         result.push_back(one.lowest + share * (one.highest - one.lowest));
     }

@@ -1,7 +1,7 @@
 #include "graze/design/wish_list.hpp"
 
 #include "base/enumerator_name.hpp"
-#include "design/multipliers.hpp"
+#include "design/wish_programme.hpp"
 #include "graze/base/input_error.hpp"
 #include "orbit/eigen_index.hpp"
 
@@ -20,8 +20,8 @@ constexpr double least_weight = 1e-6; ///< relative to the largest weight: above
 constexpr double imbalance = 1e-4;    ///< residual of gradients below which a design counts as stationary
 constexpr double cap_slack = 1e-10;   ///< round-off added to caps
 
-/// Returns point `number` of the Halton sequence within the ranges, at most `farthest` from the start in each dimension
-/// (J. H. Halton, Numer. Math. 2, 1960).
+/// Returns point `number` of the Halton sequence within the ranges, at most `farthest` from the start in each
+/// dimension.
 Eigen::VectorXd scattered_points(const ScaledWishes& wishes, std::size_t number, double farthest) {
     Eigen::VectorXd result(wishes.size());
     std::size_t base = 1;
@@ -35,14 +35,9 @@ Eigen::VectorXd scattered_points(const ScaledWishes& wishes, std::size_t number,
         do
             ++base;
         while (!is_prime(base));
-        double part = 1, share = 0;
-        for (std::size_t rest = number; rest > 0; rest /= base) {
-            part /= static_cast<double>(base);
-            share += part * static_cast<double>(rest % base);
-        }
         const double low = std::max(std::isfinite(wishes.lowest()[i]) ? wishes.lowest()[i] : -open_range, -farthest),
                      high = std::min(std::isfinite(wishes.highest()[i]) ? wishes.highest()[i] : open_range, farthest);
-        result[i] = low + share * (high - low);
+        result[i] = low + scattered_share(number, base) * (high - low);
     }
     return result;
 }

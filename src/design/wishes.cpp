@@ -1,6 +1,5 @@
 #include "graze/design/wishes.hpp"
 
-#include "design/design_yield.hpp"
 #include "design/time_search.hpp"
 #include "design/wish_maker.hpp"
 #include "design/yield_score.hpp"

@@ -3,7 +3,7 @@
 #include "base/special_numbers.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/with_place.hpp"
-#include "graze/design/trip_location.hpp"
+#include "graze/design/design_report.hpp"
 #include "graze/design/trip_times.hpp"
 #include "graze/layout/lumped_model.hpp"
 #include "graze/layout/wafer_yield.hpp"

@@ -2,7 +2,6 @@
 #include "graze/base/with_place.hpp"
 #include "graze/design/design_folder.hpp"
 #include "graze/design/design_report.hpp"
-#include "graze/design/trip_location.hpp"
 #include "graze/layout/verilog_a.hpp"
 #include "graze/model/model_file.hpp"
 #include "graze/picture/design_page.hpp"

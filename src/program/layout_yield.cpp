@@ -3,7 +3,7 @@
 #include "graze/base/input_error.hpp"
 #include "graze/base/with_place.hpp"
 #include "graze/design/design.hpp"
-#include "graze/design/trip_location.hpp"
+#include "graze/design/design_report.hpp"
 #include "graze/layout/wafer_tables.hpp"
 #include "graze/picture/wafer_map.hpp"
 #include "program/commands.hpp"

@@ -57,12 +57,16 @@ struct DesignReport {
     bool interrupted = false;
 };
 
-/// Options of `report_of`.
+/// Options of `locate_trip` and `report_of`.
 struct DesignReportOptions {
     int jobs = 1;
     std::function<bool()> interrupted;                     ///< returning true interrupts
     std::function<void(const std::string& what)> progress; ///< called with the present task
 };
+
+/// Finds the trip point of a device, and stores the branch that leads there in the file. @return nothing when
+/// interrupted
+std::optional<TripPoint> locate_trip(const Design& design, const std::string& path, const DesignReportOptions& options);
 
 /// Computes the report at a trip point.
 /// @throws InputError when the trip value is not determined by the other parameters
