@@ -32,8 +32,8 @@ bool Wanted::is_empty() const {
 }
 
 std::optional<std::size_t> Design::find_dimension(std::string_view dimension) const {
-    const auto found = std::find_if(dimensions.begin(), dimensions.end(),
-                                    [&](const DesignDimension& one) { return one.name == dimension; });
+    const auto found =
+        std::ranges::find_if(dimensions, [&](const DesignDimension& one) { return one.name == dimension; });
     if (found == dimensions.end())
         return std::nullopt;
     return static_cast<std::size_t>(found - dimensions.begin());

@@ -1,7 +1,6 @@
 #include "design/design_reader.hpp"
 
 #include "design/design_keys.hpp"
-#include "design/wanted_reader.hpp"
 #include "graze/base/file_name.hpp"
 #include "graze/base/with_place.hpp"
 #include "graze/model/catalogue.hpp"

@@ -25,8 +25,8 @@ bool follow(const Study& study, ResultFile& file, const DesignReportOptions& opt
             options.progress(fmt::format("run '{}': orbit {}", run, record.number));
         };
     const std::vector<RunReport> reports = run_study(study, file, running);
-    return std::none_of(reports.begin(), reports.end(),
-                        [](const RunReport& report) { return report.outcome == RunOutcome::interrupted; });
+    return std::ranges::none_of(reports,
+                                [](const RunReport& report) { return report.outcome == RunOutcome::interrupted; });
 }
 
 /// Computes the parts of the report in turn, and reports progress.
@@ -121,8 +121,8 @@ private:
         }
         const std::vector<double> overshoots = overshoots_of(design_.trip, report_.value, report_.found.verdict.side);
         ResetOptions options;
-        options.overshoot = *std::max_element(overshoots.begin(), overshoots.end(),
-                                              [](double a, double b) { return std::abs(a) < std::abs(b); });
+        options.overshoot =
+            *std::ranges::max_element(overshoots, [](double a, double b) { return std::abs(a) < std::abs(b); });
         // Down to the start of the approach, or to 0 if that is above the trip value.
         options.least = design_.approach.least < report_.value ? design_.approach.least : 0;
         options.interrupted = options_.interrupted;

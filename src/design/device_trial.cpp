@@ -32,10 +32,9 @@ private:
 
 /// Number of contacts of an orbit with an event in one period.
 std::size_t own_contacts(const Model& model, const Orbit& whole, std::size_t event) {
-    return static_cast<std::size_t>(
-        std::count_if(whole.signature.begin(), whole.signature.end(), [&](const Segment& s) {
-            return s.end == SegmentEnd::event && model.transitions[s.index].event == event;
-        }));
+    return static_cast<std::size_t>(std::ranges::count_if(whole.signature, [&](const Segment& s) {
+        return s.end == SegmentEnd::event && model.transitions[s.index].event == event;
+    }));
 }
 
 /// Continues the branch of a fold to the side of stable orbits, until the control parameter has a value. @return the
@@ -49,7 +48,7 @@ Orbit before_fold(const TripPoint& trip, const Orbit& orbit, double value) {
             for (double& number : numbers)
                 number *= way;
         };
-        std::for_each(along.starts.begin(), along.starts.end(), turn);
+        std::ranges::for_each(along.starts, turn);
         turn(along.durations);
         turn(along.parameters);
         BranchSettings settings;

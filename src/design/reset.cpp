@@ -16,8 +16,8 @@ namespace {
 
 /// Returns the section of a cyclic state if the model has one; otherwise its first section.
 std::string section_of(const Model& model) {
-    const auto phase = std::find_if(model.sections.begin(), model.sections.end(),
-                                    [](const Section& section) { return section.state.has_value(); });
+    const auto phase =
+        std::ranges::find_if(model.sections, [](const Section& section) { return section.state.has_value(); });
     return phase != model.sections.end() ? phase->name : model.sections.empty() ? "" : model.sections.front().name;
 }
 

@@ -178,7 +178,7 @@ private:
                 continue;
             const std::size_t transition = mode.transitions[w];
             system_.jump(system_.transition(transition).jump).map.evaluate(inputs, motion.state, work);
-            std::copy(motion.state.begin(), motion.state.end(), inputs.begin());
+            std::ranges::copy(motion.state, inputs.begin());
             const System::CompiledAlternative* next = chosen_alternative(system_, transition, inputs, conditions, work);
             if (!next || !next->mode)
                 return false;

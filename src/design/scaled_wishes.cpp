@@ -85,8 +85,7 @@ double ScaledWishes::largest(const Evaluation& at) const {
 }
 
 bool ScaledWishes::keeps_caps(const Evaluation& at) const {
-    return std::all_of(rows_.begin(), rows_.end(),
-                       [&](const LimitRow& row) { return !row.cap || violation(row, at) <= *row.cap; });
+    return std::ranges::all_of(rows_, [&](const LimitRow& row) { return !row.cap || violation(row, at) <= *row.cap; });
 }
 
 bool ScaledWishes::may_go_on() {

@@ -132,8 +132,7 @@ Study approach_study(const Design& design) {
     const bool own = design.approach.study.empty();
     Study study = own ? parse_study(own_study_text(design), design.file) : named_study(design);
     const std::vector<std::string> way = way_to(study, own ? approach_run : design.approach.run);
-    std::erase_if(study.runs,
-                  [&](const StudyRun& run) { return std::find(way.begin(), way.end(), run.name) == way.end(); });
+    std::erase_if(study.runs, [&](const StudyRun& run) { return std::ranges::find(way, run.name) == way.end(); });
     study.name = design.name;
     study.pictures.clear();
     study.tables.clear();
@@ -152,8 +151,8 @@ TripPoint find_trip_point(const Design& design, const Study& study, const Result
         if (planned.kind != RunKind::follow && name != last)
             continue;
         // In a run from which the next one starts, only points before that start are passed.
-        const auto next = std::find_if(study.runs.begin(), study.runs.end(),
-                                       [&](const StudyRun& one) { return one.start && one.start->run == name; });
+        const auto next =
+            std::ranges::find_if(study.runs, [&](const StudyRun& one) { return one.start && one.start->run == name; });
         const std::string leaves = name != last && next != study.runs.end() ? next->start->point : "";
         for (const std::string& label : run.special_labels()) {
             const OrbitRecord record = orbit_of_run(file, run.record, label, approach.place);

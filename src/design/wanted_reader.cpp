@@ -1,6 +1,5 @@
-#include "design/wanted_reader.hpp"
+#include "design/design_reader.hpp"
 
-#include "design/design_keys.hpp"
 #include "graze/base/with_place.hpp"
 
 #include <fmt/format.h>
@@ -66,8 +65,8 @@ void WantedReader::read_yield(const TomlEntry& item) {
         reader_.fail(item, fmt::format("the yield {:.6g} is not a share of devices above 0", share),
                      "give the least share of devices that will do, up to 1, as 0.95 for 95 percent");
     if (!design_.dimensions.empty() && // otherwise they were invalid, which has been reported
-        std::none_of(design_.dimensions.begin(), design_.dimensions.end(),
-                     [](const DesignDimension& one) { return one.tolerance && one.tolerance->size > 0; }))
+        std::ranges::none_of(design_.dimensions,
+                             [](const DesignDimension& one) { return one.tolerance && one.tolerance->size > 0; }))
         reader_.fail(item, "a yield is wanted, and no dimension has a tolerance",
                      "give dimensions.NAME.tolerance, as \"1%\"");
     wanted_.least_yield = share;

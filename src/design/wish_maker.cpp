@@ -51,7 +51,7 @@ ValueOfDevices::ValueOfDevices(const TripPoint& trip, std::vector<ParameterId> d
       located_(trip_.system, trip_.point, trip_.control, dimensions_) {}
 
 const TripPoint* ValueOfDevices::at(std::span<const double> values) {
-    if (std::equal(values.begin(), values.end(), last_.begin(), last_.end()))
+    if (std::ranges::equal(values, last_))
         return device_.get();
     last_.assign(values.begin(), values.end());
     device_.reset();

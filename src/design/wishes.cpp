@@ -1,6 +1,6 @@
 #include "graze/design/wishes.hpp"
 
-#include "design/time_search.hpp"
+#include "design/scaled_wishes.hpp"
 #include "design/wish_maker.hpp"
 #include "design/yield_score.hpp"
 #include "graze/base/require.hpp"
@@ -8,15 +8,133 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace graze {
 
-std::vector<double> MetWishes::values() const {
-    return values_of(found);
+namespace {
+
+/// Returns the dimensions of a result.
+std::vector<double> values_of(const FoundDesign& found) {
+    std::vector<double> values;
+    for (const FoundDimension& one : found.dimensions)
+        values.push_back(one.value);
+    return values;
 }
 
-namespace {
+/// Searches for a device with a trip time, which is discontinuous (it jumps from cycle to cycle), so gradients do not
+/// help. From anchors all over the ranges it finds the nearest devices that meet the other requirements, and computes
+/// their trip times; then it bisects between the first device and the best of these.
+class TimeSearch {
+public:
+    /// @param list requirements, of which the trip time is the last; the dimensions start at the first device
+    TimeSearch(const WishList& list, const WishOptions& options)
+        : time_(list.wants.back()), others_(list), options_(options), left_(options.evaluations) {
+        others_.wants.pop_back();
+        options_.starts = 1;
+        for (const Dimension& one : list.dimensions)
+            first_.push_back(one.start);
+    }
+
+    /// @param nearest the device nearest to the first that meets the other requirements
+    FoundDesign run(const FoundDesign& nearest) {
+        constexpr std::size_t anchors = 24;
+        constexpr int halvings = 12;
+        FoundDesign best = timed(nearest);
+        for (std::size_t k = 1; k <= anchors && left_ > 0; ++k)
+            consider(best, anchored(scattered(k)));
+        if (!is_met(best))
+            return finished(std::move(best), false);
+        const std::vector<double> end = values_of(best);
+        double low = 0, high = 1;
+        for (int i = 0; i < halvings && left_ > 0; ++i) {
+            const double middle = (low + high) / 2;
+            std::vector<double> anchor = first_;
+            for (std::size_t d = 0; d < anchor.size(); ++d)
+                anchor[d] += middle * (end[d] - anchor[d]);
+            const FoundDesign one = anchored(anchor);
+            (one.outcome == WishOutcome::met && is_met(one) ? high : low) = middle;
+            consider(best, one);
+        }
+        return finished(std::move(best), true);
+    }
+
+private:
+    static constexpr std::size_t most_of_one = 200; ///< evaluations for one anchor
+
+    bool is_met(const FoundDesign& one) const {
+        return one.wants.size() > others_.wants.size() && one.wants.back().met;
+    }
+
+    /// Returns point `number` of the Halton sequence within the ranges.
+    std::vector<double> scattered(std::size_t number) const {
+        constexpr std::size_t primes[] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37};
+        std::vector<double> result;
+        for (std::size_t d = 0; d < first_.size(); ++d) {
+            const double share = scattered_share(number, primes[d % std::size(primes)]);
+            const Dimension& one = others_.dimensions[d];
+            result.push_back(one.lowest + share * (one.highest - one.lowest));
+        }
+        return result;
+    }
+
+    /// Finds the device nearest to an anchor that meets the other requirements, with its trip time.
+    FoundDesign anchored(const std::vector<double>& anchor) {
+        WishList list = others_;
+        for (std::size_t d = 0; d < anchor.size(); ++d)
+            list.dimensions[d].start = std::clamp(anchor[d], list.dimensions[d].lowest, list.dimensions[d].highest);
+        options_.evaluations = std::min(left_, most_of_one);
+        FoundDesign found = design_for(list, options_);
+        left_ -= std::min(left_, found.evaluations);
+        spent_ += found.evaluations;
+        return timed(std::move(found));
+    }
+
+    FoundDesign timed(FoundDesign found) {
+        if (found.outcome != WishOutcome::met)
+            return found;
+        FoundWant time = found_want(time_, time_.value(values_of(found)).value);
+        time.binds = true;
+        found.wants.push_back(time);
+        found.violation = std::max(found.violation, time.violation);
+        found.distance = 0;
+        for (std::size_t d = 0; d < first_.size(); ++d) {
+            const Dimension& one = others_.dimensions[d];
+            const double width = one.highest - one.lowest, way = found.dimensions[d].value - first_[d];
+            found.distance = std::hypot(found.distance, width > 0 ? way / width : 0);
+        }
+        return found;
+    }
+
+    /// A device that meets all is better than one that does not; then the nearer, or the faster.
+    void consider(FoundDesign& best, const FoundDesign& one) const {
+        if (one.outcome != WishOutcome::met)
+            return;
+        const bool here = is_met(one), there = is_met(best);
+        if (here != there ? here : here ? one.distance < best.distance : one.violation < best.violation)
+            best = one;
+    }
+
+    FoundDesign finished(FoundDesign best, bool met) const {
+        best.evaluations = spent_;
+        best.stationary = false;
+        best.outcome = met ? WishOutcome::met : WishOutcome::unmet;
+        if (!met)
+            best.reason = fmt::format(
+                "the other wishes are met, but no device that meets them was found whose trip "
+                "time is at most {:.6g}; the shortest was {}",
+                time_.most, best.wants.back().value ? fmt::format("{:.6g}", *best.wants.back().value) : "not known");
+        return best;
+    }
+
+    Want time_;
+    WishList others_;
+    WishOptions options_;
+    std::vector<double> first_;
+    std::size_t left_ = 0, spent_ = 0;
+};
 
 MetWishes met_with(WishMaker& maker, const Design& design, const WishesOptions& options, double score) {
     WishOptions solver;
@@ -49,8 +167,7 @@ double countable(double share, std::size_t devices) {
 /// @return the share; nothing if no design was found or the work was interrupted
 std::optional<double> make_devices(MetWishes& result, WishMaker& maker, const Design& design,
                                    const WishesOptions& options) {
-    const auto want = std::find_if(result.list.wants.begin(), result.list.wants.end(),
-                                   [](const Want& one) { return one.name == "yield"; });
+    const auto want = std::ranges::find_if(result.list.wants, [](const Want& one) { return one.name == "yield"; });
     want->least = *design.wanted.least_yield;
     want->scale = 0;
     want->limits.clear();
@@ -76,7 +193,7 @@ std::optional<double> make_devices(MetWishes& result, WishMaker& maker, const De
 /// Sets the outcome to met if only the yield by derivatives was missed, and the counted one is sufficient.
 void tell_met(MetWishes& result) {
     const std::vector<FoundWant>& wants = result.found.wants;
-    if (!std::all_of(wants.begin(), wants.end(), [](const FoundWant& one) { return one.met; }))
+    if (!std::ranges::all_of(wants, [](const FoundWant& one) { return one.met; }))
         return;
     result.found.outcome = WishOutcome::met;
     result.found.reason.clear();
@@ -125,6 +242,10 @@ void tell_range(MetWishes& result, const Approach& approach) {
 }
 
 } // namespace
+
+std::vector<double> MetWishes::values() const {
+    return values_of(found);
+}
 
 MetWishes meet_wishes(const Design& design, const TripPoint& trip, const WishesOptions& options) {
     WishMaker maker(design, trip, options);

@@ -43,7 +43,7 @@ std::vector<std::complex<double>> multipliers_of(const CycleMap& map) {
     const Eigen::MatrixXd scaled = scales.cwiseInverse().asDiagonal() * matrix_of(map) * scales.asDiagonal();
     const Eigen::VectorXcd values = eigenvalues_or_nan(scaled);
     std::vector<std::complex<double>> result(values.begin(), values.end());
-    std::sort(result.begin(), result.end(), [](const auto& one, const auto& other) {
+    std::ranges::sort(result, [](const auto& one, const auto& other) {
         return std::abs(one) != std::abs(other) ? std::abs(one) > std::abs(other) : one.imag() > other.imag();
     });
     if (!result.empty())
@@ -88,7 +88,7 @@ void add_next_order(CycleMap& map, const OrbitEquations& equations, const OrbitE
 bool is_same_place(const std::vector<double>& one, const std::vector<double>& other, const OrbitEquations& equations,
                    const OrbitEvaluation& at) {
     constexpr double near = 1e-4;
-    return std::all_of(at.active.begin(), at.active.end(), [&](std::size_t i) {
+    return std::ranges::all_of(at.active, [&](std::size_t i) {
         return equations.model().states[i].drifting ||
                std::abs(without_turns(one[i] - other[i], at.periods[i])) < near * at.scales[index(i)];
     });
@@ -172,8 +172,7 @@ std::vector<OrbitTouch> touches_in(Shooting& shooting, const OrbitEvaluation& at
     for (const OrbitTouch& one : found) {
         const TouchFunctions functions(system, orbit.signature[one.segment].mode, one.event);
         const ReturnMap back = return_map(shooting, at, one, functions, std::nullopt);
-        if (back.touch.state.empty() ||
-            std::any_of(places.begin(), places.end(), [&](const std::vector<double>& place) {
+        if (back.touch.state.empty() || std::ranges::any_of(places, [&](const std::vector<double>& place) {
                 return is_same_place(place, back.touch.state, shooting, at);
             }))
             continue;
@@ -280,7 +279,7 @@ std::vector<double> CycleMap::image(std::span<const double> state, double cleara
         throw InputError("there is no map of the cycle: " + (reason.empty() ? contact.reason : reason),
                          "check exists() first");
     if (state.size() != active.size() || !std::isfinite(clearance) ||
-        !std::all_of(state.begin(), state.end(), [](double one) { return std::isfinite(one); }))
+        !std::ranges::all_of(state, [](double one) { return std::isfinite(one); }))
         throw InputError(fmt::format("{} states and the clearance {} do not fit the map", state.size(), clearance),
                          fmt::format("give {} finite numbers and one", active.size()));
     const Eigen::Index n = index(active.size());

@@ -24,10 +24,9 @@ void require_fitting(const System& system, const TouchState& touch) {
     require_index(touch.event, system.model().events.size(), "event");
     const auto is_finite = [](double value) { return std::isfinite(value); };
     if (touch.state.size() != system.states() || touch.scales.size() != system.states() ||
-        touch.parameters.size() != system.parameters() ||
-        !std::all_of(touch.state.begin(), touch.state.end(), is_finite) ||
-        !std::all_of(touch.parameters.begin(), touch.parameters.end(), is_finite) ||
-        !std::all_of(touch.scales.begin(), touch.scales.end(), [](double size) { return size > 0 && size < 1e300; }))
+        touch.parameters.size() != system.parameters() || !std::ranges::all_of(touch.state, is_finite) ||
+        !std::ranges::all_of(touch.parameters, is_finite) ||
+        !std::ranges::all_of(touch.scales, [](double size) { return size > 0 && size < 1e300; }))
         throw InputError(fmt::format("a touch has {} states, {} sizes and {} parameters that do not fit the model",
                                      touch.state.size(), touch.scales.size(), touch.parameters.size()),
                          fmt::format("give {} finite states, as many positive sizes, and {} parameters",

@@ -2,7 +2,6 @@
 
 #include "base/enumerator_name.hpp"
 #include "graze/base/input_error.hpp"
-#include "graze/grazing/map_motion.hpp"
 #include "graze/trajectory/trajectory.hpp"
 #include "orbit/newton.hpp"
 
@@ -148,8 +147,7 @@ Trial try_ending(const TrialExperiment& experiment) {
     Trial trial;
     for (const double factor : {1.0, 30.0})
         trial.motions.push_back(experiment.run(-experiment.smallest_clearance_for_trial() * factor));
-    const bool all_end =
-        std::all_of(trial.motions.begin(), trial.motions.end(), [](const TrialMotion& motion) { return motion.ended; });
+    const bool all_end = std::ranges::all_of(trial.motions, [](const TrialMotion& motion) { return motion.ended; });
     return with_reason(trial, all_end ? TrialOutcome::agreed : TrialOutcome::contradicted,
                        all_end ? "contact ends the motion" : "contact does not end the motion");
 }
@@ -247,6 +245,38 @@ Trial try_verdict(const System& system, const CycleMap& map, const Verdict& verd
         return try_ending(experiment);
     return verdict.outcome == GrazingOutcome::lost ? try_loss(experiment, verdict, options)
                                                    : try_persistence(experiment);
+}
+
+namespace {
+
+std::vector<MotionBeyond> motions_beyond(const CycleMap& map, const Verdict& verdict, ParameterId parameter) {
+    if (verdict.outcome != GrazingOutcome::persists || map.contact.order != MapOrder::square_root ||
+        !map.clearance_rate || *map.clearance_rate == 0)
+        return {};
+    double size = 0;
+    for (std::size_t i = 0; i < map.gradient.size(); ++i)
+        size += std::abs(map.gradient[i]) * map.scales[i];
+    const double value = map.contact.touch.parameters[parameter.place()];
+    std::vector<MotionBeyond> motions;
+    for (const int digits : {3, 5, 7}) {
+        const double clearance = -size * std::pow(10.0, -digits);
+        motions.push_back({digits, value + clearance / *map.clearance_rate, map_motion(map, clearance)});
+    }
+    return motions;
+}
+
+} // namespace
+
+TouchReport touch_report(const System& system, const CycleMap& map, std::optional<ParameterId> parameter, bool verify) {
+    TouchReport report;
+    report.verdict = verdict_of(map);
+    if (verify && !parameter)
+        throw InputError("no parameter is given that moves the orbit from its touch", "name a parameter that does");
+    if (verify)
+        report.trial = try_verdict(system, map, report.verdict, *parameter);
+    if (parameter)
+        report.beyond = motions_beyond(map, report.verdict, *parameter);
+    return report;
 }
 
 } // namespace graze

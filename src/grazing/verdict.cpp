@@ -42,7 +42,7 @@ Modes modes_of(const ScaledCycleMap& map, const std::vector<double>& projections
     std::vector<Eigen::Index> order(static_cast<std::size_t>(amounts.size()));
     for (std::size_t i = 0; i < order.size(); ++i)
         order[i] = index(i);
-    std::sort(order.begin(), order.end(), [&](Eigen::Index one, Eigen::Index other) {
+    std::ranges::sort(order, [&](Eigen::Index one, Eigen::Index other) {
         return std::abs(system->values[one]) > std::abs(system->values[other]);
     });
     for (const Eigen::Index i : order) {
@@ -174,8 +174,8 @@ Complex largest_multiplier(const ScaledCycleMap& map, double root) {
     const Eigen::MatrixXd here = map.matrix * (Eigen::MatrixXd::Identity(map.matrix.rows(), map.matrix.cols()) -
                                                three_halves * root * map.impact * map.gradient.transpose());
     const Eigen::VectorXcd values = eigenvalues_or_nan(here);
-    return *std::max_element(values.begin(), values.end(),
-                             [](Complex one, Complex other) { return std::abs(one) < std::abs(other); });
+    return *std::ranges::max_element(values,
+                                     [](Complex one, Complex other) { return std::abs(one) < std::abs(other); });
 }
 
 /// Returns the square root of the smallest depth at which the orbit loses stability. @param greatest largest root that
@@ -232,8 +232,8 @@ void classify_compliant(const CycleMap& map, Verdict& verdict) {
 
 /// Counts the real multipliers above 1 (sign 1) or below -1 (sign -1).
 std::size_t count_beyond(const Eigen::VectorXcd& multipliers, double sign) {
-    return static_cast<std::size_t>(std::count_if(
-        multipliers.begin(), multipliers.end(), [&](Complex one) { return one.imag() == 0 && sign * one.real() > 1; }));
+    return static_cast<std::size_t>(
+        std::ranges::count_if(multipliers, [&](Complex one) { return one.imag() == 0 && sign * one.real() > 1; }));
 }
 
 void classify_sliding(const CycleMap& map, Verdict& verdict) {

@@ -109,8 +109,7 @@ public:
         std::vector<OrbitMinimum> result;
         for (std::size_t w = 0; w < mode_->watched.size(); ++w)
             add_clearances(w, ends[w], result);
-        std::stable_sort(result.begin(), result.end(),
-                         [](const OrbitMinimum& a, const OrbitMinimum& b) { return a.time < b.time; });
+        std::ranges::stable_sort(result, [](const OrbitMinimum& a, const OrbitMinimum& b) { return a.time < b.time; });
         return result;
     }
     bool is_own(std::size_t w) const {
@@ -217,8 +216,7 @@ double guard_margin(const System::CompiledTransition& transition, std::size_t ne
 bool is_identity_transition(const System& model, std::size_t transition) {
     const Transition& one = model.model().transitions[transition];
     return model.jump(one.jump).identity &&
-           std::all_of(one.next.begin(), one.next.end(),
-                       [&](const Alternative& alternative) { return alternative.mode == one.mode; });
+           std::ranges::all_of(one.next, [&](const Alternative& alternative) { return alternative.mode == one.mode; });
 }
 
 namespace {
@@ -230,7 +228,7 @@ public:
         : equations_(&equations), held_(held), system_(&equations.system()), at_(&at),
           states_(equations.layout().states()), roots_(equations.simulation().order()), work_(system_->workspace()),
           inputs_(states_ + at.parameters.size()), field_(states_) {
-        std::copy(at.parameters.begin(), at.parameters.end(), inputs_.begin() + static_cast<std::ptrdiff_t>(states_));
+        std::ranges::copy(at.parameters, inputs_.begin() + static_cast<std::ptrdiff_t>(states_));
     }
 
     Certificate certify() {
@@ -342,7 +340,7 @@ private:
             reject(fmt::format("the guard after segment {} leads to another mode", s + 1));
         system_->mode(next).rates.evaluate(inputs_, field_, work_);
         const auto& mode = system_->mode(segment.mode);
-        const auto own = std::find(mode.transitions.begin(), mode.transitions.end(), segment.index);
+        const auto own = std::ranges::find(mode.transitions, segment.index);
         evaluate_gradients(mode);
         certificate_.departures.push_back(rate_of(static_cast<std::size_t>(own - mode.transitions.begin()),
                                                   Eigen::Map<const Eigen::VectorXd>(field_.data(), index(states_))));
@@ -355,7 +353,7 @@ private:
         if (!equations_->symmetry() || s + 1 < segments)
             return next;
         const auto& images = equations_->model().symmetries[*equations_->symmetry()].modes;
-        return static_cast<std::size_t>(std::find(images.begin(), images.end(), next) - images.begin());
+        return static_cast<std::size_t>(std::ranges::find(images, next) - images.begin());
     }
 
     OrbitEquations* equations_;
@@ -383,8 +381,7 @@ bool is_admissible(const Simulation& simulation, const Orbit& orbit, std::string
     const Certificate certificate = certify(shooting, at);
     if (!certificate.admissible)
         why = certificate.reason;
-    return certificate.admissible &&
-           std::all_of(orbit.durations.begin(), orbit.durations.end(), [](double duration) { return duration > 0; });
+    return certificate.admissible && std::ranges::all_of(orbit.durations, [](double duration) { return duration > 0; });
 }
 
 } // namespace graze

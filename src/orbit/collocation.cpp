@@ -99,7 +99,7 @@ void Collocation::rates_at(const Rates& rates, const double* state, const OrbitE
                            Eigen::MatrixXd& derivatives) {
     const std::size_t n = layout().states();
     std::copy(state, state + n, inputs_.begin());
-    std::copy(at.parameters.begin(), at.parameters.end(), inputs_.begin() + static_cast<std::ptrdiff_t>(n));
+    std::ranges::copy(at.parameters, inputs_.begin() + static_cast<std::ptrdiff_t>(n));
     for (std::size_t i = 0; i < n; ++i) {
         rates.functions[i].evaluate(inputs_, values_, work_);
         values[index(i)] = values_[0];

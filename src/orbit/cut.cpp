@@ -102,8 +102,7 @@ std::optional<UncutOrbit> without_sections(const Model& model, const Orbit& orbi
     }
     // If segments after the last event continue to the first event, the orbit begins with them.
     const auto first = static_cast<std::size_t>(signature.rend() - last) % signature.size();
-    const bool drifts =
-        std::any_of(model.states.begin(), model.states.end(), [](const State& one) { return one.drifting; });
+    const bool drifts = std::ranges::any_of(model.states, [](const State& one) { return one.drifting; });
     if (first != 0 && (orbit.symmetry || drifts))
         return std::nullopt;
     return joined(orbit, direction, first);

@@ -31,8 +31,8 @@ struct CycleSpectrum {
     }
     /// Removes and returns the multiplier nearest to `wanted`; empty when none is left.
     std::optional<Complex> take(Complex wanted) {
-        const auto nearest = std::min_element(
-            all.begin(), all.end(), [&](Complex a, Complex b) { return std::abs(a - wanted) < std::abs(b - wanted); });
+        const auto nearest = std::ranges::min_element(
+            all, [&](Complex a, Complex b) { return std::abs(a - wanted) < std::abs(b - wanted); });
         if (nearest == all.end())
             return std::nullopt;
         const Complex result = *nearest;

@@ -28,8 +28,8 @@ double distance(std::span<const double> a, std::span<const double> b, const Orbi
 }
 
 bool is_smooth(const Orbit& orbit) {
-    return std::all_of(orbit.signature.begin(), orbit.signature.end(),
-                       [](const Segment& segment) { return segment.end != SegmentEnd::event; });
+    return std::ranges::all_of(orbit.signature,
+                               [](const Segment& segment) { return segment.end != SegmentEnd::event; });
 }
 
 /// Cuts an orbit without contacts after half its period, within its middle segment, and appends the state there to its

@@ -53,8 +53,7 @@ public:
     SectionMapFactors(const OrbitEquations& equations, const OrbitEvaluation& at)
         : equations_(&equations), at_(&at), active_(&at.active), work_(equations.system().workspace()),
           inputs_(equations.layout().states() + at.parameters.size()) {
-        std::copy(at.parameters.begin(), at.parameters.end(),
-                  inputs_.begin() + static_cast<std::ptrdiff_t>(equations.layout().states()));
+        std::ranges::copy(at.parameters, inputs_.begin() + static_cast<std::ptrdiff_t>(equations.layout().states()));
         units_.resize(index(active_->size()));
         for (std::size_t i = 0; i < active_->size(); ++i)
             units_[index(i)] = at.scales[index((*active_)[i])];
@@ -123,7 +122,7 @@ private:
         return result;
     }
     Eigen::VectorXd direction(const std::vector<double>& state) {
-        std::copy(state.begin(), state.end(), inputs_.begin());
+        std::ranges::copy(state, inputs_.begin());
         std::vector<double> field(state.size());
         equations_->system().mode(mode_).rates.evaluate(inputs_, field, work_);
         Eigen::VectorXd result(index(active_->size()));
@@ -205,7 +204,7 @@ std::size_t moving_neutral_states(const OrbitEquations& equations, const OrbitEv
     std::size_t count = 0;
     for (std::size_t i = 0; i < layout.states(); ++i) {
         if (equations.model().states[i].drifting || at.periods[i] > 0 ||
-            std::find(at.active.begin(), at.active.end(), i) != at.active.end())
+            std::ranges::find(at.active, i) != at.active.end())
             continue;
         double least = at.unknowns[index(i)], greatest = least;
         for (std::size_t k = 0; k < layout.pieces(); ++k)

@@ -94,9 +94,8 @@ Orbit whole_orbit(const System& system, const Orbit& orbit) {
     if (!orbit.symmetry)
         return orbit;
     const Segment& last = orbit.signature.back();
-    const bool smooth = std::all_of(orbit.signature.begin(), orbit.signature.end(), [&](const Segment& segment) {
-        return segment == last && segment.end == SegmentEnd::section;
-    });
+    const bool smooth = std::ranges::all_of(
+        orbit.signature, [&](const Segment& segment) { return segment == last && segment.end == SegmentEnd::section; });
     const Function& map = system.symmetry(*orbit.symmetry).map;
     Orbit whole = orbit;
     whole.symmetry.reset();

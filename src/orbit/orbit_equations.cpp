@@ -62,7 +62,7 @@ Eigen::VectorXd OrbitEquations::unknowns_of(const Orbit& orbit) {
         double remaining = orbit.durations[s];
         for (std::size_t k = layout_.first_piece(s); k <= layout_.last_piece(s); ++k) {
             const double duration = layout_.is_last(k) ? remaining : fixed_durations_[k];
-            std::copy(state.begin(), state.end(), unknowns.data() + layout_.start_of(k));
+            std::ranges::copy(state, unknowns.data() + layout_.start_of(k));
             unknowns[index(layout_.duration_of(k))] = duration;
             if (!layout_.is_last(k))
                 flow_.run(modes_[s], state, duration);
@@ -175,13 +175,13 @@ void OrbitEquations::raise_above_round_off(const Eigen::VectorXd& unknowns, cons
     const std::size_t n = layout_.states();
     std::vector<double> inputs(n + parameters.size()), errors(inputs.size()), bounds(n), noise(n, 0.0),
         work(2 * system().workspace());
-    std::copy(parameters.begin(), parameters.end(), inputs.begin() + static_cast<std::ptrdiff_t>(n));
+    std::ranges::copy(parameters, inputs.begin() + static_cast<std::ptrdiff_t>(n));
     double time = 0;
     for (std::size_t k = 0; k < layout_.pieces(); ++k)
         time += std::abs(unknowns[index(layout_.duration_of(k))]);
     for (std::size_t k = 0; k < layout_.pieces(); ++k) {
         std::copy_n(unknowns.data() + layout_.start_of(k), n, inputs.begin());
-        std::fill(errors.begin(), errors.end(), 0.0);
+        std::ranges::fill(errors, 0.0);
         // The second pass propagates the error of a velocity to its position.
         for (int order = 0; order < 2; ++order) {
             system().mode(mode_of(k)).rates.error_bounds(inputs, errors, bounds, work);

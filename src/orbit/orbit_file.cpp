@@ -115,12 +115,12 @@ public:
 private:
     /// Refuses unknown column names. Other columns may hold any quantity that can be computed along the motion.
     void check_name(const std::vector<Cell>& cells, const Cell& cell, int line) const {
-        if (std::count_if(cells.begin(), cells.end(), [&](const Cell& one) { return one.text == cell.text; }) > 1)
+        if (std::ranges::count_if(cells, [&](const Cell& one) { return one.text == cell.text; }) > 1)
             fail(line, cell.column, fmt::format("there are two columns '{}'", cell.text), "leave one of them out");
         std::vector<std::string> known{"segment", "t", "end", "mode"};
         for (const State& state : model_->states)
             known.push_back(state.name);
-        if (std::find(known.begin(), known.end(), cell.text) != known.end())
+        if (std::ranges::find(known, cell.text) != known.end())
             return;
         try {
             named_value(*model_, cell.text, {file_, line, cell.column});

@@ -117,7 +117,7 @@ Eigen::VectorXd OrbitScales::choose(const OrbitLayout& layout, const Eigen::Vect
     Eigen::VectorXd scales = Eigen::VectorXd::Ones(index(layout.unknowns()));
     const std::vector<double> chosen = states_.choose(periods, coupling_, arcs_);
     for (std::size_t k = 0; k < layout.pieces(); ++k) {
-        std::copy(chosen.begin(), chosen.end(), scales.data() + layout.start_of(k));
+        std::ranges::copy(chosen, scales.data() + layout.start_of(k));
         scales[index(layout.duration_of(k))] = time > 0 ? time : 1;
         for (std::size_t j = 0; j < layout.inner(); ++j)
             scales[index(layout.inner_of(k) + j)] = chosen[j % layout.states()];

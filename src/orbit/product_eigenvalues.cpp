@@ -67,7 +67,7 @@ std::vector<std::complex<double>> product_eigenvalues(const std::vector<Eigen::M
         }
         begin = end;
     }
-    std::stable_sort(result.begin(), result.end(), [](auto a, auto b) { return std::abs(a) > std::abs(b); });
+    std::ranges::stable_sort(result, [](auto a, auto b) { return std::abs(a) > std::abs(b); });
     return result;
 }
 

@@ -48,7 +48,7 @@ bool SecondVariation::contract(const OrbitEquations& equations, const OrbitEvalu
         }
         if (k + 1 == layout.pieces()) // neutral and drifting states are held, not closed
             for (std::size_t i = 0; i < states_; ++i)
-                if (std::find(at.active.begin(), at.active.end(), i) == at.active.end())
+                if (std::ranges::find(at.active, i) == at.active.end())
                     weights.row(1 + index(i)).setZero();
         change -= weights.bottomRows(n).transpose() * tangent.of_gain;
         gradients.middleCols(place, n + 1) += change.leftCols(n + 1);

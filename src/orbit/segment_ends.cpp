@@ -35,7 +35,7 @@ SegmentEnds::SegmentEnds(const System& system, const Orbit& orbit, std::vector<P
 
 void SegmentEnds::set_parameters(std::span<const double> parameters) {
     parameters_.assign(parameters.begin(), parameters.end());
-    std::copy(parameters.begin(), parameters.end(), inputs_.begin() + static_cast<std::ptrdiff_t>(n_));
+    std::ranges::copy(parameters, inputs_.begin() + static_cast<std::ptrdiff_t>(n_));
     system_.periods().evaluate(parameters_, periods_, work_);
     const std::size_t count = parameters_.size();
     system_.period_gradients().evaluate(parameters_, std::span(values_).first(n_ * count), work_);
@@ -93,13 +93,13 @@ Eigen::VectorXd SegmentEnds::gradient_of(std::span<const double> values) const {
 }
 
 void SegmentEnds::field(std::size_t segment, std::span<const double> state, Eigen::VectorXd& result) {
-    std::copy(state.begin(), state.end(), inputs_.begin());
+    std::ranges::copy(state, inputs_.begin());
     result.resize(index(n_));
     system_.mode(signature_[segment].mode).rates.evaluate(inputs_, {result.data(), n_}, work_);
 }
 
 bool SegmentEnds::pass(std::size_t k, OrbitEvaluation::Piece& piece) {
-    std::copy(piece.end.begin(), piece.end.end(), inputs_.begin());
+    std::ranges::copy(piece.end, inputs_.begin());
     const EndFunction& end = ends_[k];
     if (end.value) {
         const std::span<double> values = std::span(values_).first(end.value->outputs());
@@ -119,11 +119,11 @@ bool SegmentEnds::pass(std::size_t k, OrbitEvaluation::Piece& piece) {
         apply(system_.symmetry(*symmetry_), piece);
     if (!end.value)
         pass_cut(end, piece);
-    return std::all_of(piece.after.begin(), piece.after.end(), [](double value) { return std::isfinite(value); });
+    return std::ranges::all_of(piece.after, [](double value) { return std::isfinite(value); });
 }
 
 bool SegmentEnds::pass(std::size_t k, std::vector<double>& state, double& condition) {
-    std::copy(state.begin(), state.end(), inputs_.begin());
+    std::ranges::copy(state, inputs_.begin());
     const EndFunction& end = ends_[k];
     if (end.value) {
         const std::span<double> values = std::span(values_).first(end.value->outputs());
@@ -131,7 +131,7 @@ bool SegmentEnds::pass(std::size_t k, std::vector<double>& state, double& condit
         condition = end.cyclic ? without_turns(values[0], periods_[end.state]) : values[0];
     }
     const auto apply = [&](const System::CompiledJump& map) {
-        std::copy(state.begin(), state.end(), inputs_.begin());
+        std::ranges::copy(state, inputs_.begin());
         if (!map.identity)
             map.map.evaluate(inputs_, state, work_);
     };
@@ -142,14 +142,14 @@ bool SegmentEnds::pass(std::size_t k, std::vector<double>& state, double& condit
         apply(system_.symmetry(*symmetry_));
     if (!end.value)
         condition = off_cut(end, state, nullptr);
-    return std::all_of(state.begin(), state.end(), [](double value) { return std::isfinite(value); });
+    return std::ranges::all_of(state, [](double value) { return std::isfinite(value); });
 }
 
 /// Applies a map of states after the previous ones, with derivatives by the chain rule.
 void SegmentEnds::apply(const System::CompiledJump& map, OrbitEvaluation::Piece& piece) {
     if (map.identity)
         return;
-    std::copy(piece.after.begin(), piece.after.end(), inputs_.begin());
+    std::ranges::copy(piece.after, inputs_.begin());
     map.jacobian.evaluate(inputs_, values_, work_);
     std::vector<std::size_t> free_place(parameters_.size(), free_.size());
     for (std::size_t f = 0; f < free_.size(); ++f)

@@ -200,8 +200,8 @@ std::pair<std::size_t, std::size_t> best_repetition(const std::vector<std::strin
 } // namespace
 
 bool can_lead_to(const Transition& transition, std::size_t mode) {
-    return std::any_of(transition.next.begin(), transition.next.end(),
-                       [&](const Alternative& alternative) { return alternative.mode == mode; });
+    return std::ranges::any_of(transition.next,
+                               [&](const Alternative& alternative) { return alternative.mode == mode; });
 }
 
 const std::string& end_name(const Model& model, const Segment& segment) {
@@ -298,7 +298,7 @@ void validate_signature(const Model& model, const Signature& signature, const Pl
         if (symmetry && k + 1 == signature.size()) {
             // The mode after the last segment of a half orbit is the one whose image is the first mode.
             const auto& images = model.symmetries[*symmetry].modes;
-            after.mode = static_cast<std::size_t>(std::find(images.begin(), images.end(), after.mode) - images.begin());
+            after.mode = static_cast<std::size_t>(std::ranges::find(images, after.mode) - images.begin());
         }
         if (!can_follow(model, before, after))
             throw InputError(place,

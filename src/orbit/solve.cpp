@@ -57,12 +57,12 @@ constexpr double on_circle = 1e-8;
 bool is_stable(const OrbitSolution& solution) {
     const auto& multipliers = solution.multipliers;
     return !multipliers.empty() &&
-           std::all_of(multipliers.begin(), multipliers.end(), [](auto one) { return std::abs(one) < 1 - on_circle; });
+           std::ranges::all_of(multipliers, [](auto one) { return std::abs(one) < 1 - on_circle; });
 }
 
 std::size_t unstable_directions(const OrbitSolution& solution) {
-    return static_cast<std::size_t>(std::count_if(solution.multipliers.begin(), solution.multipliers.end(),
-                                                  [](auto one) { return std::abs(one) > 1 + on_circle; }));
+    return static_cast<std::size_t>(
+        std::ranges::count_if(solution.multipliers, [](auto one) { return std::abs(one) > 1 + on_circle; }));
 }
 
 namespace {
@@ -175,8 +175,7 @@ bool is_in_family(OrbitEquations& equations, const OrbitEvaluation& at) {
 
 void join_drifts(const Simulation& simulation, Orbit& orbit) {
     const auto& states = simulation.model().states;
-    if (orbit.segments() < 2 ||
-        std::none_of(states.begin(), states.end(), [](const State& one) { return one.drifting; }))
+    if (orbit.segments() < 2 || std::ranges::none_of(states, [](const State& one) { return one.drifting; }))
         return;
     Shooting shooting(simulation, orbit, {});
     OrbitEvaluation at = shooting.evaluation();

@@ -1,5 +1,5 @@
 #include "graze/base/input_error.hpp"
-#include "graze/grazing/touch_report.hpp"
+#include "graze/grazing/trial.hpp"
 #include "graze/results/touching_orbit.hpp"
 #include "program/commands.hpp"
 

@@ -69,7 +69,7 @@ std::optional<bool> AttractorSearch::leave_equilibrium(const Equilibrium& equili
 }
 
 void AttractorSearch::displace(std::span<const double> state, std::size_t mode, double duration) {
-    std::fill(thresholds_.begin(), thresholds_.end(), setting_->options.recurrence);
+    std::ranges::fill(thresholds_, setting_->options.recurrence);
     watcher_.begin_anew();
     collapses_ = 0;
     landing_unseen_ = false;
@@ -142,7 +142,7 @@ bool AttractorSearch::has_no_size() {
     const std::vector<std::uint32_t>& contacts = finder_.contacts();
     const System& system = setting_->simulation.system();
     const auto jumps = [&](std::uint32_t code) { return system.transition(code / 2).jump != 0; };
-    if (contacts.empty() || std::any_of(contacts.begin(), contacts.end(), jumps))
+    if (contacts.empty() || std::ranges::any_of(contacts, jumps))
         return false;
     const std::span<const double> all = equilibria_.rates(finder_.point(), finder_.mode());
     const std::vector<double> rates(all.begin(), all.end());

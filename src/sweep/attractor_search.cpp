@@ -219,7 +219,7 @@ void AttractorSearch::measure_growth(bool sticks) {
 
 void AttractorSearch::start_exponent() {
     measure_growth(watcher_.has_stuck(watcher_.remembered()) || collapses_ > 0 || landing_unseen_);
-    std::fill(thresholds_.begin(), thresholds_.end(), setting_->options.recurrence);
+    std::ranges::fill(thresholds_, setting_->options.recurrence);
 }
 
 bool AttractorSearch::go_on() {
@@ -381,7 +381,7 @@ void AttractorSearch::lengthen() {
     limits_tried_ = false;
     lengthened_ = true;
     limit_ += std::max(least_extension, 2 * setting_->options.cycles);
-    std::fill(thresholds_.begin(), thresholds_.end(), setting_->options.recurrence);
+    std::ranges::fill(thresholds_, setting_->options.recurrence);
     const std::size_t largest = setting_->options.largest_period;
     std::fill(thresholds_.begin() + static_cast<std::ptrdiff_t>(largest) + 1, thresholds_.end(),
               setting_->options.recurrence / 100);

@@ -53,7 +53,7 @@ std::span<const double> EquilibriumFinder::rates(std::span<const double> state, 
 bool EquilibriumFinder::is_clock(std::size_t index, std::span<const double> state, std::size_t mode) {
     field_->evaluate(workspace_, mode, state);
     const std::span<const double> row(&workspace_.jacobian[index * state.size()], state.size());
-    return periods_[index] > 0 && std::all_of(row.begin(), row.end(), [](double x) { return x == 0; });
+    return periods_[index] > 0 && std::ranges::all_of(row, [](double x) { return x == 0; });
 }
 
 double EquilibriumFinder::linear_length(std::span<const double> state, std::size_t mode, std::size_t index,
@@ -91,10 +91,9 @@ bool EquilibriumFinder::classify(Equilibrium& equilibrium) {
         if (field_->system().model().states[i].drifting)
             continue;
         const std::span<const double> row(&workspace_.jacobian[i * count], count);
-        if (!std::isfinite(workspace_.rates[i]) ||
-            !std::all_of(row.begin(), row.end(), [](double x) { return std::isfinite(x); }))
+        if (!std::isfinite(workspace_.rates[i]) || !std::ranges::all_of(row, [](double x) { return std::isfinite(x); }))
             return false;
-        const bool constant = std::all_of(row.begin(), row.end(), [](double x) { return x == 0; });
+        const bool constant = std::ranges::all_of(row, [](double x) { return x == 0; });
         if (!constant)
             equilibrium.active.push_back(i);
         else if (workspace_.rates[i] != 0 && !(periods_[i] > 0))
@@ -222,8 +221,8 @@ bool EquilibriumFinder::find_basis(Equilibrium& equilibrium) const {
         return false;
     std::vector<Eigen::Index> order(static_cast<std::size_t>(size));
     std::iota(order.begin(), order.end(), Eigen::Index{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](auto a, auto b) { return system->values[a].real() > system->values[b].real(); });
+    std::ranges::stable_sort(order,
+                             [&](auto a, auto b) { return system->values[a].real() > system->values[b].real(); });
     const Eigen::MatrixXcd& vectors = system->vectors;
     equilibrium.values.resize(size);
     equilibrium.basis.resize(size, size);
@@ -381,7 +380,7 @@ std::vector<double> EquilibriumFinder::displaced(const Equilibrium& equilibrium,
         return remainder(equilibrium, one * length) <= nearly * linear &&
                events_are_away(equilibrium, (equilibrium.inverse * one).norm() * length);
     };
-    while (length < longest && std::all_of(directions.begin(), directions.end(), is_linear))
+    while (length < longest && std::ranges::all_of(directions, is_linear))
         length *= 10;
     if (length >= longest)
         length = std::max(1.0, offset);

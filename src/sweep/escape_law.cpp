@@ -73,7 +73,7 @@ private:
 
 std::optional<EscapeLaw> escape_law(std::span<const Stay> stays) {
     std::vector<Stay> sorted(stays.begin(), stays.end());
-    std::sort(sorted.begin(), sorted.end(), [](const Stay& a, const Stay& b) { return a.cycles < b.cycles; });
+    std::ranges::sort(sorted, [](const Stay& a, const Stay& b) { return a.cycles < b.cycles; });
     std::vector<std::size_t> times;
     for (const Stay& stay : sorted)
         if (stay.left)

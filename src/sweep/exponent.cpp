@@ -65,7 +65,7 @@ Eigen::MatrixXd Exponent::seed_column() const {
 
 Eigen::MatrixXd Exponent::carried(const Trajectory& trajectory) const {
     Eigen::MatrixXd tangent(static_cast<Eigen::Index>(map_->states()), 1);
-    std::copy(trajectory.tangents().begin(), trajectory.tangents().end(), tangent.data());
+    std::ranges::copy(trajectory.tangents(), tangent.data());
     return tangent;
 }
 

@@ -11,9 +11,9 @@ namespace {
 
 /// Returns whether a transition has no effect: no jump, and the same mode continues.
 bool changes_nothing(const Transition& transition) {
-    return transition.jump == 0 &&
-           std::all_of(transition.next.begin(), transition.next.end(),
-                       [&](const Alternative& next) { return next.mode && *next.mode == transition.mode; });
+    return transition.jump == 0 && std::ranges::all_of(transition.next, [&](const Alternative& next) {
+               return next.mode && *next.mode == transition.mode;
+           });
 }
 
 /// Returns whether a state stays zero in all modes and jumps, as far as simplification shows.
@@ -25,17 +25,16 @@ bool vanishes_with(Model& model, std::size_t state, const Expression& symbol) {
         return substitute(model.expand(expression), nought).is_number(0);
     };
     const std::vector<Jump>& jumps = model.jumps;
-    return std::all_of(model.modes.begin(), model.modes.end(),
-                       [&](const Mode& mode) { return vanishes(mode.rates[state]); }) &&
-           std::all_of(jumps.begin(), jumps.end(), [&](const Jump& jump) { return vanishes(jump.map[state]); });
+    return std::ranges::all_of(model.modes, [&](const Mode& mode) { return vanishes(mode.rates[state]); }) &&
+           std::ranges::all_of(jumps, [&](const Jump& jump) { return vanishes(jump.map[state]); });
 }
 
 /// Returns whether a state is constant in all modes and jumps.
 bool never_changes(Model& model, std::size_t state, const Expression& symbol) {
     const std::vector<Jump>& jumps = model.jumps;
-    return std::all_of(model.modes.begin(), model.modes.end(),
-                       [&](const Mode& mode) { return model.expand(mode.rates[state]).is_number(0); }) &&
-           std::all_of(jumps.begin(), jumps.end(), [&](const Jump& jump) { return jump.map[state] == symbol; });
+    return std::ranges::all_of(model.modes,
+                               [&](const Mode& mode) { return model.expand(mode.rates[state]).is_number(0); }) &&
+           std::ranges::all_of(jumps, [&](const Jump& jump) { return jump.map[state] == symbol; });
 }
 
 /// Returns whether each state is a clock: no state acts on its rate. @param jacobian of the rates, row by row
@@ -66,7 +65,7 @@ bool is_affine(const Model& model, const std::vector<Expression>& jacobian, cons
         }
     }
     const std::vector<Expression> symbols = symbols_of(entries);
-    return std::none_of(others.begin(), others.end(), [&](const Expression& state) {
+    return std::ranges::none_of(others, [&](const Expression& state) {
         return std::find(symbols.begin(), symbols.end(), state) != symbols.end();
     });
 }
@@ -106,7 +105,7 @@ FieldMap::Workspace FieldMap::workspace(std::span<const double> parameters) cons
     Workspace workspace;
     const std::size_t count = states();
     workspace.inputs.resize(count + parameters.size());
-    std::copy(parameters.begin(), parameters.end(), workspace.inputs.begin() + static_cast<std::ptrdiff_t>(count));
+    std::ranges::copy(parameters, workspace.inputs.begin() + static_cast<std::ptrdiff_t>(count));
     std::size_t work = system_.workspace(), watched = 0;
     for (const Function& function : jacobians_)
         work = std::max(work, function.workspace());
@@ -121,7 +120,7 @@ FieldMap::Workspace FieldMap::workspace(std::span<const double> parameters) cons
 }
 
 void FieldMap::evaluate_rates(Workspace& workspace, std::size_t mode, std::span<const double> state) const {
-    std::copy(state.begin(), state.end(), workspace.inputs.begin());
+    std::ranges::copy(state, workspace.inputs.begin());
     system_.mode(mode).rates.evaluate(workspace.inputs, workspace.rates, workspace.work);
 }
 
@@ -131,7 +130,7 @@ void FieldMap::evaluate(Workspace& workspace, std::size_t mode, std::span<const 
 }
 
 void FieldMap::evaluate_events(Workspace& workspace, std::size_t mode, std::span<const double> state) const {
-    std::copy(state.begin(), state.end(), workspace.inputs.begin());
+    std::ranges::copy(state, workspace.inputs.begin());
     system_.mode(mode).events.evaluate(workspace.inputs, workspace.events, workspace.work);
     system_.mode(mode).event_gradients.evaluate(workspace.inputs, workspace.event_gradients, workspace.work);
 }

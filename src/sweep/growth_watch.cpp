@@ -44,7 +44,7 @@ double GrowthWatch::outward(const ReturnWatcher& motion) const {
 
 bool GrowthWatch::outgrows_everything(const ReturnWatcher& motion) const {
     constexpr double decades = 60;
-    const double size = motion.widest().empty() ? 0 : *std::max_element(motion.widest().begin(), motion.widest().end());
+    const double size = motion.widest().empty() ? 0 : *std::ranges::max_element(motion.widest());
     return since_start(motion) > decades * std::log(10.0) && size > std::pow(10.0, decades);
 }
 

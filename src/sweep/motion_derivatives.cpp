@@ -30,7 +30,7 @@ void MotionDerivatives::begin(std::span<const double> parameters, std::span<cons
     ahead_.clear();
     numbers_.clear();
     inputs_.resize(states_ + parameters.size());
-    std::copy(parameters.begin(), parameters.end(), inputs_.begin() + static_cast<std::ptrdiff_t>(states_));
+    std::ranges::copy(parameters, inputs_.begin() + static_cast<std::ptrdiff_t>(states_));
     work_.resize(system.workspace());
     fields_.resize(2 * states_);
     gradient_.resize(1 + inputs_.size());

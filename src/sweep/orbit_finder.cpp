@@ -127,7 +127,7 @@ bool OrbitFinder::arrived() const {
 }
 
 bool OrbitFinder::is_active(std::size_t state) const {
-    return std::find(jacobian_.active.begin(), jacobian_.active.end(), state) != jacobian_.active.end();
+    return std::ranges::find(jacobian_.active, state) != jacobian_.active.end();
 }
 
 bool OrbitFinder::proceed() {
@@ -206,7 +206,7 @@ bool OrbitFinder::record() {
     const auto indistinct = [&](std::span<const double> a, std::span<const double> b) {
         Eigen::VectorXd difference(scale_.size());
         subtract_states(a, b, periods_, {difference.data(), map_->states()});
-        return std::all_of(jacobian_.active.begin(), jacobian_.active.end(), [&](std::size_t i) {
+        return std::ranges::all_of(jacobian_.active, [&](std::size_t i) {
             return std::abs(difference[static_cast<Eigen::Index>(i)]) <= resolution * std::abs(b[i]);
         });
     };

@@ -21,7 +21,7 @@ bool can_be_carried_on(const PointResult& result) {
     const bool settled = result.label == Label::periodic || result.label == Label::quasi_periodic ||
                          result.label == Label::chaotic || result.label == Label::transient ||
                          result.label == Label::unsettled || result.label == Label::equilibrium;
-    return settled && std::all_of(result.state.begin(), result.state.end(), [](double x) { return std::isfinite(x); });
+    return settled && std::ranges::all_of(result.state, [](double x) { return std::isfinite(x); });
 }
 
 namespace {

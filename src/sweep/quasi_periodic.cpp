@@ -36,7 +36,7 @@ std::vector<std::vector<double>> observables(const VisitedStates& visited, std::
                     cosine[k] = std::cos(angle);
                     sine[k] = std::sin(angle);
                 }
-                const auto [low, high] = std::minmax_element(sine.begin(), sine.end());
+                const auto [low, high] = std::ranges::minmax_element(sine);
                 moving = moving || *high - *low > moves;
                 all.push_back(std::move(cosine));
                 all.push_back(std::move(sine));

@@ -83,8 +83,8 @@ void ReturnWatcher::begin(std::span<const double> parameters, std::span<const do
     next_ = returns_ = last_stuck_ = 0;
     alike_.assign(ring_.size(), {});
     escaped_ = stuck_ = paused_ = false;
-    std::fill(widest_.begin(), widest_.end(), 0.0);
-    std::fill(scale_.begin(), scale_.end(), 1.0);
+    std::ranges::fill(widest_, 0.0);
+    std::ranges::fill(scale_, 1.0);
     thresholds_ = nullptr;
     early_.clear();
     parts_.clear();
@@ -99,8 +99,8 @@ void ReturnWatcher::start_leg(double time, double shortest) {
     recurrent_ = steps_ = 0;
     next_check_ = first_check;
     current_.contacts.clear();
-    std::fill(least_.begin(), least_.end(), infinity);
-    std::fill(greatest_.begin(), greatest_.end(), -infinity);
+    std::ranges::fill(least_, infinity);
+    std::ranges::fill(greatest_, -infinity);
 }
 
 void ReturnWatcher::check_bounds(std::span<const double> state) {
@@ -187,8 +187,8 @@ void ReturnWatcher::arrive(double time, std::size_t mode, std::span<const double
     place.greatest = greatest_;
     place.contacts.swap(current_.contacts);
     current_.contacts.clear();
-    std::fill(least_.begin(), least_.end(), infinity);
-    std::fill(greatest_.begin(), greatest_.end(), -infinity);
+    std::ranges::fill(least_, infinity);
+    std::ranges::fill(greatest_, -infinity);
     next_ = (next_ + 1) % ring_.size();
     ++returns_;
     if (has_stuck(1))
@@ -260,7 +260,7 @@ void ReturnWatcher::update_scale() {
 
 /// Estimates the displacement of each state by rounding since the last return.
 void ReturnWatcher::find_noise() {
-    std::fill(noise_.begin(), noise_.end(), 0.0);
+    std::ranges::fill(noise_, 0.0);
     const Return& last = recent(0);
     const double since = remembered() > 1 ? last.time - std::max(recent(1).time, leg_start_) : last.time - leg_start_;
     for (const std::vector<double>* const place : {&last.state, &last.least, &last.greatest})

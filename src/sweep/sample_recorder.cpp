@@ -63,7 +63,7 @@ SampleRecorder::SampleRecorder(const Layout& layout, std::size_t first_probe)
 }
 
 void SampleRecorder::begin(std::span<const double> parameters) {
-    std::copy(parameters.begin(), parameters.end(), inputs_.begin() + static_cast<std::ptrdiff_t>(layout_->states_));
+    std::ranges::copy(parameters, inputs_.begin() + static_cast<std::ptrdiff_t>(layout_->states_));
     layout_->periods_.evaluate(parameters, periods_, work_);
     samples_.width = layout_->values_.outputs();
     samples_.clear();
@@ -92,7 +92,7 @@ void SampleRecorder::rest(double time, std::span<const double> state) {
 }
 
 void SampleRecorder::record(std::size_t sampling, double time, std::span<const double> state) {
-    std::copy(state.begin(), state.end(), inputs_.begin());
+    std::ranges::copy(state, inputs_.begin());
     if (const std::size_t image = layout_->image_of_sampling_[sampling]; image != none) {
         layout_->images_[image].evaluate(inputs_, image_, work_);
         for (std::size_t i = 0; i < image_.size(); ++i)

@@ -32,7 +32,7 @@ SectionMap::Workspace SectionMap::workspace(std::span<const double> parameters) 
     const System& compiled = simulation_.system();
     Workspace workspace;
     workspace.inputs.resize(states_ + parameters.size());
-    std::copy(parameters.begin(), parameters.end(), workspace.inputs.begin() + static_cast<std::ptrdiff_t>(states_));
+    std::ranges::copy(parameters, workspace.inputs.begin() + static_cast<std::ptrdiff_t>(states_));
     workspace.work.resize(std::max(2 * compiled.workspace(), section_.workspace()));
     workspace.errors.resize(workspace.inputs.size());
     workspace.field.resize(states_);
@@ -47,7 +47,7 @@ SectionMap::Workspace SectionMap::workspace(std::span<const double> parameters) 
 
 bool SectionMap::project(Workspace& workspace, std::size_t mode, std::span<const double> state,
                          Eigen::MatrixXd& tangents) const {
-    std::copy(state.begin(), state.end(), workspace.inputs.begin());
+    std::ranges::copy(state, workspace.inputs.begin());
     simulation_.system().mode(mode).rates.evaluate(workspace.inputs, workspace.field, workspace.work);
     const auto states = static_cast<Eigen::Index>(states_);
     const Eigen::Map<const Eigen::VectorXd> field(workspace.field.data(), states);
@@ -71,7 +71,7 @@ std::vector<double> SectionMap::gradient_at(std::span<const double> parameters, 
     if (is_phase())
         return gradient;
     Workspace numbers = workspace(parameters);
-    std::copy(state.begin(), state.end(), numbers.inputs.begin());
+    std::ranges::copy(state, numbers.inputs.begin());
     section_.evaluate(numbers.inputs, numbers.gradient, numbers.work);
     std::copy_n(numbers.gradient.begin() + 1, states_, gradient.begin());
     return gradient;
@@ -80,7 +80,7 @@ std::vector<double> SectionMap::gradient_at(std::span<const double> parameters, 
 void SectionMap::settle_on_section(Workspace& workspace, std::span<double> state) const {
     if (is_phase())
         return;
-    std::copy(state.begin(), state.end(), workspace.inputs.begin());
+    std::ranges::copy(state, workspace.inputs.begin());
     section_.evaluate(workspace.inputs, workspace.gradient, workspace.work);
     double square = 0;
     for (std::size_t i = 0; i < states_; ++i)
@@ -94,8 +94,8 @@ void SectionMap::settle_on_section(Workspace& workspace, std::span<double> state
 void SectionMap::add_round_off(Workspace& workspace, std::size_t mode, std::span<const double> state, double time,
                                std::span<double> result) const {
     const Function& rates = simulation_.system().mode(mode).rates;
-    std::copy(state.begin(), state.end(), workspace.inputs.begin());
-    std::fill(workspace.errors.begin(), workspace.errors.end(), 0.0);
+    std::ranges::copy(state, workspace.inputs.begin());
+    std::ranges::fill(workspace.errors, 0.0);
     // Round-off of a speed causes the same of the position.
     for (int order = 0; order < 2; ++order) {
         rates.error_bounds(workspace.inputs, workspace.errors, workspace.field, workspace.work);
@@ -111,7 +111,7 @@ bool SectionMap::is_on_event(Workspace& workspace, std::size_t mode, std::span<c
                              std::span<const double> periods, double time) const {
     if (simulation_.system().mode(mode).watched.empty())
         return false;
-    std::copy(state.begin(), state.end(), workspace.inputs.begin());
+    std::ranges::copy(state, workspace.inputs.begin());
     if (meets_event(workspace, mode, time))
         return true;
     // A phase at the beginning of its period is also at its end, where clocks have their events.
@@ -216,8 +216,7 @@ std::optional<ReturnSpectrum> return_spectrum(const SectionMap& map, const Retur
     std::vector<Eigen::Index> order(jacobian.active.size());
     for (std::size_t i = 0; i < order.size(); ++i)
         order[i] = static_cast<Eigen::Index>(i);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](auto a, auto b) { return std::abs(values[a]) > std::abs(values[b]); });
+    std::ranges::stable_sort(order, [&](auto a, auto b) { return std::abs(values[a]) > std::abs(values[b]); });
     // At a crossing section, the projection along the flow adds one multiplier zero. If there is a single state, this
     // is the only one: the return map is constant, and the value is round-off.
     const std::size_t count = map.is_phase() || order.size() == 1 ? order.size() : order.size() - 1;

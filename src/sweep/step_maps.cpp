@@ -35,7 +35,7 @@ bool is_clock(const System& system, Model& model, std::size_t state) {
             return false;
     for (std::size_t j = 0; j < model.jumps.size(); ++j) {
         const std::vector<std::size_t>& changed = system.jump(j).changed;
-        if (std::find(changed.begin(), changed.end(), state) != changed.end())
+        if (std::ranges::find(changed, state) != changed.end())
             return false;
     }
     return true;
@@ -270,13 +270,13 @@ void StepMaps::apply(const Part& part, std::size_t lane) {
             map[i] = sums_[i * lanes_ + lane];
         return;
     }
-    std::fill(product_.begin(), product_.end(), 0.0);
+    std::ranges::fill(product_, 0.0);
     for (std::size_t d = 0; d < directions_; ++d)
         for (std::size_t j = 0; j < directions_; ++j)
             for (std::size_t r = 0; r < directions_; ++r)
                 product_[d * directions_ + r] +=
                     sums_[(j * directions_ + r) * lanes_ + lane] * map[d * directions_ + j];
-    std::copy(product_.begin(), product_.end(), map);
+    std::ranges::copy(product_, map);
 }
 
 } // namespace graze

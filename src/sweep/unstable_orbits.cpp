@@ -28,7 +28,7 @@ void UnstableOrbits::add(const OrbitFinder& orbit, const ReturnWatcher& motion) 
 bool UnstableOrbits::explain(ReturnWatcher& motion, std::size_t period, double least) const {
     const std::vector<double>& here = motion.recent(0).state;
     const double most = near * motion.distance(here, motion.recent(period).state);
-    return std::any_of(states_.begin(), states_.end(), [&](const std::vector<double>& state) {
+    return std::ranges::any_of(states_, [&](const std::vector<double>& state) {
         const double distance = motion.distance(here, state);
         return distance > least && distance <= most;
     });

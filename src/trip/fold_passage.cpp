@@ -27,7 +27,7 @@ SpecialPoint as_fold(const SpecialPoint& point) {
     if (point.type == PointType::fold)
         return point;
     const std::vector<PointType> known = curves_at(point);
-    if (point.type == PointType::branch_point || std::find(known.begin(), known.end(), PointType::fold) == known.end())
+    if (point.type == PointType::branch_point || std::ranges::find(known, PointType::fold) == known.end())
         throw InputError(fmt::format("a point of type {} ({}) is no fold", short_name(point.type), name_of(point.type)),
                          "choose a fold (SN), or a point of a curve of folds");
     return as_type(point, PointType::fold);
@@ -40,8 +40,7 @@ public:
                 const TripOptions& options, double start)
         : EndWatch(end, {}, options.interrupted), fold_(fold), until_passed_(until_passed),
           closing_(fold.orbit.signature.back()), w_(start), periods_(system.periods()(fold.orbit.parameters)) {
-        each_ =
-            static_cast<std::size_t>(std::count(fold.orbit.signature.begin(), fold.orbit.signature.end(), closing_));
+        each_ = static_cast<std::size_t>(std::ranges::count(fold.orbit.signature, closing_));
     }
 
     void contact(const Contact& contact) override {
@@ -92,8 +91,8 @@ private:
 /// True when no multiplier lies outside the unit circle.
 bool is_attracting(const OrbitSolution& solution) {
     constexpr double beside = 1e-4; // the critical multiplier is known to the square root of the orbit's accuracy
-    return std::none_of(solution.multipliers.begin(), solution.multipliers.end(),
-                        [](std::complex<double> one) { return std::abs(one) > 1 + beside; });
+    return std::ranges::none_of(solution.multipliers,
+                                [](std::complex<double> one) { return std::abs(one) > 1 + beside; });
 }
 
 /// Returns the gate; near a cusp it is limited by the cubic term c w^3.

@@ -29,7 +29,7 @@ bool is_fold(const SpecialPoint& point) {
     if (point.type == PointType::fold)
         return true;
     const std::vector<PointType> known = curves_at(point);
-    const auto has = [&](PointType type) { return std::find(known.begin(), known.end(), type) != known.end(); };
+    const auto has = [&](PointType type) { return std::ranges::find(known, type) != known.end(); };
     return point.type != PointType::branch_point && has(PointType::fold) && !has(PointType::grazing);
 }
 

@@ -27,7 +27,7 @@ void require_trip(const CycleMap& map, double overshoot, std::span<const double>
         throw InputError(fmt::format("the disturbance has {} numbers for {} states", disturbance.size(),
                                      map.contact.touch.state.size()),
                          "give one for each");
-    if (std::any_of(disturbance.begin(), disturbance.end(), [](double one) { return !std::isfinite(one); }))
+    if (std::ranges::any_of(disturbance, [](double one) { return !std::isfinite(one); }))
         throw InputError("a disturbance is not finite", "give a number for each state");
     if (overshoot * std::copysign(1.0, *map.clearance_rate) > 0)
         throw InputError(

@@ -60,7 +60,7 @@ TripOrigin origin_on(const System& system, const Orbit& orbit, ParameterId param
     origin.parameters = orbit.parameters;
     // The first of several arcs of equal length, up to round-off.
     constexpr double equal_length = 1 - 1e-9;
-    const double most = equal_length * *std::max_element(orbit.durations.begin(), orbit.durations.end());
+    const double most = equal_length * *std::ranges::max_element(orbit.durations);
     std::size_t longest = 0;
     while (longest + 1 < orbit.durations.size() && orbit.durations[longest] < most)
         ++longest;
@@ -116,8 +116,8 @@ TripOrigin trip_origin(const System& system, const FoldPassage& fold, double val
     const Simulation simulation(system, {}, {}, integration(closing_tolerance));
     const FollowedMotion motion =
         follow_motion(simulation, guess.parameters, state, guess.signature.front().mode, longer * fold.cycle);
-    const auto sections = std::any_of(guess.signature.begin(), guess.signature.end(),
-                                      [](const Segment& one) { return one.end != SegmentEnd::event; });
+    const auto sections =
+        std::ranges::any_of(guess.signature, [](const Segment& one) { return one.end != SegmentEnd::event; });
     if (!sections && motion.segments.size() >= guess.signature.size() &&
         std::equal(guess.signature.begin(), guess.signature.end(), motion.segments.begin())) {
         for (std::size_t k = 0; k < guess.signature.size(); ++k) {
