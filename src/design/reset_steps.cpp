@@ -2,6 +2,7 @@
 
 #include "flow/guard.hpp"
 
+#include "base/concatenated.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/sweep/point_search.hpp"
 
@@ -43,7 +44,7 @@ public:
     SteppedReset(const TripPoint& trip, const Orbit& orbit, const System& system, const AttractorOptions& settle,
                  const ResetOptions& options)
         : trip_(trip), orbit_(orbit), system_(system), model_(system.model()), options_(options),
-          factory_(attractor_searches(system, settle, {at_section(settle.section)}, states_of(model_), {})),
+          factory_(attractor_searches(system, settle, {at_section(settle.section)}, model_.state_symbols(), {})),
           search_(factory_->make()), jets_(factory_->simulation(), LaneKind::single) {}
 
     Reset find() {
@@ -78,12 +79,6 @@ private:
         sampling.name = section;
         sampling.section = section;
         return sampling;
-    }
-    static std::vector<Expression> states_of(const Model& model) {
-        std::vector<Expression> states;
-        for (const State& state : model.states)
-            states.push_back(model.symbol(state.name));
-        return states;
     }
 
     Reset unknown(const std::string& reason) {
@@ -168,8 +163,7 @@ private:
     /// A change of the control parameter alone may bring a motion at rest to a barrier, such as that of the force with
     /// which a stop holds it: then its transition is taken before anything moves. @return false if no motion follows
     bool meet_passed_barrier(PointResult& motion, const std::vector<double>& parameters) const {
-        std::vector<double> work(system_.workspace()), conditions, inputs = motion.state;
-        inputs.insert(inputs.end(), parameters.begin(), parameters.end());
+        std::vector<double> work(system_.workspace()), conditions, inputs = concatenated(motion.state, parameters);
         const System::CompiledMode& mode = system_.mode(motion.mode);
         std::vector<double> values(mode.watched.size());
         mode.events.evaluate(inputs, values, work);

@@ -1,5 +1,6 @@
 #include "grazing/contact_chain.hpp"
 
+#include "base/concatenated.hpp"
 #include "orbit/certify.hpp"
 #include "orbit/eigen_index.hpp"
 
@@ -22,9 +23,8 @@ public:
     ContactFollower(const TouchFunctions& functions, const TouchState& touch, const TouchGeometry& geometry,
                     const TouchSizes& sizes)
         : system_(functions.system()), model_(system_.model()), touch_(touch), geometry_(geometry), sizes_(sizes),
-          inputs_(touch.state), mode_(functions.mode()), n_(index(touch.state.size())),
+          inputs_(concatenated(touch.state, touch.parameters)), mode_(functions.mode()), n_(index(touch.state.size())),
           time_(-1 / geometry.acceleration) {
-        inputs_.insert(inputs_.end(), touch.parameters.begin(), touch.parameters.end());
         chain_.gain = Eigen::VectorXd::Zero(n_);
         enter(mode_);
     }

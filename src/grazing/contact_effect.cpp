@@ -1,5 +1,6 @@
 #include "grazing/contact_effect.hpp"
 
+#include "base/concatenated.hpp"
 #include "flow/lie_derivative.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "orbit/eigen_index.hpp"
@@ -43,9 +44,7 @@ FieldDifference difference_of(const System& system, const TouchState& touch, std
     for (int order = 0; order < 3; ++order)
         rate = lie_derivatives(model, rate, own);
     outputs.push_back(rate.front());
-    std::vector<double> inputs = touch.state;
-    inputs.insert(inputs.end(), touch.parameters.begin(), touch.parameters.end());
-    const std::vector<double> values = Function(model.inputs(), outputs)(inputs);
+    const auto values = Function(model.inputs(), outputs)(concatenated(touch.state, touch.parameters));
     FieldDifference result;
     result.value = Eigen::Map<const Eigen::VectorXd>(values.data(), index(n));
     result.second = Eigen::Map<const Eigen::VectorXd>(values.data() + n, index(n));
@@ -86,9 +85,7 @@ Derivatives derivatives_at(const System& system, const TouchState& touch, std::s
     for (const auto* entries : {&of_field, &of_jump})
         for (const JacobianEntry& entry : *entries)
             outputs.push_back(entry.value);
-    std::vector<double> inputs = touch.state;
-    inputs.insert(inputs.end(), touch.parameters.begin(), touch.parameters.end());
-    const std::vector<double> values = Function(model.inputs(), outputs)(inputs);
+    const auto values = Function(model.inputs(), outputs)(concatenated(touch.state, touch.parameters));
 
     Derivatives result;
     result.curve = Eigen::Map<const Eigen::VectorXd>(values.data(), index(n));
@@ -111,9 +108,7 @@ bool is_identity_on_surface(const System& system, std::size_t jump, const TouchS
     if (compiled.identity)
         return true;
     const Eigen::Index n = index(touch.state.size());
-    std::vector<double> inputs = touch.state;
-    inputs.insert(inputs.end(), touch.parameters.begin(), touch.parameters.end());
-    const std::vector<double> entries = compiled.jacobian(inputs);
+    const std::vector<double> entries = compiled.jacobian(concatenated(touch.state, touch.parameters));
     Eigen::MatrixXd change = Eigen::MatrixXd::Zero(n, n);
     for (const std::size_t i : compiled.changed)
         change(index(i), index(i)) = -1;

@@ -1,5 +1,6 @@
 #include "grazing/return_map.hpp"
 
+#include "base/concatenated.hpp"
 #include "orbit/certify.hpp"
 #include "orbit/eigen_index.hpp"
 
@@ -173,9 +174,7 @@ private:
         mode = equations_.model().symmetries[*equations_.symmetry()].modes[mode];
         if (map.identity)
             return;
-        std::vector<double> inputs = at_.pieces[piece].end;
-        inputs.insert(inputs.end(), at_.parameters.begin(), at_.parameters.end());
-        const std::vector<double> entries = map.jacobian(inputs);
+        const std::vector<double> entries = map.jacobian(concatenated(at_.pieces[piece].end, at_.parameters));
         Eigen::MatrixXd derivatives = Eigen::MatrixXd::Identity(n_, n_ + index(equations_.free().size()));
         for (const std::size_t i : map.changed)
             derivatives.row(index(i)).setZero();

@@ -1,5 +1,6 @@
 #include "grazing/second_return.hpp"
 
+#include "base/concatenated.hpp"
 #include "flow/lie_derivative.hpp"
 #include "graze/flow/second_order_flow.hpp"
 #include "orbit/certify.hpp"
@@ -63,19 +64,13 @@ private:
 
     /// Returns the inputs of functions of the variational system, contracted with the first-order gain.
     std::vector<double> inputs_at(const std::vector<double>& state) const {
-        std::vector<double> inputs = state;
-        inputs.insert(inputs.end(), at_.parameters.begin(), at_.parameters.end());
-        inputs.insert(inputs.end(), first_.begin(), first_.end());
-        return inputs;
+        return concatenated(state, at_.parameters, first_);
     }
 
     /// Returns the derivative of a mode's rates along a vector.
     Eigen::VectorXd rate_along(std::size_t mode, const std::vector<double>& state,
                                const Eigen::VectorXd& vector) const {
-        std::vector<double> inputs = state;
-        inputs.insert(inputs.end(), vector.begin(), vector.end());
-        inputs.insert(inputs.end(), at_.parameters.begin(), at_.parameters.end());
-        const std::vector<double> rates = system_.modes().mode(mode).rates(inputs);
+        const std::vector<double> rates = system_.modes().mode(mode).rates(concatenated(state, vector, at_.parameters));
         return Eigen::Map<const Eigen::VectorXd>(rates.data() + n_, n_);
     }
 
@@ -93,9 +88,7 @@ private:
     }
 
     Eigen::VectorXd field_of(std::size_t mode, const std::vector<double>& state) const {
-        std::vector<double> inputs = state;
-        inputs.insert(inputs.end(), at_.parameters.begin(), at_.parameters.end());
-        const std::vector<double> field = equations_.system().mode(mode).rates(inputs);
+        const std::vector<double> field = equations_.system().mode(mode).rates(concatenated(state, at_.parameters));
         return Eigen::Map<const Eigen::VectorXd>(field.data(), n_);
     }
 

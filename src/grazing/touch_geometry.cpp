@@ -1,5 +1,6 @@
 #include "grazing/touch_geometry.hpp"
 
+#include "base/concatenated.hpp"
 #include "flow/lie_derivative.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "orbit/eigen_index.hpp"
@@ -33,8 +34,7 @@ TouchFunctions::TouchFunctions(const System& system, std::size_t mode, std::size
 }
 
 TouchGeometry TouchFunctions::at(std::span<const double> state, std::span<const double> parameters) const {
-    std::vector<double> inputs(state.begin(), state.end());
-    inputs.insert(inputs.end(), parameters.begin(), parameters.end());
+    const std::vector<double> inputs = concatenated(state, parameters);
     const std::vector<double> value = system_.event(event_)(inputs), rate = rate_(inputs),
                               field = system_.mode(mode_).rates(inputs);
     const Eigen::Index count = index(inputs.size());

@@ -1,5 +1,6 @@
 #include "orbit/newton.hpp"
 
+#include "base/concatenated.hpp"
 #include "flow/cyclic.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/orbit/solve.hpp"
@@ -73,10 +74,9 @@ bool repeats_as_image(const Orbit& orbit, std::size_t index, const OrbitEquation
     if (orbit.segments() % 2 != 0)
         return false;
     const auto maps_start_to = [&](std::size_t from, std::size_t to) {
-        std::vector<double> state = orbit.starts[from];
-        state.insert(state.end(), orbit.parameters.begin(), orbit.parameters.end());
         return symmetry.modes[orbit.signature[from].mode] == orbit.signature[to].mode &&
-               distance(map(state), orbit.starts[to], equations, periods) <= tolerance;
+               distance(map(concatenated(orbit.starts[from], orbit.parameters)), orbit.starts[to], equations,
+                        periods) <= tolerance;
     };
     for (std::size_t k = 0; k < half; ++k)
         if (orbit.signature[k].end != orbit.signature[k + half].end ||
@@ -111,9 +111,8 @@ std::optional<Orbit> half_of(const OrbitEquations& equations, const Orbit& orbit
             return half;
         }
         if (is_smooth(orbit) && cut_in_half(equations.simulation(), half, symmetry)) {
-            std::vector<double> state = half.starts.back();
-            state.insert(state.end(), orbit.parameters.begin(), orbit.parameters.end());
-            if (distance(map(state), orbit.starts[0], equations, periods) < tolerance) {
+            const std::vector<double> middle = map(concatenated(half.starts.back(), orbit.parameters));
+            if (distance(middle, orbit.starts[0], equations, periods) < tolerance) {
                 half.starts.pop_back();
                 return half;
             }

@@ -1,5 +1,6 @@
 #include "graze/orbit/orbit.hpp"
 
+#include "base/concatenated.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 #include "orbit/cut.hpp"
@@ -30,10 +31,6 @@ bool is_image(const Function& own, const Function& other, const Function& map, c
               std::span<const double> periods, double turns) {
     constexpr double nothing = 1e-9; // states below this are round-off of zero and give no scale
     const std::size_t states = periods.size();
-    const auto at = [&](std::vector<double> state) {
-        state.insert(state.end(), orbit.parameters.begin(), orbit.parameters.end());
-        return state;
-    };
     std::vector<double> sizes(periods.begin(), periods.end());
     for (const std::vector<double>& start : orbit.starts)
         for (std::size_t i = 0; i < states; ++i)
@@ -45,10 +42,11 @@ bool is_image(const Function& own, const Function& other, const Function& map, c
             std::vector<double> state = start;
             for (std::size_t i = 0; i < states; ++i)
                 state[i] += displacement * (sizes[i] > nothing ? sizes[i] : 1) / static_cast<double>(i + 2);
-            std::vector<double> image_state = map(at(state));
+            std::vector<double> image_state = map(concatenated(state, orbit.parameters));
             for (std::size_t i = 0; i < states; ++i)
                 image_state[i] += turns * periods[i];
-            const double value = own(at(state))[0], image = other(at(image_state))[0];
+            const double value = own(concatenated(state, orbit.parameters))[0],
+                         image = other(concatenated(image_state, orbit.parameters))[0];
             if (std::isfinite(value) != std::isfinite(image))
                 return false;
             if (std::isfinite(value)) {
@@ -101,8 +99,6 @@ Orbit whole_orbit(const System& system, const Orbit& orbit) {
     whole.symmetry.reset();
     for (std::size_t k = 0; k < orbit.segments(); ++k) {
         const Segment segment = image_of(system, *orbit.symmetry, orbit.signature[k], orbit);
-        std::vector<double> values = orbit.starts[k];
-        values.insert(values.end(), orbit.parameters.begin(), orbit.parameters.end());
         // The image of a section is not a section of the model: merge the two segments.
         if (k == 0 && !smooth && orbit.signature.back().end == SegmentEnd::section) {
             whole.signature.back() = segment;
@@ -110,7 +106,7 @@ Orbit whole_orbit(const System& system, const Orbit& orbit) {
             continue;
         }
         whole.signature.push_back(segment);
-        whole.starts.push_back(map(values));
+        whole.starts.push_back(map(concatenated(orbit.starts[k], orbit.parameters)));
         whole.durations.push_back(orbit.durations[k]);
     }
     return smooth ? cut_at_section(system, whole, last.index) : whole;

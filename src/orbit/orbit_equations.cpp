@@ -1,5 +1,6 @@
 #include "orbit/orbit_equations.hpp"
 
+#include "base/concatenated.hpp"
 #include "flow/cyclic.hpp"
 #include "graze/base/input_error.hpp"
 #include "orbit/eigen_index.hpp"
@@ -551,9 +552,8 @@ double OrbitEquations::typical_rate(const OrbitEvaluation& at, std::size_t segme
 }
 
 double OrbitEquations::typical_rate(const OrbitEvaluation& at, std::size_t segment, std::size_t event) const {
-    std::vector<double> inputs = at.pieces[layout_.last_piece(segment)].end;
-    inputs.insert(inputs.end(), at.parameters.begin(), at.parameters.end());
-    return typical_change(at, gradient_of(system().event(event)(inputs)));
+    const std::vector<double>& end = at.pieces[layout_.last_piece(segment)].end;
+    return typical_change(at, gradient_of(system().event(event)(concatenated(end, at.parameters))));
 }
 
 } // namespace graze

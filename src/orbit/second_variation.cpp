@@ -1,5 +1,6 @@
 #include "orbit/second_variation.hpp"
 
+#include "base/concatenated.hpp"
 #include "orbit/eigen_index.hpp"
 
 #include <algorithm>
@@ -91,10 +92,7 @@ bool SecondVariation::follow(const OrbitEquations& equations, const OrbitEvaluat
 /// Returns the directional derivative of a mode's rates; `values_` then begins with the rates.
 Eigen::VectorXd SecondVariation::rate_along(std::size_t mode, const std::vector<double>& state,
                                             const Eigen::VectorXd& by_state, const Eigen::VectorXd& by_parameters) {
-    inputs_ = state;
-    inputs_.insert(inputs_.end(), by_state.begin(), by_state.end());
-    inputs_.insert(inputs_.end(), parameters_.begin(), parameters_.end());
-    inputs_.insert(inputs_.end(), by_parameters.begin(), by_parameters.end());
+    inputs_ = concatenated(state, by_state, parameters_, by_parameters);
     values_.resize(2 * states_);
     system_.modes().mode(mode).rates.evaluate(inputs_, values_, work_);
     return Eigen::Map<const Eigen::VectorXd>(values_.data() + states_, index(states_));
@@ -102,9 +100,7 @@ Eigen::VectorXd SecondVariation::rate_along(std::size_t mode, const std::vector<
 
 /// Evaluates a function with first derivatives and second derivatives contracted with the variation of the state.
 void SecondVariation::evaluate(const Function& function, const Tangent& tangent) {
-    inputs_ = tangent.state;
-    inputs_.insert(inputs_.end(), parameters_.begin(), parameters_.end());
-    inputs_.insert(inputs_.end(), tangent.gain.begin(), tangent.gain.end());
+    inputs_ = concatenated(tangent.state, parameters_, tangent.gain);
     inputs_.resize(inputs_.size() + free_, 0.0);
     values_.resize(function.outputs());
     function.evaluate(inputs_, values_, work_);

@@ -1,5 +1,6 @@
 #include "sweep/attractor_search.hpp"
 
+#include "base/concatenated.hpp"
 #include "base/special_numbers.hpp"
 #include "graze/base/require.hpp"
 #include "sweep/transient_search.hpp"
@@ -109,9 +110,7 @@ void AttractorSearch::limit_steps(std::span<const double> state, std::size_t mod
         return;
     const std::size_t clock = setting_->simulation.probes()[setting_->map.probe()].state;
     const System& compiled = setting_->simulation.system();
-    std::vector<double> inputs(state.begin(), state.end()), rates(state.size()), work(compiled.workspace());
-    inputs.insert(inputs.end(), parameters_.begin(), parameters_.end());
-    compiled.mode(mode).rates.evaluate(inputs, rates, work);
+    const std::vector<double> rates = compiled.mode(mode).rates(concatenated(state, parameters_));
     const double longest = longest_step * periods_[clock] / std::abs(rates[clock]);
     main_->limit_step(std::isfinite(longest) ? longest : 0);
     finder_.limit_step(std::isfinite(longest) ? longest : 0);

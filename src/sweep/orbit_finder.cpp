@@ -1,5 +1,6 @@
 #include "sweep/orbit_finder.hpp"
 
+#include "base/concatenated.hpp"
 #include "base/neutral_multipliers.hpp"
 #include "flow/cyclic.hpp"
 
@@ -269,10 +270,7 @@ void OrbitFinder::keep_orbit() {
 
 /// Runs the image under the symmetry to its first return, which is a return of the orbit if the orbit is symmetric.
 void OrbitFinder::start_comparison() {
-    std::vector<double> image(map_->states());
-    std::vector<double> inputs(point_), work(image_->workspace());
-    inputs.insert(inputs.end(), parameters_.begin(), parameters_.end());
-    image_->evaluate(inputs, image, work);
+    const std::vector<double> image = (*image_)(concatenated(point_, parameters_));
     stage_ = Stage::comparing;
     watcher_.begin(parameters_, periods_, nullptr);
     watcher_.stop_after(1);

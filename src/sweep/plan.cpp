@@ -1,5 +1,6 @@
 #include "graze/sweep/plan.hpp"
 
+#include "base/concatenated.hpp"
 #include "base/thread_team.hpp"
 #include "base/turns.hpp"
 #include "graze/base/input_error.hpp"
@@ -37,11 +38,9 @@ std::optional<std::vector<double>> nearest_admissible(const System& system, std:
                                                       std::span<const double> state, std::size_t mode) {
     const System::CompiledMode& compiled = system.mode(mode);
     const std::size_t states = system.states(), events = compiled.watched.size();
-    std::vector<double> inputs(state.begin(), state.end()), values(events), gradients(events * states);
+    std::vector<double> inputs = concatenated(state, parameters), values(events), gradients(events * states);
     std::vector<double> work(system.workspace()), periods(states);
-    inputs.insert(inputs.end(), parameters.begin(), parameters.end());
-    const std::vector<double> all(parameters.begin(), parameters.end());
-    system.periods().evaluate(all, periods, work);
+    system.periods().evaluate(parameters, periods, work);
     for (std::size_t step = 0; step < most_steps; ++step) {
         compiled.events.evaluate(inputs, values, work);
         compiled.event_gradients.evaluate(inputs, gradients, work);

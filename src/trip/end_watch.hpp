@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/concatenated.hpp"
 #include "graze/trajectory/trajectory.hpp"
 #include "graze/trip/simulated_trip.hpp"
 #include "orbit/newton.hpp"
@@ -79,8 +80,8 @@ private:
                 return false;
             if (!function)
                 function = system->function_of({&*expression, 1});
-            std::vector<double> inputs(state.begin(), state.end()), errors;
-            inputs.insert(inputs.end(), parameters.begin(), parameters.end());
+            const std::vector<double> inputs = concatenated(state, parameters);
+            std::vector<double> errors;
             for (const double number : inputs)
                 errors.push_back(round_off * std::abs(number));
             double bound = 0;
