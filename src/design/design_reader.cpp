@@ -71,18 +71,14 @@ const TomlEntry* DesignReader::key(const std::string& name) const {
 void DesignReader::read_approach(const TomlEntry& entry) {
     Approach& approach = design_.approach;
     approach.place = entry.place;
+    const std::map<std::string, std::string*> texts{
+        {"study", &approach.study}, {"run", &approach.run}, {"point", &approach.point}, {"event", &approach.event}};
     reader_.each_of(entry, {"study", "run", "point", "from", "range", "event", "cycles"}, [&](const TomlEntry& item) {
         approach_.emplace(item.name, item);
-        if (item.name == "study")
-            approach.study = reader_.toml().line(item);
-        else if (item.name == "run")
-            approach.run = reader_.toml().line(item);
-        else if (item.name == "point")
-            approach.point = reader_.toml().line(item);
-        else if (item.name == "event")
-            approach.event = reader_.toml().line(item);
-        else if (item.name == "cycles")
+        if (item.name == "cycles")
             approach.cycles = reader_.count(item, 1, 1'000'000);
+        else if (const auto text = texts.find(item.name); text != texts.end())
+            *text->second = reader_.toml().line(item);
     });
     const bool of_study = !approach.study.empty();
     for (const char* name : {"run", "point"})

@@ -56,6 +56,21 @@ private:
     std::vector<double> scale_; ///< of the states at the beginning (the extents of a shrinking motion shrink too)
 };
 
+/// Unstable orbits found near a motion. Chaotic motions pass by the same few orbits again and again, and Newton's
+/// method would find these again each time.
+class UnstableOrbits {
+public:
+    void clear() { states_.clear(); }
+    /// Adds the finder's orbit if it is unstable; the motion's returns belong to the same orbit.
+    void add(const OrbitFinder& orbit, const ReturnWatcher& motion);
+    /// Returns whether a recurrence of the motion is explained by its passing one of these orbits. False if the motion
+    /// is within `least` of the orbit: it may stay there.
+    bool explain(ReturnWatcher& motion, std::size_t period, double least) const;
+
+private:
+    std::vector<std::vector<double>> states_; ///< states at the returns of the orbits
+};
+
 /// A starting point of Newton's method for the orbit that a motion approaches slowly.
 struct Guess {
     std::size_t period = 0; ///< in returns

@@ -11,7 +11,6 @@
 #include "sweep/return_watcher.hpp"
 #include "sweep/sample_recorder.hpp"
 #include "sweep/section_map.hpp"
-#include "sweep/unstable_orbits.hpp"
 
 #include <optional>
 #include <span>

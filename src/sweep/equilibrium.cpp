@@ -111,11 +111,11 @@ Eigen::VectorXd EquilibriumFinder::linearise(const Equilibrium& equilibrium, std
     const Eigen::Index size = equilibrium.scale.size();
     Eigen::VectorXd rates(size);
     for (Eigen::Index i = 0; i < size; ++i) {
-        const std::size_t row = equilibrium.active[static_cast<std::size_t>(i)];
+        const std::size_t row = equilibrium.place(i);
         rates[i] = workspace_.rates[row] / equilibrium.scale[i];
         for (Eigen::Index j = 0; j < size; ++j)
-            field(i, j) = workspace_.jacobian[row * state.size() + equilibrium.active[static_cast<std::size_t>(j)]] *
-                          equilibrium.scale[j] / equilibrium.scale[i];
+            field(i, j) = workspace_.jacobian[row * state.size() + equilibrium.place(j)] * equilibrium.scale[j] /
+                          equilibrium.scale[i];
     }
     return rates;
 }
@@ -126,7 +126,7 @@ bool EquilibriumFinder::solve(Equilibrium& equilibrium, std::span<const double> 
     equilibrium.field.resize(size, size);
     std::vector<bool> has_size(static_cast<std::size_t>(size));
     for (Eigen::Index i = 0; i < size; ++i) {
-        const std::size_t state = equilibrium.active[static_cast<std::size_t>(i)];
+        const std::size_t state = equilibrium.place(i);
         const double largest = std::max(extents[state], std::abs(equilibrium.state[state]));
         equilibrium.scale[i] = periods_[state] > 0 ? periods_[state] : largest > 0 ? largest : 1;
         has_size[static_cast<std::size_t>(i)] = periods_[state] > 0 || largest > 0;
@@ -149,7 +149,7 @@ bool EquilibriumFinder::solve(Equilibrium& equilibrium, std::span<const double> 
         if (!(length <= furthest))
             return false;
         for (Eigen::Index i = 0; i < size; ++i) {
-            const std::size_t state = equilibrium.active[static_cast<std::size_t>(i)];
+            const std::size_t state = equilibrium.place(i);
             const double was = equilibrium.state[state];
             equilibrium.state[state] -= correction[i] * equilibrium.scale[i];
             // In the convergence to zero, each step squares the value.
@@ -254,7 +254,7 @@ bool EquilibriumFinder::find_basis(Equilibrium& equilibrium) const {
 Eigen::VectorXd EquilibriumFinder::deviation(const Equilibrium& equilibrium, std::span<const double> state) const {
     Eigen::VectorXd result(equilibrium.scale.size());
     for (Eigen::Index i = 0; i < result.size(); ++i) {
-        const std::size_t index = equilibrium.active[static_cast<std::size_t>(i)];
+        const std::size_t index = equilibrium.place(i);
         result[i] = without_turns(state[index] - equilibrium.state[index], periods_[index]) / equilibrium.scale[i];
     }
     return result;
@@ -272,13 +272,13 @@ double EquilibriumFinder::remainder(const Equilibrium& equilibrium, const Eigen:
     Eigen::VectorXd rest(size);
     double offset = 0;
     for (Eigen::Index i = 0; i < size; ++i) {
-        const std::size_t index = equilibrium.active[static_cast<std::size_t>(i)];
+        const std::size_t index = equilibrium.place(i);
         offset = std::max(offset, std::abs(equilibrium.state[index]) / equilibrium.scale[i]);
         at[index] += deviation[i] * equilibrium.scale[i];
     }
     field_->evaluate_rates(workspace_, equilibrium.mode, at);
     for (Eigen::Index i = 0; i < size; ++i)
-        rest[i] = workspace_.rates[equilibrium.active[static_cast<std::size_t>(i)]] / equilibrium.scale[i];
+        rest[i] = workspace_.rates[equilibrium.place(i)] / equilibrium.scale[i];
     rest -= equilibrium.field * deviation;
     const double size_of_field = equilibrium.field.cwiseAbs().maxCoeff();
     for (Eigen::Index i = 0; i < size; ++i) {
@@ -302,8 +302,7 @@ bool EquilibriumFinder::events_are_away(const Equilibrium& equilibrium, double d
             const double value = workspace_.events[w];
             Eigen::RowVectorXcd gradient = Eigen::RowVectorXcd::Zero(size);
             for (Eigen::Index i = 0; i < size; ++i)
-                gradient[i] = workspace_.event_gradients[w * count + equilibrium.active[static_cast<std::size_t>(i)]] *
-                              equilibrium.scale[i];
+                gradient[i] = workspace_.event_gradients[w * count + equilibrium.place(i)] * equilibrium.scale[i];
             const double change = size > 0 ? (gradient * equilibrium.basis).norm() * distance : 0;
             const int side = value > 0 ? 1 : -1;
             if (!(std::abs(value) > 0 && change <= 0.5 * std::abs(value)) || (sides[w] != 0 && sides[w] != side))
@@ -361,8 +360,7 @@ std::vector<double> EquilibriumFinder::displaced(const Equilibrium& equilibrium,
         equilibrium.leading_direction / equilibrium.leading_direction.cwiseAbs().maxCoeff();
     double offset = 0;
     for (Eigen::Index i = 0; i < size; ++i)
-        offset = std::max(offset, std::abs(equilibrium.state[equilibrium.active[static_cast<std::size_t>(i)]]) /
-                                      equilibrium.scale[i]);
+        offset = std::max(offset, std::abs(equilibrium.state[equilibrium.place(i)]) / equilibrium.scale[i]);
     // The length over which the field is linear is determined from the field itself, independent of units.
     const double first = std::max(shortest, 1e-8 * offset);
     // Motions about a focus rotate through all directions of their plane.
@@ -386,7 +384,7 @@ std::vector<double> EquilibriumFinder::displaced(const Equilibrium& equilibrium,
         length = std::max(1.0, offset);
     std::vector<double> state = equilibrium.state;
     const auto is_on_edge = [&](Eigen::Index i) {
-        const std::size_t index = equilibrium.active[static_cast<std::size_t>(i)];
+        const std::size_t index = equilibrium.place(i);
         return field_->keeps_sign(index) && state[index] == 0;
     };
     // Displace states that keep their signs, such as populations, to positive values or to the side of the motion.
@@ -394,10 +392,10 @@ std::vector<double> EquilibriumFinder::displaced(const Equilibrium& equilibrium,
     for (Eigen::Index i = 0; i < size; ++i)
         if (is_on_edge(i) && std::abs(direction[i]) > strongest) {
             strongest = std::abs(direction[i]);
-            side = (motion[equilibrium.active[static_cast<std::size_t>(i)]] < 0) == (direction[i] < 0) ? 1 : -1;
+            side = (motion[equilibrium.place(i)] < 0) == (direction[i] < 0) ? 1 : -1;
         }
     for (Eigen::Index i = 0; i < size; ++i) {
-        const std::size_t index = equilibrium.active[static_cast<std::size_t>(i)];
+        const std::size_t index = equilibrium.place(i);
         const double change = side * std::max(share * length, visible * offset) * direction[i] * equilibrium.scale[i];
         if (!is_on_edge(i) || (motion[index] < 0) == (change < 0))
             state[index] += change;

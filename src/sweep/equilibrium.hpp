@@ -25,6 +25,8 @@ struct Equilibrium {
     /// eigenvalues.
     bool driven = false;
 
+    /// Returns the index of the active state number i.
+    std::size_t place(Eigen::Index i) const { return active[static_cast<std::size_t>(i)]; }
     /// Returns the largest real part of an eigenvalue; zero if nothing moves.
     double growth() const { return values.size() > 0 ? values[0].real() : 0; }
     double largest_rate() const { return values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0; }

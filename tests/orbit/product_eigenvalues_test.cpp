@@ -1,4 +1,4 @@
-#include "orbit/product_eigenvalues.hpp"
+#include "orbit/certify.hpp"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "sweep/unstable_orbits.hpp"
+#include "sweep/approach.hpp"
 
 #include "settle.hpp"
 
