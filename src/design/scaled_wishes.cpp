@@ -1,7 +1,6 @@
 #include "design/scaled_wishes.hpp"
 
 #include "graze/base/require.hpp"
-#include "orbit/eigen_index.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,7 @@
 #pragma once
 
 #include "graze/design/wish_list.hpp"
-
-#include <Eigen/Core>
+#include "orbit/eigen_index.hpp"
 
 #include <cstddef>
 #include <exception>

@@ -20,25 +20,6 @@ TripTime simulated_from_orbit(const TripPoint& trip, const Orbit& orbit, double 
                           end, options);
 }
 
-} // namespace
-
-std::vector<double> overshoots_of(const TripRequest& request, double value, int side) {
-    const double sign = side < 0 ? -1 : 1;
-    std::vector<double> result;
-    constexpr double most = 1e3; // relative to the trip value; a larger one is taken for a typing error
-    for (const double one : request.overshoots) {
-        if (value != 0 && !(one <= most * std::abs(value)))
-            throw InputError(request.place,
-                             fmt::format("the overshoot {} is {:.3g} times the trip value, {:.6g}", one,
-                                         one / std::abs(value), value),
-                             "give how far beyond the trip value the control parameter goes, in its unit");
-        result.push_back(sign * one);
-    }
-    return result.empty() ? usual_overshoots(value, side) : result;
-}
-
-namespace {
-
 /// Adds the trip times of a fold: the passage by the normal form, and by simulation.
 void add_fold_rows(TripTimes& times, const TripPoint& trip, const Orbit& orbit, const TripRequest& request, int side,
                    const TripOptions& options) {
@@ -71,6 +52,21 @@ void add_fold_rows(TripTimes& times, const TripPoint& trip, const Orbit& orbit, 
 }
 
 } // namespace
+
+std::vector<double> overshoots_of(const TripRequest& request, double value, int side) {
+    const double sign = side < 0 ? -1 : 1;
+    std::vector<double> result;
+    constexpr double most = 1e3; // relative to the trip value; a larger one is taken for a typing error
+    for (const double one : request.overshoots) {
+        if (value != 0 && !(one <= most * std::abs(value)))
+            throw InputError(request.place,
+                             fmt::format("the overshoot {} is {:.3g} times the trip value, {:.6g}", one,
+                                         one / std::abs(value), value),
+                             "give how far beyond the trip value the control parameter goes, in its unit");
+        result.push_back(sign * one);
+    }
+    return result.empty() ? usual_overshoots(value, side) : result;
+}
 
 TripTimes trip_times(const TripPoint& trip, const Orbit& orbit, const TripClass& found, const TripRequest& request,
                      const std::function<bool()>& interrupted) {

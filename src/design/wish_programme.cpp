@@ -3,7 +3,6 @@
 #include "base/linear_systems.hpp"
 #include "orbit/eigen_index.hpp"
 
-#include <Eigen/Core>
 #include <nlopt.h>
 
 #include <algorithm>
@@ -105,64 +104,6 @@ struct ActiveLimits {
         return a;
     }
 };
-
-} // namespace
-
-Multipliers multipliers_at(const ScaledWishes& wishes, const Candidate& at, const Eigen::VectorXd& pull,
-                           bool gives_way) {
-    constexpr double no_weight = 1e-6; // of a limit that is reached only by chance
-    const Eigen::Index n = wishes.size();
-    const double reached = gives_way ? at.violation : 0;
-    const ActiveLimits active(wishes, at, reached);
-    const Eigen::MatrixXd a = active.columns(wishes, at, gives_way);
-    Eigen::VectorXd b(n + 1);
-    b << -pull, gives_way ? 1 : 0;
-    const Eigen::VectorXd x = nonnegative(a, b);
-
-    Multipliers result{Eigen::VectorXd::Zero(index(wishes.rows().size())), Eigen::VectorXd::Zero(n),
-                       Eigen::VectorXd::Zero(n), (a * x - b).norm(), 0};
-    Eigen::Index column = 0;
-    for (const std::size_t k : active.rows) {
-        const double weight = x[column++];
-        result.rows[index(k)] = weight;
-        const LimitRow& row = wishes.rows()[k];
-        if (weight > no_weight)
-            result.gap = std::max(result.gap, row.cap.value_or(reached) - wishes.violation(row, at.at));
-    }
-    for (const Eigen::Index i : active.low) {
-        result.lowest[i] = x[column++];
-        result.gap = std::max(result.gap, result.lowest[i] * (at.z[i] - wishes.lowest()[i]));
-    }
-    for (const Eigen::Index i : active.high) {
-        result.highest[i] = x[column++];
-        result.gap = std::max(result.gap, result.highest[i] * (wishes.highest()[i] - at.z[i]));
-    }
-    return result;
-}
-
-Multipliers multipliers_of_violation(const ScaledWishes& wishes, const Candidate& at) {
-    return multipliers_at(wishes, at, Eigen::VectorXd::Zero(wishes.size()), true);
-}
-
-Multipliers multipliers_of_distance(const ScaledWishes& wishes, const Candidate& at) {
-    const double distance = at.z.norm();
-    const Eigen::VectorXd none = Eigen::VectorXd::Zero(wishes.size());
-    return multipliers_at(wishes, at, distance > limit_distance ? (at.z / distance).eval() : none, false);
-}
-
-bool is_best(const ScaledWishes& wishes, const Candidate& at, double share) {
-    constexpr double balanced = 1e-8, closed = 1e-11;
-    const bool violated = at.violation > closed;
-    const Multipliers multipliers = multipliers_at(wishes, at, share * at.z, violated);
-    double sum = 0; // the elastic variable is at its own lower bound, which takes the rest of one
-    for (std::size_t k = 0; k < wishes.rows().size(); ++k)
-        if (!wishes.rows()[k].cap)
-            sum += multipliers.rows[index(k)];
-    return multipliers.residual <= balanced * std::max(share, balanced) && multipliers.gap <= closed &&
-           (violated || sum <= 1);
-}
-
-namespace {
 
 constexpr double stationary = 1e-7; ///< residual of gradients at a stationary point
 /// Weights of the distance relative to violations, tried in turn until all requirements are met.
@@ -316,6 +257,60 @@ Candidate polish(ScaledWishes& wishes, Candidate best, double share) {
 }
 
 } // namespace
+
+Multipliers multipliers_at(const ScaledWishes& wishes, const Candidate& at, const Eigen::VectorXd& pull,
+                           bool gives_way) {
+    constexpr double no_weight = 1e-6; // of a limit that is reached only by chance
+    const Eigen::Index n = wishes.size();
+    const double reached = gives_way ? at.violation : 0;
+    const ActiveLimits active(wishes, at, reached);
+    const Eigen::MatrixXd a = active.columns(wishes, at, gives_way);
+    Eigen::VectorXd b(n + 1);
+    b << -pull, gives_way ? 1 : 0;
+    const Eigen::VectorXd x = nonnegative(a, b);
+
+    Multipliers result{Eigen::VectorXd::Zero(index(wishes.rows().size())), Eigen::VectorXd::Zero(n),
+                       Eigen::VectorXd::Zero(n), (a * x - b).norm(), 0};
+    Eigen::Index column = 0;
+    for (const std::size_t k : active.rows) {
+        const double weight = x[column++];
+        result.rows[index(k)] = weight;
+        const LimitRow& row = wishes.rows()[k];
+        if (weight > no_weight)
+            result.gap = std::max(result.gap, row.cap.value_or(reached) - wishes.violation(row, at.at));
+    }
+    for (const Eigen::Index i : active.low) {
+        result.lowest[i] = x[column++];
+        result.gap = std::max(result.gap, result.lowest[i] * (at.z[i] - wishes.lowest()[i]));
+    }
+    for (const Eigen::Index i : active.high) {
+        result.highest[i] = x[column++];
+        result.gap = std::max(result.gap, result.highest[i] * (wishes.highest()[i] - at.z[i]));
+    }
+    return result;
+}
+
+Multipliers multipliers_of_violation(const ScaledWishes& wishes, const Candidate& at) {
+    return multipliers_at(wishes, at, Eigen::VectorXd::Zero(wishes.size()), true);
+}
+
+Multipliers multipliers_of_distance(const ScaledWishes& wishes, const Candidate& at) {
+    const double distance = at.z.norm();
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(wishes.size());
+    return multipliers_at(wishes, at, distance > limit_distance ? (at.z / distance).eval() : none, false);
+}
+
+bool is_best(const ScaledWishes& wishes, const Candidate& at, double share) {
+    constexpr double balanced = 1e-8, closed = 1e-11;
+    const bool violated = at.violation > closed;
+    const Multipliers multipliers = multipliers_at(wishes, at, share * at.z, violated);
+    double sum = 0; // the elastic variable is at its own lower bound, which takes the rest of one
+    for (std::size_t k = 0; k < wishes.rows().size(); ++k)
+        if (!wishes.rows()[k].cap)
+            sum += multipliers.rows[index(k)];
+    return multipliers.residual <= balanced * std::max(share, balanced) && multipliers.gap <= closed &&
+           (violated || sum <= 1);
+}
 
 Candidate minimise_penalty(ScaledWishes& wishes, Candidate best) {
     for (const double share : distance_shares) {

@@ -2,8 +2,6 @@
 
 #include "design/scaled_wishes.hpp"
 
-#include <Eigen/Core>
-
 namespace graze {
 
 /// A design with its evaluation.

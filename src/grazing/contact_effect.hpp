@@ -2,8 +2,6 @@
 
 #include "grazing/touch_geometry.hpp"
 
-#include <Eigen/Core>
-
 #include <cstddef>
 #include <optional>
 #include <span>

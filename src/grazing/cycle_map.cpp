@@ -13,7 +13,6 @@
 #include "orbit/newton.hpp"
 #include "orbit/shooting.hpp"
 
-#include <Eigen/Core>
 #include <fmt/format.h>
 
 #include <algorithm>

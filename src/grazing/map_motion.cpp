@@ -3,7 +3,6 @@
 #include "graze/base/input_error.hpp"
 #include "grazing/return_map.hpp"
 
-#include <Eigen/Core>
 #include <fmt/format.h>
 
 #include <algorithm>

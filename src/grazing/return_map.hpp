@@ -4,8 +4,6 @@
 #include "grazing/touch_geometry.hpp"
 #include "orbit/orbit_equations.hpp"
 
-#include <Eigen/Core>
-
 #include <cstddef>
 #include <optional>
 #include <string>

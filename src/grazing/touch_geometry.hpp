@@ -2,8 +2,7 @@
 
 #include "graze/flow/system.hpp"
 #include "graze/grazing/discontinuity_map.hpp"
-
-#include <Eigen/Core>
+#include "orbit/eigen_index.hpp"
 
 #include <cstddef>
 

@@ -216,6 +216,22 @@ Trial try_persistence(const TrialExperiment& experiment) {
     return with_reason(trial, TrialOutcome::undecided, "contacts are neither as the map predicts nor much harder");
 }
 
+std::vector<MotionBeyond> motions_beyond(const CycleMap& map, const Verdict& verdict, ParameterId parameter) {
+    if (verdict.outcome != GrazingOutcome::persists || map.contact.order != MapOrder::square_root ||
+        !map.clearance_rate || *map.clearance_rate == 0)
+        return {};
+    double size = 0;
+    for (std::size_t i = 0; i < map.gradient.size(); ++i)
+        size += std::abs(map.gradient[i]) * map.scales[i];
+    const double value = map.contact.touch.parameters[parameter.place()];
+    std::vector<MotionBeyond> motions;
+    for (const int digits : {3, 5, 7}) {
+        const double clearance = -size * std::pow(10.0, -digits);
+        motions.push_back({digits, value + clearance / *map.clearance_rate, map_motion(map, clearance)});
+    }
+    return motions;
+}
+
 } // namespace
 
 void TrialOptions::validate() const {
@@ -246,26 +262,6 @@ Trial try_verdict(const System& system, const CycleMap& map, const Verdict& verd
     return verdict.outcome == GrazingOutcome::lost ? try_loss(experiment, verdict, options)
                                                    : try_persistence(experiment);
 }
-
-namespace {
-
-std::vector<MotionBeyond> motions_beyond(const CycleMap& map, const Verdict& verdict, ParameterId parameter) {
-    if (verdict.outcome != GrazingOutcome::persists || map.contact.order != MapOrder::square_root ||
-        !map.clearance_rate || *map.clearance_rate == 0)
-        return {};
-    double size = 0;
-    for (std::size_t i = 0; i < map.gradient.size(); ++i)
-        size += std::abs(map.gradient[i]) * map.scales[i];
-    const double value = map.contact.touch.parameters[parameter.place()];
-    std::vector<MotionBeyond> motions;
-    for (const int digits : {3, 5, 7}) {
-        const double clearance = -size * std::pow(10.0, -digits);
-        motions.push_back({digits, value + clearance / *map.clearance_rate, map_motion(map, clearance)});
-    }
-    return motions;
-}
-
-} // namespace
 
 TouchReport touch_report(const System& system, const CycleMap& map, std::optional<ParameterId> parameter, bool verify) {
     TouchReport report;

@@ -7,7 +7,6 @@
 #include "grazing/return_map.hpp"
 #include "orbit/eigen_index.hpp"
 
-#include <Eigen/Core>
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -211,16 +211,6 @@ double guard_margin(const System::CompiledTransition& transition, std::size_t ne
     return best;
 }
 
-} // namespace
-
-bool is_identity_transition(const System& model, std::size_t transition) {
-    const Transition& one = model.model().transitions[transition];
-    return model.jump(one.jump).identity &&
-           std::ranges::all_of(one.next, [&](const Alternative& alternative) { return alternative.mode == one.mode; });
-}
-
-namespace {
-
 /// Checks an orbit segment by segment.
 class Certifier {
 public:
@@ -368,6 +358,12 @@ private:
 };
 
 } // namespace
+
+bool is_identity_transition(const System& model, std::size_t transition) {
+    const Transition& one = model.model().transitions[transition];
+    return model.jump(one.jump).identity &&
+           std::ranges::all_of(one.next, [&](const Alternative& alternative) { return alternative.mode == one.mode; });
+}
 
 Certificate certify(OrbitEquations& equations, const OrbitEvaluation& at, const std::optional<HeldLimit>& held) {
     return Certifier(equations, at, held).certify();

@@ -3,8 +3,6 @@
 #include "graze/orbit/certificate.hpp"
 #include "orbit/orbit_equations.hpp"
 
-#include <Eigen/Core>
-
 #include <complex>
 #include <cstddef>
 #include <optional>

@@ -4,7 +4,6 @@
 #include "graze/base/input_error.hpp"
 #include "orbit/eigen_index.hpp"
 
-#include <Eigen/Core>
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -43,6 +43,39 @@ UncutOrbit joined(const Orbit& orbit, const OrbitDirection& direction, std::size
     return result;
 }
 
+/// Records the passages of one section.
+class PassageRecorder : public Observer {
+public:
+    explicit PassageRecorder(std::size_t mode) : mode_(mode) {}
+    void passage(const Passage& passage) override {
+        left_mode = left_mode || passage.mode != mode_;
+        times.push_back(passage.time);
+        states.emplace_back(passage.state.begin(), passage.state.end());
+    }
+    std::vector<double> times;
+    std::vector<std::vector<double>> states;
+    bool left_mode = false; ///< the motion has passed the section in another mode
+
+private:
+    std::size_t mode_;
+};
+
+/// Returns the sections in the order in which they are tried: phase sections first, the preferred one first among them.
+std::vector<std::size_t> candidates(const Model& model, const std::string& preferred) {
+    std::vector<std::size_t> result;
+    const auto add = [&](bool phase, bool named) {
+        for (std::size_t s = 0; s < model.sections.size(); ++s)
+            if (model.sections[s].state.has_value() == phase && (model.sections[s].name == preferred) == named)
+                result.push_back(s);
+    };
+    for (const auto& [phase, named] : {std::pair(true, true), {true, false}, {false, true}, {false, false}})
+        add(phase, named);
+    return result;
+}
+
+/// Passages whose times differ by less than this share of the period are the same one, whatever round-off does.
+constexpr double same_time = 1e-6;
+
 } // namespace
 
 std::vector<double> passing_rates(const OrbitEquations& equations, const OrbitEvaluation& at) {
@@ -107,43 +140,6 @@ std::optional<UncutOrbit> without_sections(const Model& model, const Orbit& orbi
         return std::nullopt;
     return joined(orbit, direction, first);
 }
-
-namespace {
-
-/// Records the passages of one section.
-class PassageRecorder : public Observer {
-public:
-    explicit PassageRecorder(std::size_t mode) : mode_(mode) {}
-    void passage(const Passage& passage) override {
-        left_mode = left_mode || passage.mode != mode_;
-        times.push_back(passage.time);
-        states.emplace_back(passage.state.begin(), passage.state.end());
-    }
-    std::vector<double> times;
-    std::vector<std::vector<double>> states;
-    bool left_mode = false; ///< the motion has passed the section in another mode
-
-private:
-    std::size_t mode_;
-};
-
-/// Returns the sections in the order in which they are tried: phase sections first, the preferred one first among them.
-std::vector<std::size_t> candidates(const Model& model, const std::string& preferred) {
-    std::vector<std::size_t> result;
-    const auto add = [&](bool phase, bool named) {
-        for (std::size_t s = 0; s < model.sections.size(); ++s)
-            if (model.sections[s].state.has_value() == phase && (model.sections[s].name == preferred) == named)
-                result.push_back(s);
-    };
-    for (const auto& [phase, named] : {std::pair(true, true), {true, false}, {false, true}, {false, false}})
-        add(phase, named);
-    return result;
-}
-
-/// Passages whose times differ by less than this share of the period are the same one, whatever round-off does.
-constexpr double same_time = 1e-6;
-
-} // namespace
 
 Orbit cut_at_section(const System& system, const Orbit& arcs, std::size_t section) {
     const Model& model = system.model();

@@ -2,8 +2,6 @@
 
 #include "orbit/cyclic_system.hpp"
 
-#include <Eigen/Core>
-
 #include <complex>
 #include <vector>
 

@@ -1,7 +1,6 @@
 #include "orbit/cyclic_system.hpp"
 
 #include "base/decompositions.hpp"
-#include "orbit/eigen_index.hpp"
 
 #include <algorithm>
 #include <cmath>

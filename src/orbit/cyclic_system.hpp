@@ -1,8 +1,7 @@
 #pragma once
 
 #include "base/linear_systems.hpp"
-
-#include <Eigen/Core>
+#include "orbit/eigen_index.hpp"
 
 #include <cstddef>
 #include <utility>

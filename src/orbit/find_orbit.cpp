@@ -65,85 +65,6 @@ void extract_period(const FollowedMotion& motion, double duration, Orbit& orbit)
     }
 }
 
-} // namespace
-
-FollowedMotion follow_motion(const Simulation& simulation, std::span<const double> parameters,
-                             std::span<const double> state, std::size_t mode, double time) {
-    require_finite(time, "the time for which a motion is followed");
-    FollowedMotion motion;
-    motion.starts.emplace_back(state.begin(), state.end());
-    SegmentRecorder recorder(simulation.system(), motion);
-    Trajectory trajectory(simulation, parameters, borrowed(recorder));
-    trajectory.start(state, mode, 0, time);
-    JetSet jets(simulation, LaneKind::single);
-    run(trajectory, jets);
-    motion.final_state.assign(trajectory.state().begin(), trajectory.state().end());
-    motion.final_mode = trajectory.mode();
-    const Outcome& outcome = trajectory.outcome();
-    if (motion.problem.empty() && outcome.ending != Ending::end_time && outcome.ending != Ending::stopped)
-        motion.problem = fmt::format("the motion ends at time {:.9g}: {}{}{}", outcome.time, name_of(outcome.ending),
-                                     outcome.detail.empty() ? "" : ", ", outcome.detail);
-    return motion;
-}
-
-OrbitSolution find_orbit(const System& system, const AttractorOptions& settle, const OrbitOptions& options,
-                         const SimulationOptions& simulation) {
-    return *find_orbit(system, settle, options, simulation, [] { return false; });
-}
-
-std::optional<OrbitSolution> find_orbit(const System& system, const AttractorOptions& settle,
-                                        const OrbitOptions& options, const SimulationOptions& simulation,
-                                        const std::function<bool()>& interrupted) {
-    const Model& model = system.model();
-    const auto factory = attractor_searches(system, settle, {}, {}, simulation);
-    const auto search = factory->make();
-    search->begin(model.parameter_values(), model.initial_state(), model.initial_mode);
-    JetSet jets(factory->simulation(), LaneKind::single);
-    do {
-        if (interrupted())
-            return std::nullopt;
-        run(search->trajectory(), jets);
-    } while (search->proceed());
-    const PointResult& result = search->result();
-    // With a clock section an equilibrium returns like any orbit.
-    const bool returns = result.label == Label::equilibrium && result.period > 0;
-    const auto no_orbit = [&] {
-        return InputError(fmt::format("the motion does not settle on a periodic orbit: it is {}{}{}",
-                                      name_of(result.label), result.outcome.detail.empty() ? "" : ", ",
-                                      result.outcome.detail),
-                          "start elsewhere, allow more cycles or longer periods, or give the orbit's states");
-    };
-    if (result.label != Label::periodic && !returns)
-        throw no_orbit();
-    FollowedMotion motion = follow_motion(factory->simulation(), model.parameter_values(), result.state, result.mode,
-                                          2.6 * result.duration);
-    if (!motion.problem.empty())
-        throw InputError("the orbit has no signature: " + motion.problem,
-                         "choose parameters at which contacts do not accumulate");
-    // Near an equilibrium, contacts of the motion may be due to round-off: they belong to no orbit.
-    if (returns && !motion.segments.empty())
-        throw no_orbit();
-    Orbit orbit;
-    orbit.parameters = model.parameter_values();
-    if (motion.segments.empty()) {
-        const auto closed = close_at_section(system, orbit.parameters, result.state, result.mode, result.duration,
-                                             settle.section, std::nullopt);
-        if (!closed)
-            throw InputError("the orbit passes none of the model's sections", "declare one that it passes");
-        orbit = *closed;
-    } else {
-        extract_period(motion, result.duration, orbit);
-    }
-    if (const auto half = half_orbit(system, orbit))
-        return solve_orbit(system, *half, options);
-    OrbitSolution solution = solve_orbit(system, orbit, options);
-    // A transient may have hidden the symmetry of the orbit, so it is tested again after refinement.
-    const auto half = solution.outcome == OrbitOutcome::converged ? half_orbit(system, solution.orbit) : std::nullopt;
-    return half ? solve_orbit(system, *half, options) : solution;
-}
-
-namespace {
-
 std::vector<Probe> probes_of(const Model& model, const Signature& signature) {
     std::vector<Probe> probes;
     for (std::size_t s = 0; s < model.sections.size(); ++s)
@@ -288,6 +209,81 @@ private:
 };
 
 } // namespace
+
+FollowedMotion follow_motion(const Simulation& simulation, std::span<const double> parameters,
+                             std::span<const double> state, std::size_t mode, double time) {
+    require_finite(time, "the time for which a motion is followed");
+    FollowedMotion motion;
+    motion.starts.emplace_back(state.begin(), state.end());
+    SegmentRecorder recorder(simulation.system(), motion);
+    Trajectory trajectory(simulation, parameters, borrowed(recorder));
+    trajectory.start(state, mode, 0, time);
+    JetSet jets(simulation, LaneKind::single);
+    run(trajectory, jets);
+    motion.final_state.assign(trajectory.state().begin(), trajectory.state().end());
+    motion.final_mode = trajectory.mode();
+    const Outcome& outcome = trajectory.outcome();
+    if (motion.problem.empty() && outcome.ending != Ending::end_time && outcome.ending != Ending::stopped)
+        motion.problem = fmt::format("the motion ends at time {:.9g}: {}{}{}", outcome.time, name_of(outcome.ending),
+                                     outcome.detail.empty() ? "" : ", ", outcome.detail);
+    return motion;
+}
+
+OrbitSolution find_orbit(const System& system, const AttractorOptions& settle, const OrbitOptions& options,
+                         const SimulationOptions& simulation) {
+    return *find_orbit(system, settle, options, simulation, [] { return false; });
+}
+
+std::optional<OrbitSolution> find_orbit(const System& system, const AttractorOptions& settle,
+                                        const OrbitOptions& options, const SimulationOptions& simulation,
+                                        const std::function<bool()>& interrupted) {
+    const Model& model = system.model();
+    const auto factory = attractor_searches(system, settle, {}, {}, simulation);
+    const auto search = factory->make();
+    search->begin(model.parameter_values(), model.initial_state(), model.initial_mode);
+    JetSet jets(factory->simulation(), LaneKind::single);
+    do {
+        if (interrupted())
+            return std::nullopt;
+        run(search->trajectory(), jets);
+    } while (search->proceed());
+    const PointResult& result = search->result();
+    // With a clock section an equilibrium returns like any orbit.
+    const bool returns = result.label == Label::equilibrium && result.period > 0;
+    const auto no_orbit = [&] {
+        return InputError(fmt::format("the motion does not settle on a periodic orbit: it is {}{}{}",
+                                      name_of(result.label), result.outcome.detail.empty() ? "" : ", ",
+                                      result.outcome.detail),
+                          "start elsewhere, allow more cycles or longer periods, or give the orbit's states");
+    };
+    if (result.label != Label::periodic && !returns)
+        throw no_orbit();
+    FollowedMotion motion = follow_motion(factory->simulation(), model.parameter_values(), result.state, result.mode,
+                                          2.6 * result.duration);
+    if (!motion.problem.empty())
+        throw InputError("the orbit has no signature: " + motion.problem,
+                         "choose parameters at which contacts do not accumulate");
+    // Near an equilibrium, contacts of the motion may be due to round-off: they belong to no orbit.
+    if (returns && !motion.segments.empty())
+        throw no_orbit();
+    Orbit orbit;
+    orbit.parameters = model.parameter_values();
+    if (motion.segments.empty()) {
+        const auto closed = close_at_section(system, orbit.parameters, result.state, result.mode, result.duration,
+                                             settle.section, std::nullopt);
+        if (!closed)
+            throw InputError("the orbit passes none of the model's sections", "declare one that it passes");
+        orbit = *closed;
+    } else {
+        extract_period(motion, result.duration, orbit);
+    }
+    if (const auto half = half_orbit(system, orbit))
+        return solve_orbit(system, *half, options);
+    OrbitSolution solution = solve_orbit(system, orbit, options);
+    // A transient may have hidden the symmetry of the orbit, so it is tested again after refinement.
+    const auto half = solution.outcome == OrbitOutcome::converged ? half_orbit(system, solution.orbit) : std::nullopt;
+    return half ? solve_orbit(system, *half, options) : solution;
+}
 
 std::optional<OrbitSolution> orbit_with_signature(const System& system, const Signature& signature,
                                                   const OrbitOptions& options, const SimulationOptions& simulation,

@@ -5,8 +5,6 @@
 #include "orbit/certify.hpp"
 #include "orbit/eigen_index.hpp"
 
-#include <Eigen/Core>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -196,6 +194,13 @@ std::vector<Eigen::MatrixXd> SectionMapFactors::without_shifts() const {
     return result;
 }
 
+/// Enough to separate eigenvalues whose moduli differ by a factor of six.
+constexpr int most_sweeps = 16;
+constexpr double coupling_tolerance = 1e-13;
+/// Diagonal elements below this share of the factor's norm count as zero: the factor is singular, as the jump that sets
+/// a velocity to zero.
+constexpr double round_off = 4e-16;
+
 } // namespace
 
 std::size_t moving_neutral_states(const OrbitEquations& equations, const OrbitEvaluation& at) {
@@ -234,17 +239,6 @@ std::vector<std::complex<double>> floquet_multipliers(const OrbitEquations& equa
     add_neutral_multipliers(result, neutral);
     return result;
 }
-
-namespace {
-
-/// Enough to separate eigenvalues whose moduli differ by a factor of six.
-constexpr int most_sweeps = 16;
-constexpr double coupling_tolerance = 1e-13;
-/// Diagonal elements below this share of the factor's norm count as zero: the factor is singular, as the jump that sets
-/// a velocity to zero.
-constexpr double round_off = 4e-16;
-
-} // namespace
 
 std::vector<std::complex<double>> product_eigenvalues(const std::vector<Eigen::MatrixXd>& factors) {
     std::vector<std::complex<double>> result;

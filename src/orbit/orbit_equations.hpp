@@ -6,8 +6,6 @@
 #include "orbit/orbit_scales.hpp"
 #include "orbit/segment_ends.hpp"
 
-#include <Eigen/Core>
-
 #include <cstddef>
 #include <optional>
 #include <vector>

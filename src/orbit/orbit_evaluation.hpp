@@ -3,8 +3,6 @@
 #include "graze/flow/watched_series.hpp"
 #include "orbit/cyclic_system.hpp"
 
-#include <Eigen/Core>
-
 #include <cstddef>
 #include <string>
 #include <vector>

@@ -4,8 +4,6 @@
 #include "graze/trajectory/simulation.hpp"
 #include "orbit/eigen_index.hpp"
 
-#include <Eigen/Core>
-
 #include <span>
 #include <utility>
 #include <vector>

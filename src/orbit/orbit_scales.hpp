@@ -3,8 +3,6 @@
 #include "orbit/orbit_evaluation.hpp"
 #include "orbit/orbit_flow.hpp"
 
-#include <Eigen/Core>
-
 #include <cstddef>
 #include <span>
 #include <vector>

@@ -24,6 +24,55 @@ double largest(const Eigen::VectorXd& step, const Eigen::VectorXd& scales) {
     return step.cwiseQuotient(scales).cwiseAbs().maxCoeff();
 }
 
+/// Magnitudes of multipliers at located folds and flips differ from 1 by less than this.
+constexpr double on_circle = 1e-8;
+
+/// Takes a step, halved until the residual decreases. @param tried set to the evaluation there
+bool improves(OrbitEquations& equations, const Eigen::VectorXd& unknowns, const Eigen::VectorXd& step,
+              const OrbitEvaluation& at, OrbitEvaluation& tried) {
+    const double size = largest(step, equations.scales());
+    double factor = 1;
+    bool improved = false;
+    tried.took_too_long = false;
+    for (int halving = 0; halving < most_halvings && !improved && !tried.took_too_long; ++halving, factor *= 0.5) {
+        const bool possible = equations.evaluate(unknowns + factor * step, tried);
+        // Near the solution the residual is round-off, and any value is accepted.
+        improved = possible && (tried.residual <= (1 - 0.1 * factor) * at.residual || size < 1e-6);
+    }
+    return improved;
+}
+
+/// Returns the first segment whose duration is smaller than its change by round-off of the states. At a double root,
+/// Newton's method converges slowly to an orbit with a vanishing slip, until the slip is below round-off and the
+/// equations appear solved.
+/// @return number of segments when there is none
+std::size_t segment_below_round_off(const OrbitEquations& equations, const OrbitEvaluation& at, const Orbit& orbit) {
+    constexpr double shorter = 1e-2; ///< only segments shorter than this share of the period are checked
+    constexpr double round_off = 16 * std::numeric_limits<double>::epsilon();
+    const std::size_t none = orbit.segments();
+    if (std::ranges::none_of(orbit.durations, [&](double one) { return one < shorter * orbit.period(); }))
+        return none;
+    const OrbitLayout& layout = equations.layout();
+    const std::size_t last = layout.pieces() - 1;
+    std::vector<double> deficiency(orbit.segments(), 0.0);
+    for (std::size_t i = 0; i < layout.states(); ++i) {
+        if (at.periods[i] > 0)
+            continue;
+        // Perturbs the state to which the orbit returns by its round-off.
+        Eigen::VectorXd change = Eigen::VectorXd::Zero(index(layout.start_of(layout.pieces()))), step;
+        change[index(layout.start_of(last) + 1 + i)] =
+            round_off * std::abs(at.pieces[last].after[i]) / at.scales[index(layout.start_of(0) + i)];
+        if (!equations.respond(at, change, step))
+            return none;
+        for (std::size_t k = 0; k < layout.pieces(); ++k)
+            deficiency[layout.segment_of(k)] += std::abs(step[index(layout.duration_of(k))]);
+    }
+    for (std::size_t s = 0; s < none; ++s)
+        if (orbit.durations[s] < shorter * orbit.period() && deficiency[s] >= orbit.durations[s])
+            return s;
+    return none;
+}
+
 } // namespace
 
 SimulationOptions integration(double tolerance) {
@@ -47,13 +96,6 @@ std::string_view name_of(OrbitOutcome outcome) {
     return enumerator_name(names, outcome, "");
 }
 
-namespace {
-
-/// Magnitudes of multipliers at located folds and flips differ from 1 by less than this.
-constexpr double on_circle = 1e-8;
-
-} // namespace
-
 bool is_stable(const OrbitSolution& solution) {
     const auto& multipliers = solution.multipliers;
     return !multipliers.empty() &&
@@ -64,25 +106,6 @@ std::size_t unstable_directions(const OrbitSolution& solution) {
     return static_cast<std::size_t>(
         std::ranges::count_if(solution.multipliers, [](auto one) { return std::abs(one) > 1 + on_circle; }));
 }
-
-namespace {
-
-/// Takes a step, halved until the residual decreases. @param tried set to the evaluation there
-bool improves(OrbitEquations& equations, const Eigen::VectorXd& unknowns, const Eigen::VectorXd& step,
-              const OrbitEvaluation& at, OrbitEvaluation& tried) {
-    const double size = largest(step, equations.scales());
-    double factor = 1;
-    bool improved = false;
-    tried.took_too_long = false;
-    for (int halving = 0; halving < most_halvings && !improved && !tried.took_too_long; ++halving, factor *= 0.5) {
-        const bool possible = equations.evaluate(unknowns + factor * step, tried);
-        // Near the solution the residual is round-off, and any value is accepted.
-        improved = possible && (tried.residual <= (1 - 0.1 * factor) * at.residual || size < 1e-6);
-    }
-    return improved;
-}
-
-} // namespace
 
 OrbitOutcome solve_equations(OrbitEquations& equations, Eigen::VectorXd& unknowns, const OrbitOptions& options,
                              OrbitEvaluation& at, std::size_t& iterations, std::string& detail) {
@@ -192,41 +215,6 @@ void join_drifts(const Simulation& simulation, Orbit& orbit) {
             orbit.starts[s + 1][i] = end;
         }
 }
-
-namespace {
-
-/// Returns the first segment whose duration is smaller than its change by round-off of the states. At a double root,
-/// Newton's method converges slowly to an orbit with a vanishing slip, until the slip is below round-off and the
-/// equations appear solved.
-/// @return number of segments when there is none
-std::size_t segment_below_round_off(const OrbitEquations& equations, const OrbitEvaluation& at, const Orbit& orbit) {
-    constexpr double shorter = 1e-2; ///< only segments shorter than this share of the period are checked
-    constexpr double round_off = 16 * std::numeric_limits<double>::epsilon();
-    const std::size_t none = orbit.segments();
-    if (std::ranges::none_of(orbit.durations, [&](double one) { return one < shorter * orbit.period(); }))
-        return none;
-    const OrbitLayout& layout = equations.layout();
-    const std::size_t last = layout.pieces() - 1;
-    std::vector<double> deficiency(orbit.segments(), 0.0);
-    for (std::size_t i = 0; i < layout.states(); ++i) {
-        if (at.periods[i] > 0)
-            continue;
-        // Perturbs the state to which the orbit returns by its round-off.
-        Eigen::VectorXd change = Eigen::VectorXd::Zero(index(layout.start_of(layout.pieces()))), step;
-        change[index(layout.start_of(last) + 1 + i)] =
-            round_off * std::abs(at.pieces[last].after[i]) / at.scales[index(layout.start_of(0) + i)];
-        if (!equations.respond(at, change, step))
-            return none;
-        for (std::size_t k = 0; k < layout.pieces(); ++k)
-            deficiency[layout.segment_of(k)] += std::abs(step[index(layout.duration_of(k))]);
-    }
-    for (std::size_t s = 0; s < none; ++s)
-        if (orbit.durations[s] < shorter * orbit.period() && deficiency[s] >= orbit.durations[s])
-            return s;
-    return none;
-}
-
-} // namespace
 
 OrbitSolution solve_orbit(const System& system, const Orbit& candidate, const OrbitOptions& options) {
     const Model& model = system.model();

@@ -132,6 +132,65 @@ bool shrinks_slowly(const OrbitFinder& orbit, const ReturnWatcher& motion, const
     return turning ? shrinks_turning(parts, radius, bent) : shrinks_along(parts, radius);
 }
 
+/// Returns whether the distances from one period to the next decrease throughout.
+bool slows_down(ReturnWatcher& motion, std::size_t period) {
+    const std::size_t count = std::min(most_periods, (motion.remembered() - 1) / period);
+    double before = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+        const Return &one = motion.recent(k * period), &other = motion.recent((k + 1) * period);
+        const double distance = motion.distance(one.state, other.state);
+        if (one.mode != other.mode || !(distance > before))
+            return false;
+        before = distance;
+    }
+    return count >= fewest_periods;
+}
+
+/// Returns whether the motion is closer to this state in the newer half of its returns than in the older half.
+bool closes_in(ReturnWatcher& motion, const Guess& middle) {
+    constexpr std::size_t fewest = 8;
+    constexpr double shrinking = 0.98;
+    const std::size_t half = (motion.remembered() - 1) / middle.period / 2;
+    double newer = 0, older = 0;
+    for (std::size_t k = 0; k < 2 * half; ++k) {
+        if (motion.recent(k * middle.period).mode != motion.recent(0).mode)
+            return false;
+        (k < half ? newer : older) +=
+            std::pow(motion.distance(motion.recent(k * middle.period).state, middle.state), 2);
+    }
+    return half >= fewest / 2 && newer < shrinking * shrinking * older;
+}
+
+constexpr double shrunk = 0.1;     ///< factor to which rotating deviations must shrink
+constexpr double settled = 1e-7;   ///< deviation from which a motion is not expected to leave any more
+constexpr std::size_t as_long = 2; ///< factor of the longest time before an unexpected contact
+
+/// Returns the largest modulus of the multipliers except a real leading one: along its direction the motion approaches
+/// monotonically and meets nothing new. 0 if there is no other.
+double turning_radius(const OrbitFinder& orbit) {
+    const auto& multipliers = orbit.multipliers();
+    if (multipliers.empty())
+        return 0;
+    const std::size_t first = multipliers.front().imag() == 0 ? 1 : 0;
+    double radius = 0;
+    for (std::size_t m = first; m < multipliers.size(); ++m)
+        radius = std::max(radius, std::abs(multipliers[m]));
+    return radius;
+}
+
+std::size_t returns_to_shrink(const OrbitFinder& orbit) {
+    const double radius = turning_radius(orbit);
+    if (!(radius > 0))
+        return 0;
+    const double periods = std::ceil(std::log(shrunk) / std::log(radius));
+    constexpr double most = 1e9;
+    return orbit.period() * static_cast<std::size_t>(std::clamp(periods, 0.0, most));
+}
+
+/// Factor of the distance at which a motion recurs: within this distance of an unstable orbit, the recurrence is
+/// explained by it. Another, stable orbit is farther away once the motion is close enough to it.
+constexpr double near_orbit = 3;
+
 } // namespace
 
 double distance_from(const OrbitFinder& orbit, const ReturnWatcher& motion, std::span<const double> periods,
@@ -197,39 +256,6 @@ Guess middle_of(const ReturnWatcher& motion, const SectionMap& map, std::size_t 
     return guess;
 }
 
-namespace {
-
-/// Returns whether the distances from one period to the next decrease throughout.
-bool slows_down(ReturnWatcher& motion, std::size_t period) {
-    const std::size_t count = std::min(most_periods, (motion.remembered() - 1) / period);
-    double before = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-        const Return &one = motion.recent(k * period), &other = motion.recent((k + 1) * period);
-        const double distance = motion.distance(one.state, other.state);
-        if (one.mode != other.mode || !(distance > before))
-            return false;
-        before = distance;
-    }
-    return count >= fewest_periods;
-}
-
-/// Returns whether the motion is closer to this state in the newer half of its returns than in the older half.
-bool closes_in(ReturnWatcher& motion, const Guess& middle) {
-    constexpr std::size_t fewest = 8;
-    constexpr double shrinking = 0.98;
-    const std::size_t half = (motion.remembered() - 1) / middle.period / 2;
-    double newer = 0, older = 0;
-    for (std::size_t k = 0; k < 2 * half; ++k) {
-        if (motion.recent(k * middle.period).mode != motion.recent(0).mode)
-            return false;
-        (k < half ? newer : older) +=
-            std::pow(motion.distance(motion.recent(k * middle.period).state, middle.state), 2);
-    }
-    return half >= fewest / 2 && newer < shrinking * shrinking * older;
-}
-
-} // namespace
-
 bool approaches_slowly(const OrbitFinder& orbit, ReturnWatcher& motion, std::span<const double> periods) {
     if (motion.remembered() <= orbit.period() || !slows_down(motion, orbit.period()))
         return false;
@@ -255,36 +281,6 @@ std::vector<Guess> slow_limits(ReturnWatcher& motion, const SectionMap& map, std
     }
     return guesses;
 }
-
-namespace {
-
-constexpr double shrunk = 0.1;     ///< factor to which rotating deviations must shrink
-constexpr double settled = 1e-7;   ///< deviation from which a motion is not expected to leave any more
-constexpr std::size_t as_long = 2; ///< factor of the longest time before an unexpected contact
-
-/// Returns the largest modulus of the multipliers except a real leading one: along its direction the motion approaches
-/// monotonically and meets nothing new. 0 if there is no other.
-double turning_radius(const OrbitFinder& orbit) {
-    const auto& multipliers = orbit.multipliers();
-    if (multipliers.empty())
-        return 0;
-    const std::size_t first = multipliers.front().imag() == 0 ? 1 : 0;
-    double radius = 0;
-    for (std::size_t m = first; m < multipliers.size(); ++m)
-        radius = std::max(radius, std::abs(multipliers[m]));
-    return radius;
-}
-
-std::size_t returns_to_shrink(const OrbitFinder& orbit) {
-    const double radius = turning_radius(orbit);
-    if (!(radius > 0))
-        return 0;
-    const double periods = std::ceil(std::log(shrunk) / std::log(radius));
-    constexpr double most = 1e9;
-    return orbit.period() * static_cast<std::size_t>(std::clamp(periods, 0.0, most));
-}
-
-} // namespace
 
 void OrbitStay::begin(const OrbitFinder& orbit, const ReturnWatcher& motion, std::span<const double> periods,
                       bool events) {
@@ -320,14 +316,6 @@ OrbitStay::Verdict OrbitStay::judge(const OrbitFinder& orbit, const ReturnWatche
     const double foreseen = std::pow(radius, static_cast<double>(turns));
     return size < 0.5 * (1 + foreseen) * size_ ? Verdict::stayed : Verdict::left;
 }
-
-namespace {
-
-/// Factor of the distance at which a motion recurs: within this distance of an unstable orbit, the recurrence is
-/// explained by it. Another, stable orbit is farther away once the motion is close enough to it.
-constexpr double near_orbit = 3;
-
-} // namespace
 
 void UnstableOrbits::add(const OrbitFinder& orbit, const ReturnWatcher& motion) {
     const bool unstable = !orbit.multipliers().empty() && std::abs(orbit.multipliers().front()) > 1;

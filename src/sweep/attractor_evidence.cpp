@@ -19,6 +19,28 @@ constexpr std::size_t beside_orbits = 10; ///< factor by which the test for chao
 constexpr double last_share = 0.25;       ///< share of the returns, the last ones, with an exponent of their own
 constexpr double part_still = 0.25;       ///< least ratio of that exponent to the exponent over all returns
 
+/// Returns the labels of transitions, without those that change nothing; repetitions are written as powers.
+std::string signature_of(const Model& model, std::span<const std::uint32_t> contacts) {
+    std::vector<std::pair<std::string, std::size_t>> parts;
+    for (const std::uint32_t code : contacts) {
+        const Transition& transition = model.transitions[code / 2];
+        const bool stays = std::ranges::all_of(
+            transition.next, [&](const Alternative& next) { return next.mode && *next.mode == transition.mode; });
+        const bool sticking = code % 2 == 1;
+        if (transition.jump == 0 && stays && !sticking)
+            continue;
+        std::string name = transition.label + (sticking ? "(chatter)" : "");
+        if (!parts.empty() && parts.back().first == name)
+            ++parts.back().second;
+        else
+            parts.emplace_back(std::move(name), 1);
+    }
+    std::string text;
+    for (const auto& [name, count] : parts)
+        text += fmt::format("{}{}{}", text.empty() ? "" : " ", name, count > 1 ? fmt::format("^{}", count) : "");
+    return text;
+}
+
 } // namespace
 
 /// Returns over which the exponent is taken: the second half of `cycles`, or `lyapunov_cycles` if that is more.
@@ -219,32 +241,6 @@ std::optional<bool> AttractorSearch::conclude_chaos() {
     lengthen();
     return std::nullopt;
 }
-
-namespace {
-
-/// Returns the labels of transitions, without those that change nothing; repetitions are written as powers.
-std::string signature_of(const Model& model, std::span<const std::uint32_t> contacts) {
-    std::vector<std::pair<std::string, std::size_t>> parts;
-    for (const std::uint32_t code : contacts) {
-        const Transition& transition = model.transitions[code / 2];
-        const bool stays = std::ranges::all_of(
-            transition.next, [&](const Alternative& next) { return next.mode && *next.mode == transition.mode; });
-        const bool sticking = code % 2 == 1;
-        if (transition.jump == 0 && stays && !sticking)
-            continue;
-        std::string name = transition.label + (sticking ? "(chatter)" : "");
-        if (!parts.empty() && parts.back().first == name)
-            ++parts.back().second;
-        else
-            parts.emplace_back(std::move(name), 1);
-    }
-    std::string text;
-    for (const auto& [name, count] : parts)
-        text += fmt::format("{}{}{}", text.empty() ? "" : " ", name, count > 1 ? fmt::format("^{}", count) : "");
-    return text;
-}
-
-} // namespace
 
 bool AttractorSearch::finish_periodic() {
     finish(Label::periodic);

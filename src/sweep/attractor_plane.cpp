@@ -3,8 +3,6 @@
 #include "base/decompositions.hpp"
 #include "sweep/attractor_search.hpp"
 
-#include <Eigen/Core>
-
 #include <algorithm>
 #include <cmath>
 

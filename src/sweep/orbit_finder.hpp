@@ -7,8 +7,6 @@
 #include "sweep/sample_recorder.hpp"
 #include "sweep/section_map.hpp"
 
-#include <Eigen/Core>
-
 #include <complex>
 #include <cstddef>
 #include <cstdint>

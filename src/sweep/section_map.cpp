@@ -15,6 +15,19 @@ namespace {
 
 constexpr double simultaneous_phase = 1e-10; ///< relative to the period
 
+/// Returns rows and columns of the active states, in units of their scales.
+Eigen::MatrixXd scaled_matrix(const ReturnJacobian& jacobian, const Eigen::VectorXd& scale) {
+    const auto size = static_cast<Eigen::Index>(jacobian.active.size());
+    Eigen::MatrixXd matrix(size, size);
+    for (Eigen::Index i = 0; i < size; ++i)
+        for (Eigen::Index j = 0; j < size; ++j) {
+            const auto row = static_cast<Eigen::Index>(jacobian.active[static_cast<std::size_t>(i)]);
+            const auto column = static_cast<Eigen::Index>(jacobian.active[static_cast<std::size_t>(j)]);
+            matrix(i, j) = jacobian.matrix(row, column) * scale[column] / scale[row];
+        }
+    return matrix;
+}
+
 } // namespace
 
 SectionMap::SectionMap(const Simulation& simulation, std::size_t probe)
@@ -157,23 +170,6 @@ ReturnJacobian return_jacobian(const SectionMap& map, const Eigen::MatrixXd& tan
     }
     return jacobian;
 }
-
-namespace {
-
-/// Returns rows and columns of the active states, in units of their scales.
-Eigen::MatrixXd scaled_matrix(const ReturnJacobian& jacobian, const Eigen::VectorXd& scale) {
-    const auto size = static_cast<Eigen::Index>(jacobian.active.size());
-    Eigen::MatrixXd matrix(size, size);
-    for (Eigen::Index i = 0; i < size; ++i)
-        for (Eigen::Index j = 0; j < size; ++j) {
-            const auto row = static_cast<Eigen::Index>(jacobian.active[static_cast<std::size_t>(i)]);
-            const auto column = static_cast<Eigen::Index>(jacobian.active[static_cast<std::size_t>(j)]);
-            matrix(i, j) = jacobian.matrix(row, column) * scale[column] / scale[row];
-        }
-    return matrix;
-}
-
-} // namespace
 
 Eigen::VectorXd newton_correction(const ReturnJacobian& jacobian, const Eigen::VectorXd& defect,
                                   const Eigen::VectorXd& scale) {

@@ -36,6 +36,18 @@ const std::string name_of_origin(const System& system, const TripOrigin& origin)
     return system.model().independent_parameters().at(origin.parameter.place());
 }
 
+TripOrigin origin_of_ramp(const LossPoint& point, double from, bool given, const std::string& asked_as) {
+    try {
+        return trip_origin(point, from);
+    } catch (const InputError& error) {
+        if (given)
+            throw InputError(Place{asked_as + "at", 0, 0}, error.problem(), error.remedy());
+        throw InputError(Place{asked_as + "ramp", 0, 0},
+                         fmt::format("the ramp would begin at {} = {:.6g}: {}", point.name, from, error.problem()),
+                         fmt::format("give a slower one, or say where it begins: {}at VALUE", asked_as));
+    }
+}
+
 } // namespace
 
 double beginning_of_ramp(const LossPoint& point, double rate) {
@@ -80,22 +92,6 @@ TripTime swung_trip(const System& system, const TripOrigin& origin, double ampli
     return follow_disturbed(origin, driven, {2 * std::numbers::pi / period, amplitude}, options.cycles * origin.cycle,
                             end, options);
 }
-
-namespace {
-
-TripOrigin origin_of_ramp(const LossPoint& point, double from, bool given, const std::string& asked_as) {
-    try {
-        return trip_origin(point, from);
-    } catch (const InputError& error) {
-        if (given)
-            throw InputError(Place{asked_as + "at", 0, 0}, error.problem(), error.remedy());
-        throw InputError(Place{asked_as + "ramp", 0, 0},
-                         fmt::format("the ramp would begin at {} = {:.6g}: {}", point.name, from, error.problem()),
-                         fmt::format("give a slower one, or say where it begins: {}at VALUE", asked_as));
-    }
-}
-
-} // namespace
 
 std::vector<RampRow> ramped_trips(const LossPoint& point, const std::vector<double>& rates, std::optional<double> from,
                                   const TripEnd& end, const TripOptions& options, const std::string& asked_as) {

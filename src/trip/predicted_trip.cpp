@@ -6,7 +6,6 @@
 #include "orbit/eigen_index.hpp"
 #include "trip/trip_start.hpp"
 
-#include <Eigen/Core>
 #include <fmt/format.h>
 
 #include <algorithm>
