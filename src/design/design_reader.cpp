@@ -20,10 +20,7 @@ constexpr std::size_t most_overshoots = 100, most_dimensions = 50, most_planes =
 Design DesignReader::read(const toml::table& root) {
     design_.fingerprint = design_fingerprint(root);
     whole_ = mistakes_.attempt([&] { read_keys(root); });
-    const auto with = [&](const char* name, auto work) {
-        if (const TomlEntry* entry = key(name))
-            mistakes_.attempt([&] { work(*entry); });
-    };
+    const auto with = [&](const char* name, auto work) { with_key(mistakes_, keys_, name, work); };
     const auto require_key = [&](const char* name, const char* remedy) {
         if (!key(name) && whole_)
             mistakes_.attempt([&] {

@@ -130,14 +130,11 @@ Reset reset_of(const TripPoint& trip, const Orbit& orbit, const ResetOptions& op
     const bool too_soon = reset.value && *reset.hysteresis(trip.value()) * options.overshoot < 0;
     if (known && !too_soon)
         return reset;
-    if (too_soon)
-        reset = {.value = {},
-                 .reason = fmt::format("the tripped orbit becomes another motion at {:.9g}, beyond the trip value",
-                                       *reset.value),
-                 .how = {},
-                 .motion = {},
-                 .lost_at = {},
-                 .point = {}};
+    if (too_soon) {
+        const double where = *reset.value;
+        reset = {};
+        reset.reason = fmt::format("the tripped orbit becomes another motion at {:.9g}, beyond the trip value", where);
+    }
     Reset simulated = reset_by_steps(trip, orbit, system, settle, options);
     // If the motion ended, the first reason stands.
     return simulated.motion.empty() ? reset : simulated;

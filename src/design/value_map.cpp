@@ -107,20 +107,18 @@ void set_axis_limits(Tuning& tuning, const DesignDimension& stop, std::size_t no
         const bool beyond = point.position < stop.least - rounding || point.position > stop.greatest + rounding;
         return beyond ? "the stop's range ends" : "";
     };
-    std::size_t low = nominal, high = nominal;
-    tuning.ends_below = tuning.ends_above = "the stop's range ends";
-    for (; low > 0; --low)
-        if (const std::string problem = problem_at(tuning.points[low - 1]); !problem.empty()) {
-            tuning.ends_below = problem;
-            break;
-        }
-    for (; high + 1 < tuning.points.size(); ++high)
-        if (const std::string problem = problem_at(tuning.points[high + 1]); !problem.empty()) {
-            tuning.ends_above = problem;
-            break;
-        }
-    tuning.least = tuning.points[low].value;
-    tuning.greatest = tuning.points[high].value;
+    const auto reach = [&](std::ptrdiff_t way, std::string& ends) {
+        ends = "the stop's range ends";
+        auto at = tuning.points.begin() + static_cast<std::ptrdiff_t>(nominal);
+        for (const auto last = way < 0 ? tuning.points.begin() : tuning.points.end() - 1; at != last; at += way)
+            if (const std::string problem = problem_at(at[way]); !problem.empty()) {
+                ends = problem;
+                break;
+            }
+        return at->value;
+    };
+    tuning.least = reach(-1, tuning.ends_below);
+    tuning.greatest = reach(1, tuning.ends_above);
 }
 
 } // namespace

@@ -3,7 +3,6 @@
 #include "base/enumerator_name.hpp"
 #include "design/wish_programme.hpp"
 #include "graze/base/input_error.hpp"
-#include "orbit/eigen_index.hpp"
 
 #include <fmt/format.h>
 
@@ -208,19 +207,19 @@ private:
         }
     }
 
-    std::string missed(const FoundDesign& result) const {
+    /// Names the requirements of which something is true or not.
+    std::string names_of(const FoundDesign& result, bool FoundWant::*property, bool value) const {
         std::string names;
         for (std::size_t j = 0; j < result.wants.size(); ++j)
-            if (!result.wants[j].met)
+            if (result.wants[j].*property == value)
                 names += (names.empty() ? "" : ", ") + wishes_.list().wants[j].in_words();
         return names;
     }
 
+    std::string missed(const FoundDesign& result) const { return names_of(result, &FoundWant::met, false); }
+
     std::string conflict(const FoundDesign& result) const {
-        std::string names;
-        for (std::size_t j = 0; j < result.wants.size(); ++j)
-            if (result.wants[j].binds)
-                names += (names.empty() ? "" : ", ") + wishes_.list().wants[j].in_words();
+        std::string names = names_of(result, &FoundWant::binds, true);
         for (std::size_t i = 0; i < result.dimensions.size(); ++i)
             if (result.dimensions[i].binds) {
                 const Dimension& one = wishes_.list().dimensions[i];

@@ -1,8 +1,5 @@
 #pragma once
 
-#include "graze/branch/located_value.hpp"
-#include "graze/design/trip_point.hpp"
-#include "graze/design/wish_list.hpp"
 #include "graze/design/wishes.hpp"
 
 #include <functional>

@@ -1,7 +1,6 @@
 #include "design/wish_programme.hpp"
 
 #include "base/linear_systems.hpp"
-#include "orbit/eigen_index.hpp"
 
 #include <nlopt.h>
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "graze/branch/yield.hpp"
 #include "graze/design/design.hpp"
 
 namespace graze {

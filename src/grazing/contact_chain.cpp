@@ -1,8 +1,7 @@
-#include "grazing/contact_chain.hpp"
+#include "grazing/contact_effect.hpp"
 
 #include "base/concatenated.hpp"
 #include "orbit/certify.hpp"
-#include "orbit/eigen_index.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,6 @@
 #include "base/concatenated.hpp"
 #include "flow/lie_derivative.hpp"
 #include "graze/symbolic/transform.hpp"
-#include "orbit/eigen_index.hpp"
 
 #include <fmt/format.h>
 

@@ -7,9 +7,7 @@
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 #include "grazing/return_map.hpp"
-#include "grazing/second_return.hpp"
 #include "orbit/certify.hpp"
-#include "orbit/eigen_index.hpp"
 #include "orbit/newton.hpp"
 #include "orbit/shooting.hpp"
 

@@ -4,10 +4,8 @@
 #include "base/linear_systems.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
-#include "grazing/contact_chain.hpp"
 #include "grazing/contact_effect.hpp"
 #include "grazing/return_map.hpp"
-#include "orbit/eigen_index.hpp"
 
 #include <fmt/format.h>
 

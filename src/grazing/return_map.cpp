@@ -2,7 +2,6 @@
 
 #include "base/concatenated.hpp"
 #include "orbit/certify.hpp"
-#include "orbit/eigen_index.hpp"
 
 #include <fmt/format.h>
 

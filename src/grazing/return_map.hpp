@@ -4,7 +4,8 @@
 #include "grazing/touch_geometry.hpp"
 #include "orbit/orbit_equations.hpp"
 
-#include <cstddef>
+#include <Eigen/Core>
+
 #include <optional>
 #include <string>
 
@@ -38,6 +39,20 @@ struct ReturnMap {
 /// @param free index, among the free parameters of the equations, of the one to differentiate by
 ReturnMap return_map(const OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,
                      const TouchFunctions& functions, std::optional<std::size_t> free);
+
+/// The shift of a motion after one cycle, to second order in s.
+struct SecondGain {
+    Eigen::VectorXd first,
+        second;       ///< coefficients of the states, on the surface where the touched function has zero rate
+    double value = 0; ///< coefficient of s^2 of the touched function
+};
+
+/// Propagates the shift first s + second s^2 of a touch around the orbit by second derivatives of flows, events and
+/// jumps. @param back return map of the touch, which lies inside its arc
+/// @return empty where a derivative is not finite
+std::optional<SecondGain> second_return(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                        const ReturnMap& back, const TouchFunctions& functions,
+                                        const Eigen::VectorXd& first, const Eigen::VectorXd& second);
 
 /// Returns the matrix P of a cycle map.
 Eigen::MatrixXd matrix_of(const CycleMap& map);

@@ -1,10 +1,9 @@
-#include "grazing/second_return.hpp"
+#include "grazing/return_map.hpp"
 
 #include "base/concatenated.hpp"
 #include "flow/lie_derivative.hpp"
 #include "graze/flow/second_order_flow.hpp"
 #include "orbit/certify.hpp"
-#include "orbit/eigen_index.hpp"
 
 #include <array>
 #include <vector>

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "graze/flow/system.hpp"
 #include "graze/grazing/discontinuity_map.hpp"
 #include "orbit/eigen_index.hpp"
 

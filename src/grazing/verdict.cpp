@@ -5,7 +5,6 @@
 #include "base/linear_systems.hpp"
 #include "graze/grazing/map_motion.hpp"
 #include "grazing/return_map.hpp"
-#include "orbit/eigen_index.hpp"
 
 #include <fmt/format.h>
 

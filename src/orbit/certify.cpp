@@ -2,7 +2,6 @@
 
 #include "base/special_numbers.hpp"
 #include "graze/flow/roots.hpp"
-#include "orbit/eigen_index.hpp"
 #include "orbit/shooting.hpp"
 
 #include <fmt/format.h>

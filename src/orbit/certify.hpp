@@ -4,9 +4,6 @@
 #include "orbit/orbit_equations.hpp"
 
 #include <complex>
-#include <cstddef>
-#include <optional>
-#include <vector>
 
 namespace graze {
 

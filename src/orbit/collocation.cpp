@@ -2,7 +2,6 @@
 
 #include "base/linear_systems.hpp"
 #include "graze/base/input_error.hpp"
-#include "orbit/eigen_index.hpp"
 
 #include <fmt/format.h>
 

@@ -2,9 +2,6 @@
 
 #include "orbit/orbit_equations.hpp"
 
-#include <cstddef>
-#include <vector>
-
 namespace graze {
 
 /// The equations of an orbit by collocation. On each of the equal intervals of a segment the motion is a polynomial

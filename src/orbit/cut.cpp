@@ -1,7 +1,6 @@
 #include "orbit/cut.hpp"
 
 #include "graze/trajectory/trajectory.hpp"
-#include "orbit/eigen_index.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,9 @@
 #pragma once
 
-#include "graze/orbit/orbit.hpp"
 #include "orbit/orbit_equations.hpp"
 
-#include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 namespace graze {
 

@@ -2,7 +2,6 @@
 
 #include "base/decompositions.hpp"
 #include "base/linear_systems.hpp"
-#include "orbit/eigen_index.hpp"
 
 #include <Eigen/Dense>
 

@@ -3,7 +3,6 @@
 #include "orbit/cyclic_system.hpp"
 
 #include <complex>
-#include <vector>
 
 namespace graze {
 

@@ -3,7 +3,6 @@
 #include "base/linear_systems.hpp"
 #include "orbit/eigen_index.hpp"
 
-#include <cstddef>
 #include <utility>
 #include <vector>
 

@@ -3,7 +3,6 @@
 #include "base/concatenated.hpp"
 #include "flow/cyclic.hpp"
 #include "graze/base/input_error.hpp"
-#include "graze/orbit/solve.hpp"
 #include "orbit/shooting.hpp"
 
 #include <fmt/format.h>

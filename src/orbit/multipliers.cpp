@@ -3,7 +3,6 @@
 #include "base/decompositions.hpp"
 #include "base/linear_systems.hpp"
 #include "orbit/certify.hpp"
-#include "orbit/eigen_index.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,6 @@
 
 #include "graze/orbit/solve.hpp"
 #include "orbit/certify.hpp"
-#include "orbit/orbit_equations.hpp"
 
 namespace graze {
 

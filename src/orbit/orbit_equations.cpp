@@ -3,7 +3,6 @@
 #include "base/concatenated.hpp"
 #include "flow/cyclic.hpp"
 #include "graze/base/input_error.hpp"
-#include "orbit/eigen_index.hpp"
 
 #include <fmt/format.h>
 

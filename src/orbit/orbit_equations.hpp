@@ -1,14 +1,7 @@
 #pragma once
 
-#include "graze/orbit/orbit.hpp"
-#include "orbit/orbit_evaluation.hpp"
-#include "orbit/orbit_flow.hpp"
 #include "orbit/orbit_scales.hpp"
 #include "orbit/segment_ends.hpp"
-
-#include <cstddef>
-#include <optional>
-#include <vector>
 
 namespace graze {
 

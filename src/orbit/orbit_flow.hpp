@@ -4,7 +4,6 @@
 #include "graze/trajectory/simulation.hpp"
 #include "orbit/eigen_index.hpp"
 
-#include <span>
 #include <utility>
 #include <vector>
 

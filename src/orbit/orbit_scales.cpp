@@ -1,7 +1,6 @@
 #include "orbit/orbit_scales.hpp"
 
 #include "base/special_numbers.hpp"
-#include "orbit/eigen_index.hpp"
 
 #include <algorithm>
 #include <cmath>

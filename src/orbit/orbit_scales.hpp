@@ -3,9 +3,7 @@
 #include "orbit/orbit_evaluation.hpp"
 #include "orbit/orbit_flow.hpp"
 
-#include <cstddef>
 #include <span>
-#include <vector>
 
 namespace graze {
 

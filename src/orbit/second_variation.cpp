@@ -1,7 +1,6 @@
 #include "orbit/second_variation.hpp"
 
 #include "base/concatenated.hpp"
-#include "orbit/eigen_index.hpp"
 
 #include <algorithm>
 

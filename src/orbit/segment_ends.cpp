@@ -1,7 +1,6 @@
 #include "orbit/segment_ends.hpp"
 
 #include "flow/cyclic.hpp"
-#include "orbit/eigen_index.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,6 @@
 
 #include <Eigen/Core>
 
-#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>

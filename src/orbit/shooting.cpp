@@ -1,7 +1,5 @@
 #include "orbit/shooting.hpp"
 
-#include "orbit/eigen_index.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -2,8 +2,6 @@
 
 #include "base/enumerator_name.hpp"
 #include "graze/base/input_error.hpp"
-#include "orbit/certify.hpp"
-#include "orbit/eigen_index.hpp"
 #include "orbit/newton.hpp"
 #include "orbit/shooting.hpp"
 

@@ -1,11 +1,6 @@
 #pragma once
 
 #include "sweep/orbit_finder.hpp"
-#include "sweep/return_watcher.hpp"
-
-#include <cstddef>
-#include <span>
-#include <vector>
 
 namespace graze {
 

@@ -1,6 +1,5 @@
 // Evidence for labels: motions are followed for longer before they are labelled periodic or chaotic. Results.
 
-#include "sweep/approach.hpp"
 #include "sweep/attractor_search.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,5 @@
 // Motions that are at rest, come to rest, or lie on an unstable orbit or equilibrium.
 
-#include "sweep/approach.hpp"
 #include "sweep/attractor_search.hpp"
 
 #include <algorithm>

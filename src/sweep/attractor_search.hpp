@@ -1,21 +1,13 @@
 #pragma once
 
-#include "graze/sweep/point_search.hpp"
 #include "sweep/approach.hpp"
 #include "sweep/attractor_setting.hpp"
 #include "sweep/equilibrium.hpp"
 #include "sweep/exponent.hpp"
 #include "sweep/growth_watch.hpp"
-#include "sweep/orbit_finder.hpp"
 #include "sweep/quasi_periodic.hpp"
-#include "sweep/return_watcher.hpp"
-#include "sweep/sample_recorder.hpp"
-#include "sweep/section_map.hpp"
 
-#include <optional>
-#include <span>
 #include <string_view>
-#include <vector>
 
 namespace graze {
 

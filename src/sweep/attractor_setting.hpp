@@ -3,11 +3,7 @@
 #include "graze/sweep/point_search.hpp"
 #include "sweep/field_map.hpp"
 #include "sweep/sample_recorder.hpp"
-#include "sweep/section_map.hpp"
 #include "sweep/step_maps.hpp"
-
-#include <cstddef>
-#include <vector>
 
 namespace graze {
 

@@ -4,10 +4,7 @@
 
 #include <Eigen/Core>
 
-#include <cstddef>
 #include <optional>
-#include <span>
-#include <vector>
 
 namespace graze {
 

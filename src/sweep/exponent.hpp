@@ -1,12 +1,7 @@
 #pragma once
 
-#include "graze/trajectory/trajectory.hpp"
 #include "sweep/motion_derivatives.hpp"
 #include "sweep/section_map.hpp"
-
-#include <cstddef>
-#include <span>
-#include <vector>
 
 namespace graze {
 

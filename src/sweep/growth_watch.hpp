@@ -3,9 +3,6 @@
 #include "sweep/field_map.hpp"
 #include "sweep/return_watcher.hpp"
 
-#include <span>
-#include <vector>
-
 namespace graze {
 
 /// Distinguishes motions that grow forever from chaotic ones; in both, neighbouring motions separate.

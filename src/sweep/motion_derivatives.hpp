@@ -5,10 +5,7 @@
 
 #include <Eigen/Core>
 
-#include <cstddef>
 #include <functional>
-#include <span>
-#include <vector>
 
 namespace graze {
 

@@ -1,18 +1,7 @@
 #pragma once
 
-#include "graze/sweep/attractor.hpp"
 #include "sweep/field_map.hpp"
-#include "sweep/motion_derivatives.hpp"
 #include "sweep/return_watcher.hpp"
-#include "sweep/sample_recorder.hpp"
-#include "sweep/section_map.hpp"
-
-#include <complex>
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <vector>
 
 namespace graze {
 

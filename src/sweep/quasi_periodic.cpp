@@ -21,18 +21,26 @@ constexpr double shrinking = 0.9;
 constexpr double arrived = 1e-9;
 constexpr std::size_t fewest_back = 8; ///< fewest returns that show a period longer than half of the observation
 
+/// Returns the values of a state at all returns.
+std::vector<double> values_of(const VisitedStates& visited, std::size_t state) {
+    std::vector<double> values;
+    for (std::size_t k = 0; k < visited.returns(); ++k)
+        values.push_back(visited.values[k * visited.periods.size() + state]);
+    return values;
+}
+
 /// Returns functions of the states whose averages are compared: for each, one number for each return.
 std::vector<std::vector<double>> observables(const VisitedStates& visited, std::span<const double> extents,
                                              bool& moving) {
     const std::size_t states = visited.periods.size(), returns = visited.returns();
     std::vector<std::vector<double>> all, coordinates;
     for (std::size_t i = 0; i < states; ++i) {
-        const auto value = [&](std::size_t k) { return visited.values[k * states + i]; };
+        const std::vector<double> values = values_of(visited, i);
         if (visited.periods[i] > 0) {
             for (int harmonic = 1; harmonic <= 2; ++harmonic) {
                 std::vector<double> cosine(returns), sine(returns);
                 for (std::size_t k = 0; k < returns; ++k) {
-                    const double angle = harmonic * 2 * std::numbers::pi * value(k) / visited.periods[i];
+                    const double angle = harmonic * 2 * std::numbers::pi * values[k] / visited.periods[i];
                     cosine[k] = std::cos(angle);
                     sine[k] = std::sin(angle);
                 }
@@ -43,17 +51,13 @@ std::vector<std::vector<double>> observables(const VisitedStates& visited, std::
             }
             continue;
         }
-        double low = value(0), high = value(0);
-        for (std::size_t k = 0; k < returns; ++k) {
-            low = std::min(low, value(k));
-            high = std::max(high, value(k));
-        }
+        const auto [low, high] = std::ranges::minmax(values);
         if (!(high - low > moves * extents[i]))
             continue;
         moving = true;
         std::vector<double> coordinate(returns);
         for (std::size_t k = 0; k < returns; ++k)
-            coordinate[k] = (2 * value(k) - low - high) / (high - low);
+            coordinate[k] = (2 * values[k] - low - high) / (high - low);
         coordinates.push_back(std::move(coordinate));
     }
     // Squares and products distinguish a spiral that contracts from a closed curve.
@@ -72,19 +76,16 @@ std::vector<std::vector<double>> observables(const VisitedStates& visited, std::
 /// shrinks: averages of exponential growth are even, since all values except the last ones are small.
 bool changes_size(const VisitedStates& visited) {
     constexpr double most = 3;
-    const std::size_t states = visited.periods.size(), half = visited.returns() / 2;
-    for (std::size_t i = 0; i < states; ++i) {
+    const std::size_t half = visited.returns() / 2;
+    for (std::size_t i = 0; i < visited.periods.size(); ++i) {
         if (visited.periods[i] > 0)
             continue;
-        const auto range = [&](std::size_t first, std::size_t count) {
-            double low = visited.values[first * states + i], high = low;
-            for (std::size_t k = first; k < first + count; ++k) {
-                low = std::min(low, visited.values[k * states + i]);
-                high = std::max(high, visited.values[k * states + i]);
-            }
+        const std::vector<double> values = values_of(visited, i);
+        const auto range = [](std::span<const double> part) {
+            const auto [low, high] = std::ranges::minmax(part);
             return high - low;
         };
-        const double older = range(0, half), newer = range(visited.returns() - half, half);
+        const double older = range(std::span(values).first(half)), newer = range(std::span(values).last(half));
         if (!(newer <= most * older && older <= most * newer))
             return true;
     }

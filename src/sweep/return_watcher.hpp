@@ -1,16 +1,12 @@
 #pragma once
 
 #include "graze/sweep/attractor.hpp"
-#include "graze/trajectory/observer.hpp"
 #include "sweep/motion_derivatives.hpp"
 #include "sweep/sample_recorder.hpp"
 #include "sweep/section_map.hpp"
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
-#include <span>
-#include <vector>
 
 namespace graze {
 

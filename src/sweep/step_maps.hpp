@@ -1,14 +1,10 @@
 #pragma once
 
 #include "graze/tape/jet.hpp"
-#include "graze/trajectory/simulation.hpp"
 #include "sweep/section_map.hpp"
 #include "tape/column_series.hpp"
 
-#include <cstddef>
 #include <memory>
-#include <span>
-#include <vector>
 
 namespace graze {
 

@@ -1,14 +1,10 @@
 #pragma once
 
 #include "graze/sweep/point_search.hpp"
-#include "graze/trajectory/observer.hpp"
 #include "sweep/sample_recorder.hpp"
 
-#include <cstddef>
 #include <memory>
 #include <optional>
-#include <span>
-#include <vector>
 
 namespace graze {
 

@@ -3,7 +3,6 @@
 #include "graze/base/input_error.hpp"
 #include "graze/base/rounded.hpp"
 #include "grazing/return_map.hpp"
-#include "orbit/eigen_index.hpp"
 #include "trip/trip_start.hpp"
 
 #include <fmt/format.h>
