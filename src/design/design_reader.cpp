@@ -10,13 +10,6 @@
 
 namespace graze {
 
-namespace {
-
-constexpr std::size_t most_overshoots = 100, most_dimensions = 50, most_planes = 20, most_points = 401,
-                      most_devices = 1'000'000;
-
-} // namespace
-
 Design DesignReader::read(const toml::table& root) {
     design_.fingerprint = design_fingerprint(root);
     whole_ = mistakes_.attempt([&] { read_keys(root); });
@@ -172,6 +165,7 @@ void DesignReader::read_branch() {
 }
 
 void DesignReader::read_trip(const TomlEntry& entry) {
+    constexpr std::size_t most_overshoots = 100;
     TripRequest& trip = design_.trip;
     reader_.each_of(entry, {"until", "overshoots", "cycles"}, [&](const TomlEntry& item) {
         if (item.name == "cycles") {
@@ -271,6 +265,7 @@ void DesignReader::read_dimension(const TomlEntry& entry) {
 }
 
 void DesignReader::read_dimensions() {
+    constexpr std::size_t most_dimensions = 50;
     const TomlEntry* entry = key("dimensions");
     if (!entry)
         return;
@@ -296,6 +291,7 @@ std::optional<std::size_t> DesignReader::dimension_named(const TomlEntry& entry)
 
 /// Reads choices among the dimensions: the adjustable one, planes, and numbers of points.
 void DesignReader::read_choices() {
+    constexpr std::size_t most_planes = 20, most_points = 401;
     if (const TomlEntry* entry = key("adjustable"))
         design_.adjustable = dimension_named(*entry);
     if (const TomlEntry* entry = key("points"))
@@ -328,7 +324,7 @@ void DesignReader::read_yield(const TomlEntry& entry) {
     DesignYield& yield = design_.yield;
     reader_.each_of(entry, {"devices", "seed", "within"}, [&](const TomlEntry& item) {
         if (item.name == "devices")
-            yield.devices = reader_.count(item, 2, most_devices);
+            yield.devices = reader_.count(item, 2, 1'000'000);
         else if (item.name == "seed")
             yield.seed = reader_.count(item);
         else
