@@ -82,13 +82,6 @@ OrbitStay::Verdict AttractorSearch::go_on_repeating() {
     return gone < long_enough * period ? OrbitStay::Verdict::staying : OrbitStay::Verdict::stayed;
 }
 
-/// The motion is on such an orbit. Since multipliers do not prove that it stays, it must repeat itself for a long time.
-bool AttractorSearch::begin_repeating() {
-    repeating_ = staying_ = true;
-    repeating_since_ = watcher_.returns();
-    return go_on_staying();
-}
-
 bool AttractorSearch::go_on_staying() {
     const OrbitStay::Verdict verdict = repeating_ ? go_on_repeating() : stay_.judge(finder_, watcher_, periods_);
     if (verdict == OrbitStay::Verdict::stayed)
@@ -138,12 +131,6 @@ std::size_t AttractorSearch::chaos_needed() const {
     return passed_period_ > 0 || collapses_ > 0 || landing_unseen_ ? beside_orbits * usual_chaos() : usual_chaos();
 }
 
-void AttractorSearch::keep_chaos() {
-    recorder_.keep_last(setting_->options.keep);
-    const Return& last = watcher_.recent(0);
-    chaos_ = Chaos{last.state, last.mode, recorder_.samples(), exponent_.value(), exponent_.error()};
-}
-
 /// For a motion that looked chaotic after `cycles`: restores the state and samples of that time, with the label
 /// `transient` if the motion has settled since. Does nothing if it is unsettled or failed.
 void AttractorSearch::return_to_chaos() {
@@ -173,8 +160,11 @@ void AttractorSearch::return_to_chaos() {
 /// orbit at the centre of the motion.
 std::optional<bool> AttractorSearch::confirm_chaos() {
     confirming_ = true;
-    if (++chaotic_ == 1 && setting_->options.stay_in_transients)
-        keep_chaos();
+    if (++chaotic_ == 1 && setting_->options.stay_in_transients) {
+        recorder_.keep_last(setting_->options.keep);
+        const Return& last = watcher_.recent(0);
+        chaos_ = Chaos{last.state, last.mode, recorder_.samples(), exponent_.value(), exponent_.error()};
+    }
     chaotic_since_ = watcher_.returns();
     limit_ = chaotic_since_ + chaos_needed();
     visited_.values.clear();

@@ -92,7 +92,7 @@ std::optional<Equilibrium> AttractorSearch::equilibrium_of_orbit() {
     auto equilibrium = equilibria_.find(finder_.point(), finder_.mode(), watcher_.widest());
     if (equilibrium && finder_.contacts().empty() && equilibria_.distance(*equilibrium, finder_.point()) < at_rest)
         return equilibrium;
-    if (!does_not_move())
+    if (!finder_.contacts().empty() || moves_along_orbit())
         return std::nullopt;
     // Motions approach it more slowly than any linear one.
     equilibrium.emplace();
@@ -112,11 +112,6 @@ bool AttractorSearch::moves_along_orbit() {
             !(finder_.extents()[i] <= nothing * std::max(watcher_.range(i), std::abs(finder_.point()[i]))))
             return true;
     return false;
-}
-
-/// Returns whether the orbit has no contacts and nothing but clocks moves.
-bool AttractorSearch::does_not_move() {
-    return finder_.contacts().empty() && !moves_along_orbit();
 }
 
 /// Returns whether this state of the orbit, along which there are no contacts, is beyond the surface of an event that

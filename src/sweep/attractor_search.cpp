@@ -87,21 +87,17 @@ Trajectory& AttractorSearch::trajectory() {
 }
 
 bool AttractorSearch::proceed() {
-    const bool goes_on = advance();
+    bool goes_on = true;
+    if (!finding_) {
+        goes_on = settle();
+    } else if (!finder_.proceed()) {
+        finding_ = false;
+        result_.periods_run += finder_.returns_run();
+        goes_on = consider_orbit();
+    }
     if (!goes_on && chaos_)
         return_to_chaos();
     return goes_on;
-}
-
-/// Implements `proceed`, except for the report at the end of a transient.
-bool AttractorSearch::advance() {
-    if (!finding_)
-        return settle();
-    if (finder_.proceed())
-        return true;
-    finding_ = false;
-    result_.periods_run += finder_.returns_run();
-    return consider_orbit();
 }
 
 /// Limits steps that span many periods of a clock, since they would be cut at the first passage of the section.
@@ -251,8 +247,12 @@ bool AttractorSearch::consider_orbit() {
             return equilibrium ? finish_equilibrium(*equilibrium) : begin_stay();
         if (const auto next = leave_unstable_orbit(equilibrium ? &*equilibrium : nullptr))
             return *next;
-        if (!equilibrium && repeats_exactly())
-            return begin_repeating();
+        if (!equilibrium && repeats_exactly()) {
+            // Since multipliers do not prove that the motion stays, it must repeat itself for a long time.
+            repeating_ = staying_ = true;
+            repeating_since_ = watcher_.returns();
+            return go_on_staying();
+        }
         note_passed_orbit();
         near_stable_ = near_stable_ || (guessed_ && is_near(finder_, watcher_, periods_));
     }

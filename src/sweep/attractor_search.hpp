@@ -28,7 +28,6 @@ private:
     bool settle();
     bool examine_without_return();
     bool hardly_moves();
-    bool does_not_move();
     void keep_signs(std::vector<double>& state);
     bool examine_return();
     bool go_on();
@@ -63,13 +62,10 @@ private:
     void finish_limit(std::string_view detail);
     bool is_neutral() const;
     bool repeats_exactly();
-    bool begin_repeating();
     OrbitStay::Verdict go_on_repeating();
     std::optional<bool> conclude();
     void lengthen();
     std::optional<bool> confirm_chaos();
-    bool advance();
-    void keep_chaos();
     void return_to_chaos();
     std::size_t usual_chaos() const;
     std::size_t chaos_needed() const;

@@ -251,17 +251,13 @@ bool EquilibriumFinder::find_basis(Equilibrium& equilibrium) const {
     return equilibrium.inverse.allFinite();
 }
 
-Eigen::VectorXd EquilibriumFinder::deviation(const Equilibrium& equilibrium, std::span<const double> state) const {
-    Eigen::VectorXd result(equilibrium.scale.size());
-    for (Eigen::Index i = 0; i < result.size(); ++i) {
-        const std::size_t index = equilibrium.place(i);
-        result[i] = without_turns(state[index] - equilibrium.state[index], periods_[index]) / equilibrium.scale[i];
-    }
-    return result;
-}
-
 double EquilibriumFinder::distance(const Equilibrium& equilibrium, std::span<const double> state) const {
-    return (equilibrium.inverse * deviation(equilibrium, state)).norm();
+    Eigen::VectorXd deviation(equilibrium.scale.size());
+    for (Eigen::Index i = 0; i < deviation.size(); ++i) {
+        const std::size_t index = equilibrium.place(i);
+        deviation[i] = without_turns(state[index] - equilibrium.state[index], periods_[index]) / equilibrium.scale[i];
+    }
+    return (equilibrium.inverse * deviation).norm();
 }
 
 /// Returns the nonlinear part of the field in the basis, less its possible round-off.

@@ -70,7 +70,6 @@ private:
     bool find_basis(Equilibrium& equilibrium) const;
     bool events_are_away(const Equilibrium& equilibrium, double distance);
     double remainder(const Equilibrium& equilibrium, const Eigen::VectorXd& deviation);
-    Eigen::VectorXd deviation(const Equilibrium& equilibrium, std::span<const double> state) const;
 
     const FieldMap* field_;
     FieldMap::Workspace workspace_;

@@ -7,15 +7,6 @@
 
 namespace graze {
 
-namespace {
-
-/// Number of recorded items after which derivatives are propagated without a request.
-constexpr std::size_t most_items = 8192;
-/// Relative distance from the end of a step within which a mark is at the end.
-constexpr double nothing = 1e-12;
-
-} // namespace
-
 MotionDerivatives::MotionDerivatives(const VariationalModes& modes, StepMaps& maps)
     : modes_(&modes), maps_(&maps), states_(modes.simulation().system().states()) {}
 
@@ -65,6 +56,8 @@ void MotionDerivatives::grazing() {
 }
 
 void MotionDerivatives::step(const Step& step) {
+    constexpr std::size_t most_items = 8192; // after which derivatives are propagated without a request
+    constexpr double nothing = 1e-12;        // share of the step within which a mark is at its end
     if (broken_)
         return;
     double from = 0;

@@ -122,11 +122,6 @@ bool OrbitFinder::fail() {
     return false;
 }
 
-bool OrbitFinder::arrived() const {
-    return trajectory_->outcome().ending == Ending::stopped && watcher_.returns() >= period_ &&
-           trajectory_->mode() == mode_;
-}
-
 bool OrbitFinder::is_active(std::size_t state) const {
     return std::ranges::find(jacobian_.active, state) != jacobian_.active.end();
 }
@@ -140,7 +135,9 @@ bool OrbitFinder::proceed() {
         start_run(stage_);
         return true;
     }
-    if (!arrived() || !linearise())
+    const bool arrived = trajectory_->outcome().ending == Ending::stopped && watcher_.returns() >= period_ &&
+                         trajectory_->mode() == mode_;
+    if (!arrived || !linearise())
         return fail();
     return stage_ == Stage::iterating ? iterate() : record();
 }

@@ -60,7 +60,6 @@ private:
     void start_comparison();
     bool compare();
     bool fail();
-    bool arrived() const;
 
     const SectionMap* map_;
     const FieldMap* field_;

@@ -95,8 +95,40 @@ class Worker {
 public:
     explicit Worker(Execution& execution) : execution_(&execution), search_(execution.searches.make()) {}
 
-    /// Returns the trajectory to run first; null if there is nothing to do.
-    Trajectory* begin() { return next_point(); }
+    /// Begins the next point. @return the trajectory to run first; null if there is nothing to do
+    Trajectory* next_point() {
+        const Plan& plan = execution_->plan;
+        while (index_ >= plan.chain_length || !has_chain_) {
+            chain_ = execution_->next_chain++;
+            if (chain_ >= plan.chains)
+                return nullptr;
+            has_chain_ = true;
+            index_ = 0;
+            carried_ = false;
+            if (chain_ < execution_->progress.size()) {
+                const ChainProgress& done = execution_->progress[chain_];
+                index_ = done.done;
+                carried_ = done.done > 0 && done.regular;
+                state_ = done.state;
+                mode_ = done.mode;
+            }
+        }
+        if (execution_->must_stop())
+            return nullptr;
+        start_ = execution_->start(chain_ * plan.chain_length + index_);
+        start_note_.clear();
+        attempt_ = Attempt::initial;
+        if (plan.carry)
+            initial_ = start_;
+        if (plan.carry && carried_ && index_ > 0) {
+            start_.state = state_;
+            start_.mode = mode_;
+            attempt_ = Attempt::carried;
+        }
+        search_->begin(start_.parameters, start_.state, start_.mode);
+        return &search_->trajectory();
+    }
+
     /// Returns the trajectory to run after the last one has finished.
     Trajectory* go_on() {
         if (execution_->must_stop())
@@ -151,39 +183,6 @@ private:
         return true;
     }
 
-    Trajectory* next_point() {
-        const Plan& plan = execution_->plan;
-        while (index_ >= plan.chain_length || !has_chain_) {
-            chain_ = execution_->next_chain++;
-            if (chain_ >= plan.chains)
-                return nullptr;
-            has_chain_ = true;
-            index_ = 0;
-            carried_ = false;
-            if (chain_ < execution_->progress.size()) {
-                const ChainProgress& done = execution_->progress[chain_];
-                index_ = done.done;
-                carried_ = done.done > 0 && done.regular;
-                state_ = done.state;
-                mode_ = done.mode;
-            }
-        }
-        if (execution_->must_stop())
-            return nullptr;
-        start_ = execution_->start(chain_ * plan.chain_length + index_);
-        start_note_.clear();
-        attempt_ = Attempt::initial;
-        if (plan.carry)
-            initial_ = start_;
-        if (plan.carry && carried_ && index_ > 0) {
-            start_.state = state_;
-            start_.mode = mode_;
-            attempt_ = Attempt::carried;
-        }
-        search_->begin(start_.parameters, start_.state, start_.mode);
-        return &search_->trajectory();
-    }
-
     Execution* execution_;
     std::unique_ptr<PointSearch> search_;
     bool has_chain_ = false, carried_ = false;
@@ -201,7 +200,7 @@ void work_through(Execution& execution, InstructionSet set, std::size_t slots) {
     std::vector<Trajectory*> first;
     for (std::size_t i = 0; i < slots; ++i) {
         workers.push_back(std::make_unique<Worker>(execution));
-        first.push_back(workers.back()->begin());
+        first.push_back(workers.back()->next_point());
     }
     ensemble.run(first, [&](std::size_t slot) { return workers[slot]->go_on(); });
 }

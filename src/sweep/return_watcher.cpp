@@ -103,12 +103,6 @@ void ReturnWatcher::start_leg(double time, double shortest) {
     std::ranges::fill(greatest_, -infinity);
 }
 
-void ReturnWatcher::check_bounds(std::span<const double> state) {
-    for (const StateBounds& bounds : bounds_)
-        escaped_ = escaped_ || !bounds.contain(state[bounds.state]);
-    stop_ = stop_ || escaped_;
-}
-
 void ReturnWatcher::include(std::size_t state, double value) {
     least_[state] = std::min(least_[state], value);
     greatest_[state] = std::max(greatest_[state], value);
@@ -200,7 +194,9 @@ void ReturnWatcher::arrive(double time, std::size_t mode, std::span<const double
     paused_ = false;
     if (recorder_)
         recorder_->mark();
-    check_bounds(state);
+    for (const StateBounds& bounds : bounds_)
+        escaped_ = escaped_ || !bounds.contain(state[bounds.state]);
+    stop_ = stop_ || escaped_;
     if (thresholds_ && !stop_) {
         recurrent_ = find_recurrence();
         stop_ = recurrent_ != 0;

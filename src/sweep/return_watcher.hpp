@@ -128,7 +128,6 @@ private:
     void widen();
     std::size_t find_recurrence();
     std::size_t find_exact_recurrence();
-    void check_bounds(std::span<const double> state);
 
     const SectionMap* map_;
     std::vector<StateBounds> bounds_;

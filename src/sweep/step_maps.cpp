@@ -164,22 +164,16 @@ void StepMaps::compute() {
     }
 }
 
-/// Loads states into lanes; empty lanes repeat the first.
-void StepMaps::load(std::span<const Part> parts) {
-    for (std::size_t lane = 0; lane < lanes_; ++lane) {
-        const Part& part = parts[lane < parts.size() ? lane : 0];
-        for (std::size_t i = 0; i < states_; ++i)
-            states_here_[i * lanes_ + lane] = numbers_[part.state + i];
-    }
-}
-
 void StepMaps::compute(std::size_t mode, std::span<Part> parts) {
     Flow& here = flow(mode);
-    load(parts);
+    for (std::size_t lane = 0; lane < lanes_; ++lane) {
+        const Part& part = parts[lane < parts.size() ? lane : 0]; // empty lanes repeat the first
+        for (std::size_t i = 0; i < states_; ++i)
+            states_here_[i * lanes_ + lane] = numbers_[part.state + i];
+        times_[lane] = part.attempt;
+    }
     here.jet->compute(states_here_);
     here.columns.compute(units_);
-    for (std::size_t lane = 0; lane < lanes_; ++lane)
-        times_[lane] = parts[lane < parts.size() ? lane : 0].attempt;
     find_reaches(here.columns, parts);
     here.jet->evaluate_states(times_, states_there_);
     here.columns.evaluate(times_, sums_, slopes_);

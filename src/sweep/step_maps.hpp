@@ -79,7 +79,6 @@ private:
         ColumnSeries columns, end_columns;
     };
     Flow& flow(std::size_t mode);
-    void load(std::span<const Part> parts);
     void find_reaches(const ColumnSeries& columns, std::span<Part> parts);
     void compute(std::size_t mode, std::span<Part> parts);
     void continue_after(std::size_t mode, const Part& part, std::size_t lane);

@@ -9,15 +9,6 @@
 
 namespace graze {
 
-namespace {
-
-/// Number of steps, passages and contacts without progress after which, without a time limit, no end is expected: a
-/// step covers a part of an oscillation, so these are at least a hundred thousand oscillations of the fastest kind. (A
-/// motion at rest makes a single step with endless passages.)
-constexpr std::size_t patience = 1'000'000;
-
-} // namespace
-
 TransientSetting::TransientSetting(const System& system, const TransientOptions& given,
                                    const std::vector<Sampling>& samplings, const std::vector<Expression>& values,
                                    const SimulationOptions& simulation_options)
@@ -60,6 +51,9 @@ void TransientSearch::step(const Step& step) {
 
 /// Counts an occurrence; returns whether a leg that is ended only by a count has had no progress for too long.
 bool TransientSearch::has_stalled() {
+    // A step covers a part of an oscillation, so these are at least a hundred thousand oscillations of the fastest
+    // kind. (A motion at rest makes a single step with endless passages.)
+    constexpr std::size_t patience = 1'000'000;
     ++waited_;
     const TransientOptions& options = setting_->options;
     return waited_ >= patience && !((shown_ ? options.time : options.skip_time) > 0);
