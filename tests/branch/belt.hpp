@@ -7,7 +7,8 @@ namespace graze::testing {
 /// x'' + x = friction(1 - x') + amplitude cos(nu t), with cubic friction (M. di Bernardo, P. Kowalczyk and A. B.
 /// Nordmark, Int. J. Bifurcation Chaos 13, 2003).
 inline Model belt() {
-    return model_from(R"toml(
+    return model_from(
+        R"toml(
 name = "belt"
 [parameters]
 alpha0 = 1.5
@@ -41,37 +42,13 @@ slow = "alpha0 + force"
 fast = "alpha0 - force"
 [jumps.stop]
 v = 1
-[[transitions]]
-mode = "below"
-event = "reach"
-jump = "stop"
-next = [{ when = "alpha0 - force >= 0", mode = "stick" }, { mode = "above" }]
-[[transitions]]
-mode = "above"
-event = "fall"
-jump = "stop"
-next = [{ when = "alpha0 + force >= 0", mode = "stick" }, { mode = "below" }]
-[[transitions]]
-mode = "stick"
-event = "slow"
-next = "below"
-[[transitions]]
-mode = "stick"
-event = "fast"
-next = "above"
 [sections.phase0]
 state = "theta"
 value = 0
-)toml");
-}
-
-inline BranchSettings along(const Model& model, const char* parameter, int direction, double least, double greatest) {
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter(parameter);
-    settings.direction = direction;
-    settings.least = least;
-    settings.greatest = greatest;
-    return settings;
+)toml" +
+        transition("below", "reach", "[{ when = 'alpha0 - force >= 0', mode = 'stick' }, { mode = 'above' }]", "stop") +
+        transition("above", "fall", "[{ when = 'alpha0 + force >= 0', mode = 'stick' }, { mode = 'below' }]", "stop") +
+        transition("stick", "slow", "below") + transition("stick", "fast", "above"));
 }
 
 } // namespace graze::testing

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <random>
+#include <tuple>
 
 namespace graze {
 namespace {
@@ -28,61 +29,33 @@ struct Border {
 };
 
 Model model_of(const Border& border, double mu) {
-    return model_from(fmt::format(R"toml(
-[parameters]
-mu = {}
-[states]
-x = {}
-y = 0
-s = 0
-[initial]
-mode = "right"
-[modes.right]
+    std::string text = fmt::format("[parameters]\nmu = {}\n[states]\nx = {}\ny = 0\ns = 0\n[initial]\nmode = 'right'\n",
+                                   mu, border.right_fixed_point(mu));
+    for (const auto& [side, trace, determinant] : {std::tuple("right", border.right_trace, border.right_determinant),
+                                                   std::tuple("left", border.left_trace, border.left_determinant)})
+        text += fmt::format(R"toml(
+[modes.{0}]
 rates = {{ x = 0, y = 0, s = 1 }}
-watch = ["tick_right"]
-[modes.left]
-rates = {{ x = 0, y = 0, s = 1 }}
-watch = ["tick_left"]
-[events]
-tick_right = {{ function = "1 - s" }}
-tick_left = {{ function = "1 - s" }}
-[jumps.map_right]
-x = "{}*x + y + mu"
-y = "-({})*x"
+watch = ["tick_{0}"]
+[events.tick_{0}]
+function = "1 - s"
+[jumps.map_{0}]
+x = "{1}*x + y + mu"
+y = "-({2})*x"
 s = 0
-[jumps.map_left]
-x = "{}*x + y + mu"
-y = "-({})*x"
-s = 0
-[[transitions]]
-mode = "right"
-event = "tick_right"
-jump = "map_right"
-next = [{{ when = "x >= 0", mode = "right" }}, {{ mode = "left" }}]
-[[transitions]]
-mode = "left"
-event = "tick_left"
-jump = "map_left"
-next = [{{ when = "x >= 0", mode = "right" }}, {{ mode = "left" }}]
 )toml",
-                                  mu, border.right_fixed_point(mu), border.right_trace, border.right_determinant,
-                                  border.left_trace, border.left_determinant));
+                            side, trace, determinant) +
+                transition(side, fmt::format("tick_{}", side),
+                           "[{ when = 'x >= 0', mode = 'right' }, { mode = 'left' }]", fmt::format("map_{}", side));
+    return model_from(text);
 }
 
 Branch branch_to_the_left(const Border& border) {
     const double mu = border.right_fixed_point(1) > 0 ? 0.2 : -0.2;
     const Model model = model_of(border, mu);
     const double x = border.right_fixed_point(mu);
-    const Orbit orbit{parse_signature(model, "right:tick_right"),
-                      model.parameter_values(),
-                      {{x, -border.right_determinant * x, 0}},
-                      {1},
-                      {}};
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("mu");
-    settings.direction = mu > 0 ? -1 : 1;
-    settings.least = -0.5;
-    settings.greatest = 0.5;
+    const Orbit orbit = given_orbit(model, "right:tick_right", {{x, -border.right_determinant * x, 0}}, {1});
+    const BranchSettings settings = in_parameter(model, "mu", -0.5, 0.5, mu > 0 ? -1 : 1);
     return follow_branch(System(model), orbit, settings);
 }
 

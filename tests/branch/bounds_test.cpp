@@ -17,34 +17,11 @@ using std::numbers::pi;
 
 /// u' = growth(u, mu) about x = cos(theta).
 Model about_a_clock(const std::string& growth) {
-    return model_from(fmt::format(R"toml(
-[parameters]
-mu = 1
-[states]
-x = 1
-theta = {{ initial = 0, period = "2*pi" }}
-[definitions]
-u = "x - cos(theta)"
-[modes.only]
-rates = {{ x = "{} - sin(theta)", theta = 1 }}
-[sections.start]
-state = "theta"
-value = 0
-)toml",
-                                  growth));
+    return about_clock("mu = 1", growth);
 }
 
 Orbit orbit_at(const Model& model, double mu, double u) {
     return {parse_signature(model, "start"), {mu}, {{1 + u, 0}}, {2 * pi}, std::nullopt};
-}
-
-BranchSettings between(const Model& model, double least, double greatest, int direction) {
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("mu");
-    settings.least = least;
-    settings.greatest = greatest;
-    settings.direction = direction;
-    return settings;
 }
 
 void expect_within(const Branch& branch, double least, double greatest) {
@@ -68,8 +45,8 @@ TEST(Bounds, HoldNearAndAtABranchPoint) {
     const Model model = about_a_clock("mu*u - u^2");
     for (const double bound : {0.0, 1e-3, 1e-7, 1e-10, -1e-10, -1e-7, -1e-4, -0.01, -0.3})
         for (const bool straight : {false, true}) {
-            const Branch branch =
-                follow_branch(System(model), orbit_at(model, 1, straight ? 0 : 1), between(model, bound, 2, -1));
+            const Branch branch = follow_branch(System(model), orbit_at(model, 1, straight ? 0 : 1),
+                                                in_parameter(model, "mu", bound, 2, -1));
             expect_within(branch, bound, 2);
             EXPECT_EQ(branch.points.back().parameter, bound) << bound;
             if (bound <= 0 || bound > 1e-9) { // just before the crossing, round-off decides on which side the bound is
@@ -80,7 +57,8 @@ TEST(Bounds, HoldNearAndAtABranchPoint) {
         }
     // From below, towards the other bound.
     for (const double bound : {0.0, 1e-4, -1e-4}) {
-        const Branch branch = follow_branch(System(model), orbit_at(model, -1, 0), between(model, -2, bound, 1));
+        const Branch branch =
+            follow_branch(System(model), orbit_at(model, -1, 0), in_parameter(model, "mu", -2, bound, 1));
         expect_within(branch, -2, bound);
         EXPECT_EQ(branch.points.back().parameter, bound);
     }
@@ -90,12 +68,14 @@ TEST(Bounds, HoldNearAPitchforkAndAFold) {
     // On the parabola mu = u^2 the fold is at the crossing with the other branch.
     const Model pitchfork = about_a_clock("mu*u - u^3");
     for (const double bound : {1e-2, 1e-4, 1e-7})
-        expect_within(follow_branch(System(pitchfork), orbit_at(pitchfork, 1, 1), between(pitchfork, bound, 2, -1)),
-                      bound, 2);
+        expect_within(
+            follow_branch(System(pitchfork), orbit_at(pitchfork, 1, 1), in_parameter(pitchfork, "mu", bound, 2, -1)),
+            bound, 2);
     const Model fold = about_a_clock("mu - u^2");
     for (const double bound : {1e-2, 1e-5, 1e-9})
-        expect_within(follow_branch(System(fold), orbit_at(fold, 1, 1), between(fold, bound, 2, -1)), bound, 2);
-    const Branch beyond = follow_branch(System(fold), orbit_at(fold, 1, 1), between(fold, -1e-3, 2, -1));
+        expect_within(follow_branch(System(fold), orbit_at(fold, 1, 1), in_parameter(fold, "mu", bound, 2, -1)), bound,
+                      2);
+    const Branch beyond = follow_branch(System(fold), orbit_at(fold, 1, 1), in_parameter(fold, "mu", -1e-3, 2, -1));
     expect_within(beyond, -1e-3, 2);
     EXPECT_EQ(names(beyond), "SN BD");
     EXPECT_EQ(beyond.points.back().parameter, 2);
@@ -104,7 +84,7 @@ TEST(Bounds, HoldNearAPitchforkAndAFold) {
 TEST(Bounds, HoldOnBranchesThatLeaveAPoint) {
     const Model model = about_a_clock("mu*u - u^2");
     for (const double bound : {-1e-3, -1e-5, -0.5}) {
-        const BranchSettings settings = between(model, bound, 2, -1);
+        const BranchSettings settings = in_parameter(model, "mu", bound, 2, -1);
         const Branch first = follow_branch(System(model), orbit_at(model, 1, 0), settings);
         const auto points = of_type(first, PointType::branch_point);
         ASSERT_EQ(points.size(), 1U);
@@ -124,7 +104,7 @@ TEST(Bounds, HoldOnBranchesThatLeaveAPoint) {
 
 TEST(Bounds, BoundsOfMonitorsHoldFromTheFirstOrbitOn) {
     const Model model = about_a_clock("mu - u");
-    BranchSettings settings = between(model, -2, 2, 1);
+    BranchSettings settings = in_parameter(model, "mu", -2, 2, 1);
     settings.monitors = {{"start", "", Monitor::Kind::start, model.symbol("x"), "", false, {}, {}, 1.2, 1.5}};
     const Branch none = follow_branch(System(model), orbit_at(model, 1, 1), settings);
     EXPECT_TRUE(none.points.empty());
@@ -140,8 +120,7 @@ TEST(Bounds, OrbitsThatLeaveATouchNearABoundBeginWithinIt) {
     const Model model = known.model();
     const SpecialPoint touch = known.grazing(model);
     for (const double side : {1.0, -1.0}) {
-        BranchSettings settings;
-        settings.parameter = model.independent_parameter("F");
+        BranchSettings settings = in_parameter(model, "F");
         (side > 0 ? settings.least : settings.greatest) = known.force() * (1 - side * 1e-4);
         const BranchStart start = branches_at(System(model), touch, settings).front();
         const double force = start.orbit.parameters[settings.parameter.place()];

@@ -16,25 +16,8 @@ namespace {
 
 using namespace graze::testing;
 
-/// u' = f(u) in units of length and time, with x = u + cos(theta), so that the solution u = 0 is not apparent from the
-/// equations.
 Model hidden(const std::string& rate, double length = 1, double time = 1) {
-    return model_from(fmt::format(R"toml(
-[parameters]
-a = 0.3
-b = 0.8
-[states]
-x = {:.17g}
-theta = {{ initial = 0, period = "2*pi" }}
-[definitions]
-u = "x/{:.17g} - cos(theta)"
-[modes.only]
-rates = {{ x = "{:.17g}*({} - sin(theta))", theta = "{:.17g}" }}
-[sections.start]
-state = "theta"
-value = 0
-)toml",
-                                  length, length, length / time, rate, 1 / time));
+    return about_clock("a = 0.3\nb = 0.8", rate, 0, "", length, time);
 }
 
 struct Followed {
@@ -43,21 +26,13 @@ struct Followed {
 
 /// Follows the branch u = 0 in a, and the curve of its first branch point in a and b.
 Followed followed(const Model& model) {
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("a");
-    settings.least = -2;
-    settings.greatest = 2;
-    OrbitSolution start = settled(model, "start", 4000);
-    Orbit orbit = start.orbit;
+    BranchSettings settings = in_parameter(model, "a", -2, 2);
     Followed result;
-    result.branch = follow_branch(System(model), orbit, settings);
+    result.branch = follow_branch(System(model), settled(model, "start", 4000).orbit, settings);
     const auto points = of_type(result.branch, PointType::branch_point);
     if (points.empty())
         return result;
-    settings.free = {model.independent_parameter("b")};
-    settings.free_bounds = {{settings.free.front(), 0.2, 1.5}};
-    settings.kept = points.front();
-    result.curve = follow_branch(System(model), points.front().solution.orbit, settings);
+    result.curve = curve_of(model, points.front(), settings, "b", 0.2, 1.5, 1);
     return result;
 }
 
@@ -101,15 +76,13 @@ TEST(BranchPointCurve, DoesNotBeginWhereThePerturbationSeparatesTheBranches) {
 
 /// Symmetry breaking of orbits with impacts, with the symmetry declared (half orbits) and undeclared (whole orbits).
 TEST(BranchPointCurve, EqualsTheSymmetryBreakingOfAnUndeclaredSymmetry) {
-    Model model = load_model("electromagnetic-testbed");
-    model.set_initial("I", 0.1);
+    Model model = started(load_model("electromagnetic-testbed"), {{"I", 0.1}});
     std::vector<double> ends;
     for (const bool declared : {true, false}) {
         const PointType type = declared ? PointType::asymmetry : PointType::branch_point;
         if (!declared)
             model.symmetries.clear();
-        BranchSettings settings;
-        settings.parameter = model.independent_parameter("V0");
+        BranchSettings settings = in_parameter(model, "V0");
         settings.stop_at = {type};
         const OrbitSolution start = settled(model, "phase0", 600);
         ASSERT_EQ(start.orbit.symmetry.has_value(), declared);

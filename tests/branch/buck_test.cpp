@@ -10,7 +10,9 @@ namespace {
 
 using namespace graze::testing;
 
-const char* const converter = R"toml(
+Model converter() {
+    const std::string after_reset = "[{ when = 'h < 0', mode = 'on' }, { mode = 'off' }]";
+    return model_from(R"toml(
 [parameters]
 E = 22
 R = 22
@@ -29,51 +31,23 @@ watch = ["cross_on", "reset"]
 [modes.off]
 rates = { V = "(I - V/R)/C", I = "-V/L", p = 1 }
 watch = ["cross_off", "reset"]
-[events.cross_on]
-function = "-h"
-kind = "section"
-[events.cross_off]
-function = "h"
-kind = "section"
-[events.reset]
-function = "T - p"
+[events]
+cross_on = { function = "-h", kind = "section" }
+cross_off = { function = "h", kind = "section" }
+reset = "T - p"
 [jumps.ramp]
 p = 0
-[[transitions]]
-mode = "on"
-event = "cross_on"
-label = "off"
-next = "off"
-[[transitions]]
-mode = "off"
-event = "cross_off"
-label = "on"
-next = "on"
-[[transitions]]
-mode = "on"
-event = "reset"
-label = "R1"
-jump = "ramp"
-next = [{when = "h < 0", mode = "on"}, {mode = "off"}]
-[[transitions]]
-mode = "off"
-event = "reset"
-label = "R0"
-jump = "ramp"
-next = [{when = "h < 0", mode = "on"}, {mode = "off"}]
-[sections.ramp]
-function = "T/2 - p"
-direction = "falling"
 [initial]
 mode = "on"
-)toml";
+)toml" + transition("on", "cross_on", "off", "", "off") +
+                      transition("off", "cross_off", "on", "", "on") +
+                      transition("on", "reset", after_reset, "ramp", "R1") +
+                      transition("off", "reset", after_reset, "ramp", "R0") + section("ramp", "T/2 - p", "falling"));
+}
 
 TEST(BuckConverter, StartOnTheSwitchingSurfaceIsNotAGrazing) {
-    const Model model = model_from(converter);
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("E");
-    settings.least = 15;
-    settings.greatest = 40;
+    const Model model = converter();
+    const BranchSettings settings = in_parameter(model, "E", 15, 40);
     const Branch one = follow_branch(System(model), settled(model, "ramp").orbit, settings);
     ASSERT_EQ(names(one), "PD BD");
     EXPECT_NEAR(one.special[0].parameter, 24.516, 1e-3); // M. di Bernardo et al., IEEE Trans. Circuits Syst. I 45, 1998

@@ -174,33 +174,13 @@ TEST(ChatterLimit, ContactsWithHighRestitutionHaveTheirClosedForm) {
 
 /// Two equal masses with a spring between them; the first has a stop and a slow force.
 Model two_masses() {
-    return model_from(R"toml(
-[parameters]
-s = 1.5
-[states]
-x = 0
-v = 0
-y = 0
-w = 0
-theta = { initial = 0, period = "2*pi" }
-[definitions]
-pull = "0.6*(x - y) + 0.18*(v - w)"
-[modes.free]
-rates = { x = "v", v = "cos(theta) - x - 0.6*v - pull", y = "w", w = "-y - 0.6*w + pull", theta = 0.3 }
-watch = ["stop"]
-[events.stop]
-function = "s - x"
-[jumps.bounce]
-v = "-0.75*v"
-[[transitions]]
-mode = "free"
-event = "stop"
-jump = "bounce"
-next = "free"
-[sections.start]
-state = "theta"
-value = 0
-)toml");
+    return OneMode{.parameters = "s = 1.5",
+                   .states = "x = 0\nv = 0\ny = 0\nw = 0",
+                   .definitions = "pull = '0.6*(x - y) + 0.18*(v - w)'",
+                   .rates = "x = 'v', v = 'cos(theta) - x - 0.6*v - pull', y = 'w', w = '-y - 0.6*w + pull'",
+                   .clock = "0.3",
+                   .stops = {{"stop", "s - x", "v = '-0.75*v'"}}}
+        .model();
 }
 
 TEST(ChatterLimit, TwoMassesAgreeWithSimulationFromLaddersOfAnyLength) {
@@ -221,17 +201,16 @@ TEST(ChatterLimit, TwoMassesAgreeWithSimulationFromLaddersOfAnyLength) {
     const ChatterLimit limit = chatter_limit(System(model), grazings, settings.parameter);
     // With a nearer stop contacts accumulate in each period, with a farther one they are finitely many.
     for (const double side : {-1e-4, 1e-4}) {
-        Orbit orbit = limit.orbit;
-        orbit.parameters[settings.parameter.place()] *= 1 + side;
-        const Simulation simulation{System(model)};
-        Trajectory trajectory(simulation, orbit.parameters);
+        const double stop = limit.orbit.parameters[settings.parameter.place()] * (1 + side);
+        Model moved = model;
+        moved.set_parameter("s", stop);
+        std::vector<double> state = limit.orbit.starts.at(1);
+        state[0] = stop;
         constexpr double periods = 10;
-        std::vector<double> state = orbit.starts.at(1);
-        state[0] = orbit.parameters[settings.parameter.place()]; // on the moved stop
-        trajectory.start(state, 0, 0, periods * orbit.return_time());
-        JetSet jets(simulation, LaneKind::single);
-        run(trajectory, jets);
-        EXPECT_EQ(name_of(trajectory.outcome().ending), name_of(side < 0 ? Ending::chatter : Ending::end_time)) << side;
+        Experiment motion(moved);
+        EXPECT_EQ(name_of(motion.run_from(state, 0, periods * limit.orbit.return_time()).ending),
+                  name_of(side < 0 ? Ending::chatter : Ending::end_time))
+            << side;
     }
 }
 
@@ -248,13 +227,8 @@ TEST(ChatterLimit, DoesNotDependOnUnits) {
 }
 
 TEST(ChatterLimit, MicroactuatorConvergesToItsLimit) {
-    Model model = load_model("impact-microactuator");
-    model.set_parameter("omega", 2.0056);
-    model.set_parameter("V", 0.1);
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("V");
-    settings.least = 0.005;
-    settings.greatest = 3;
+    const Model model = shipped_with("impact-microactuator", {{"omega", 2.0056}, {"V", 0.1}});
+    const BranchSettings settings = in_parameter(model, "V", 0.005, 3);
     const auto rungs = climbed(model, settings, 9);
     // "Published values": V_1 to V_8.
     const std::array known{.52745995765981, .66636423118007, .74940362005310, .79897011651099,
@@ -274,20 +248,11 @@ TEST(ChatterLimit, PointsThatAreNotALadderAreRefused) {
     const Model model = chattering_oscillator(0.5, 1, 1);
     const std::vector<SpecialPoint> none(1);
     EXPECT_THROW(chatter_limit(System(model), none, model.independent_parameter("s")), InputError);
-    const std::vector<SpecialPoint> folds(3, SpecialPoint{.type = PointType::fold,
-                                                          .located = true,
-                                                          .detail = {},
-                                                          .solution = {},
-                                                          .parameter = 0,
-                                                          .bracket = {},
-                                                          .arclength = 0,
-                                                          .step = 0,
-                                                          .tangent = {},
-                                                          .monitors = {},
-                                                          .segment = 0,
-                                                          .event = 0,
-                                                          .time = 0,
-                                                          .at_end = false});
+    std::vector<SpecialPoint> folds(3);
+    for (SpecialPoint& fold : folds) {
+        fold.type = PointType::fold;
+        fold.located = true;
+    }
     EXPECT_THROW(chatter_limit(System(model), folds, model.independent_parameter("s")), InputError);
 }
 

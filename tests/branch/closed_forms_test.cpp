@@ -60,27 +60,17 @@ struct Ball {
         }
         return NAN;
     }
-    Model model(double a) const {
-        Model result = load_model("bouncing-ball");
-        result.set_parameter("a", a);
-        return result;
-    }
+    Model model(double a) const { return shipped_with("bouncing-ball", {{"a", a}}); }
     Orbit orbit(const Model& model, double a) const {
         const double at = phase(a, true);
-        return {parse_signature(model, "impact"),
-                model.parameter_values(),
-                {{a * std::sin(at), g / (2 * f), at}},
-                {1 / f},
-                {}};
+        return given_orbit(model, "impact", {{a * std::sin(at), g / (2 * f), at}}, {1 / f});
     }
 };
 
 TEST(ClosedForms, BouncingBallHasItsFoldFlipAndGrazing) {
     const Ball ball;
     const Model model = ball.model(0.002);
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("a");
-    settings.greatest = 0.01;
+    BranchSettings settings = in_parameter(model, "a", {}, 0.01);
     const Orbit orbit = ball.orbit(model, 0.002);
 
     const Branch up = follow_branch(System(model), orbit, settings);
@@ -117,9 +107,7 @@ TEST(ClosedForms, BouncingBallHasItsFoldFlipAndGrazing) {
 TEST(ClosedForms, BouncingBallDoublesItsPeriodAtTheFlip) {
     const Ball ball;
     Model model = ball.model(0.002);
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("a");
-    settings.greatest = 0.004;
+    BranchSettings settings = in_parameter(model, "a", {}, 0.004);
     const Branch single = follow_branch(System(model), ball.orbit(model, 0.002), settings);
     ASSERT_EQ(names(single), "PD BD");
     const auto starts = branches_at(System(model), single.special[0], settings);
@@ -171,10 +159,7 @@ TEST(ClosedForms, ImpactOscillatorHasItsFoldFlipAndGrazing) {
     const Model model = oscillator_model(known, 0.02);
     const OrbitSolution start = settled(model, "phase0", 400);
     ASSERT_EQ(start.orbit.segments(), 1U);
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("sigma");
-    settings.least = -1;
-    settings.greatest = 1;
+    BranchSettings settings = in_parameter(model, "sigma", -1, 1);
     const auto check = [&](const Branch& branch) {
         for (const BranchPoint& point : branch.points) {
             const double after = point.solution.orbit.starts[0][1], phase = point.solution.orbit.starts[0][2];
@@ -221,10 +206,7 @@ TEST(ClosedForms, ImpactOscillatorGainsAndLosesItsImpactAtTheSameGap) {
     Model model = oscillator_model(known, sigma);
     model.set_parameter("amplitude", 0.1);
     model.set_initial("x", 0);
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("amplitude");
-    settings.least = 0;
-    settings.greatest = 10;
+    BranchSettings settings = in_parameter(model, "amplitude", 0, 10);
     const Branch free = follow_branch(System(model), settled(model, "phase0").orbit, settings);
     ASSERT_EQ(names(free), "GR");
     EXPECT_NEAR(free.special[0].parameter, sigma / known.radius, 1e-13);

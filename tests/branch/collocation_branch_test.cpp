@@ -67,20 +67,14 @@ void expect_the_same_fold(const Model& model, const char* parameter, int directi
 }
 
 TEST(CollocationBranch, OrbitsWithAnImpactHaveTheFoldOfShooting) {
-    Model model = load_model("impact-oscillator");
-    model.set_parameter("sigma", 0.5);
-    model.set_parameter("zeta", 0.1);
-    model.set_parameter("omega", 1.7);
-    model.set_parameter("amplitude", 1.3);
+    const Model model =
+        shipped_with("impact-oscillator", {{"sigma", 0.5}, {"zeta", 0.1}, {"omega", 1.7}, {"amplitude", 1.3}});
     expect_the_same_fold(model, "amplitude", -1, 0.570091381891438, 1e-12);
 }
 
 TEST(CollocationBranch, MicrobeamWithoutStopHasThePublishedFold) {
-    MicrobeamOptions free;
-    free.stop_stiffness = 0;
-    free.stop_distance = -0.02;
-    free.voltage = 0.01;
-    expect_the_same_fold(microbeam(free), "V", 1, 0.036662363851355, 1e-10);
+    expect_the_same_fold(microbeam({.stop_distance = -0.02, .stop_stiffness = 0, .voltage = 0.01}), "V", 1,
+                         0.036662363851355, 1e-10);
 }
 
 } // namespace

@@ -29,33 +29,18 @@ double pendulum_period(double amplitude) {
 
 /// A pendulum in units of time and angle of its own.
 Model pendulum(double time, double angle) {
-    return model_from(fmt::format(R"toml(
-[parameters]
-damping = 0
-T = {:.17g}
-A = {:.17g}
-[states]
-phi = "1*A"
-w = 0
-[modes.swing]
-rates = {{ phi = "w", w = "-damping*w - A/T^2*sin(phi/A)" }}
-[sections.turn]
-function = "w"
-direction = "falling"
-)toml",
-                                  time, angle));
+    return OneMode{.parameters = fmt::format("damping = 0\nT = {:.17g}\nA = {:.17g}", time, angle),
+                   .states = "phi = '1*A'\nw = 0",
+                   .rates = "phi = 'w', w = '-damping*w - A/T^2*sin(phi/A)'",
+                   .more = section("turn", "w", "falling")}
+        .model();
 }
 
 TEST(Conservative, PendulumFamilyReachesTheTopInAnyUnits) {
     for (const auto& [time, angle] : {std::pair{1.0, 1.0}, {1e-9, 1e-6}, {1e6, 1e9}, {1e-3, 1e9}}) {
         const Model model = pendulum(time, angle);
-        const Orbit start{parse_signature(model, "turn"),
-                          model.parameter_values(),
-                          {{0.5 * angle, 0}},
-                          {pendulum_period(0.5) * time},
-                          {}};
-        BranchSettings settings;
-        settings.parameter = model.independent_parameter("damping");
+        const Orbit start = given_orbit(model, "turn", {{0.5 * angle, 0}}, {pendulum_period(0.5) * time});
+        BranchSettings settings = in_parameter(model, "damping");
         settings.steps = 400;
         settings.monitors = {
             {"reach", "", Monitor::Kind::maximum, model.symbol("phi"), "", false, {}, {}, {}, 3.0 * angle}};
@@ -84,25 +69,19 @@ TEST(Conservative, PendulumFamilyReachesTheTopInAnyUnits) {
     }
 }
 
+/// x'' = acceleration, with sections at its maxima.
+Model free_oscillator(const std::string& parameters, const std::string& initial, const std::string& acceleration) {
+    return OneMode{.parameters = "damping = 0\n" + parameters,
+                   .states = fmt::format("x = '{}'\nv = 0", initial),
+                   .rates = fmt::format("x = 'v', v = '-damping*v {}'", acceleration),
+                   .more = section("turn", "v", "falling")}
+        .model();
+}
+
 /// Duffing's oscillator x'' = -x - x^3 - damping x', in units of its own.
-Model duffing(double time, double length, const char* more = "") {
-    return model_from(fmt::format(R"toml(
-[parameters]
-damping = 0
-T = {:.17g}
-A = {:.17g}
-push = 0
-[states]
-x = "A"
-v = 0
-[modes.m]
-rates = {{ x = "v", v = "-damping*v - (x + x^3/A^2)/T^2 + push*A/T^2" }}
-[sections.turn]
-function = "v"
-direction = "falling"
-{}
-)toml",
-                                  time, length, more));
+Model duffing(double time, double length) {
+    return free_oscillator(fmt::format("T = {:.17g}\nA = {:.17g}\npush = 0", time, length), "A",
+                           "- (x + x^3/A^2)/T^2 + push*A/T^2");
 }
 
 /// Returns the period of x'' + x + x^3 = push for an oscillation with maximum x = 1. With x = c + r cos(angle) between
@@ -127,11 +106,8 @@ TEST(Conservative, DampingStaysZeroWithFixedAmplitudeWhileThePushPassesZero) {
     for (const auto& [time, length] : {std::pair{1.0, 1.0}, {1e-9, 1e-9}, {1e6, 1e3}}) {
         const Model model = duffing(time, length);
         // Energy h = x^2/2 + x^4/4 at x = 1 gives the period; Newton's method finds it from near.
-        const Orbit start{parse_signature(model, "turn"), model.parameter_values(), {{length, 0}}, {4.77 * time}, {}};
-        BranchSettings settings;
-        settings.parameter = model.independent_parameter("push");
-        settings.least = -0.4;
-        settings.greatest = 0.4;
+        const Orbit start = given_orbit(model, "turn", {{length, 0}}, {4.77 * time});
+        BranchSettings settings = in_parameter(model, "push", -0.4, 0.4);
         settings.free = {model.independent_parameter("damping")};
         settings.monitors = {{"reach", "", Monitor::Kind::start, model.symbol("x"), "", true, length, {}, {}, {}}};
         double at_zero = 0;
@@ -179,21 +155,9 @@ double quintic_period(double amplitude) {
 }
 
 TEST(Conservative, LongestPeriodOfAFamilyIsFoundAtConstantParameters) {
-    const Model model = model_from(R"toml(
-[parameters]
-damping = 0
-[states]
-x = 1
-v = 0
-[modes.m]
-rates = { x = "v", v = "-damping*v - x + 0.2*x^3 - 0.02*x^5" }
-[sections.turn]
-function = "v"
-direction = "falling"
-)toml");
-    const Orbit start{parse_signature(model, "turn"), model.parameter_values(), {{1, 0}}, {quintic_period(1)}, {}};
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("damping");
+    const Model model = free_oscillator("", "1", "- x + 0.2*x^3 - 0.02*x^5");
+    const Orbit start = given_orbit(model, "turn", {{1, 0}}, {quintic_period(1)});
+    BranchSettings settings = in_parameter(model, "damping");
     settings.steps = 400;
     settings.monitors = {{"reach", "", Monitor::Kind::start, model.symbol("x"), "", false, {}, {}, {}, 5}};
     std::size_t found = 0;
@@ -216,27 +180,10 @@ direction = "falling"
 }
 
 TEST(Conservative, ForcedOscillatorWithoutDampingHasNoTorusPoints) {
-    const Model model = model_from(R"toml(
-[parameters]
-damping = 0
-omega = 3
-force = 0.3
-[states]
-x = 0
-v = 0
-theta = { initial = 0, period = "2*pi" }
-[modes.m]
-rates = { x = "v", v = "-damping*v - x - x^3 + force*cos(theta)", theta = "omega" }
-[sections.phase0]
-state = "theta"
-value = 0
-)toml");
-    Orbit start{parse_signature(model, "phase0"), model.parameter_values(), {{0.3 / (1 - 9), 0, 0}}, {2 * pi / 3}, {}};
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("force");
-    settings.least = -0.5;
-    settings.greatest = 0.5;
-    settings.direction = -1;
+    const Model model =
+        driven("damping = 0\nomega = 3\nforce = 0.3", "-damping*v - x - x^3 + force*cos(theta)", "omega");
+    const Orbit start = given_orbit(model, "start", {{0.3 / (1 - 9), 0, 0}}, {2 * pi / 3});
+    const BranchSettings settings = in_parameter(model, "force", -0.5, 0.5, -1);
     const Branch branch = follow_branch(System(model), start, settings);
     EXPECT_EQ(names(branch), "BD") << branch.detail;
     ASSERT_FALSE(branch.points.empty());
@@ -250,7 +197,7 @@ TEST(Conservative, CurvesOfAreaPreservingMapsHaveNoResonances) {
     // q = -1 and -1 where p q = 3.
     const Model model = map_model("p = 1.3\nq = 1", {"p - y - q*x^2", "x"});
     const double x = std::sqrt(2.3) - 1;
-    const Orbit orbit{parse_signature(model, "map"), model.parameter_values(), {{x, x, 0}}, {1}, {}};
+    const Orbit orbit = fixed_point(model, {x, x});
     BranchSettings settings = in_parameter(model, "p", -3, 6);
     const Branch up = follow_branch(System(model), orbit, settings);
     settings.direction = -1;
@@ -273,41 +220,11 @@ TEST(Conservative, CurvesOfAreaPreservingMapsHaveNoResonances) {
 
 TEST(Conservative, FreeBodyInASymmetricBoxHasNoSymmetryBreaking) {
     // Its position is neutral: the half map has the multiplier -1 for every box.
-    const Model model = model_from(R"toml(
-[parameters]
-b = 1
-[states]
-x = 0
-v = 0
-th = { initial = 0, period = "2*pi" }
-[modes.free]
-rates = { x = "v", v = "0.5*cos(th) - 0.05*v", th = 1 }
-watch = ["right", "left"]
-[events]
-right = "b - x"
-left = "b + x"
-[jumps.impact]
-v = "-0.35*v"
-[[transitions]]
-mode = "free"
-event = "right"
-label = "R"
-jump = "impact"
-next = "free"
-[[transitions]]
-mode = "free"
-event = "left"
-label = "L"
-jump = "impact"
-next = "free"
-[sections.ph]
-state = "th"
-value = 0
-[symmetries.turn]
-map = { x = "-x", v = "-v", th = "th + pi" }
-)toml");
+    const Model model = driven("b = 1", "0.5*cos(theta) - 0.05*v", "1",
+                               {{"right", "b - x", "v = '-0.35*v'", "R"}, {"left", "b + x", "v = '-0.35*v'", "L"}},
+                               "[symmetries.turn]\nmap = { x = '-x', v = '-v', theta = 'theta + pi' }");
     const std::complex<double> i(0, 1), v = 0.5 / (0.05 + i), x = v / i;
-    const Orbit half{parse_signature(model, "ph"), model.parameter_values(), {{x.real(), v.real(), 0}}, {pi}, 0};
+    const Orbit half{parse_signature(model, "start"), model.parameter_values(), {{x.real(), v.real(), 0}}, {pi}, 0};
     const Branch branch = follow_branch(System(model), half, in_parameter(model, "b", 0.6, 30));
     EXPECT_GT(branch.points.size(), 10U) << branch.detail;
     EXPECT_EQ(names(branch), "BD") << branch.detail;

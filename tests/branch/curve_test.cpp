@@ -18,19 +18,6 @@ namespace {
 using namespace graze::testing;
 using std::numbers::pi;
 
-/// Returns the curve of a special point in the parameter of the settings and a second one.
-Branch curve_of(const Model& model, const SpecialPoint& point, BranchSettings settings, const std::string& further,
-                int direction) {
-    settings.kept = point;
-    settings.free = {model.independent_parameter(further)};
-    settings.direction = direction;
-    return follow_branch(System(model), point.solution.orbit, settings);
-}
-
-double parameter_of(const Model& model, const OrbitSolution& solution, const std::string& parameter) {
-    return solution.orbit.parameters[model.independent_parameter(parameter).place()];
-}
-
 /// Verifies a point by its multipliers, or by the event minimum on the arc, not by the held condition.
 void expect_kept(const BranchPoint& point, const SpecialPoint& kept, double tolerance) {
     if (kept.type == PointType::fold) {
@@ -61,38 +48,28 @@ SpecialPoint nearest(const Branch& branch, PointType type, double parameter) {
 
 TEST(Curves, BouncingBallHasItsClosedForms) {
     // One bounce per period: see closed_forms_test.
-    Model model = load_model("bouncing-ball");
     const double g = 9.81, w = 20 * pi, e = 0.8;
     const auto fold = [&](double at) { return g / (w * w) * pi * (1 - at) / (1 + at); };
     const auto flip = [&](double at) {
         return g / (w * w) * std::hypot(pi * (1 - at) / (1 + at), 2 * (1 + at * at) / ((1 + at) * (1 + at)));
     };
-    model.set_parameter("g", g);
-    model.set_parameter("e", e);
-    model.set_parameter("f", 10);
     const double a = 0.5 * (fold(e) + flip(e)), phase = std::acos((1 - e) / (1 + e) * g / (20 * a * w));
-    model.set_parameter("a", a);
-    const Orbit orbit{
-        parse_signature(model, "impact"), model.parameter_values(), {{a * std::sin(phase), g / 20, phase}}, {0.1}, {}};
+    const Model model = shipped_with("bouncing-ball", {{"g", g}, {"e", e}, {"f", 10}, {"a", a}});
+    const Orbit orbit = given_orbit(model, "impact", {{a * std::sin(phase), g / 20, phase}}, {0.1});
     for (const int direction : {1, -1}) {
-        BranchSettings settings;
-        settings.parameter = model.independent_parameter("a");
-        settings.direction = direction;
-        settings.least = 1e-5;
-        settings.greatest = 0.01;
+        BranchSettings settings = in_parameter(model, "a", 1e-5, 0.01, direction);
         settings.stop_at = {PointType::fold, PointType::flip};
         const Branch branch = follow_branch(System(model), orbit, settings);
         ASSERT_EQ(branch.outcome, BranchOutcome::stopped);
         settings.stop_at.clear();
-        settings.free_bounds = {{model.independent_parameter("e"), 0.1, 0.95}};
         const SpecialPoint& point = branch.special.back();
         for (const int way : {1, -1}) {
-            const Branch curve = curve_of(model, point, settings, "e", way);
+            const Branch curve = curve_of(model, point, settings, "e", 0.1, 0.95, way);
             EXPECT_EQ(curve.outcome, BranchOutcome::bound) << curve.detail;
             EXPECT_EQ(names(curve), "BD");
             EXPECT_LT(curve.points.size(), 100U);
             for (const BranchPoint& one : curve.points) {
-                const double at = parameter_of(model, one.solution, "e");
+                const double at = value_of(model, one.solution, "e");
                 const bool folds = point.type == PointType::fold;
                 EXPECT_NEAR(one.parameter, folds ? fold(at) : flip(at), 1e-12 * flip(at)) << at;
                 // Near a fold a multiplier is known only to the square root of the error.
@@ -116,21 +93,16 @@ TEST(Curves, ImpactOscillatorHasItsClosedForms) {
     const double half = 2 * std::sqrt(1 - 0.05 * 0.05);
     SpecialPoint end_of_folds;
     for (const int direction : {1, -1}) {
-        BranchSettings settings;
-        settings.parameter = model.independent_parameter("sigma");
-        settings.least = -1;
-        settings.greatest = 1;
-        settings.direction = direction;
+        BranchSettings settings = in_parameter(model, "sigma", -1, 1, direction);
         const Branch branch = follow_branch(System(model), start.orbit, settings);
         ASSERT_EQ(names(branch), direction > 0 ? "PD GR" : "SN GR");
-        settings.free_bounds = {{model.independent_parameter("omega"), 0.7, 6}};
         for (const SpecialPoint& point : branch.special)
             for (const int way : {1, -1}) {
-                const Branch curve = curve_of(model, point, settings, "omega", way);
+                const Branch curve = curve_of(model, point, settings, "omega", 0.7, 6, way);
                 ASSERT_GT(curve.points.size(), 10U);
                 EXPECT_LT(curve.points.size(), 200U);
                 for (const BranchPoint& one : curve.points) {
-                    const Oscillator known(parameter_of(model, one.solution, "omega"));
+                    const Oscillator known(value_of(model, one.solution, "omega"));
                     const double after = one.solution.orbit.starts[0][1];
                     const double speed = std::abs(after);
                     if (point.type == PointType::fold) {
@@ -153,7 +125,7 @@ TEST(Curves, ImpactOscillatorHasItsClosedForms) {
                 EXPECT_EQ(last.type, PointType::grazing) << names(curve);
                 if (point.type == PointType::flip) {
                     EXPECT_TRUE(last.at_end);
-                    EXPECT_NEAR(parameter_of(model, last.solution, "omega"), half, 1e-9);
+                    EXPECT_NEAR(value_of(model, last.solution, "omega"), half, 1e-9);
                     EXPECT_NEAR(last.parameter, Oscillator(half).radius, 1e-9);
                 }
                 if (point.type == PointType::fold)
@@ -165,37 +137,35 @@ TEST(Curves, ImpactOscillatorHasItsClosedForms) {
             continue;
         // The curve of folds ends on the curve of touches, which has a multiplier 1 there.
         ASSERT_EQ(end_of_folds.type, PointType::grazing);
-        const Branch touches = curve_of(model, branch.special.back(), settings, "omega", 1);
+        const Branch touches = curve_of(model, branch.special.back(), settings, "omega", 0.7, 6, 1);
         const SpecialPoint meeting = nearest(touches, PointType::fold, end_of_folds.parameter);
         EXPECT_NEAR(meeting.parameter, end_of_folds.parameter, 1e-11);
-        EXPECT_NEAR(parameter_of(model, meeting.solution, "omega"), parameter_of(model, end_of_folds.solution, "omega"),
-                    1e-11);
+        EXPECT_NEAR(value_of(model, meeting.solution, "omega"), value_of(model, end_of_folds.solution, "omega"), 1e-11);
         EXPECT_LT(nearest_multiplier(meeting.solution, 1), 1e-6);
     }
 }
 
+/// The impact oscillator with a stop, an amplitude of the force and a displacement at first.
+Model in_units(double sigma, double amplitude, double x) {
+    Model model = oscillator_model(Oscillator(), sigma);
+    model.set_parameter("amplitude", amplitude);
+    return started(model, {{"x", x}});
+}
+
 TEST(Curves, FoldsThatEndInATouchHaveNoResonanceInAnyUnits) {
     // The product of the two multipliers is below 1 due to the losses, so both cannot be 1.
-    const Oscillator known;
     for (const double length : {1.0, 1e-9, 1e6}) {
-        Model model = oscillator_model(known, 0.02 * length);
-        model.set_parameter("amplitude", length);
-        model.set_initial("x", (0.02 - 1) * length);
-        BranchSettings settings;
-        settings.parameter = model.independent_parameter("sigma");
-        settings.least = -length;
-        settings.greatest = length;
-        settings.direction = -1;
+        const Model model = in_units(0.02 * length, length, (0.02 - 1) * length);
+        BranchSettings settings = in_parameter(model, "sigma", -length, length, -1);
         const Branch branch = follow_branch(System(model), settled(model, "phase0", 400).orbit, settings);
         ASSERT_EQ(names(branch), "SN GR") << length;
-        settings.free_bounds = {{model.independent_parameter("omega"), 0.7, 6}};
         std::size_t ends = 0;
         for (const int way : {1, -1}) {
-            const Branch curve = curve_of(model, branch.special[0], settings, "omega", way);
+            const Branch curve = curve_of(model, branch.special[0], settings, "omega", 0.7, 6, way);
             ASSERT_GT(curve.points.size(), 5U) << curve.detail;
             EXPECT_TRUE(of_type(curve, PointType::resonance_1).empty()) << names(curve) << ' ' << length;
             for (const BranchPoint& one : curve.points)
-                EXPECT_NEAR(one.parameter, length * Oscillator(parameter_of(model, one.solution, "omega")).fold(false),
+                EXPECT_NEAR(one.parameter, length * Oscillator(value_of(model, one.solution, "omega")).fold(false),
                             1e-10 * length);
             ends += curve.outcome == BranchOutcome::unphysical && curve.special.back().type == PointType::grazing;
         }
@@ -204,28 +174,22 @@ TEST(Curves, FoldsThatEndInATouchHaveNoResonanceInAnyUnits) {
 }
 
 TEST(Curves, TouchesOfALinearOscillatorFollowItsResponse) {
-    Model model = oscillator_model(Oscillator(), 0.1);
-    model.set_parameter("amplitude", 0.1);
-    model.set_initial("x", 0);
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("amplitude");
-    settings.least = 0;
-    settings.greatest = 10;
+    const Model model = in_units(0.1, 0.1, 0);
+    BranchSettings settings = in_parameter(model, "amplitude", 0, 10);
     const Branch free = follow_branch(System(model), settled(model, "phase0").orbit, settings);
     ASSERT_EQ(names(free), "GR");
-    settings.free_bounds = {{model.independent_parameter("omega"), 0.2, 5}};
     std::size_t turns = 0;
     for (const int way : {1, -1}) {
-        const Branch curve = curve_of(model, free.special[0], settings, "omega", way);
+        const Branch curve = curve_of(model, free.special[0], settings, "omega", 0.2, 5, way);
         EXPECT_EQ(curve.outcome, BranchOutcome::bound) << curve.detail;
         for (const BranchPoint& one : curve.points) {
-            EXPECT_NEAR(one.parameter * Oscillator(parameter_of(model, one.solution, "omega")).radius, 0.1, 1e-11);
+            EXPECT_NEAR(one.parameter * Oscillator(value_of(model, one.solution, "omega")).radius, 0.1, 1e-11);
             expect_kept(one, free.special[0], 1e-12);
         }
         // The force is least at resonance.
         for (const SpecialPoint& turn : of_type(curve, PointType::extremum)) {
             ++turns;
-            EXPECT_NEAR(parameter_of(model, turn.solution, "omega"), std::sqrt(1 - 2 * 0.05 * 0.05), 1e-9);
+            EXPECT_NEAR(value_of(model, turn.solution, "omega"), std::sqrt(1 - 2 * 0.05 * 0.05), 1e-9);
             EXPECT_NEAR(turn.parameter, 0.1 * 2 * 0.05 * std::sqrt(1 - 0.05 * 0.05), 1e-12);
             EXPECT_EQ(turn.detail.substr(0, 9), "amplitude");
         }
@@ -234,33 +198,14 @@ TEST(Curves, TouchesOfALinearOscillatorFollowItsResponse) {
 }
 
 Model duffing(double frequency, double force) {
-    Model model = model_from(R"toml(
-[parameters]
-zeta = 0.1
-w = 1
-F = 1
-[states]
-x = 0
-v = 0
-theta = { initial = 0, period = "2*pi" }
-[modes.all]
-rates = { x = "v", v = "F*cos(theta) - 2*zeta*v - x - x^3", theta = "w" }
-[sections.phase]
-state = "theta"
-value = 0
-)toml");
-    model.set_parameter("w", frequency);
-    model.set_parameter("F", force);
-    return model;
+    return driven(fmt::format("zeta = 0.1\nw = {:.17g}\nF = {:.17g}", frequency, force),
+                  "F*cos(theta) - 2*zeta*v - x - x^3", "w");
 }
 
 Branch over_frequency(double force) {
     const Model model = duffing(0.9, force);
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("w");
-    settings.least = 0.5;
-    settings.greatest = 3;
-    return follow_branch(System(model), settled(model, "phase").orbit, settings);
+    const BranchSettings settings = in_parameter(model, "w", 0.5, 3);
+    return follow_branch(System(model), settled(model, "start").orbit, settings);
 }
 
 TEST(Curves, FoldsOfDuffingsOscillatorPassTheCusp) {
@@ -268,18 +213,14 @@ TEST(Curves, FoldsOfDuffingsOscillatorPassTheCusp) {
     const Branch branch = over_frequency(0.4), stronger = over_frequency(0.6);
     ASSERT_EQ(names(branch), "SN SN BD");
     ASSERT_EQ(names(stronger), "SN SN BD");
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("w");
-    settings.least = 0.5;
-    settings.greatest = 4;
-    settings.free_bounds = {{model.independent_parameter("F"), 0.01, 0.6}};
+    BranchSettings settings = in_parameter(model, "w", 0.5, 4);
     std::vector<SpecialPoint> cusps;
     for (const std::size_t which : {0, 1}) {
         // In one direction the curve leads away from the cusp, in the other through it to the other fold.
-        const Branch away = curve_of(model, branch.special[which], settings, "F", 1);
+        const Branch away = curve_of(model, branch.special[which], settings, "F", 0.01, 0.6, 1);
         ASSERT_EQ(names(away), "BD") << away.detail;
         EXPECT_NEAR(away.points.back().parameter, stronger.special[which].parameter, 1e-10);
-        const Branch curve = curve_of(model, branch.special[which], settings, "F", -1);
+        const Branch curve = curve_of(model, branch.special[which], settings, "F", 0.01, 0.6, -1);
         ASSERT_EQ(names(curve), "CP BD") << curve.detail;
         EXPECT_NEAR(curve.points.back().parameter, stronger.special[1 - which].parameter, 1e-10);
         cusps.push_back(curve.special[0]);
@@ -287,40 +228,39 @@ TEST(Curves, FoldsOfDuffingsOscillatorPassTheCusp) {
             expect_kept(one, branch.special[which], 1e-5);
         // Both parameters have an extremum there.
         EXPECT_TRUE(cusps.back().located);
-        const double force = parameter_of(model, cusps.back().solution, "F");
+        const double force = value_of(model, cusps.back().solution, "F");
         for (const BranchPoint& one : curve.points) {
-            EXPECT_GE(parameter_of(model, one.solution, "F"), force - 1e-12);
+            EXPECT_GE(value_of(model, one.solution, "F"), force - 1e-12);
             EXPECT_GE(one.parameter, cusps.back().parameter - 1e-12);
         }
         for (const double rise : cusps.back().tangent.parameters)
             EXPECT_LT(std::abs(rise), 1e-7);
     }
     EXPECT_NEAR(cusps[0].parameter, cusps[1].parameter, 1e-10);
-    const double force = parameter_of(model, cusps[0].solution, "F");
-    EXPECT_NEAR(parameter_of(model, cusps[1].solution, "F"), force, 1e-10);
+    const double force = value_of(model, cusps[0].solution, "F");
+    EXPECT_NEAR(value_of(model, cusps[1].solution, "F"), force, 1e-10);
     // There are two folds above it, and none below.
     EXPECT_EQ(of_type(over_frequency(force * 1.001), PointType::fold).size(), 2U);
     EXPECT_EQ(of_type(over_frequency(force * 0.999), PointType::fold).size(), 0U);
+}
+
+/// Returns the points of vanishing sensitivity along the touches of an oscillator over its frequency.
+std::vector<SpecialPoint> sensitivities(const Model& model, int way) {
+    const Branch branch =
+        follow_branch(System(model), settled(model, "phase0", 400).orbit, in_parameter(model, "sigma", -1, 3, -1));
+    EXPECT_EQ(names(branch), "GR");
+    return of_type(curve_of(model, branch.special.at(0), in_parameter(model, "sigma", -1, 30), "omega", 0.6, 3, way),
+                   PointType::sensitivity);
 }
 
 TEST(Curves, TouchesHaveVanishingSensitivityAtTheKnownFrequencies) {
     // The effect of an impact on the position vanishes after each half oscillation: at omega = 2 omega_d / k.
     Oscillator known;
     const Model model = oscillator_model(known, 1);
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("sigma");
-    settings.direction = -1;
-    settings.least = -1;
-    settings.greatest = 3;
-    const Branch branch = follow_branch(System(model), settled(model, "phase0", 400).orbit, settings);
-    ASSERT_EQ(names(branch), "GR");
-    settings.free_bounds = {{model.independent_parameter("omega"), 0.6, 3}};
-    settings.greatest = 30;
     std::vector<double> found;
     for (const int way : {1, -1})
-        for (const SpecialPoint& one :
-             of_type(curve_of(model, branch.special[0], settings, "omega", way), PointType::sensitivity))
-            found.push_back(parameter_of(model, one.solution, "omega"));
+        for (const SpecialPoint& one : sensitivities(model, way))
+            found.push_back(value_of(model, one.solution, "omega"));
     std::sort(found.begin(), found.end());
     const double own = std::sqrt(1 - known.zeta * known.zeta);
     ASSERT_EQ(found.size(), 3U);
@@ -332,25 +272,13 @@ TEST(Curves, BoundaryBetweenClassesOfTouchesHasItsClosedForm) {
     // For any damping omega = 2 sqrt(1 - zeta^2) / k, and sigma is the amplitude there.
     Oscillator known;
     const Model model = oscillator_model(known, 1);
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("sigma");
-    settings.direction = -1;
-    settings.least = -1;
-    settings.greatest = 3;
-    const Branch branch = follow_branch(System(model), settled(model, "phase0", 400).orbit, settings);
-    ASSERT_EQ(names(branch), "GR");
-    settings.free_bounds = {{model.independent_parameter("omega"), 0.6, 3}};
-    settings.greatest = 30;
-    const auto found = of_type(curve_of(model, branch.special[0], settings, "omega", 1), PointType::sensitivity);
+    const auto found = sensitivities(model, 1);
     ASSERT_FALSE(found.empty());
     for (const SpecialPoint& one : found) {
         const double k =
-            std::round(2 * std::sqrt(1 - known.zeta * known.zeta) / parameter_of(model, one.solution, "omega"));
-        BranchSettings boundary;
-        boundary.parameter = model.independent_parameter("zeta");
+            std::round(2 * std::sqrt(1 - known.zeta * known.zeta) / value_of(model, one.solution, "omega"));
+        BranchSettings boundary = in_parameter(model, "zeta", 0.01, 0.5);
         boundary.free = {model.independent_parameter("omega"), model.independent_parameter("sigma")};
-        boundary.least = 0.01;
-        boundary.greatest = 0.5;
         boundary.kept = as_type(one, PointType::grazing);
         boundary.kept_too = PointType::sensitivity;
         for (const int way : {1, -1}) {
@@ -361,9 +289,9 @@ TEST(Curves, BoundaryBetweenClassesOfTouchesHasItsClosedForm) {
             EXPECT_NEAR(curve.points.back().parameter, way > 0 ? 0.5 : 0.01, 1e-12);
             for (const BranchPoint& point : curve.points) {
                 const double zeta = point.parameter, omega = 2 * std::sqrt(1 - zeta * zeta) / k;
-                EXPECT_NEAR(parameter_of(model, point.solution, "omega"), omega, 1e-11) << zeta;
+                EXPECT_NEAR(value_of(model, point.solution, "omega"), omega, 1e-11) << zeta;
                 const double amplitude = 1 / std::hypot(1 - omega * omega, 2 * zeta * omega);
-                EXPECT_NEAR(parameter_of(model, point.solution, "sigma") / amplitude, 1, 1e-11) << zeta;
+                EXPECT_NEAR(value_of(model, point.solution, "sigma") / amplitude, 1, 1e-11) << zeta;
                 expect_kept(point, *boundary.kept, 1e-11 * amplitude);
             }
         }
@@ -375,27 +303,20 @@ TEST(Curves, BoundaryBetweenClassesOfTouchesHasItsClosedForm) {
 }
 
 TEST(Curves, MicroactuatorHasItsPublishedValues) {
-    Model model = load_model("impact-microactuator");
-    model.set_parameter("V", 0.1);
-    model.set_parameter("omega", 0.9189);
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("V");
-    settings.least = 0;
-    settings.greatest = 3;
+    const Model model = shipped_with("impact-microactuator", {{"V", 0.1}, {"omega", 0.9189}});
+    const BranchSettings settings = in_parameter(model, "V", 0, 3);
     const Branch branch = follow_branch(System(model), settled(model, "longest", 4000).orbit, settings);
     ASSERT_EQ(names(branch), "PD PD SN GR");
     const SpecialPoint grazing = branch.special.back();
-    BranchSettings wide = settings;
-    wide.free_bounds = {{model.independent_parameter("omega"), 0.15, 3}};
-    const Branch first = curve_of(model, grazing, wide, "omega", 1);
+    const Branch first = curve_of(model, grazing, settings, "omega", 0.15, 3, 1);
     EXPECT_EQ(first.outcome, BranchOutcome::bound) << first.detail;
     for (const BranchPoint& one : first.points)
         expect_kept(one, grazing, 1e-10);
     const SpecialPoint least = nearest(first, PointType::extremum, 0.17);
-    EXPECT_NEAR(parameter_of(model, least.solution, "omega"), 0.48719539788245, 1e-12);
+    EXPECT_NEAR(value_of(model, least.solution, "omega"), 0.48719539788245, 1e-12);
     EXPECT_NEAR(least.parameter, 0.17099889286674, 1e-13);
     // Curves of folds and flips with one impact end at the touch of vanishing sensitivity.
-    const Branch slower = curve_of(model, grazing, wide, "omega", -1);
+    const Branch slower = curve_of(model, grazing, settings, "omega", 0.15, 3, -1);
     const auto less = of_type(first, PointType::sensitivity), more = of_type(slower, PointType::sensitivity);
     std::vector<SpecialPoint> joints(less);
     joints.insert(joints.end(), more.begin(), more.end());
@@ -404,12 +325,12 @@ TEST(Curves, MicroactuatorHasItsPublishedValues) {
     for (const std::pair<double, double>& at : published)
         EXPECT_TRUE(std::any_of(joints.begin(), joints.end(), [&](const SpecialPoint& one) {
             return std::abs(one.parameter - at.second) < 1e-9 &&
-                   std::abs(parameter_of(model, one.solution, "omega") - at.first) < 1e-9;
+                   std::abs(value_of(model, one.solution, "omega") - at.first) < 1e-9;
         })) << at.first;
     // Curves of flips and folds end on the curve of touches, where it has a multiplier -1 or 1.
     for (std::size_t i = 0; i < 3; ++i) {
         const SpecialPoint& point = branch.special[i];
-        const Branch curve = curve_of(model, point, wide, "omega", 1);
+        const Branch curve = curve_of(model, point, settings, "omega", 0.15, 3, 1);
         for (const BranchPoint& one : curve.points)
             expect_kept(one, point, point.type == PointType::fold ? 1e-6 : 1e-9);
         ASSERT_EQ(curve.outcome, BranchOutcome::unphysical) << curve.detail;
@@ -417,37 +338,29 @@ TEST(Curves, MicroactuatorHasItsPublishedValues) {
         EXPECT_EQ(last.type, PointType::grazing);
         const SpecialPoint meeting = nearest(first, point.type, last.parameter);
         EXPECT_NEAR(meeting.parameter, last.parameter, 1e-11);
-        EXPECT_NEAR(parameter_of(model, meeting.solution, "omega"), parameter_of(model, last.solution, "omega"), 1e-11);
+        EXPECT_NEAR(value_of(model, meeting.solution, "omega"), value_of(model, last.solution, "omega"), 1e-11);
     }
     // The curve of orbits with an impact ends in the published point.
     const Branch impacting = follow(model, branches_at(System(model), grazing, settings).at(0), settings);
-    const Branch flips = curve_of(model, nearest(impacting, PointType::flip, 0.85), wide, "omega", -1);
+    const Branch flips = curve_of(model, nearest(impacting, PointType::flip, 0.85), settings, "omega", 0.15, 3, -1);
     ASSERT_EQ(flips.outcome, BranchOutcome::unphysical);
     const SpecialPoint& last = flips.special.back();
     EXPECT_TRUE(last.at_end);
-    EXPECT_NEAR(parameter_of(model, last.solution, "omega"), 0.61364946180363, 1e-11);
+    EXPECT_NEAR(value_of(model, last.solution, "omega"), 0.61364946180363, 1e-11);
     EXPECT_NEAR(last.parameter, 0.58163432990654, 1e-11);
 }
 
 TEST(Curves, TorusPointsHaveTheirClosedForm) {
-    Model model = torus_model();
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("p");
-    settings.least = -0.2;
-    settings.greatest = 0.1;
-    const Branch branch = follow_branch(System(model), settled(model, "start").orbit, settings);
+    const Model model = torus_model();
+    const Branch branch =
+        follow_branch(System(model), settled(model, "start").orbit, in_parameter(model, "p", -0.2, 0.1));
     const auto points = of_type(branch, PointType::torus);
     ASSERT_EQ(points.size(), 1U);
-    settings.free_bounds = {{model.independent_parameter("w"), 0.05, 0.45}};
-    settings.parameter = model.independent_parameter("w");
-    settings.least = 0.05;
-    settings.greatest = 0.45;
-    settings.free_bounds.clear();
     for (const int way : {1, -1}) {
-        const Branch curve = curve_of(model, points[0], settings, "p", way);
+        const Branch curve = curve_of(model, points[0], in_parameter(model, "w", 0.05, 0.45), "p", {}, {}, way);
         EXPECT_EQ(curve.outcome, BranchOutcome::bound) << curve.detail;
         for (const BranchPoint& one : curve.points) {
-            EXPECT_NEAR(parameter_of(model, one.solution, "p"), 0, 1e-12);
+            EXPECT_NEAR(value_of(model, one.solution, "p"), 0, 1e-12);
             for (const auto multiplier : one.solution.multipliers)
                 EXPECT_NEAR(std::abs(multiplier), 1, 1e-10);
         }
@@ -457,29 +370,23 @@ TEST(Curves, TorusPointsHaveTheirClosedForm) {
 TEST(Curves, TorusPointsOfTheTestbedConnectTwoResonances) {
     // Near the end of the folds in a touch, where the argument of the pair changes by pi within a thousandth of the
     // frequency.
-    Model model = load_model("electromagnetic-testbed");
-    model.set_parameter("f", 8);
-    model.set_parameter("V0", 1);
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("V0");
-    settings.least = 0.5;
-    settings.greatest = 8;
+    const Model model = shipped_with("electromagnetic-testbed", {{"f", 8}, {"V0", 1}});
+    BranchSettings settings = in_parameter(model, "V0", 0.5, 8);
     settings.stop_at = {PointType::grazing, PointType::fold};
     const Branch free = follow_branch(System(model), settled(model, "phase0", 600).orbit, settings);
     ASSERT_EQ(names(free), "GR");
     const Branch impacting = follow(model, branches_at(System(model), free.special[0], settings).at(0), settings);
     const SpecialPoint fold = nearest(impacting, PointType::fold, 2.16);
     settings.stop_at.clear();
-    settings.free_bounds = {{model.independent_parameter("f"), 5, 9}};
     SpecialPoint start;
     for (const int way : {1, -1})
-        for (const SpecialPoint& one : of_type(curve_of(model, fold, settings, "f", way), PointType::resonance_1))
+        for (const SpecialPoint& one : of_type(curve_of(model, fold, settings, "f", 5, 9, way), PointType::resonance_1))
             start = one;
     ASSERT_EQ(start.type, PointType::resonance_1);
     start.type = PointType::torus;
     std::size_t followed = 0;
     for (const int way : {1, -1}) {
-        const Branch curve = curve_of(model, start, settings, "f", way);
+        const Branch curve = curve_of(model, start, settings, "f", 5, 9, way);
         EXPECT_EQ(curve.outcome, BranchOutcome::stopped) << curve.detail;
         if (curve.points.size() < 2)
             continue;
@@ -496,10 +403,8 @@ TEST(Curves, TorusPointsOfTheTestbedConnectTwoResonances) {
 }
 
 TEST(Curves, SymmetryBreakingHasTheMultiplierOfTheHalfMap) {
-    Model model = load_model("electromagnetic-testbed");
-    model.set_initial("I", 0.1);
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("V0");
+    const Model model = started(load_model("electromagnetic-testbed"), {{"I", 0.1}});
+    BranchSettings settings = in_parameter(model, "V0");
     settings.stop_at = {PointType::asymmetry};
     const OrbitSolution start = settled(model, "phase0", 600);
     ASSERT_TRUE(start.orbit.symmetry);
@@ -512,7 +417,7 @@ TEST(Curves, SymmetryBreakingHasTheMultiplierOfTheHalfMap) {
             along.steps = 20;
             along.stop_at.clear();
             for (const int way : {1, -1}) {
-                const Branch curve = curve_of(model, point, along, "f", way);
+                const Branch curve = curve_of(model, point, along, "f", {}, {}, way);
                 ASSERT_GT(curve.points.size(), 5U) << curve.detail;
                 ++followed;
                 for (const BranchPoint& one : curve.points) {
@@ -535,8 +440,7 @@ TEST(Curves, SymmetryBreakingHasTheMultiplierOfTheHalfMap) {
 
 TEST(Curves, PointsThatCannotBeKeptAndMissingParametersAreRefused) {
     const Model model = oscillator_model(Oscillator(), 0.02);
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("sigma");
+    BranchSettings settings = in_parameter(model, "sigma");
     settings.kept = SpecialPoint{};
     settings.kept->type = PointType::cusp;
     settings.free = {model.independent_parameter("omega")};

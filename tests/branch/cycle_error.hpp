@@ -2,10 +2,12 @@
 
 #pragma once
 
-#include "graze/branch/special_point.hpp"
+#include "follow.hpp"
+
 #include "graze/flow/mode_flow.hpp"
 #include "graze/grazing/cycle_map.hpp"
 #include "graze/trajectory/trajectory.hpp"
+#include "grazing/near_touch.hpp"
 
 #include <gtest/gtest.h>
 
@@ -32,7 +34,7 @@ public:
     /// Returns the largest scaled difference between simulation and map after one cycle, from a state near the touch
     /// whose motion would penetrate to `depth`.
     double error_at(double depth, const CycleMap& map) {
-        std::vector<double> state = at_depth(depth), from;
+        std::vector<double> state = state_at_depth(system_, map_.contact, depth), from;
         for (const std::size_t i : map.active)
             from.push_back(state[i] - touch_.state[i]);
         const double time = 1 / map.contact.acceleration, speed = std::sqrt(2 * map.contact.acceleration * depth);
@@ -48,7 +50,7 @@ public:
         EXPECT_EQ(trajectory.outcome().ending, Ending::end_time) << trajectory.outcome().detail;
         std::vector<double> end(trajectory.state().begin(), trajectory.state().end());
         if (map.half)
-            end = system_.symmetry(0).map(inputs(end));
+            end = system_.symmetry(0).map(inputs_at(touch_, end));
         else
             EXPECT_EQ(trajectory.mode(), touch_.mode);
         EXPECT_EQ(flow_.run(touch_.mode, end, late), ModeFlow::Ending::done);
@@ -67,46 +69,12 @@ public:
 
 private:
     static SimulationOptions exact() { return {.tolerance = 1e-15, .order = 0, .largest_step = 0}; }
-    std::vector<double> inputs(std::vector<double> values) const {
-        values.insert(values.end(), touch_.parameters.begin(), touch_.parameters.end());
-        return values;
-    }
-    double rate_at(const std::vector<double>& state) const {
-        const auto value = system_.event(touch_.event)(inputs(state)),
-                   field = system_.mode(touch_.mode).rates(inputs(state));
-        double rate = 0;
-        for (std::size_t i = 0; i < state.size(); ++i)
-            rate += value[1 + i] * field[i];
-        return rate;
-    }
     /// Integrates a state to where the touched function has zero rate.
     void onto_surface(std::vector<double>& state) {
         for (int iteration = 0; iteration < 40; ++iteration)
-            EXPECT_EQ(flow_.run(touch_.mode, state, -rate_at(state) / map_.contact.acceleration),
+            EXPECT_EQ(flow_.run(touch_.mode, state, -rate_at(system_, touch_, state) / map_.contact.acceleration),
                       ModeFlow::Ending::done);
     }
-    /// Returns the nearest scaled state with zero rate at this depth, by Newton's method.
-    std::vector<double> at_depth(double depth) {
-        const DiscontinuityMap& contact = map_.contact;
-        std::vector<double> state = touch_.state;
-        for (int iteration = 0; iteration < 30; ++iteration) {
-            double gg = 0, gr = 0, rr = 0;
-            for (std::size_t i = 0; i < state.size(); ++i) {
-                const double unit = touch_.scales[i] * touch_.scales[i];
-                gg += contact.gradient[i] * contact.gradient[i] * unit;
-                gr += contact.gradient[i] * contact.rate_gradient[i] * unit;
-                rr += contact.rate_gradient[i] * contact.rate_gradient[i] * unit;
-            }
-            const double value = -depth - system_.event(touch_.event)(inputs(state))[0], rate = rate_at(state),
-                         determinant = gg * rr - gr * gr;
-            for (std::size_t i = 0; i < state.size(); ++i)
-                state[i] += ((value * rr + rate * gr) * contact.gradient[i] -
-                             (rate * gg + value * gr) * contact.rate_gradient[i]) /
-                            determinant * touch_.scales[i] * touch_.scales[i];
-        }
-        return state;
-    }
-
     System system_;
     const CycleMap& map_;
     const TouchState& touch_;
@@ -147,10 +115,7 @@ inline void expect_rates(const Model& model, const CycleMap& map, double share) 
 }
 
 inline CycleMap map_at(const Model& model, const SpecialPoint& point) {
-    CycleMapOptions options;
-    options.next_order = true;
-    return cycle_map(System(model), point.solution.orbit, {point.segment, point.event, point.time, point.at_end},
-                     options);
+    return cycle_at(model, point, {}, true);
 }
 
 } // namespace graze::testing

@@ -27,38 +27,15 @@ struct TwoMasses {
     double c = 0.2, k = 0.6, e = 0.8;
 
     Model model(double omega, double sigma) const {
-        return model_from(fmt::format(R"toml(
-[parameters]
-omega = {}
-sigma = {}
-[states]
-x = 0
-v = 0
-y = 0
-w = 0
-theta = {{ initial = 0, period = "2*pi" }}
-[definitions]
-pull = "{}*(x - y) + {}*(v - w)"
-[modes.free]
-rates = {{ x = "v", v = "cos(theta) - x - {}*v - pull", y = "w", w = "-y - {}*w + pull", theta = "omega" }}
-watch = ["stop"]
-[events.stop]
-function = "sigma - x"
-[jumps.impact]
-v = "-{}*v"
-[[transitions]]
-mode = "free"
-event = "stop"
-jump = "impact"
-next = "free"
-label = "impact"
-[sections.phase0]
-state = "theta"
-value = 0
-[initial]
-mode = "free"
-)toml",
-                                      omega, sigma, k, c * k, c, c, e));
+        return OneMode{
+            .parameters = fmt::format("omega = {}\nsigma = {}", omega, sigma),
+            .states = "x = 0\nv = 0\ny = 0\nw = 0",
+            .definitions = fmt::format("pull = '{}*(x - y) + {}*(v - w)'", k, c * k),
+            .rates = fmt::format("x = 'v', v = 'cos(theta) - x - {0}*v - pull', y = 'w', w = '-y - {0}*w + pull'", c),
+            .clock = "omega",
+            .stops = {{"stop", "sigma - x", fmt::format("v = '-{}*v'", e), "impact"}},
+            .more = at_phase(0, "phase0")}
+            .model();
     }
     double square_of(std::size_t mode) const { return mode == 0 ? 1 : 1 + 2 * k; }
     /// Returns the amplitude of the first mass without impacts.
@@ -103,12 +80,7 @@ struct Touches {
     BranchSettings settings; ///< in sigma, with omega free
     std::vector<SpecialPoint> special;
 
-    std::vector<SpecialPoint> of(PointType type) const {
-        std::vector<SpecialPoint> result;
-        std::copy_if(special.begin(), special.end(), std::back_inserter(result),
-                     [&](const SpecialPoint& one) { return one.type == type; });
-        return result;
-    }
+    std::vector<SpecialPoint> of(PointType type) const { return of_type(special, type); }
 };
 
 Touches touches(const Model& model, double from, double to) {
@@ -276,17 +248,14 @@ TEST(DegenerateGrazing, SeparatesTouchesThatTripAsSimulationConfirms) {
         const double omega = value_of(all.model, end.solution, "omega");
         for (const double side : {-2e-2, 2e-2}) {
             const SpecialPoint touch = touch_at(all, omega + side);
-            CycleMapOptions options;
-            options.parameter = all.settings.parameter;
-            const CycleMap map =
-                cycle_map(system, touch.solution.orbit, {touch.segment, touch.event, touch.time, false}, options);
+            const CycleMap map = cycle_at(all.model, touch, all.settings.parameter);
             const Verdict verdict = verdict_of(map);
             if (verdict.outcome == GrazingOutcome::undecided)
                 continue;
             // The next pass is a contact where an impact brings it nearer.
             EXPECT_EQ(verdict.outcome == GrazingOutcome::lost && verdict.next_contact == 1,
                       known.effect(TwoMasses::Sum::first, omega + side) < 0);
-            const Trial trial = try_verdict(system, map, verdict, *options.parameter);
+            const Trial trial = try_verdict(system, map, verdict, all.settings.parameter);
             // Trials are undecided where the reach is too small for double precision.
             EXPECT_NE(trial.outcome, TrialOutcome::contradicted) << omega + side << ": " << trial.reason;
             decided += trial.outcome == TrialOutcome::agreed ? 1 : 0;
@@ -296,9 +265,7 @@ TEST(DegenerateGrazing, SeparatesTouchesThatTripAsSimulationConfirms) {
 }
 
 TEST(DegenerateGrazing, FoldsOfTheTestbedEndThere) {
-    Model model = load_model("electromagnetic-testbed");
-    model.set_parameter("f", 8);
-    model.set_parameter("V0", 1);
+    const Model model = shipped_with("electromagnetic-testbed", {{"f", 8}, {"V0", 1}});
     BranchSettings settings = in_parameter(model, "V0", 0.5, 8);
     settings.stop_at = {PointType::grazing, PointType::fold};
     const Branch free = follow_branch(System(model), settled(model, "phase0", 600).orbit, settings);

@@ -14,46 +14,21 @@ using namespace graze::testing;
 
 /// An impact oscillator carried by a frame whose position and velocity do not act on it.
 Model carried_oscillator(double zeta, double e, double drift, double by_place, double by_speed, double by_impact) {
-    return model_from(fmt::format(R"toml(
-[parameters]
-zeta = {:.17g}
-omega = 2.4
-sigma = 0.02
-e = {:.17g}
-[states]
-x = -1
-v = 0
-theta = {{ initial = 0, period = "2*pi" }}
-s = {{ initial = 3, drifting = true }}
-[modes.free]
-rates = {{ x = "v", v = "cos(theta) - 2*zeta*v - x", theta = "omega", s = "{:.17g} + {:.17g}*x + {:.17g}*v^2" }}
-watch = ["stop"]
-[events]
-stop = "sigma - x"
-[jumps.impact]
-v = "-e*v"
-s = "s + {:.17g}*v"
-[[transitions]]
-mode = "free"
-event = "stop"
-label = "impact"
-jump = "impact"
-next = "free"
-[sections.phase0]
-state = "theta"
-value = 0
-)toml",
-                                  zeta, e, drift, by_place, by_speed, by_impact));
+    return OneMode{
+        .parameters = fmt::format("zeta = {:.17g}\nomega = 2.4\nsigma = 0.02\ne = {:.17g}", zeta, e),
+        .states = "x = -1\nv = 0\ns = { initial = 3, drifting = true }",
+        .rates = fmt::format("x = 'v', v = 'cos(theta) - 2*zeta*v - x', s = '{:.17g} + {:.17g}*x + {:.17g}*v^2'", drift,
+                             by_place, by_speed),
+        .clock = "omega",
+        .stops = {{"stop", "sigma - x", fmt::format("v = '-e*v'\ns = 's + {:.17g}*v'", by_impact), "impact"}}}
+        .model();
 }
 
 /// Returns the branch of doubled orbits from the first flip as the stop is moved away.
 Branch doubled(const Model& model, SpecialPoint& flip) {
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("sigma");
-    settings.least = -1;
-    settings.greatest = 1;
+    BranchSettings settings = in_parameter(model, "sigma", -1, 1);
     settings.stop_at = {PointType::flip};
-    const Branch branch = follow_branch(System(model), settled(model, "phase0", 400).orbit, settings);
+    const Branch branch = follow_branch(System(model), settled(model, "start", 400).orbit, settings);
     if (branch.special.empty() || branch.special.back().type != PointType::flip)
         return {};
     flip = branch.special.back();
@@ -93,10 +68,8 @@ TEST(Drifting, DoubledOrbitsEqualThoseWithoutDrift) {
 }
 
 TEST(Drifting, MicroactuatorContinuesFromTheFlipWithOneImpact) {
-    Model model = load_model("impact-microactuator");
-    model.set_parameter("V", 0.2);
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("V");
+    const Model model = shipped_with("impact-microactuator", {{"V", 0.2}});
+    BranchSettings settings = in_parameter(model, "V");
     settings.stop_at = {PointType::grazing};
     const Branch none = follow_branch(System(model), settled(model, "phase0").orbit, settings);
     ASSERT_EQ(none.outcome, BranchOutcome::stopped) << names(none);

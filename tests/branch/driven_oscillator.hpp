@@ -31,37 +31,15 @@ struct DrivenOscillator {
                 0};
     }
     Model model() const {
-        return model_from(fmt::format(R"toml(
-[parameters]
-F = {:.17g}
-m = {:.17g}
-c = {:.17g}
-k = {:.17g}
-omega = {:.17g}
-sigma = {:.17g}
-e = 0.8
-[states]
-q = 0
-v = 0
-theta = {{ initial = 0, period = "2*pi" }}
-[modes.free]
-rates = {{ q = "v", v = "(F*cos(theta) - c*v - k*q)/m", theta = "omega" }}
-watch = ["stop"]
-[events]
-stop = "sigma - q"
-[jumps.impact]
-v = "-e*v"
-[[transitions]]
-mode = "free"
-event = "stop"
-label = "impact"
-jump = "impact"
-next = "free"
-[sections.start]
-state = "theta"
-value = 0
-)toml",
-                                      force(), m, c, k, omega, sigma));
+        return OneMode{
+            .parameters = fmt::format(
+                "F = {:.17g}\nm = {:.17g}\nc = {:.17g}\nk = {:.17g}\nomega = {:.17g}\nsigma = {:.17g}\ne = 0.8",
+                force(), m, c, k, omega, sigma),
+            .states = "q = 0\nv = 0",
+            .rates = "q = 'v', v = '(F*cos(theta) - c*v - k*q)/m'",
+            .clock = "omega",
+            .stops = {{"stop", "sigma - q", "v = '-e*v'", "impact"}}}
+            .model();
     }
     /// Returns the touching motion.
     SpecialPoint grazing(const Model& made) const {
@@ -69,10 +47,8 @@ value = 0
         const double turn = 2 * std::numbers::pi, phase = std::fmod(turn - std::arg(amplitude), turn);
         SpecialPoint point;
         point.type = PointType::grazing;
-        point.solution.orbit.signature = parse_signature(made, "free:start");
-        point.solution.orbit.parameters = made.parameter_values();
-        point.solution.orbit.starts = {{amplitude.real(), (i * omega * amplitude).real(), 0}};
-        point.solution.orbit.durations = {turn / omega};
+        point.solution.orbit =
+            given_orbit(made, "free:start", {{amplitude.real(), (i * omega * amplitude).real(), 0}}, {turn / omega});
         point.parameter = force();
         point.time = phase / omega;
         return point;

@@ -14,16 +14,8 @@ using namespace graze::testing;
 
 /// The impact microactuator, whose frame slips after a contact (J1) until it sticks (J8).
 struct Microactuator {
-    Model model = load_model("impact-microactuator");
-    BranchSettings settings;
-
-    Microactuator() {
-        model.set_parameter("V", 0.1);
-        model.set_parameter("omega", 0.9189);
-        settings.parameter = model.independent_parameter("V");
-        settings.least = 0;
-        settings.greatest = 3;
-    }
+    Model model = shipped_with("impact-microactuator", {{"V", 0.1}, {"omega", 0.9189}});
+    BranchSettings settings = in_parameter(model, "V", 0, 3);
 
     /// Follows the orbits with one more contact, from the touch or back from their next grazing.
     Branch beyond(const SpecialPoint& touch, bool back) const {

@@ -19,26 +19,12 @@ using namespace graze::testing;
 
 /// A plate on a spring attracted across a gap: pull-in at V^2 = 4 k d^3/27.
 Model plate(double gap, double stiffness, double time) {
-    return parse_model(fmt::format(R"(
-[parameters]
-V = {:.17g}
-k = {:.17g}
-d = {:.17g}
-c = {:.17g}
-[states]
-q = 0
-v = 0
-theta = {{ initial = 0, period = "2*pi" }}
-[modes.free.rates]
-q = "v"
-v = "-c*v - k*q + V^2/(d - q)^2"
-theta = "{:.17g}"
-[sections.phase0]
-state = "theta"
-value = 0
-)",
-                                   0.1 * std::sqrt(stiffness * std::pow(gap, 3)), stiffness, gap, 0.3 / time, 1 / time),
-                       "plate.toml");
+    return OneMode{.parameters = fmt::format("V = {:.17g}\nk = {:.17g}\nd = {:.17g}\nc = {:.17g}",
+                                             0.1 * std::sqrt(stiffness * std::pow(gap, 3)), stiffness, gap, 0.3 / time),
+                   .states = "q = 0\nv = 0",
+                   .rates = "q = 'v', v = '-c*v - k*q + V^2/(d - q)^2'",
+                   .clock = fmt::format("{:.17g}", 1 / time)}
+        .model();
 }
 
 } // namespace
@@ -48,24 +34,16 @@ TEST(EquilibriumFolds, AreFollowedInTwoParametersInAnyUnits) {
         for (const double time : {1.0, 1e-6}) {
             const double stiffness = 1 / (time * time);
             const Model model = plate(gap, stiffness, time);
-            AttractorOptions settle;
-            settle.section = "phase0";
-            settle.cycles = 1000;
-            const OrbitSolution rest = find_orbit(System(model), settle);
+            const OrbitSolution rest = settled(model, "start", 1000);
             ASSERT_EQ(rest.outcome, OrbitOutcome::converged) << rest.detail;
             const auto pulled_in = [&](double k) { return std::sqrt(4 * k * std::pow(gap, 3) / 27); };
-            BranchSettings settings;
-            settings.parameter = model.independent_parameter("V");
-            settings.greatest = 2 * pulled_in(stiffness);
+            BranchSettings settings = in_parameter(model, "V", {}, 2 * pulled_in(stiffness));
             settings.stop_at = {PointType::fold};
             const Branch branch = follow_branch(System(model), rest.orbit, settings);
             const auto folds = of_type(branch, PointType::fold);
             ASSERT_EQ(folds.size(), 1U) << branch.detail;
             EXPECT_NEAR(folds[0].parameter / pulled_in(stiffness), 1, 1e-10);
-            BranchSettings along;
-            along.parameter = model.independent_parameter("k");
-            along.least = 0.5 * stiffness;
-            along.greatest = 2 * stiffness;
+            const BranchSettings along = in_parameter(model, "k", 0.5 * stiffness, 2 * stiffness);
             const Branch curve = curve_of(model, folds[0], along, "V", 0, 4 * pulled_in(stiffness), 1);
             EXPECT_EQ(curve.outcome, BranchOutcome::bound) << gap << ", " << time << ": " << curve.detail;
             for (const BranchPoint& point : curve.points)

@@ -2,54 +2,90 @@
 
 #include "graze/base/input_error.hpp"
 #include "graze/branch/switching.hpp"
-#include "graze/model/catalogue.hpp"
-#include "graze/model/model_file.hpp"
-
+#include "graze/grazing/trial.hpp"
 #include "graze/trajectory/trajectory.hpp"
+#include "orbit/orbits.hpp"
+#include "sweep/model_parts.hpp"
 
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace graze::testing {
 
-inline Model model_from(const std::string& text) {
-    return parse_model(text, "test.toml");
-}
-
 /// (u, v) rotate with the frequency w and grow at the rate p: the orbit u = v = 0, x = cos(theta), y = sin(2 theta) /
 /// 3, has multipliers exp(2 pi (p +- i w)).
 inline Model torus_model() {
-    return model_from(R"toml(
-[parameters]
-p = -0.1
-w = 0.3
-[states]
-x = 1
-y = 0
-theta = { initial = 0, period = "2*pi" }
-[definitions]
-u = "x - cos(theta)"
-v = "y - sin(2*theta)/3"
-[modes.only]
-rates = { x = "p*u - w*v - u*(u^2 + v^2) - sin(theta)", y = "w*u + p*v - v*(u^2 + v^2) + 2*cos(2*theta)/3", theta = 1 }
-[sections.start]
-state = "theta"
-value = 0
-)toml");
+    return OneMode{.parameters = "p = -0.1\nw = 0.3",
+                   .states = "x = 1\ny = 0",
+                   .definitions = "u = 'x - cos(theta)'\nv = 'y - sin(2*theta)/3'",
+                   .rates = "x = 'p*u - w*v - u*(u^2 + v^2) - sin(theta)', "
+                            "y = 'w*u + p*v - v*(u^2 + v^2) + 2*cos(2*theta)/3'",
+                   .clock = "1"}
+        .model();
 }
 
-inline OrbitSolution settled(const Model& model, const std::string& section, std::size_t cycles = 2000) {
-    AttractorOptions settle;
-    settle.section = section;
-    settle.cycles = cycles;
-    OrbitSolution solution = find_orbit(System(model), settle);
-    EXPECT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
-    return solution;
+/// u' = rate in units of length and time, with x = u + cos(theta), so that a solution u = 0 is not apparent from the
+/// equations. @param u initial value
+inline Model about_clock(const std::string& parameters, const std::string& rate, double u = 0,
+                         const std::string& more = "", double length = 1, double time = 1) {
+    return OneMode{.parameters = parameters,
+                   .states = fmt::format("x = {:.17g}", length * (u + 1)),
+                   .definitions = fmt::format("u = 'x/{:.17g} - cos(theta)'", length),
+                   .rates = fmt::format("x = '{:.17g}*({} - sin(theta))'", length / time, rate),
+                   .clock = fmt::format("{:.17g}", 1 / time),
+                   .more = more}
+        .model();
+}
+
+/// x'' = acceleration, with a clock.
+inline Model driven(const std::string& parameters, const std::string& acceleration, const std::string& clock = "1",
+                    std::vector<Stop> stops = {}, const std::string& more = "") {
+    return OneMode{.parameters = parameters,
+                   .states = "x = 0\nv = 0",
+                   .rates = fmt::format("x = 'v', v = '{}'", acceleration),
+                   .clock = clock,
+                   .stops = std::move(stops),
+                   .more = more}
+        .model();
+}
+
+/// x'' + 2 zeta x' + x = F cos(theta). @param phase at which orbits start
+inline Model linear_oscillator(double phase = 0) {
+    return driven("zeta = 0.1\nomega = 1.7\nF = 0.8", "F*cos(theta) - 2*zeta*v - x", "omega", {}, at_phase(phase));
+}
+
+inline double value_of(const Model& model, const OrbitSolution& solution, const std::string& parameter) {
+    return solution.orbit.parameters[model.independent_parameter(parameter).place()];
+}
+
+/// Settings of a branch in a parameter, up to bounds.
+inline BranchSettings in_parameter(const Model& model, const std::string& name, std::optional<double> least = {},
+                                   std::optional<double> greatest = {}, int direction = 1) {
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter(name);
+    settings.direction = direction;
+    settings.least = least;
+    settings.greatest = greatest;
+    return settings;
+}
+
+/// Returns the curve of a special point in the parameter of the settings and a second one.
+inline Branch curve_of(const Model& model, const SpecialPoint& point, BranchSettings settings,
+                       const std::string& further, std::optional<double> least, std::optional<double> greatest,
+                       int direction) {
+    settings.kept = point;
+    settings.free = {model.independent_parameter(further)};
+    if (least || greatest)
+        settings.free_bounds = {{settings.free[0], least, greatest}};
+    settings.direction = direction;
+    return follow_branch(System(model), point.solution.orbit, settings);
 }
 
 inline Branch follow(const Model& model, const BranchStart& start, const BranchSettings& settings) {
@@ -64,12 +100,36 @@ inline Branch follow(const Model& model, const BranchStart& start, const BranchS
     return branch;
 }
 
-inline std::vector<SpecialPoint> of_type(const Branch& branch, PointType type) {
+inline std::vector<SpecialPoint> of_type(const std::vector<SpecialPoint>& points, PointType type) {
     std::vector<SpecialPoint> result;
-    std::copy_if(branch.special.begin(), branch.special.end(), std::back_inserter(result),
+    std::copy_if(points.begin(), points.end(), std::back_inserter(result),
                  [type](const SpecialPoint& point) { return point.type == type; });
     return result;
 }
+
+inline std::vector<SpecialPoint> of_type(const Branch& branch, PointType type) {
+    return of_type(branch.special, type);
+}
+
+/// Returns the map of a cycle that touches.
+inline CycleMap cycle_at(const Model& model, const SpecialPoint& point, std::optional<ParameterId> parameter,
+                         bool next_order = false) {
+    CycleMapOptions options;
+    options.parameter = parameter;
+    options.next_order = next_order;
+    return cycle_map(System(model), point.solution.orbit, {point.segment, point.event, point.time, point.at_end},
+                     options);
+}
+
+/// What a map and simulation tell about motions beyond a touch.
+struct Judged {
+    Judged(const Model& model, const SpecialPoint& point, ParameterId parameter)
+        : map(cycle_at(model, point, parameter)), verdict(verdict_of(map)),
+          trial(try_verdict(System(model), map, verdict, parameter)) {}
+    CycleMap map;
+    Verdict verdict;
+    Trial trial;
+};
 
 /// Returns the short names of all special points in order, such as "PD PD SN GR".
 inline std::string names(const Branch& branch) {

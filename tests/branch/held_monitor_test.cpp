@@ -24,26 +24,6 @@ Monitor held(const Model& model, Monitor::Kind kind, const std::string& expressi
     return result;
 }
 
-/// x'' + 2 zeta x' + x = F cos(theta), with orbits that start at a given phase.
-Model linear(double phase) {
-    return model_from(fmt::format(R"toml(
-[parameters]
-zeta = 0.1
-omega = 1.7
-F = 0.8
-[states]
-x = 0
-v = 0
-theta = {{ initial = 0, period = "2*pi" }}
-[modes.all]
-rates = {{ x = "v", v = "F*cos(theta) - 2*zeta*v - x", theta = "omega" }}
-[sections.phase]
-state = "theta"
-value = {:.17g}
-)toml",
-                                  phase));
-}
-
 double response(double zeta, double omega) {
     return 1 / std::hypot(1 - omega * omega, 2 * zeta * omega);
 }
@@ -52,14 +32,13 @@ TEST(HeldMonitors, FixedExtremumPassesTheEndOfTheOrbit) {
     // The phase of the response goes from 0 to pi: near resonance the maximum passes through the section, at other
     // frequencies the minimum.
     for (const double phase : {0.5, 0.5 * std::numbers::pi, 2.5, 4.0}) {
-        const Model model = linear(phase);
-        const Orbit orbit = settled(model, "phase").orbit;
+        const Model model = linear_oscillator(phase);
+        const Orbit orbit = settled(model, "start").orbit;
         for (const auto& [kind, expression, value] : {std::tuple{Monitor::Kind::maximum, "x", 0.3},
                                                       {Monitor::Kind::minimum, "2*x", -0.6},
                                                       {Monitor::Kind::mean, "x^2", 0.045},
                                                       {Monitor::Kind::maximum, "-x", 0.3}}) {
-            BranchSettings settings;
-            settings.parameter = model.independent_parameter("omega");
+            BranchSettings settings = in_parameter(model, "omega");
             settings.free = {model.independent_parameter("F")};
             settings.direction = -1;
             settings.least = 0.4;
@@ -77,14 +56,9 @@ TEST(HeldMonitors, FixedExtremumPassesTheEndOfTheOrbit) {
 
 TEST(HeldMonitors, TouchCanBeFixed) {
     // The force at which an oscillator just touches its stop, at all frequencies.
-    Model model = load_model("impact-oscillator");
-    model.set_parameter("sigma", 0.5);
-    model.set_parameter("zeta", 0.1);
-    model.set_parameter("omega", 1.7);
-    model.set_parameter("amplitude", 0.2);
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("amplitude");
-    settings.greatest = 3;
+    const Model model =
+        shipped_with("impact-oscillator", {{"sigma", 0.5}, {"zeta", 0.1}, {"omega", 1.7}, {"amplitude", 0.2}});
+    BranchSettings settings = in_parameter(model, "amplitude", {}, 3);
     const Branch up = follow_branch(System(model), settled(model, "phase0").orbit, settings);
     ASSERT_EQ(names(up), "GR");
     const Orbit& grazing = up.special[0].solution.orbit;
@@ -117,15 +91,10 @@ double mean_iterations(const Branch& branch) {
 }
 
 TEST(HeldMonitors, FixedMonitorsDoNotSlowABranchDown) {
-    Model model = load_model("impact-oscillator");
-    model.set_parameter("sigma", 0.5);
-    model.set_parameter("zeta", 0.1);
-    model.set_parameter("omega", 1.7);
-    model.set_parameter("amplitude", 1.3);
+    const Model model =
+        shipped_with("impact-oscillator", {{"sigma", 0.5}, {"zeta", 0.1}, {"omega", 1.7}, {"amplitude", 1.3}});
     const Orbit orbit = settled(model, "phase0").orbit;
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("omega");
-    settings.least = 1.3;
+    const BranchSettings settings = in_parameter(model, "omega", 1.3);
     const auto follow_down = [&](const BranchSettings& given) {
         BranchSettings own = given;
         own.direction = -1;

@@ -26,52 +26,35 @@ void expect_no_return(const Branch& branch) {
 
 TEST(HopfPoint, MassOnABeltHasItsHopfPointForAnySection) {
     // The trace of the Jacobian at the equilibrium is 1 - a^2.
-    for (const char* section : {"x", "x + 0.5", "x - 0.2", "x + 0.2", "v - 0.1", "x + 0.8", "v + 0.2", "x + v", "v"}) {
-        const Model model = model_from(fmt::format(R"toml(
-[parameters]
-a = 0.5
-[states]
-x = 1
-v = 0
-[modes.f]
-rates = {{ x = "v", v = "-x - ((v-a)^3/3 - (v-a))" }}
-[sections.s]
-function = "{}"
-direction = "rising"
-)toml",
-                                                   section));
+    for (const char* level : {"x", "x + 0.5", "x - 0.2", "x + 0.2", "v - 0.1", "x + 0.8", "v + 0.2", "x + v", "v"}) {
+        const Model model = OneMode{.parameters = "a = 0.5",
+                                    .states = "x = 1\nv = 0",
+                                    .rates = "x = 'v', v = '-x - ((v-a)^3/3 - (v-a))'",
+                                    .more = section("s", level)}
+                                .model();
         const Branch branch = follow_branch(System(model), settled(model, "s").orbit, in_parameter(model, "a", 0.1, 2));
-        EXPECT_EQ(names(branch), "EX HB") << section;
-        EXPECT_EQ(branch.outcome, BranchOutcome::shrunk) << section;
+        EXPECT_EQ(names(branch), "EX HB") << level;
+        EXPECT_EQ(branch.outcome, BranchOutcome::shrunk) << level;
         ASSERT_FALSE(branch.special.empty());
-        EXPECT_NEAR(branch.special.back().parameter, 1, 1e-10) << section;
-        EXPECT_NEAR(branch.special.back().solution.orbit.period(), 2 * pi, 1e-8) << section;
+        EXPECT_NEAR(branch.special.back().parameter, 1, 1e-10) << level;
+        EXPECT_NEAR(branch.special.back().solution.orbit.period(), 2 * pi, 1e-8) << level;
         expect_no_return(branch);
     }
 }
 
 TEST(HopfPoint, BrusselatorHasItsHopfPointForAnySection) {
-    for (const char* section : {"x - 0.99", "x - 0.8", "x - 0.6", "x - 1.2", "x - 1.5", "x - 1"}) {
-        const Model model = model_from(fmt::format(R"toml(
-[parameters]
-a = 2.5
-[states]
-x = 1.5
-y = 2
-[modes.f]
-rates = {{ x = "1 - (a+1)*x + x^2*y", y = "a*x - x^2*y" }}
-[sections.s]
-function = "{}"
-direction = "rising"
-)toml",
-                                                   section));
-        BranchSettings settings = in_parameter(model, "a", 1, 4);
-        settings.direction = -1;
-        const Branch branch = follow_branch(System(model), settled(model, "s").orbit, settings);
-        EXPECT_EQ(names(branch), "HB") << section;
+    for (const char* level : {"x - 0.99", "x - 0.8", "x - 0.6", "x - 1.2", "x - 1.5", "x - 1"}) {
+        const Model model = OneMode{.parameters = "a = 2.5",
+                                    .states = "x = 1.5\ny = 2",
+                                    .rates = "x = '1 - (a+1)*x + x^2*y', y = 'a*x - x^2*y'",
+                                    .more = section("s", level)}
+                                .model();
+        const Branch branch =
+            follow_branch(System(model), settled(model, "s").orbit, in_parameter(model, "a", 1, 4, -1));
+        EXPECT_EQ(names(branch), "HB") << level;
         ASSERT_FALSE(branch.special.empty());
-        EXPECT_NEAR(branch.special.back().parameter, 2, 1e-10) << section;
-        EXPECT_NEAR(branch.special.back().solution.orbit.period(), 2 * pi, 1e-8) << section;
+        EXPECT_NEAR(branch.special.back().parameter, 2, 1e-10) << level;
+        EXPECT_NEAR(branch.special.back().solution.orbit.period(), 2 * pi, 1e-8) << level;
         expect_no_return(branch);
     }
 }

@@ -52,12 +52,8 @@ struct Oscillator {
 };
 
 inline Model oscillator_model(const Oscillator& known, double sigma) {
-    Model model = load_model("impact-oscillator");
-    model.set_parameter("zeta", known.zeta);
-    model.set_parameter("omega", known.omega);
-    model.set_parameter("e", known.e);
-    model.set_parameter("sigma", sigma);
-    return model;
+    return shipped_with("impact-oscillator",
+                        {{"zeta", known.zeta}, {"omega", known.omega}, {"e", known.e}, {"sigma", sigma}});
 }
 
 } // namespace graze::testing

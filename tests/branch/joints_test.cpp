@@ -118,38 +118,18 @@ TEST(Joints, TorusCurvesMeetThoseOfFoldsAndFlips) {
 
 /// A phase with an event function that has the minima b - 1 - c at 3 pi/2 and b - 1 + c at pi/2.
 Model two_dips() {
-    return model_from(R"toml(
-[parameters]
-b = 1.7
-c = 0.2
-[states]
-x = 0
-theta = { initial = 0, period = "2*pi" }
-[modes.all]
-rates = { x = "-x", theta = 1 }
-watch = ["dip"]
-[events.dip]
-function = "b + cos(2*theta) + c*sin(theta)"
-[jumps.push]
-x = "x + 1"
-[[transitions]]
-mode = "all"
-event = "dip"
-jump = "push"
-next = "all"
-[sections.phase]
-state = "theta"
-value = 0
-[initial]
-mode = "all"
-)toml");
+    return OneMode{.parameters = "b = 1.7\nc = 0.2",
+                   .states = "x = 0",
+                   .rates = "x = '-x'",
+                   .clock = "1",
+                   .stops = {{"dip", "b + cos(2*theta) + c*sin(theta)", "x = 'x + 1'"}}}
+        .model();
 }
 
 TEST(Joints, OneEventTouchedTwiceIsADoubleGrazing) {
     const Model model = two_dips();
-    BranchSettings settings = in_parameter(model, "b", -3, 3);
-    settings.direction = -1;
-    const Orbit start{parse_signature(model, "phase"), model.parameter_values(), {{0, 0}}, {2 * std::numbers::pi}, {}};
+    const BranchSettings settings = in_parameter(model, "b", -3, 3, -1);
+    const Orbit start = given_orbit(model, "start", {{0, 0}}, {2 * std::numbers::pi});
     const SpecialPoint touch = only(follow_branch(System(model), start, settings), PointType::grazing);
     EXPECT_NEAR(touch.parameter, 1.2, 1e-13);
     const Branch curve = curve_of(model, touch, settings, "c", -0.5, 0.5, -1);
@@ -173,43 +153,11 @@ TEST(Joints, OneEventTouchedTwiceIsADoubleGrazing) {
 TEST(Joints, TwoTouchedStopsAreADoubleGrazing) {
     // x'' + 2 zeta x' + x = F cos(omega t) between stops at -a and b, where the response has this radius for F = 1.
     const double zeta = 0.1, omega = 1.3, radius = 1 / std::hypot(1 - omega * omega, 2 * zeta * omega);
-    const Model model = model_from(R"toml(
-[parameters]
-F = 0.3
-a = 1
-b = 1.5
-[states]
-x = 0
-v = 0
-theta = { initial = 0, period = "2*pi" }
-[modes.free]
-rates = { x = "v", v = "F*cos(theta) - 0.2*v - x", theta = 1.3 }
-watch = ["lower", "upper"]
-[events.lower]
-function = "a + x"
-[events.upper]
-function = "b - x"
-[jumps.impact]
-v = "-0.8*v"
-[[transitions]]
-mode = "free"
-event = "lower"
-jump = "impact"
-next = "free"
-[[transitions]]
-mode = "free"
-event = "upper"
-jump = "impact"
-next = "free"
-[sections.phase]
-state = "theta"
-value = 0
-[initial]
-mode = "free"
-)toml");
+    const Model model = driven("F = 0.3\na = 1\nb = 1.5", "F*cos(theta) - 0.2*v - x", "1.3",
+                               {{"lower", "a + x", "v = '-0.8*v'"}, {"upper", "b - x", "v = '-0.8*v'"}});
     BranchSettings settings = in_parameter(model, "F", 0.1, 10);
     const SpecialPoint touch =
-        only(follow_branch(System(model), settled(model, "phase").orbit, settings), PointType::grazing);
+        only(follow_branch(System(model), settled(model, "start").orbit, settings), PointType::grazing);
     EXPECT_EQ(touch.detail, "lower");
     const Branch curve = curve_of(model, touch, settings, "a", 0.5, 3, 1);
     EXPECT_EQ(curve.outcome, BranchOutcome::unphysical) << curve.detail;
@@ -228,10 +176,7 @@ mode = "free"
 }
 
 TEST(Joints, DoubleGrazingLeadsToOrbitsWithOneMoreContact) {
-    Model model = load_model("mems-switch");
-    model.set_parameter("V", 0.05);
-    model.set_initial("q", 0);
-    model.set_initial("v", 0);
+    const Model model = started(shipped_with("mems-switch", {{"V", 0.05}}), {{"q", 0}, {"v", 0}});
     BranchSettings settings = in_parameter(model, "V", 0.01, 5);
     const SpecialPoint touch =
         only(follow_branch(System(model), settled(model, "phase0", 3000).orbit, settings), PointType::grazing);

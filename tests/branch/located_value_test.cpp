@@ -12,12 +12,8 @@ namespace {
 using namespace graze::testing;
 
 SpecialPoint mems_grazing(Model& model) {
-    model = load_model("mems-switch");
-    model.set_parameter("V", 0.15);
-    model.set_initial("q", 0);
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("V");
-    settings.greatest = 0.4;
+    model = started(shipped_with("mems-switch", {{"V", 0.15}}), {{"q", 0}});
+    const BranchSettings settings = in_parameter(model, "V", {}, 0.4);
     for (const SpecialPoint& point : follow_branch(System(model), settled(model, "phase0").orbit, settings).special)
         if (point.type == PointType::grazing)
             return point;
@@ -113,12 +109,8 @@ TEST(LocatedValue, MemsSwitchHasThePublishedValueAndDerivativesOfDifferences) {
 TEST(LocatedValue, MicroactuatorHasTheDerivativesThatDimensionsDemand) {
     // alpha V^2 / d^2 is a force: V scales with d^(3/2) when all lengths do, with the square root of all forces, and
     // with alpha^(-1/2).
-    Model model = load_model("impact-microactuator");
-    model.set_parameter("V", 0.1);
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("V");
-    settings.least = 0;
-    settings.greatest = 3;
+    const Model model = shipped_with("impact-microactuator", {{"V", 0.1}});
+    BranchSettings settings = in_parameter(model, "V", 0, 3);
     settings.stop_at = {PointType::grazing};
     const Branch branch = follow_branch(System(model), settled(model, "longest", 4000).orbit, settings);
     ASSERT_FALSE(branch.special.empty());
@@ -168,25 +160,12 @@ TEST(LocatedValue, TouchIsFollowedIntoAnotherSegment) {
 
 TEST(LocatedValue, FoldsAndFlipsAreFollowedToo) {
     // x' = p - x^2 + a y, y' = -y: a fold at p = b (of a shift); as an orbit of a phase.
-    const Model model = model_from(R"toml(
-[parameters]
-p = 0.5
-b = 0.3
-r = 2
-[states]
-x = 1
-theta = { initial = 0, period = "2*pi" }
-[modes.only]
-rates = { x = "p - b^2/r - (x - b)^2", theta = 1 }
-[sections.start]
-state = "theta"
-value = 0
-)toml");
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("p");
-    settings.direction = -1;
-    settings.least = -1;
-    settings.greatest = 1;
+    const Model model = OneMode{.parameters = "p = 0.5\nb = 0.3\nr = 2",
+                                .states = "x = 1",
+                                .rates = "x = 'p - b^2/r - (x - b)^2'",
+                                .clock = "1"}
+                            .model();
+    const BranchSettings settings = in_parameter(model, "p", -1, 1, -1);
     const Branch branch = follow_branch(System(model), settled(model, "start").orbit, settings);
     const auto fold = std::find_if(branch.special.begin(), branch.special.end(),
                                    [](const auto& one) { return one.type == PointType::fold; });

@@ -14,34 +14,15 @@ namespace {
 using namespace graze::testing;
 using std::numbers::pi;
 
-Orbit orbit_from(const Model& model, std::vector<double> state) {
-    return {parse_signature(model, "start"), model.parameter_values(), {std::move(state)}, {2 * pi}, {}};
-}
-
 /// The orbit x = p^2 (1 + ripple cos(theta)), in some unit of length, and a stop at half that unit.
 Model growing(double p, double ripple, double unit) {
-    return model_from(fmt::format(R"toml(
-[parameters]
-p = {0:.17g}
-[states]
-x = {3:.17g}
-theta = {{ initial = 0, period = "2*pi" }}
-[definitions]
-wanted = "{2:.17g}*p^2*(1 + {1:.17g}*cos(theta))"
-[modes.only]
-rates = {{ x = "wanted - x - {2:.17g}*p^2*{1:.17g}*sin(theta)", theta = 1 }}
-watch = ["stop"]
-[events.stop]
-function = "{4:.17g} - x"
-[[transitions]]
-mode = "only"
-event = "stop"
-next = "end"
-[sections.start]
-state = "theta"
-value = 0
-)toml",
-                                  p, ripple, unit, unit * p * p * (1 + ripple), 0.5 * unit));
+    return OneMode{.parameters = fmt::format("p = {:.17g}", p),
+                   .states = fmt::format("x = {:.17g}", unit * p * p * (1 + ripple)),
+                   .definitions = fmt::format("wanted = '{:.17g}*p^2*(1 + {:.17g}*cos(theta))'", unit, ripple),
+                   .rates = fmt::format("x = 'wanted - x - {:.17g}*p^2*{:.17g}*sin(theta)'", unit, ripple),
+                   .clock = "1",
+                   .stops = {{.event = "stop", .function = fmt::format("{:.17g} - x", 0.5 * unit), .next = "end"}}}
+        .model();
 }
 
 TEST(LongestStep, GrowsWithAMeanThatExceedsItsOscillation) {
@@ -51,8 +32,9 @@ TEST(LongestStep, GrowsWithAMeanThatExceedsItsOscillation) {
             const Model model = growing(first, ripple, unit);
             BranchSettings settings;
             settings.greatest = 2;
-            const Branch branch =
-                follow_branch(System(model), orbit_from(model, {unit * first * first * (1 + ripple), 0}), settings);
+            const Branch branch = follow_branch(
+                System(model), given_orbit(model, "start", {{unit * first * first * (1 + ripple), 0}}, {2 * pi}),
+                settings);
             ASSERT_EQ(names(branch), "GR") << name_of(branch.outcome) << " at " << branch.points.back().parameter;
             EXPECT_NEAR(branch.special[0].parameter, std::sqrt(0.5 / (1 + ripple)), 1e-10);
             EXPECT_LT(branch.points.size(), 400U) << ripple;
@@ -61,21 +43,7 @@ TEST(LongestStep, GrowsWithAMeanThatExceedsItsOscillation) {
 
 /// x = u + cos(theta), where u settles at p = function(u).
 Model about_mean(const std::string& function, double unit, double p, double u) {
-    return model_from(fmt::format(R"toml(
-[parameters]
-p = {2:.17g}
-[states]
-x = {3:.17g}
-theta = {{ initial = 0, period = "2*pi" }}
-[definitions]
-u = "x/{1:.17g} - cos(theta)"
-[modes.only]
-rates = {{ x = "{1:.17g}*(p - ({0}) - sin(theta))", theta = 1 }}
-[sections.start]
-state = "theta"
-value = 0
-)toml",
-                                  function, unit, p, unit * (u + 1)));
+    return about_clock(fmt::format("p = {:.17g}", p), fmt::format("p - ({})", function), u, "", unit);
 }
 
 TEST(LongestStep, DoesNotPassOverFolds) {
@@ -91,8 +59,8 @@ TEST(LongestStep, DoesNotPassOverFolds) {
                 BranchSettings settings;
                 settings.greatest = 120;
                 settings.steps = 4000;
-                const Branch branch =
-                    follow_branch(System(model), orbit_from(model, {unit * (1.5 - height), 0}), settings);
+                const Branch branch = follow_branch(
+                    System(model), given_orbit(model, "start", {{unit * (1.5 - height), 0}}, {2 * pi}), settings);
                 ASSERT_EQ(names(branch), "SN SN BD") << place << ' ' << width;
                 const double off = height * std::tanh(half) - width * half;
                 EXPECT_NEAR(branch.special[0].parameter, place + off, 1e-9);
@@ -104,7 +72,8 @@ TEST(LongestStep, DoesNotPassOverFolds) {
                 fmt::format("u + {:.17g}*sin({:.17g}*u)/{:.17g}", strength, frequency, frequency), unit, 0.1, 0.05);
             BranchSettings settings;
             settings.greatest = 30;
-            const Branch branch = follow_branch(System(model), orbit_from(model, {unit * 1.05, 0}), settings);
+            const Branch branch =
+                follow_branch(System(model), given_orbit(model, "start", {{unit * 1.05, 0}}, {2 * pi}), settings);
             ASSERT_EQ(branch.outcome, BranchOutcome::bound);
             std::size_t folds = 0;
             const double first = std::acos(-1 / strength);

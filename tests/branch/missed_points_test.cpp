@@ -50,8 +50,7 @@ TEST(MissedPoints, MultipliersThatCrossTogetherAreCounted) {
 
 TEST(MissedPoints, PitchforkFromTheBifurcatingBranchIsOnePoint) {
     const Model model = map_model("p = 1.3", {"p*x - x^3"});
-    BranchSettings settings = in_parameter(model, "p", 0.5, 3);
-    settings.direction = -1;
+    const BranchSettings settings = in_parameter(model, "p", 0.5, 3, -1);
     const Branch branch = follow_branch(System(model), fixed_point(model, {std::sqrt(0.3)}), settings);
     EXPECT_EQ(of_type(branch, PointType::fold).size(), 0U) << names(branch);
     ASSERT_EQ(of_type(branch, PointType::branch_point).size(), 1U) << names(branch);
@@ -95,37 +94,13 @@ TEST(MissedPoints, MultiplierThatCrossesTwiceWithinOneStepIsFound) {
 
 /// Orbits of a clock that pass a wall at a distance that is negative between two values of p.
 Branch beside_wall(bool stop) {
-    const Model model = model_from(R"toml(
-[parameters]
-p = 0
-[states]
-x = 0
-clock = 0
-[definitions]
-clearance = "40*(p - 0.3)*(p - 0.3001)"
-[modes.rest]
-rates = { x = "-x", clock = 1 }
-watch = ["tick", "wall"]
-[events]
-tick = { function = "1 - clock" }
-wall = { function = "1 + clearance - sin(2*pi*clock)" }
-[jumps.again]
-x = "0.5*x + 1"
-clock = 0
-[jumps.hit]
-x = "-x"
-[[transitions]]
-mode = "rest"
-event = "tick"
-jump = "again"
-next = "rest"
-label = "map"
-[[transitions]]
-mode = "rest"
-event = "wall"
-jump = "hit"
-next = "rest"
-)toml");
+    const Model model = OneMode{.parameters = "p = 0",
+                                .states = "x = 0\nclock = 0",
+                                .definitions = "clearance = '40*(p - 0.3)*(p - 0.3001)'",
+                                .rates = "x = '-x', clock = 1",
+                                .stops = {{"tick", "1 - clock", "x = '0.5*x + 1'\nclock = 0", "map"},
+                                          {"wall", "1 + clearance - sin(2*pi*clock)", "x = '-x'"}}}
+                            .model();
     BranchSettings settings = in_parameter(model, "p", -0.1, 0.7);
     settings.stop_when_unphysical = stop;
     return follow_branch(System(model), fixed_point(model, {1}), settings);
@@ -145,9 +120,7 @@ TEST(MissedPoints, FirstOfTwoTouchesWithinOneStepEndsTheBranch) {
 /// Returns the branch of a map towards smaller p.
 Branch of_map_from(const std::string& image, double p, double x, double least) {
     const Model model = map_model(fmt::format("p = {}", p), {image});
-    BranchSettings settings = in_parameter(model, "p", least, p + 0.1);
-    settings.direction = -1;
-    return follow_branch(System(model), fixed_point(model, {x}), settings);
+    return follow_branch(System(model), fixed_point(model, {x}), in_parameter(model, "p", least, p + 0.1, -1));
 }
 
 TEST(MissedPoints, ContinuationDoesNotJumpToANearbyBranch) {

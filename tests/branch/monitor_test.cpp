@@ -14,24 +14,7 @@ using namespace graze::testing;
 
 using std::numbers::pi;
 
-/// x'' + 2 zeta x' + x = F cos(theta): the orbit is a cosine of amplitude F / |H|.
-const char* const linear = R"(
-name = "linear"
-[parameters]
-zeta = 0.1
-omega = 1.7
-F = 0.8
-[states]
-x = 0
-v = 0
-theta = { initial = 0, period = "2*pi" }
-[modes.all]
-rates = { x = "v", v = "F*cos(theta) - 2*zeta*v - x", theta = "omega" }
-[sections.phase0]
-state = "theta"
-value = 0
-)";
-
+/// The orbit of the linear oscillator is a cosine of amplitude F / |H|.
 double amplitude(double zeta, double omega, double force) {
     return force / std::hypot(1 - omega * omega, 2 * zeta * omega);
 }
@@ -48,14 +31,14 @@ Monitor monitor(const std::string& name, Monitor::Kind kind, const Model& model,
 }
 
 TEST(OrbitMonitors, ValuesForACosineAreExact) {
-    const Model model = model_from(linear);
-    const OrbitSolution solution = settled(model, "phase0");
+    const Model model = linear_oscillator();
+    const OrbitSolution solution = settled(model, "start");
     OrbitMonitors monitors(
         System(model), solution.orbit.signature,
         {monitor("period", Monitor::Kind::duration, model, ""), monitor("greatest", Monitor::Kind::maximum, model, "x"),
          monitor("least", Monitor::Kind::minimum, model, "v + 1"), monitor("mean", Monitor::Kind::mean, model, "x + 3"),
          monitor("norm", Monitor::Kind::norm, model, "x"), monitor("start", Monitor::Kind::start, model, "x"),
-         monitor("end", Monitor::Kind::value, model, "x*omega", "phase0"),
+         monitor("end", Monitor::Kind::value, model, "x*omega", "start"),
          monitor("by number", Monitor::Kind::maximum, model, "F*x", "1")});
     const std::vector<double> values = monitors(solution.orbit);
     const double a = amplitude(0.1, 1.7, 0.8), tolerance = 1e-13;
@@ -86,9 +69,9 @@ TEST(OrbitMonitors, BothHalvesOfASymmetricOrbitCount) {
 }
 
 TEST(OrbitMonitors, UnknownSegmentsAreRefusedWithTheSignature) {
-    const Model model = model_from(linear);
-    const OrbitSolution solution = settled(model, "phase0");
-    for (const char* const wrong : {"2", "0", "impact", "phase0#2", "phase0#"})
+    const Model model = linear_oscillator();
+    const OrbitSolution solution = settled(model, "start");
+    for (const char* const wrong : {"2", "0", "impact", "start#2", "start#"})
         EXPECT_THROW(OrbitMonitors(System(model), solution.orbit.signature,
                                    {monitor("m", Monitor::Kind::value, model, "x", wrong)}),
                      InputError)
@@ -96,10 +79,9 @@ TEST(OrbitMonitors, UnknownSegmentsAreRefusedWithTheSignature) {
 }
 
 TEST(MonitorsOfBranches, AreReportedAndBoundTheBranch) {
-    const Model model = model_from(linear);
-    const OrbitSolution solution = settled(model, "phase0");
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("F");
+    const Model model = linear_oscillator();
+    const OrbitSolution solution = settled(model, "start");
+    BranchSettings settings = in_parameter(model, "F");
     settings.monitors = {monitor("amplitude", Monitor::Kind::maximum, model, "x")};
     const double unit = amplitude(0.1, 1.7, 1);
     settings.monitors[0].crossings = {0.5, 0.75};
@@ -116,9 +98,8 @@ TEST(MonitorsOfBranches, AreReportedAndBoundTheBranch) {
 
 /// Checks that with a fixed amplitude force and frequency follow the resonance curve F = a |H(omega)|.
 void expect_resonance_curve(const Model& model, const Monitor& held, double value) {
-    const OrbitSolution solution = settled(model, "phase0");
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("omega");
+    const OrbitSolution solution = settled(model, "start");
+    BranchSettings settings = in_parameter(model, "omega");
     settings.free = {model.independent_parameter("F")};
     settings.direction = -1;
     settings.least = 0.4;
@@ -139,7 +120,7 @@ void expect_resonance_curve(const Model& model, const Monitor& held, double valu
 }
 
 TEST(MonitorsOfBranches, FixedMonitorsFreeAParameter) {
-    const Model model = model_from(linear);
+    const Model model = linear_oscillator();
     expect_resonance_curve(model, monitor("amplitude", Monitor::Kind::maximum, model, "x"), 0.3);
     expect_resonance_curve(model, monitor("norm", Monitor::Kind::norm, model, "x"), 0.2);
 }
@@ -147,8 +128,7 @@ TEST(MonitorsOfBranches, FixedMonitorsFreeAParameter) {
 /// Settings with the amplitude fixed at 0.3, along the frequency from 1.7 down: the force is 0.3 / |H|, least near
 /// resonance.
 BranchSettings along_resonance(const Model& model) {
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("omega");
+    BranchSettings settings = in_parameter(model, "omega");
     settings.free = {model.independent_parameter("F")};
     settings.direction = -1;
     settings.least = 0.4;
@@ -159,8 +139,8 @@ BranchSettings along_resonance(const Model& model) {
 }
 
 TEST(MonitorsOfBranches, FreeParametersMayHaveBounds) {
-    const Model model = model_from(linear);
-    const Orbit start = settled(model, "phase0").orbit;
+    const Model model = linear_oscillator();
+    const Orbit start = settled(model, "start").orbit;
     BranchSettings settings = along_resonance(model);
     const ParameterId force = settings.free[0];
     const double bound = 0.3 / amplitude(0.1, 1.2, 1); // above resonance, on the way down
@@ -186,8 +166,8 @@ TEST(MonitorsOfBranches, FreeParametersMayHaveBounds) {
 }
 
 TEST(MonitorsOfBranches, BoundsOfParametersThatAreNotFreeAreRefused) {
-    const Model model = model_from(linear);
-    const Orbit start = settled(model, "phase0").orbit;
+    const Model model = linear_oscillator();
+    const Orbit start = settled(model, "start").orbit;
     const std::vector<FreeBounds> wrong{{model.independent_parameter("omega"), 0.1, 1.0},
                                         {model.independent_parameter("F"), 1.0, 0.5},
                                         {model.independent_parameter("F"), NAN, {}},
@@ -200,7 +180,7 @@ TEST(MonitorsOfBranches, BoundsOfParametersThatAreNotFreeAreRefused) {
 }
 
 TEST(MonitorsOfBranchesSlow, BranchEndsWherePeriodsDiverge) {
-    Model model = model_from(linear);
+    Model model = linear_oscillator();
     model.set_parameter("omega", 0.7);
     // Along the force with the frequency free: towards force = amplitude, where the frequency is zero.
     BranchSettings settings = along_resonance(model);
@@ -208,15 +188,15 @@ TEST(MonitorsOfBranchesSlow, BranchEndsWherePeriodsDiverge) {
     settings.direction = 1;
     settings.monitors[0].held = amplitude(0.1, 0.7, 0.8);
     settings.work = 20'000;
-    const Branch branch = follow_branch(System(model), settled(model, "phase0").orbit, settings);
+    const Branch branch = follow_branch(System(model), settled(model, "start").orbit, settings);
     ASSERT_EQ(branch.outcome, BranchOutcome::too_long) << branch.detail;
     EXPECT_LT(branch.points.back().solution.orbit.parameters[settings.free[0].place()], 0.01);
     EXPECT_NEAR(branch.points.back().parameter, *settings.monitors[0].held, 1e-3);
 }
 
 TEST(MonitorsOfBranches, FixedMonitorsMustMatchTheFreeParameters) {
-    const Model model = model_from(linear);
-    const OrbitSolution solution = settled(model, "phase0");
+    const Model model = linear_oscillator();
+    const OrbitSolution solution = settled(model, "start");
     BranchSettings settings;
     settings.monitors = {monitor("amplitude", Monitor::Kind::maximum, model, "x")};
     settings.free = {ParameterId(1)};

@@ -61,13 +61,12 @@ struct Impacts {
         return -k * (still - sigma) / (1 + loss - e * trace + k * by_speed);
     }
     Model model(Number at) const {
-        Model result = load_model("impact-oscillator");
-        result.set_parameter("zeta", static_cast<double>(zeta));
-        result.set_parameter("omega", static_cast<double>(omega));
-        result.set_parameter("e", static_cast<double>(e));
-        result.set_parameter("sigma", static_cast<double>(sigma));
-        result.set_parameter("amplitude", static_cast<double>(at));
-        return result;
+        const auto narrow = [](Number value) { return static_cast<double>(value); };
+        return shipped_with("impact-oscillator", {{"zeta", narrow(zeta)},
+                                                  {"omega", narrow(omega)},
+                                                  {"e", narrow(e)},
+                                                  {"sigma", narrow(sigma)},
+                                                  {"amplitude", narrow(at)}});
     }
 };
 
@@ -114,15 +113,11 @@ TEST(NearGrazing, FoldsAndFlipsOfSlowImpactsAreFoundTowardsTheTouch) {
             Model model = known.model(known.amplitude(begin));
             const double phase = static_cast<double>(
                 std::atan2(known.out_still + known.out_by_speed * begin, known.still + known.by_speed * begin));
-            const Orbit orbit{parse_signature(model, "impact"),
-                              model.parameter_values(),
-                              {{0.5, -0.7 * begin, phase}},
-                              {2 * pi / static_cast<double>(known.omega)},
-                              {}};
+            const Orbit orbit =
+                given_orbit(model, "impact", {{0.5, -0.7 * begin, phase}}, {2 * pi / static_cast<double>(known.omega)});
             std::string all;
             for (const int direction : {1, -1}) {
-                BranchSettings settings = in_parameter(model, "amplitude", 0.01, 2.5);
-                settings.direction = direction;
+                const BranchSettings settings = in_parameter(model, "amplitude", 0.01, 2.5, direction);
                 const Branch branch = follow_branch(System(model), orbit, settings);
                 all += names(branch) + ";";
                 for (const SpecialPoint& point : branch.special)
@@ -137,52 +132,24 @@ TEST(NearGrazing, FoldsAndFlipsOfSlowImpactsAreFoundTowardsTheTouch) {
 }
 
 /// A linear oscillator with a pulse of force while cos(theta) > c.
-Model pulsed(double c, const std::string& rest) {
-    return model_from(fmt::format(R"toml(
-[parameters]
-c = {}
-[states]
-x = 0.1
-v = 0
-theta = {{ initial = 0.1, period = "2*pi" }}
-[modes.on]
-rates = {{ x = "v", v = "0.3 - 0.3*v - x", theta = 1.2 }}
-watch = ["off"]
-[modes.off]
-rates = {{ x = "v", v = "-0.3*v - x", theta = 1.2 }}
-watch = ["on"]
-[[transitions]]
-mode = "on"
-event = "off"
-label = "off"
-next = "off"
-[[transitions]]
-mode = "off"
-event = "on"
-label = "on"
-next = "on"
-[sections.s]
-state = "theta"
-value = 1
-[initial]
-mode = "on"
-{})toml",
-                                  c, rest));
+Model pulsed(double c, const char* off, const char* on, const char* kind) {
+    return TwoModes{.parameters = fmt::format("c = {}", c),
+                    .states = "x = 0.1\nv = 0",
+                    .clock = "1.2",
+                    .first = {"on", "x = 'v', v = '0.3 - 0.3*v - x'", "off", off},
+                    .second = {"off", "x = 'v', v = '-0.3*v - x'", "on", on},
+                    .kind = kind,
+                    .more = at_phase(1)}
+        .model();
 }
 
 TEST(NearGrazing, VanishingPulseIsNotABranchPoint) {
     // At c = 1 the pulse has zero length and the event that begins it zero speed. The multipliers, of modulus e^(-0.15
     // T), are far from 1.
-    const Model model = pulsed(0.2, R"toml(
-[events.off]
-function = "cos(theta) - c"
-[events.on]
-function = "c - cos(theta)"
-)toml");
+    const Model model = pulsed(0.2, "cos(theta) - c", "c - cos(theta)", "barrier");
     for (const int direction : {1, -1}) {
-        BranchSettings settings = in_parameter(model, "c", -1.5, 1.5);
-        settings.direction = direction;
-        const Branch branch = follow_branch(System(model), settled(model, "s").orbit, settings);
+        const BranchSettings settings = in_parameter(model, "c", -1.5, 1.5, direction);
+        const Branch branch = follow_branch(System(model), settled(model, "start").orbit, settings);
         EXPECT_EQ(names(branch).find("BP"), std::string::npos) << names(branch);
         EXPECT_EQ(branch.outcome, BranchOutcome::unphysical);
         EXPECT_NEAR(branch.points.back().parameter, direction, 1e-8); // the branch has a fold there
@@ -196,21 +163,14 @@ function = "c - cos(theta)"
 TEST(NearGrazing, FunctionThatStartsToRiseFromItsSurfaceIsNotATouch) {
     // From c = 0 on the function of event `on` is negative at the start of the segment and rises; the event happens at
     // theta = 2 pi as before. At c = 1 the event `off` is touched.
-    const Model model = pulsed(-0.3, R"toml(
-[events.off]
-function = "sin(theta) - c"
-kind = "section"
-[events.on]
-function = "-sin(theta)"
-kind = "section"
-)toml");
+    const Model model = pulsed(-0.3, "sin(theta) - c", "-sin(theta)", "section");
     BranchSettings settings = in_parameter(model, "c", -0.9, 1.5);
-    const Branch branch = follow_branch(System(model), settled(model, "s").orbit, settings);
+    const Branch branch = follow_branch(System(model), settled(model, "start").orbit, settings);
     EXPECT_EQ(names(branch), "GR");
     EXPECT_NEAR(branch.special.at(0).parameter, 1, 1e-12);
     settings.direction = -1;
     settings.least = -1.5;
-    const Branch down = follow_branch(System(model), settled(model, "s").orbit, settings);
+    const Branch down = follow_branch(System(model), settled(model, "start").orbit, settings);
     EXPECT_EQ(names(down), "GR");
     EXPECT_NEAR(down.special.at(0).parameter, -1, 1e-12);
 }

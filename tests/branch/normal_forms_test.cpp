@@ -15,38 +15,24 @@ namespace {
 using namespace graze::testing;
 using std::numbers::pi;
 
-/// x = cos(theta) + u with u' = rate, theta' = 1.
-Model about_clock(const std::string& rate, double p, double x, const std::string& more = "") {
-    return model_from(fmt::format(R"toml(
-[parameters]
-p = {:.17g}
-[states]
-x = {:.17g}
-theta = {{ initial = 0, period = "2*pi" }}
-[definitions]
-u = "x - cos(theta)"
-[modes.only]
-rates = {{ x = "{} - sin(theta)", theta = 1 }}
-[sections.start]
-state = "theta"
-value = 0
-{})toml",
-                                  p, x, rate, more));
+/// u' = rate, in the parameter p.
+Model in_p(const std::string& rate, double p, double u, const std::string& more = "") {
+    return about_clock(fmt::format("p = {:.17g}", p), rate, u, more);
 }
 
-Orbit orbit_from(const Model& model, std::vector<double> state, double period) {
-    return {parse_signature(model, "start"), model.parameter_values(), {std::move(state)}, {period}, {}};
+Orbit orbit_from(const Model& model, std::vector<double> state) {
+    return given_orbit(model, "start", {std::move(state)}, {2 * pi});
 }
 
 TEST(NormalForms, ClosedBranchIsFollowedOnce) {
     // Orbits u^2 + p^2 = 1: folds at p = +-1, and the parameter passes zero twice.
-    const Model model = about_clock("p^2 + u^2 - 1", 0.6, 1.8);
+    const Model model = in_p("p^2 + u^2 - 1", 0.6, 0.8);
     for (const int direction : {1, -1})
         for (const double first_step : {0.01, 0.1, 0.003}) {
             BranchSettings settings;
             settings.direction = direction;
             settings.continuation.first_step = first_step;
-            const Branch branch = follow_branch(System(model), orbit_from(model, {1.8, 0}, 2 * pi), settings);
+            const Branch branch = follow_branch(System(model), orbit_from(model, {1.8, 0}), settings);
             EXPECT_EQ(branch.outcome, BranchOutcome::closed) << branch.detail;
             ASSERT_EQ(names(branch), "SN SN");
             EXPECT_NEAR(branch.special[0].parameter, direction, 1e-12);
@@ -67,19 +53,7 @@ TEST(NormalForms, ClosedBranchIsFollowedOnce) {
 
 TEST(NormalForms, BranchContinuesThroughTheOrbitAtRest) {
     // A force p cos(theta) on a linear oscillator: at p = 0 the orbit is a point, beyond it the symmetric image.
-    const Model model = model_from(R"toml(
-[parameters]
-p = 0.5
-[states]
-x = 0
-v = 0
-theta = { initial = 0, period = "2*pi" }
-[modes.only]
-rates = { x = "v", v = "p*cos(theta) - 0.1*v - 4*x", theta = 1 }
-[sections.start]
-state = "theta"
-value = 0
-)toml");
+    const Model model = driven("p = 0.5", "p*cos(theta) - 0.1*v - 4*x");
     BranchSettings settings;
     settings.direction = -1;
     settings.least = -0.5;
@@ -92,11 +66,11 @@ value = 0
 
 TEST(NormalForms, TranscriticalBranchesCross) {
     // u = 0 and u = p.
-    const Model model = about_clock("u*(p - u)", -0.5, 1);
+    const Model model = in_p("u*(p - u)", -0.5, 0);
     BranchSettings settings;
     settings.greatest = 0.5;
     settings.least = -0.5;
-    const Branch branch = follow_branch(System(model), orbit_from(model, {1, 0}, 2 * pi), settings);
+    const Branch branch = follow_branch(System(model), orbit_from(model, {1, 0}), settings);
     ASSERT_EQ(names(branch), "BP BD");
     EXPECT_NEAR(branch.special[0].parameter, 0, 1e-12);
     const auto starts = branches_at(System(model), branch.special[0], settings);
@@ -114,8 +88,8 @@ TEST(NormalForms, PitchforkIsFoundWithAndWithoutDeclaredSymmetry) {
     // u = 0 and u^2 = p, which are images of each other under x -> -x, theta -> theta + pi.
     const std::string symmetry = "[symmetries.mirror]\nmap = { x = \"-x\", theta = \"theta + pi\" }\n";
     for (const bool declared : {false, true}) {
-        const Model model = about_clock("u*(p - u^2)", -0.5, 1, declared ? symmetry : "");
-        Orbit orbit = orbit_from(model, {1, 0}, 2 * pi);
+        const Model model = in_p("u*(p - u^2)", -0.5, 0, declared ? symmetry : "");
+        Orbit orbit = orbit_from(model, {1, 0});
         if (declared) {
             orbit = half_orbit(System(model), orbit).value();
             EXPECT_NEAR(orbit.durations[0], pi, 1e-15);
@@ -150,7 +124,7 @@ TEST(NormalForms, TorusPointIsFoundWhereAFocusLosesStability) {
     const Model model = torus_model();
     BranchSettings settings;
     settings.greatest = 0.1;
-    const Branch branch = follow_branch(System(model), orbit_from(model, {1, 0, 0}, 2 * pi), settings);
+    const Branch branch = follow_branch(System(model), orbit_from(model, {1, 0, 0}), settings);
     ASSERT_EQ(names(branch), "NS BD");
     const SpecialPoint& torus = branch.special[0];
     EXPECT_NEAR(torus.parameter, 0, 1e-13);
@@ -167,34 +141,23 @@ TEST(NormalForms, TorusPointIsFoundWhereAFocusLosesStability) {
 /// In a frame that rotates by half the clock's angle u' = u (growth - u^2), v' = -v, so that u changes its sign each
 /// period: u = v = 0 has a flip where the growth is zero, and the doubled orbit is u^2 = growth.
 Model flipping(const std::string& growth, double p) {
-    return model_from(fmt::format(R"toml(
-[parameters]
-p = {:.17g}
-[states]
-x = 1
-y = 0
-theta = {{ initial = 0, period = "2*pi" }}
-[definitions]
-a = "x - cos(theta)"
-b = "y"
-# Half angles occur in even powers only, so that the equations do not notice that theta is set back.
-u = "a*cos(theta/2) + b*sin(theta/2)"
-v = "b*cos(theta/2) - a*sin(theta/2)"
-grow = "u*({} - u^2)"
-[modes.only]
-rates = {{ x = "grow*cos(theta/2) + v*sin(theta/2) - b/2 - sin(theta)", y = "grow*sin(theta/2) - v*cos(theta/2) + a/2", theta = 1 }}
-[sections.start]
-state = "theta"
-value = 0
-)toml",
-                                  p, growth));
+    // Half angles occur in even powers only, so that the equations do not notice that theta is set back.
+    return OneMode{.parameters = fmt::format("p = {:.17g}", p),
+                   .states = "x = 1\ny = 0",
+                   .definitions = fmt::format("a = 'x - cos(theta)'\nb = 'y'\nu = 'a*cos(theta/2) + b*sin(theta/2)'\n"
+                                              "v = 'b*cos(theta/2) - a*sin(theta/2)'\ngrow = 'u*({} - u^2)'",
+                                              growth),
+                   .rates = "x = 'grow*cos(theta/2) + v*sin(theta/2) - b/2 - sin(theta)', "
+                            "y = 'grow*sin(theta/2) - v*cos(theta/2) + a/2'",
+                   .clock = "1"}
+        .model();
 }
 
 TEST(NormalForms, DoubledOrbitHasItsClosedForm) {
     const Model model = flipping("p", -0.2);
     BranchSettings settings;
     settings.greatest = 0.3;
-    const Branch branch = follow_branch(System(model), orbit_from(model, {1, 0, 0}, 2 * pi), settings);
+    const Branch branch = follow_branch(System(model), orbit_from(model, {1, 0, 0}), settings);
     ASSERT_EQ(names(branch), "PD BD");
     EXPECT_NEAR(branch.special[0].parameter, 0, 1e-12);
     expect_flip(branch.special[0]);
@@ -220,12 +183,12 @@ TEST(NormalForms, PairsOfPointsWithinOneStepAreFound) {
     // u = 0 is unstable only while |p| < 0.01: steps are ten times as long.
     const std::string growth = "(0.0001 - p^2)";
     for (const bool flips : {false, true}) {
-        const Model model = flips ? flipping(growth, -0.5) : about_clock("u*(" + growth + " - u^2)", -0.5, 1);
+        const Model model = flips ? flipping(growth, -0.5) : in_p("u*(" + growth + " - u^2)", -0.5, 0);
         const std::vector<double> start = flips ? std::vector<double>{1, 0, 0} : std::vector<double>{1, 0};
         BranchSettings settings;
         settings.greatest = 0.5;
         settings.continuation.largest_step = 0.1;
-        const Branch branch = follow_branch(System(model), orbit_from(model, start, 2 * pi), settings);
+        const Branch branch = follow_branch(System(model), orbit_from(model, start), settings);
         ASSERT_EQ(names(branch), flips ? "PD PD BD" : "BP BP BD");
         EXPECT_EQ(branch.special[0].step, branch.special[1].step);
         EXPECT_NEAR(branch.special[0].parameter, -0.01, 1e-12);
@@ -235,29 +198,17 @@ TEST(NormalForms, PairsOfPointsWithinOneStepAreFound) {
 
 /// Van der Pol's oscillator from x = 2, with a section where x is largest.
 Model van_der_pol(double mu, double v) {
-    Model model = model_from(R"toml(
-[parameters]
-mu = 1
-[states]
-x = 2
-v = 0
-[modes.only]
-rates = { x = "v", v = "mu*(1 - x^2)*v - x" }
-[sections.top]
-function = "v"
-direction = "falling"
-)toml");
-    model.set_parameter("mu", mu);
-    model.set_initial("v", v);
-    return model;
+    return OneMode{.parameters = fmt::format("mu = {}", mu),
+                   .states = fmt::format("x = 2\nv = {}", v),
+                   .rates = "x = 'v', v = 'mu*(1 - x^2)*v - x'",
+                   .more = section("top", "v", "falling")}
+        .model();
 }
 
 /// A stiff motion that needs half a million explicit steps, since its slow manifold attracts at a rate of 3000.
 TEST(NormalFormsSlow, StiffRelaxationOscillationIsFollowed) {
     const Model model = van_der_pol(1000, 0);
-    AttractorOptions options;
-    options.section = "top";
-    options.longest_return = 4000;
+    const AttractorOptions options{.section = "top", .longest_return = 4000};
     const OrbitSolution solution = find_orbit(System(model), options);
     ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
     // Dorodnitsyn's expansion, to the terms of order log(mu)/mu.
@@ -271,8 +222,7 @@ TEST(NormalFormsSlow, StiffRelaxationOscillationIsFollowed) {
 
 TEST(NormalForms, SearchForAnOrbitCanBeInterrupted) {
     const Model model = van_der_pol(1, 0.1);
-    AttractorOptions options;
-    options.section = "top";
+    const AttractorOptions options{.section = "top"};
     int asked = 0;
     EXPECT_FALSE(find_orbit(System(model), options, {}, {}, [&] { return ++asked == 2; }).has_value());
     EXPECT_EQ(asked, 2);
@@ -311,23 +261,8 @@ TEST(NormalForms, VanDerPolHasItsPublishedPeriod) {
 
 TEST(NormalForms, DuffingHasTheFoldsOfItsResponse) {
     // x'' + d x' + x + x^3 = F cos(w t) in w: two folds of the primary resonance.
-    const Model model = model_from(R"toml(
-[parameters]
-w = 0.6
-d = 0.1
-F = 0.3
-[states]
-x = 0
-v = 0
-theta = { initial = 0, period = "2*pi" }
-[modes.only]
-rates = { x = "v", v = "F*cos(theta) - d*v - x - x^3", theta = "w" }
-[sections.start]
-state = "theta"
-value = 0
-[symmetries.mirror]
-map = { x = "-x", v = "-v", theta = "theta + pi" }
-)toml");
+    const Model model = driven("w = 0.6\nd = 0.1\nF = 0.3", "F*cos(theta) - d*v - x - x^3", "w", {},
+                               "[symmetries.mirror]\nmap = { x = '-x', v = '-v', theta = 'theta + pi' }");
     BranchSettings settings;
     settings.least = 0.5;
     settings.greatest = 2.5;

@@ -14,20 +14,9 @@ using namespace graze::testing;
 
 /// An impact oscillator with one impact per period of the force.
 struct OneImpact {
-    Model model = load_model("impact-oscillator");
-    Orbit orbit;
-    BranchSettings settings;
-
-    OneImpact() {
-        model.set_parameter("zeta", 0.05);
-        model.set_parameter("omega", 2.4);
-        model.set_parameter("sigma", 0.02);
-        model.set_parameter("e", 0.7);
-        orbit = settled(model, "phase0", 400).orbit;
-        settings.parameter = model.independent_parameter("sigma");
-        settings.least = -1;
-        settings.greatest = 1;
-    }
+    Model model = shipped_with("impact-oscillator", {{"zeta", 0.05}, {"omega", 2.4}, {"sigma", 0.02}, {"e", 0.7}});
+    Orbit orbit = settled(model, "phase0", 400).orbit;
+    BranchSettings settings = in_parameter(model, "sigma", -1, 1);
 };
 
 TEST(OrbitBranch, FindsTheSamePointsFromBothEnds) {
@@ -249,46 +238,21 @@ TEST(OrbitBranch, PointsWithoutOtherBranchesAreRefused) {
 /// at p = lost, where the stop is out of reach.
 Model pitchfork_beside_impacts(double lost) {
     const double reach = 1 / std::hypot(1 - 2.4 * 2.4, 2 * 0.05 * 2.4);
-    return model_from(fmt::format(R"toml(
-[parameters]
-p = 0.3
-reach = {:.17g}
-lost = {:.17g}
-[states]
-x = 0
-v = 0
-y = 1
-theta = {{ initial = 0, period = "2*pi" }}
-[definitions]
-u = "y - cos(theta)"
-[modes.free]
-rates = {{ x = "v", v = "cos(theta) - 0.1*v - x", y = "2.4*(u*(p - u^2) - sin(theta))", theta = 2.4 }}
-watch = ["stop"]
-[events]
-stop = "reach + p - lost - x"
-[jumps.impact]
-v = "-0.7*v"
-[[transitions]]
-mode = "free"
-event = "stop"
-label = "impact"
-jump = "impact"
-next = "free"
-[sections.phase0]
-state = "theta"
-value = 0
-)toml",
-                                  reach, lost));
+    return OneMode{.parameters = fmt::format("p = 0.3\nreach = {:.17g}\nlost = {:.17g}", reach, lost),
+                   .states = "x = 0\nv = 0\ny = 1",
+                   .definitions = "u = 'y - cos(theta)'",
+                   .rates = "x = 'v', v = 'cos(theta) - 0.1*v - x', y = '2.4*(u*(p - u^2) - sin(theta))'",
+                   .clock = "2.4",
+                   .stops = {{"stop", "reach + p - lost - x", "v = '-0.7*v'", "impact"}}}
+        .model();
 }
 
 TEST(OrbitBranch, CrossingNearAVanishingContactIsKept) {
     for (const double lost : {-3e-4, 1e-4, 3e-4, 6e-4}) {
         const Model model = pitchfork_beside_impacts(lost);
-        BranchSettings settings;
-        settings.parameter = model.independent_parameter("p");
+        BranchSettings settings = in_parameter(model, "p");
         // The orbit without impacts touches the stop there, and the branch with one impact begins there.
-        const Orbit clear = settled(model, "phase0").orbit;
-        Orbit trivial = clear;
+        Orbit trivial = settled(model, "start").orbit;
         trivial.starts[0][2] = std::cos(trivial.starts[0][3]);
         settings.direction = -1;
         settings.stop_at = {PointType::grazing};

@@ -127,13 +127,8 @@ TEST(OrbitQuantities, GradientsOfConditionsOfSpecialPointsEqualDifferences) {
 }
 
 TEST(OrbitQuantities, ConditionsVanishAtLocatedPoints) {
-    Model model = load_model("impact-microactuator");
-    model.set_parameter("V", 0.1);
-    model.set_parameter("omega", 0.9189);
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("V");
-    settings.least = 0;
-    settings.greatest = 3;
+    const Model model = shipped_with("impact-microactuator", {{"V", 0.1}, {"omega", 0.9189}});
+    const BranchSettings settings = in_parameter(model, "V", 0, 3);
     const Branch before = follow_branch(System(model), settled(model, "longest", 4000).orbit, settings);
     const Branch impacting = follow(model, branches_at(System(model), before.special.back(), settings).at(0), settings);
     BranchSettings back = settings;

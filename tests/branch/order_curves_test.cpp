@@ -18,7 +18,8 @@ using namespace graze::testing;
 /// until the clock is reset at time 2 and x increases by 1.
 /// @param watched events watched in the second mode; @param next mode after the first event, as TOML
 Model timed(const std::string& first_watched, const std::string& second_watched, const std::string& next) {
-    return model_from(fmt::format(R"toml(
+    return model_from(
+        fmt::format(R"toml(
 [parameters]
 a = 0.5
 b = 1
@@ -35,50 +36,21 @@ watch = [{}]
 [modes.third]
 rates = {{ x = "-2*x", c = 1 }}
 watch = ["set_back"]
-[events.early]
-function = "a - c"
-[events.late]
-function = "b^2 - c"
-[events.set_back]
-function = "2 - c"
+[events]
+early = "a - c"
+late = "b^2 - c"
+set_back = "2 - c"
 [jumps.stay]
 [jumps.reset]
 x = "x + 1"
 c = 0
-[[transitions]]
-mode = "first"
-event = "early"
-jump = "stay"
-next = {}
-label = "A"
-[[transitions]]
-mode = "first"
-event = "late"
-jump = "stay"
-next = "third"
-label = "D"
-[[transitions]]
-mode = "second"
-event = "late"
-jump = "stay"
-next = "third"
-label = "B"
-[[transitions]]
-mode = "second"
-event = "set_back"
-jump = "reset"
-next = "first"
-label = "E"
-[[transitions]]
-mode = "third"
-event = "set_back"
-jump = "reset"
-next = "first"
-label = "C"
 [initial]
 mode = "first"
 )toml",
-                                  first_watched, second_watched, next));
+                    first_watched, second_watched) +
+        transition("first", "early", next, "stay", "A") + transition("first", "late", "third", "stay", "D") +
+        transition("second", "late", "third", "stay", "B") + transition("second", "set_back", "first", "reset", "E") +
+        transition("third", "set_back", "first", "reset", "C"));
 }
 
 /// Returns x after its increase by 1, from the total decay in between.
@@ -91,8 +63,7 @@ SpecialPoint found(const Model& model, const std::string& signature, std::vector
                    std::vector<double> durations, PointType type) {
     BranchSettings settings = in_parameter(model, "a", 0.1, 1.5);
     settings.stop_at = {type};
-    const Orbit orbit{
-        parse_signature(model, signature), model.parameter_values(), std::move(starts), std::move(durations), {}};
+    const Orbit orbit = given_orbit(model, signature, std::move(starts), std::move(durations));
     const Branch branch = follow_branch(System(model), orbit, settings);
     EXPECT_EQ(branch.outcome, BranchOutcome::stopped) << names(branch) << branch.detail;
     return branch.special.empty() ? SpecialPoint{} : branch.special.back();
@@ -100,7 +71,7 @@ SpecialPoint found(const Model& model, const std::string& signature, std::vector
 
 TEST(OrderCurves, SimultaneousEventsHaveTheirClosedForm) {
     // After the first event the later one is not watched: orbits are A E as long as a < b^2.
-    const Model model = timed("\"early\", \"late\"", "\"set_back\"", "\"second\"");
+    const Model model = timed("\"early\", \"late\"", "\"set_back\"", "second");
     const double x = start_of(0.5 + 3 * 1.5);
     const SpecialPoint point =
         found(model, "A E", {{x, 0}, {x * std::exp(-0.5), 0.5}}, {0.5, 1.5}, PointType::two_events);
@@ -120,7 +91,7 @@ TEST(OrderCurves, SimultaneousEventsHaveTheirClosedForm) {
 }
 
 TEST(OrderCurves, VanishingSegmentsHaveTheirClosedForm) {
-    const Model model = timed("\"early\"", "\"late\", \"set_back\"", "\"second\"");
+    const Model model = timed("\"early\"", "\"late\", \"set_back\"", "second");
     const double x = start_of(0.5 + 3 * 0.5 + 2 * 1);
     const SpecialPoint point = found(model, "A B C", {{x, 0}, {x * std::exp(-0.5), 0.5}, {x * std::exp(-2), 1}},
                                      {0.5, 0.5, 1}, PointType::vanishing);
@@ -174,14 +145,11 @@ x = 0
 v = 0
 y = 1
 c = 0
-[events.stop]
-function = "d - x"
-[events.fixed]
-function = "0.5 - c"
-[events.moving]
-function = "0.3*omega - c"
-[events.round]
-function = "2*pi - c"
+[events]
+stop = "d - x"
+fixed = "0.5 - c"
+moving = "0.3*omega - c"
+round = "2*pi - c"
 [jumps.impact]
 v = "-0.8*v"
 [jumps.one]
@@ -190,34 +158,28 @@ y = "y + 1"
 y = "y/2"
 [jumps.reset]
 c = "c - 2*pi"
-[sections.late]
-function = "c - 3"
-direction = "rising"
 [initial]
 mode = "neither"
-)toml";
+)toml" + section("late", "c - 3");
     const auto mode = [&](const std::string& name, const std::string& watched) {
         text += fmt::format("[modes.{}]\nrates = {{ x = \"v\", v = \"F*cos(c) - 0.2*v - x\", y = \"-y\", c = \"omega\" "
                             "}}\nwatch = [\"stop\", {}]\n",
                             name, watched);
     };
-    const auto transition = [&](const std::string& from, const std::string& event, const std::string& jump,
-                                const std::string& next, const std::string& label) {
-        text += fmt::format("[[transitions]]\nmode = \"{}\"\nevent = \"{}\"\njump = \"{}\"\nnext = \"{}\"\nlabel = "
-                            "\"{}\"\n",
-                            from, event, jump, next, label);
-    };
+    const auto add = [&](const std::string& from, const std::string& event, const std::string& jump,
+                         const std::string& next,
+                         const std::string& label) { text += transition(from, event, next, jump, label); };
     mode("neither", "\"fixed\", \"moving\"");
     mode("one", "\"moving\"");
     mode("other", "\"fixed\"");
     mode("both", "\"round\"");
     for (const char* name : {"neither", "one", "other", "both"})
-        transition(name, "stop", "impact", name, fmt::format("hit_{}", name));
-    transition("neither", "fixed", "one", "one", "A");
-    transition("neither", "moving", "half", "other", "B");
-    transition("one", "moving", "half", "both", "C");
-    transition("other", "fixed", "one", "both", "D");
-    transition("both", "round", "reset", "neither", "R");
+        add(name, "stop", "impact", name, fmt::format("hit_{}", name));
+    add("neither", "fixed", "one", "one", "A");
+    add("neither", "moving", "half", "other", "B");
+    add("one", "moving", "half", "both", "C");
+    add("other", "fixed", "one", "both", "D");
+    add("both", "round", "reset", "neither", "R");
     return model_from(text);
 }
 
@@ -264,41 +226,18 @@ TEST(OrderCurves, TouchesContinueWhereOtherEventsChangeTheirOrder) {
 
 /// A forced oscillator with these stops. The touch of its linear response coincides with the section at omega = 1.5,
 /// and precedes it above.
-Model with_stops(const std::vector<std::pair<std::string, std::string>>& stops, const std::string& more = {}) {
-    std::string watched, events, transitions;
-    for (const auto& [name, function] : stops) {
-        watched += fmt::format("{}\"{}\"", watched.empty() ? "" : ", ", name);
-        events += fmt::format("{} = \"{}\"\n", name, function);
-        transitions +=
-            fmt::format("[[transitions]]\nmode = \"free\"\nevent = \"{}\"\njump = \"impact\"\nnext = \"free\"\n", name);
-    }
-    return model_from(fmt::format(R"toml(
-[parameters]
-F = 0.3
-omega = 1.3
-[states]
-x = 0
-v = 0
-theta = {{ initial = 0, period = "2*pi" }}
-[modes.free]
-rates = {{ x = "v", v = "F*cos(theta) - 0.2*v - x", theta = "omega" }}
-watch = [{}]
-[events]
-{}[jumps.impact]
-v = "-0.8*v"
-{}[sections.phase]
-state = "theta"
-value = {:.17g}
-{}[initial]
-mode = "free"
-)toml",
-                                  watched, events, transitions, std::atan2(0.3, 1 - 1.5 * 1.5), more));
+Model with_stops(const std::vector<std::pair<std::string, std::string>>& functions, const std::string& more = {}) {
+    std::vector<Stop> stops;
+    for (const auto& [name, function] : functions)
+        stops.push_back({name, function, "v = '-0.8*v'"});
+    return driven("F = 0.3\nomega = 1.3", "F*cos(theta) - 0.2*v - x", "omega", stops,
+                  at_phase(std::atan2(0.3, 1 - 1.5 * 1.5)) + more);
 }
 
 TEST(OrderCurves, TouchesPassTheSectionOfTheOrbit) {
     const Model model = with_stops({{"stop", "1 - x"}});
     BranchSettings settings = in_parameter(model, "F", 0.1, 5);
-    const Branch branch = follow_branch(System(model), settled(model, "phase").orbit, settings);
+    const Branch branch = follow_branch(System(model), settled(model, "start").orbit, settings);
     ASSERT_EQ(names(branch), "GR");
     const Branch curve = curve_of(model, branch.special[0], settings, "omega", 0.9, 2.2, 1);
     ASSERT_EQ(names(curve), "VS BD") << curve.detail; // where half a free oscillation takes a period of the force
@@ -317,7 +256,7 @@ TEST(OrderCurves, TouchesPassTheEndsOfAHalfOrbit) {
         with_stops({{"right", "1 - x"}, {"left", "1 + x"}},
                    "[symmetries.reflection]\nmap = { x = \"-x\", v = \"-v\", theta = \"theta + pi\" }\n");
     BranchSettings settings = in_parameter(model, "F", 0.1, 5);
-    const OrbitSolution start = settled(model, "phase");
+    const OrbitSolution start = settled(model, "start");
     ASSERT_TRUE(start.orbit.symmetry);
     const Branch branch = follow_branch(System(model), start.orbit, settings);
     ASSERT_EQ(names(branch), "GR");

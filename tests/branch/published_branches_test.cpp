@@ -17,17 +17,10 @@ using namespace graze::testing;
 using std::numbers::pi;
 
 struct Microactuator {
-    Model model = load_model("impact-microactuator");
-    BranchSettings settings;
-
-    explicit Microactuator(double omega) {
-        model.set_parameter("V", 0.1);
-        model.set_parameter("omega", omega);
-        settings.parameter = model.independent_parameter("V");
-        settings.least = 0;
-        settings.greatest = 3;
-        settings.steps = 1000;
-    }
+    explicit Microactuator(double omega)
+        : model(shipped_with("impact-microactuator", {{"V", 0.1}, {"omega", omega}})) {}
+    Model model;
+    BranchSettings settings = in_parameter(model, "V", 0, 3);
     Branch without_contact() const {
         return follow_branch(System(model), settled(model, "longest", 4000).orbit, settings);
     }
@@ -137,11 +130,8 @@ TEST(PublishedBranches, MicroactuatorLosesItsContactWhereItWasGained) {
 TEST(PublishedBranches, TestbedHasItsPublishedGrazing) {
     for (const auto& [frequency, voltage] :
          {std::pair{6.25, 4.833263260865}, {7.0, 3.675357252066}, {8.0, 3.998955699893}}) {
-        Model model = load_model("electromagnetic-testbed");
-        model.set_parameter("f", frequency);
-        model.set_parameter("V0", 3);
-        BranchSettings settings;
-        settings.parameter = model.independent_parameter("V0");
+        const Model model = shipped_with("electromagnetic-testbed", {{"f", frequency}, {"V0", 3}});
+        const BranchSettings settings = in_parameter(model, "V0");
         const Orbit orbit = settled(model, "phase0", 600).orbit;
         ASSERT_TRUE(orbit.symmetry);
         const Branch branch = follow_branch(System(model), orbit, settings);
@@ -158,11 +148,8 @@ TEST(PublishedBranches, TestbedHasItsPublishedGrazing) {
 
 /// Below 7.69 Hz the touch lies at the other end of the half orbit.
 TEST(PublishedBranches, TestbedHasOneCurveOfGrazings) {
-    Model model = load_model("electromagnetic-testbed");
-    model.set_parameter("f", 8);
-    model.set_parameter("V0", 3);
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("V0");
+    const Model model = shipped_with("electromagnetic-testbed", {{"f", 8}, {"V0", 3}});
+    BranchSettings settings = in_parameter(model, "V0");
     const Branch branch = follow_branch(System(model), settled(model, "phase0", 600).orbit, settings);
     ASSERT_EQ(names(branch), "GR");
     settings.kept = branch.special[0];
@@ -178,13 +165,10 @@ TEST(PublishedBranches, TestbedHasOneCurveOfGrazings) {
 }
 
 TEST(PublishedBranches, TestbedOrbitOfThreePeriodsHasItsPublishedPoints) {
-    Model model = load_model("electromagnetic-testbed");
-    model.set_initial("I", 0.1);
+    const Model model = started(load_model("electromagnetic-testbed"), {{"I", 0.1}});
     const OrbitSolution solution = settled(model, "phase0", 600);
     ASSERT_TRUE(solution.orbit.symmetry);
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("V0");
-    settings.direction = -1;
+    BranchSettings settings = in_parameter(model, "V0", {}, {}, -1);
     const Branch down = follow_branch(System(model), solution.orbit, settings);
     const auto folds = of_type(down, PointType::fold);
     ASSERT_EQ(folds.size(), 1U);
@@ -217,11 +201,8 @@ TEST(PublishedBranches, TestbedOrbitOfThreePeriodsHasItsPublishedPoints) {
 }
 
 TEST(PublishedBranches, MemsSwitchHasItsPublishedGrazing) {
-    Model model = load_model("mems-switch");
-    model.set_parameter("V", 0.15);
-    model.set_initial("q", 0);
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("V");
+    const Model model = started(shipped_with("mems-switch", {{"V", 0.15}}), {{"q", 0}});
+    const BranchSettings settings = in_parameter(model, "V");
     const Branch branch = follow_branch(System(model), settled(model, "phase0").orbit, settings);
     ASSERT_EQ(names(branch), "GR");
     const SpecialPoint& grazing = branch.special[0];
@@ -245,12 +226,8 @@ TEST(PublishedBranches, MemsSwitchHasItsPublishedGrazing) {
 }
 
 TEST(PublishedBranches, MicrobeamHasItsPublishedGrazing) {
-    Model model = load_model("microbeam");
-    model.set_parameter("V", 0.01);
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("V");
-    settings.least = 0.005;
-    settings.greatest = 0.06;
+    const Model model = shipped_with("microbeam", {{"V", 0.01}});
+    BranchSettings settings = in_parameter(model, "V", 0.005, 0.06);
     const Branch branch = follow_branch(System(model), settled(model, "phase0").orbit, settings);
     ASSERT_EQ(names(branch), "GR");
     EXPECT_NEAR(branch.special[0].parameter, 0.030040810557599, 1e-13);
@@ -271,12 +248,8 @@ TEST(PublishedBranches, MicrobeamHasItsPublishedGrazing) {
 }
 
 TEST(PublishedBranches, MicrobeamHasItsPublishedFoldsWithAndWithoutStop) {
-    Model model = load_model("microbeam");
-    model.set_parameter("V", 0.034);
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("V");
-    settings.direction = -1;
-    settings.least = 0.01;
+    Model model = shipped_with("microbeam", {{"V", 0.034}});
+    BranchSettings settings = in_parameter(model, "V", 0.01, {}, -1);
     settings.stop_at = {PointType::fold};
     const Branch high = follow_branch(System(model), settled(model, "phase0").orbit, settings);
     EXPECT_EQ(high.outcome, BranchOutcome::stopped) << high.detail;
@@ -284,11 +257,7 @@ TEST(PublishedBranches, MicrobeamHasItsPublishedFoldsWithAndWithoutStop) {
     ASSERT_EQ(folds.size(), 1U);
     EXPECT_NEAR(folds[0].parameter, 0.022532683475758, 1e-13);
 
-    MicrobeamOptions free;
-    free.stop_stiffness = 0;
-    free.stop_distance = -0.02;
-    free.voltage = 0.01;
-    model = microbeam(free);
+    model = microbeam({.stop_distance = -0.02, .stop_stiffness = 0, .voltage = 0.01});
     settings.direction = 1;
     const Branch soft = follow_branch(System(model), settled(model, "phase0").orbit, settings);
     EXPECT_EQ(names(soft), "SN");

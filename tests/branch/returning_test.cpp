@@ -15,25 +15,14 @@ using namespace graze::testing;
 
 /// Duffing's oscillator with a force F, in units of time and length, with a driven state.
 Model duffing(double damping, double omega, double time, double length) {
-    return model_from(fmt::format(R"toml(
-[parameters]
-F = 1
-T = {:.17g}
-A = {:.17g}
-[states]
-x = "0.1*A"
-v = 0
-theta = {{ initial = 0, period = "2*pi" }}
-s = {{ initial = 0, drifting = true }}
-[modes.m]
-rates = {{ x = "v", v = "(-x - x^3/A^2 + F*A*cos(theta))/T^2 - {:.17g}*v/T", theta = "{:.17g}/T", s = "v^2 + x*A/T^2" }}
-[sections.start]
-state = "theta"
-value = 0
-[symmetries.mirror]
-map = {{ x = "-x", v = "-v", theta = "theta + pi" }}
-)toml",
-                                  time, length, damping, omega));
+    return OneMode{.parameters = fmt::format("F = 1\nT = {:.17g}\nA = {:.17g}", time, length),
+                   .states = "x = '0.1*A'\nv = 0\ns = { initial = 0, drifting = true }",
+                   .rates = fmt::format("x = 'v', v = '(-x - x^3/A^2 + F*A*cos(theta))/T^2 - {:.17g}*v/T', "
+                                        "s = 'v^2 + x*A/T^2'",
+                                        damping),
+                   .clock = fmt::format("{:.17g}/T", omega),
+                   .more = "[symmetries.mirror]\nmap = { x = '-x', v = '-v', theta = 'theta + pi' }"}
+        .model();
 }
 
 TEST(ReturningBranches, EndAtTheSecondPointOfTheSimplerBranch) {
@@ -43,10 +32,7 @@ TEST(ReturningBranches, EndAtTheSecondPointOfTheSimplerBranch) {
     for (const Case& one :
          {Case{0.14901456065267, 0.6931211339514, 1, 1}, {0.281, 1.311, 1e-6, 1e3}, {0.2127, 1.35, 1e3, 1e-9}}) {
         const Model model = duffing(one.damping, one.omega, one.time, one.length);
-        BranchSettings settings;
-        settings.parameter = model.independent_parameter("F");
-        settings.least = 0.01;
-        settings.greatest = 40;
+        BranchSettings settings = in_parameter(model, "F", 0.01, 40);
         settings.stop_at = {PointType::asymmetry};
         const Branch symmetric = follow_branch(System(model), settled(model, "start").orbit, settings);
         ASSERT_EQ(symmetric.outcome, BranchOutcome::stopped) << names(symmetric);

@@ -19,9 +19,7 @@ struct Touching {
 };
 
 Touching touching(Model model, const char* parameter, double greatest) {
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter(parameter);
-    settings.greatest = greatest;
+    BranchSettings settings = in_parameter(model, parameter, {}, greatest);
     settings.stop_at = {PointType::grazing};
     auto found = of_type(follow_branch(System(model), settled(model, "phase0").orbit, settings), PointType::grazing);
     EXPECT_FALSE(found.empty());
@@ -65,13 +63,8 @@ double error_of_gradient(const Touching& touch, std::vector<ParameterId> free) {
 
 /// As documented in docs/method.md.
 TEST(SensitivityCondition, GradientIsAccurateToEightDigits) {
-    Model oscillator = load_model("impact-oscillator");
-    oscillator.set_parameter("sigma", 0.5);
-    oscillator.set_parameter("amplitude", 0.1);
-    oscillator.set_parameter("omega", 1.2);
-    Model mems = load_model("mems-switch");
-    mems.set_parameter("V", 0.15);
-    mems.set_initial("q", 0);
+    const Model oscillator = shipped_with("impact-oscillator", {{"sigma", 0.5}, {"amplitude", 0.1}, {"omega", 1.2}});
+    const Model mems = started(shipped_with("mems-switch", {{"V", 0.15}}), {{"q", 0}});
     const std::vector<std::pair<Touching, std::array<const char*, 2>>> all{
         {touching(oscillator, "amplitude", 1), {"zeta", "omega"}}, {touching(mems, "V", 0.4), {"zeta", "omega"}}};
     for (const auto& [touch, parameters] : all) {

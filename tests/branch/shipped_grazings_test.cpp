@@ -3,8 +3,8 @@
 #include "follow.hpp"
 
 #include "graze/flow/mode_flow.hpp"
-#include "graze/grazing/trial.hpp"
 #include "graze/trajectory/recorder.hpp"
+#include "grazing/near_touch.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,22 +19,9 @@ namespace {
 
 using namespace graze::testing;
 
-struct Judged {
-    CycleMap map;
-    Verdict verdict;
-    Trial trial;
-};
-
 Judged judged(const Model& model, const SpecialPoint& point, const char* parameter) {
-    const System system(model);
-    CycleMapOptions options;
-    options.parameter = model.independent_parameter(parameter);
-    Judged result;
-    result.map =
-        cycle_map(system, point.solution.orbit, {point.segment, point.event, point.time, point.at_end}, options);
+    Judged result(model, point, model.independent_parameter(parameter));
     EXPECT_TRUE(result.map.exists()) << result.map.reason;
-    result.verdict = verdict_of(result.map);
-    result.trial = try_verdict(system, result.map, result.verdict, *options.parameter);
     // The map has the multipliers of the orbit.
     const auto& known = point.solution.orbit.symmetry ? point.solution.half_multipliers : point.solution.multipliers;
     EXPECT_EQ(known.size(), result.map.multipliers.size());
@@ -75,10 +62,6 @@ void expect_projections(const Model& model, const CycleMap& map, std::size_t cyc
     const Simulation simulation(system, {}, {}, SimulationOptions{.tolerance = 1e-15});
     ModeFlow flow(system, 1e-15);
     flow.set_parameters(touch.parameters);
-    const auto inputs = [&](std::vector<double> state) {
-        state.insert(state.end(), touch.parameters.begin(), touch.parameters.end());
-        return state;
-    };
     const double usual =
         std::sqrt(2 * map.contact.acceleration) * std::sqrt(std::abs(map.contact.acceleration)) * map.time;
     double before = 0;
@@ -87,7 +70,7 @@ void expect_projections(const Model& model, const CycleMap& map, std::size_t cyc
         const double speed = share * usual;
         std::vector<double> state = touch.state;
         EXPECT_EQ(flow.run(touch.mode, state, -speed / map.contact.acceleration), ModeFlow::Ending::done);
-        const auto value = system.event(touch.event)(inputs(state));
+        const auto value = system.event(touch.event)(inputs_at(touch, state));
         double square = 0;
         for (std::size_t i = 0; i < state.size(); ++i)
             square += value[1 + i] * value[1 + i] * touch.scales[i] * touch.scales[i];
@@ -110,7 +93,7 @@ void expect_projections(const Model& model, const CycleMap& map, std::size_t cyc
         constexpr int parts = 4000;
         for (int part = 0; part < parts; ++part) {
             EXPECT_EQ(flow.run(touch.mode, end, 2 * short_of / parts), ModeFlow::Ending::done);
-            least = std::min(least, system.event(touch.event)(inputs(end))[0]);
+            least = std::min(least, system.event(touch.event)(inputs_at(touch, end))[0]);
         }
         const double error = std::abs(least / met / projection - 1);
         if (before > 0) {
@@ -129,9 +112,7 @@ Branch mems_branch(Model& model, const BranchSettings& settings) {
 
 TEST(ShippedGrazings, MemsSwitchTrips) {
     Model model = load_model("mems-switch");
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("V");
-    settings.greatest = 0.4;
+    const BranchSettings settings = in_parameter(model, "V", {}, 0.4);
     const Branch branch = mems_branch(model, settings);
     const auto grazings = of_type(branch, PointType::grazing);
     ASSERT_EQ(grazings.size(), 1U);
@@ -166,12 +147,8 @@ TEST(ShippedGrazings, MemsSwitchTrips) {
 TEST(ShippedGrazings, TestbedLosesItsOrbit) {
     for (const auto& [frequency, voltage] :
          {std::pair(6.25, 4.833263260865), std::pair(7.0, 3.675357252066), std::pair(8.0, 3.998955699893)}) {
-        Model model = load_model("electromagnetic-testbed");
-        model.set_parameter("f", frequency);
-        model.set_parameter("V0", 3);
-        BranchSettings settings;
-        settings.parameter = model.independent_parameter("V0");
-        settings.greatest = 5.5;
+        const Model model = shipped_with("electromagnetic-testbed", {{"f", frequency}, {"V0", 3}});
+        const BranchSettings settings = in_parameter(model, "V0", {}, 5.5);
         const Branch branch = follow_branch(System(model), settled(model, "phase0", 600).orbit, settings);
         const auto grazings = of_type(branch, PointType::grazing);
         ASSERT_EQ(grazings.size(), 1U);
@@ -187,13 +164,8 @@ TEST(ShippedGrazings, TestbedLosesItsOrbit) {
 }
 
 TEST(ShippedGrazings, OrbitsOfTheMicroactuatorAreUnstableAtTheirTouches) {
-    Model model = load_model("impact-microactuator");
-    model.set_parameter("V", 0.1);
-    model.set_parameter("omega", 0.9189);
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("V");
-    settings.least = 0;
-    settings.greatest = 3;
+    const Model model = shipped_with("impact-microactuator", {{"V", 0.1}, {"omega", 0.9189}});
+    const BranchSettings settings = in_parameter(model, "V", 0, 3);
     Branch branch = follow_branch(System(model), settled(model, "longest", 4000).orbit, settings);
     for (const double voltage : {0.5876212422746997, 0.7304755333366196}) { // G-1, G-2
         const auto grazings = of_type(branch, PointType::grazing);
@@ -212,13 +184,8 @@ TEST(ShippedGrazings, OrbitsOfTheMicroactuatorAreUnstableAtTheirTouches) {
 }
 
 TEST(ShippedGrazings, MapsAreTheSameFromBothSides) {
-    Model model = load_model("impact-oscillator");
-    model.set_parameter("sigma", 0.5);
-    model.set_parameter("omega", 1.2);
-    model.set_parameter("amplitude", 0.1);
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("amplitude");
-    settings.greatest = 1;
+    const Model model = shipped_with("impact-oscillator", {{"sigma", 0.5}, {"omega", 1.2}, {"amplitude", 0.1}});
+    const BranchSettings settings = in_parameter(model, "amplitude", {}, 1);
     const Branch free = follow_branch(System(model), settled(model, "phase0").orbit, settings);
     const SpecialPoint touch = free.special.back();
     const Judged one = judged(model, touch, "amplitude");
@@ -234,11 +201,7 @@ TEST(ShippedGrazings, MapsAreTheSameFromBothSides) {
     const auto ends = of_type(back, PointType::grazing);
     ASSERT_FALSE(ends.empty());
     EXPECT_TRUE(ends[0].at_end);
-    const System system(model);
-    CycleMapOptions options;
-    options.parameter = settings.parameter;
-    const CycleMap other =
-        cycle_map(system, ends[0].solution.orbit, {ends[0].segment, ends[0].event, ends[0].time, true}, options);
+    const CycleMap other = cycle_at(model, ends[0], settings.parameter);
     ASSERT_TRUE(other.exists()) << other.reason;
     const auto here = one.map.projections(6), there = other.projections(6);
     for (std::size_t k = 0; k < here.size(); ++k)
@@ -252,16 +215,12 @@ TEST(ShippedGrazings, VerdictsHoldForOrbitsWithImpacts) {
     std::uniform_real_distribution<double> uniform(0, 1);
     std::map<std::string, int> counts;
     for (int trial = 0; trial < 25; ++trial) {
-        Model model = load_model("impact-oscillator");
-        model.set_parameter("sigma", 0.5);
-        model.set_parameter("zeta", std::pow(10, -2.5 + 2.5 * uniform(random)));
-        model.set_parameter("omega", 0.4 + 4 * uniform(random));
-        model.set_parameter("e", 0.95 * uniform(random));
-        model.set_parameter("amplitude", 0.02);
-        BranchSettings settings;
-        settings.parameter = model.independent_parameter("amplitude");
-        settings.least = 0.001;
-        settings.greatest = 30;
+        const Model model = shipped_with("impact-oscillator", {{"sigma", 0.5},
+                                                               {"zeta", std::pow(10, -2.5 + 2.5 * uniform(random))},
+                                                               {"omega", 0.4 + 4 * uniform(random)},
+                                                               {"e", 0.95 * uniform(random)},
+                                                               {"amplitude", 0.02}});
+        BranchSettings settings = in_parameter(model, "amplitude", 0.001, 30);
         settings.steps = 300;
         Branch branch = follow_branch(System(model), settled(model, "phase0", 4000).orbit, settings);
         for (int own = 0; own < 3; ++own) {
@@ -291,13 +250,8 @@ TEST(ShippedGrazings, VerdictsHoldForOrbitsWithImpacts) {
 TEST(ShippedGrazings, MicrobeamHasTheFoldOfTheCubic) {
     double before = 1;
     for (const double stiffness : {100.0, 1000.0, 10000.0}) {
-        Model model = load_model("microbeam");
-        model.set_parameter("V", 0.01);
-        model.set_parameter("k", stiffness);
-        BranchSettings settings;
-        settings.parameter = model.independent_parameter("V");
-        settings.least = 0.005;
-        settings.greatest = 0.06;
+        const Model model = shipped_with("microbeam", {{"V", 0.01}, {"k", stiffness}});
+        BranchSettings settings = in_parameter(model, "V", 0.005, 0.06);
         const Branch branch = follow_branch(System(model), settled(model, "phase0").orbit, settings);
         const auto grazings = of_type(branch, PointType::grazing);
         ASSERT_EQ(grazings.size(), 1U);

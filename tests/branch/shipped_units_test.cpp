@@ -71,14 +71,9 @@ Model rescaled(const Model& given, const Factors& factors) {
 }
 
 Branch microactuator_branch(const Factors& factors) {
-    Model given = load_model("impact-microactuator");
-    given.set_parameter("V", 0.1);
-    given.set_parameter("omega", 0.9189);
+    const Model given = shipped_with("impact-microactuator", {{"V", 0.1}, {"omega", 0.9189}});
     const Model model = rescaled(given, factors);
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("V");
-    settings.least = 0;
-    settings.greatest = 3 * factors.parameters;
+    const BranchSettings settings = in_parameter(model, "V", 0, 3 * factors.parameters);
     return follow_branch(System(model), settled(model, "longest", 4000).orbit, settings);
 }
 

@@ -17,38 +17,23 @@ using std::numbers::pi;
 
 /// r' = r (mu - c r^2 - d r^4) about (mu a, 0), theta' = 1.3 + 0.2 mu + 0.5 r^2.
 Model normal_form(double c, double d, double mu, double radius, double a = 0) {
-    return model_from(fmt::format(R"toml(
-[parameters]
-mu = {:.17g}
-[states]
-x = {:.17g}
-y = 0
-[definitions]
-u = "x - mu*{}"
-s = "u^2 + y^2"
-growth = "mu - {}*s - {}*s^2"
-turn = "1.3 + 0.2*mu + 0.5*s"
-[modes.only]
-rates = {{ x = "growth*u - turn*y", y = "turn*u + growth*y" }}
-[sections.right]
-function = "y"
-direction = "rising"
-)toml",
-                                  mu, radius + mu * a, a, c, d));
+    return OneMode{.parameters = fmt::format("mu = {:.17g}", mu),
+                   .states = fmt::format("x = {:.17g}\ny = 0", radius + mu * a),
+                   .definitions = fmt::format("u = 'x - mu*{}'\ns = 'u^2 + y^2'\ngrowth = 'mu - {}*s - {}*s^2'\n"
+                                              "turn = '1.3 + 0.2*mu + 0.5*s'",
+                                              a, c, d),
+                   .rates = "x = 'growth*u - turn*y', y = 'turn*u + growth*y'",
+                   .more = section("right", "y")}
+        .model();
 }
 
 Orbit circle(const Model& model, double mu, double radius, double a = 0) {
-    return {parse_signature(model, "right"),
-            model.parameter_values(),
-            {{radius + mu * a, 0}},
-            {2 * pi / (1.3 + 0.2 * mu + 0.5 * radius * radius)},
-            {}};
+    return given_orbit(model, "right", {{radius + mu * a, 0}}, {2 * pi / (1.3 + 0.2 * mu + 0.5 * radius * radius)});
 }
 
 Branch down_from(const Model& model, const Orbit& orbit, const std::string& parameter, double least, double greatest,
                  double largest_step = 0.05) {
-    BranchSettings settings = in_parameter(model, parameter, least, greatest);
-    settings.direction = -1;
+    BranchSettings settings = in_parameter(model, parameter, least, greatest, -1);
     settings.continuation.largest_step = largest_step;
     return follow_branch(System(model), orbit, settings);
 }
@@ -111,29 +96,12 @@ TEST(ShrinkingOrbit, EndsWhereTheRouthHurwitzCriterionPredicts) {
     for (int i = 0; i < 200; ++i)
         (lack(0.5 * (low + high)) < 0 ? low : high) = 0.5 * (low + high);
     const double flow = low * std::sqrt(low + delta), g = beta * low / (2 * std::sqrt(low + delta));
-    const Model model = model_from(R"toml(
-[parameters]
-mu = 8
-[states]
-y1 = 2.4
-y2 = 0
-y3 = 13
-[modes.open]
-rates = { y1 = "y2", y2 = "-1.25*y2 - (y1 + 10) + y3", y3 = "20*(mu - y1*sqrt(y3))" }
-watch = ["seat"]
-[events.seat]
-function = "y1"
-[jumps.bounce]
-y2 = "-0.8*y2"
-[[transitions]]
-mode = "open"
-event = "seat"
-jump = "bounce"
-next = "open"
-[sections.highest]
-function = "y2"
-direction = "falling"
-)toml");
+    const Model model = OneMode{.parameters = "mu = 8",
+                                .states = "y1 = 2.4\ny2 = 0\ny3 = 13",
+                                .rates = "y1 = 'y2', y2 = '-1.25*y2 - (y1 + 10) + y3', y3 = '20*(mu - y1*sqrt(y3))'",
+                                .stops = {{"seat", "y1", "y2 = '-0.8*y2'"}},
+                                .more = section("highest", "y2", "falling")}
+                            .model();
     BranchSettings settings = in_parameter(model, "mu", 1, 20);
     const Branch branch = follow_branch(System(model), settled(model, "highest").orbit, settings);
     EXPECT_EQ(names(branch), "HB");
@@ -143,40 +111,12 @@ direction = "falling"
 
 TEST(ShrinkingOrbit, OrbitsProportionalToTheParameterEndOnASurface) {
     // Growing about x = mu on the right of x = 0 and decaying on its left, all in proportion to mu.
-    const Model model = model_from(R"toml(
-[parameters]
-mu = 1
-[states]
-x = 1
-v = 1
-[modes.right]
-rates = { x = "v", v = "mu - x + 0.2*v" }
-watch = ["leave_right"]
-[modes.left]
-rates = { x = "v", v = "mu - x - 0.6*v" }
-watch = ["leave_left"]
-[events.leave_right]
-function = "x"
-kind = "section"
-[events.leave_left]
-function = "-x"
-kind = "section"
-[[transitions]]
-mode = "right"
-event = "leave_right"
-label = "to_left"
-next = "left"
-[[transitions]]
-mode = "left"
-event = "leave_left"
-label = "to_right"
-next = "right"
-[sections.rightmost]
-function = "v"
-direction = "falling"
-[initial]
-mode = "right"
-)toml");
+    const Model model = TwoModes{.parameters = "mu = 1",
+                                 .states = "x = 1\nv = 1",
+                                 .first = {"right", "x = 'v', v = 'mu - x + 0.2*v'", "leave_right", "x"},
+                                 .second = {"left", "x = 'v', v = 'mu - x - 0.6*v'", "leave_left", "-x"},
+                                 .more = section("rightmost", "v", "falling")}
+                            .model();
     const OrbitSolution first = settled(model, "rightmost");
     const Branch branch = down_from(model, first.orbit, "mu", -1, 2);
     EXPECT_EQ(names(branch), "HB");
@@ -186,19 +126,7 @@ mode = "right"
 
 TEST(ShrinkingOrbit, BranchWithAClockDoesNotEnd) {
     // A force p cos(theta) on a linear oscillator: at p = 0 only the clock moves, and the branch continues through.
-    const Model model = model_from(R"toml(
-[parameters]
-mu = 0.5
-[states]
-x = 0
-v = 0
-theta = { initial = 0, period = "2*pi" }
-[modes.only]
-rates = { x = "v", v = "mu*cos(theta) - 0.4*v - 4*x", theta = 1 }
-[sections.start]
-state = "theta"
-value = 0
-)toml");
+    const Model model = driven("mu = 0.5", "mu*cos(theta) - 0.4*v - 4*x");
     const Branch branch = down_from(model, settled(model, "start").orbit, "mu", -0.5, 1);
     EXPECT_EQ(names(branch), "BD");
     EXPECT_EQ(branch.outcome, BranchOutcome::bound);

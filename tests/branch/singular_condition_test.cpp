@@ -52,7 +52,7 @@ TEST(SingularConditions, GradientsEqualDifferencesForEveryShippedModel) {
 
 TEST(SingularConditions, TorusHasItsClosedForm) {
     const Model model = torus_model();
-    const Orbit orbit{parse_signature(model, "start"), model.parameter_values(), {{1, 0, 0}}, {2 * pi}, {}};
+    const Orbit orbit = given_orbit(model, "start", {{1, 0, 0}}, {2 * pi});
     const Simulation simulation(System(model), {}, {}, integration(1e-14));
     Shooting equations(simulation, orbit, {ParameterId(0), ParameterId(1)});
     OrbitEvaluation at = equations.evaluation();
@@ -88,11 +88,8 @@ TEST(SingularConditions, FoldAndFlipOfTheBouncingBallHaveTheirClosedForms) {
     const Simulation simulation(System(model), {}, {}, integration(1e-14));
     for (const double share : {0.1, 0.3, 0.7, 0.95}) {
         const double a = fold + share * (flip - fold), phase = std::acos(rise * g / (a * w * w));
-        Orbit orbit{parse_signature(model, "impact"),
-                    model.parameter_values(),
-                    {{a * std::sin(phase), g / (2 * value("f")), phase}},
-                    {1 / value("f")},
-                    {}};
+        Orbit orbit =
+            given_orbit(model, "impact", {{a * std::sin(phase), g / (2 * value("f")), phase}}, {1 / value("f")});
         orbit.parameters[model.independent_parameter("a").place()] = a;
         const double multiplier = share < 0.5 ? 1 : -1;
         for (const bool by_collocation : {false, true}) {
@@ -112,15 +109,12 @@ TEST(SingularConditions, FoldAndFlipOfTheBouncingBallHaveTheirClosedForms) {
 }
 
 TEST(SingularConditions, ConditionsVanishAtLocatedPointsOfSymmetricOrbits) {
-    Model model = load_model("electromagnetic-testbed");
-    model.set_initial("I", 0.1);
+    const Model model = started(load_model("electromagnetic-testbed"), {{"I", 0.1}});
     const OrbitSolution solution = settled(model, "phase0", 600);
     ASSERT_TRUE(solution.orbit.symmetry);
     std::size_t folds = 0, losses = 0;
     for (const int direction : {1, -1}) {
-        BranchSettings settings;
-        settings.parameter = model.independent_parameter("V0");
-        settings.direction = direction;
+        const BranchSettings settings = in_parameter(model, "V0", {}, {}, direction);
         for (const SpecialPoint& special : follow_branch(System(model), solution.orbit, settings).special) {
             if (special.type != PointType::fold && special.type != PointType::asymmetry)
                 continue;

@@ -4,8 +4,6 @@
 #include "cycle_error.hpp"
 #include "follow.hpp"
 
-#include "graze/grazing/trial.hpp"
-
 #include <cmath>
 #include <iostream>
 #include <map>
@@ -18,32 +16,15 @@ namespace {
 
 using namespace graze::testing;
 
-struct Judgement {
-    CycleMap map;
-    Verdict verdict;
-    Trial trial;
-};
-
-Judgement judgement(const Model& model, const SpecialPoint& point, ParameterId parameter) {
-    CycleMapOptions options;
-    options.parameter = parameter;
-    Judgement result;
-    result.map =
-        cycle_map(System(model), point.solution.orbit, {point.segment, point.event, point.time, point.at_end}, options);
-    result.verdict = verdict_of(result.map);
-    result.trial = try_verdict(System(model), result.map, result.verdict, parameter);
-    return result;
-}
-
 /// Both orbits continue, neither is stable beyond: immediate chaos.
 TEST(Sliding, GrazingOnABeltStartsChaos) {
     Model model = belt();
     model.set_parameter("nu", 1.711);
-    const BranchSettings settings = along(model, "nu", -1, 1.65, 1.72);
+    const BranchSettings settings = in_parameter(model, "nu", 1.65, 1.72, -1);
     const Branch branch = follow_branch(System(model), settled(model, "phase0").orbit, settings);
     const auto touches = of_type(branch, PointType::grazing);
     ASSERT_FALSE(touches.empty());
-    const Judgement one = judgement(model, touches[0], settings.parameter);
+    const Judged one(model, touches[0], settings.parameter);
     ASSERT_EQ(one.map.contact.order, MapOrder::linear) << one.map.reason << one.map.contact.reason;
     EXPECT_EQ(one.verdict.outcome, GrazingOutcome::persists) << one.verdict.reason;
     EXPECT_EQ(one.verdict.border, BorderCollision::persistence);
@@ -59,7 +40,8 @@ TEST(Sliding, GrazingOnABeltStartsChaos) {
 
 /// With constant friction the coefficient that bends the motion off the belt is zero, and its computed value is noise.
 TEST(Sliding, VerdictIsRightWhereTheBendingCoefficientIsNoise) {
-    const Model model = model_from(R"toml(
+    const Model model =
+        model_from(R"toml(
 name = "rubbing"
 [parameters]
 zeta = 0.05
@@ -91,29 +73,16 @@ up = "friction - force"
 down = "friction + force"
 [jumps.stop]
 v = "belt"
-[[transitions]]
-mode = "below"
-event = "reach"
-jump = "stop"
-next = [{ when = "friction - force >= 0", mode = "stick" }, { mode = "above" }]
-[[transitions]]
-mode = "above"
-event = "fall"
-jump = "stop"
-next = [{ when = "friction + force >= 0", mode = "stick" }, { mode = "below" }]
-[[transitions]]
-mode = "stick"
-event = "up"
-next = "above"
-[[transitions]]
-mode = "stick"
-event = "down"
-next = "below"
 [sections.phase0]
 state = "theta"
 value = 0
-)toml");
-    const BranchSettings settings = along(model, "amplitude", 1, 0.1, 1.6);
+)toml" +
+                   transition("below", "reach",
+                              "[{ when = 'friction - force >= 0', mode = 'stick' }, { mode = 'above' }]", "stop") +
+                   transition("above", "fall",
+                              "[{ when = 'friction + force >= 0', mode = 'stick' }, { mode = 'below' }]", "stop") +
+                   transition("stick", "up", "above") + transition("stick", "down", "below"));
+    const BranchSettings settings = in_parameter(model, "amplitude", 0.1, 1.6, 1);
     const auto touches =
         of_type(follow_branch(System(model), settled(model, "phase0").orbit, settings), PointType::grazing);
     ASSERT_FALSE(touches.empty());
@@ -121,7 +90,7 @@ value = 0
     const double amplitude = touches[0].solution.orbit.parameters[settings.parameter.place()];
     // The largest speed of the linear response equals that of the belt.
     EXPECT_NEAR(amplitude, 0.5 / omega * std::hypot(1 - omega * omega, 2 * zeta * omega), 1e-10);
-    const Judgement one = judgement(model, touches[0], settings.parameter);
+    const Judged one(model, touches[0], settings.parameter);
     ASSERT_EQ(one.map.contact.order, MapOrder::linear) << one.map.reason << one.map.contact.reason;
     // After sticking only the displacement and its evolution over a period matter.
     EXPECT_NEAR(std::abs(*one.verdict.leading),
@@ -132,14 +101,12 @@ value = 0
 
 /// The branch of the orbit with one more sticking phase begins on the predicted side, with the predicted multiplier.
 TEST(Sliding, BranchContinuesWithDryFriction) {
-    Model model = load_model("dry-friction-oscillator");
-    model.set_parameter("friction_static", 0.3);
-    model.set_parameter("omega", 0.2);
-    const BranchSettings settings = along(model, "omega", 1, 0.15, 0.22);
+    Model model = shipped_with("dry-friction-oscillator", {{"friction_static", 0.3}, {"omega", 0.2}});
+    const BranchSettings settings = in_parameter(model, "omega", 0.15, 0.22, 1);
     const auto touches =
         of_type(follow_branch(System(model), settled(model, "phase0").orbit, settings), PointType::grazing);
     ASSERT_EQ(touches.size(), 1U);
-    const Judgement one = judgement(model, touches[0], settings.parameter);
+    const Judged one(model, touches[0], settings.parameter);
     EXPECT_EQ(one.verdict.outcome, GrazingOutcome::persists) << one.verdict.reason;
     EXPECT_EQ(one.verdict.border, BorderCollision::persistence);
     EXPECT_EQ(one.verdict.attractor, AttractorKind::periodic);
@@ -155,12 +122,12 @@ TEST(Sliding, BranchContinuesWithDryFriction) {
     EXPECT_NEAR(std::abs(near.half_multipliers.at(0)), *one.verdict.leading, 2e-3 * *one.verdict.leading);
     // From the other side, where the additional sticking phase disappears.
     model.set_parameter("omega", 0.215);
-    const BranchSettings down = along(model, "omega", -1, 0.15, 0.22);
+    const BranchSettings down = in_parameter(model, "omega", 0.15, 0.22, -1);
     const auto ends = of_type(follow_branch(System(model), settled(model, "phase0").orbit, down), PointType::grazing);
     ASSERT_FALSE(ends.empty());
     EXPECT_TRUE(ends[0].at_end);
     EXPECT_NEAR(ends[0].parameter, touches[0].parameter, 1e-10);
-    const Judgement other = judgement(model, ends[0], settings.parameter);
+    const Judged other(model, ends[0], settings.parameter);
     ASSERT_EQ(other.map.contact.order, MapOrder::linear) << other.map.reason << other.map.contact.reason;
     EXPECT_NEAR(*other.verdict.leading, *one.verdict.leading, 1e-8);
     EXPECT_NEAR(other.map.projections(1)[0], one.map.projections(1)[0], 1e-8);
@@ -171,11 +138,11 @@ TEST(Sliding, BranchContinuesWithDryFriction) {
 TEST(Sliding, GrazingOnABeltMayBeAFold) {
     Model model = belt();
     model.set_parameter("nu", 2.2);
-    const BranchSettings settings = along(model, "nu", -1, 2, 2.4);
+    const BranchSettings settings = in_parameter(model, "nu", 2, 2.4, -1);
     const Branch branch = follow_branch(System(model), settled(model, "phase0").orbit, settings);
     std::size_t folds = 0;
     for (const SpecialPoint& point : of_type(branch, PointType::grazing)) {
-        const Judgement one = judgement(model, point, settings.parameter);
+        const Judged one(model, point, settings.parameter);
         if (one.verdict.outcome == GrazingOutcome::undecided)
             continue;
         ++folds;
@@ -199,9 +166,7 @@ std::map<std::string, int> try_random(int count, unsigned seed) {
         model.set_parameter("alpha2", 0.8 * uniform(random));
         model.set_parameter("amplitude", 0.05 + uniform(random));
         model.set_parameter("nu", 0.4 + 2.5 * uniform(random));
-        AttractorOptions settle;
-        settle.section = "phase0";
-        settle.cycles = 400;
+        const AttractorOptions settle{.section = "phase0", .cycles = 400};
         OrbitSolution start;
         try {
             start = find_orbit(System(model), settle);
@@ -211,11 +176,11 @@ std::map<std::string, int> try_random(int count, unsigned seed) {
         }
         const double amplitude = model.parameter_values()[model.independent_parameter("amplitude").place()];
         for (const int direction : {-1, 1}) {
-            BranchSettings settings = along(model, "amplitude", direction, 0.2 * amplitude, 3 * amplitude);
+            BranchSettings settings = in_parameter(model, "amplitude", 0.2 * amplitude, 3 * amplitude, direction);
             settings.steps = 100;
             for (const SpecialPoint& point :
                  of_type(follow_branch(System(model), start.orbit, settings), PointType::grazing)) {
-                const Judgement one = judgement(model, point, settings.parameter);
+                const Judged one(model, point, settings.parameter);
                 if (one.map.contact.order != MapOrder::linear) {
                     ++counts["not grazing-sliding"];
                     continue;

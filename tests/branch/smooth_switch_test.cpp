@@ -21,55 +21,19 @@ struct SoftStop {
 
     double size(double at) const { return std::hypot(1 - at * at, 2 * z * at); }
     Model model(const char* kind) const {
-        return model_from(fmt::format(R"toml(
-[parameters]
-F = {:.17g}
-w = {:.17g}
-z = {:.17g}
-k = {:.17g}
-g = {:.17g}
-[states]
-x = 0
-v = 0
-th = {{ initial = 0, period = "2*pi" }}
-[modes.free]
-rates = {{ x = "v", v = "F*cos(th) - 2*z*v - x", th = "w" }}
-watch = ["on"]
-[modes.contact]
-rates = {{ x = "v", v = "F*cos(th) - 2*z*v - x - k*(x - g)", th = "w" }}
-watch = ["off"]
-[events.on]
-function = "g - x"
-kind = "{}"
-[events.off]
-function = "x - g"
-kind = "{}"
-[[transitions]]
-mode = "free"
-event = "on"
-label = "on"
-next = "contact"
-[[transitions]]
-mode = "contact"
-event = "off"
-label = "off"
-next = "free"
-[initial]
-mode = "free"
-[sections.ph]
-state = "th"
-value = 0
-)toml",
-                                      F, w, z, k, g, kind, kind));
+        return TwoModes{
+            .parameters = fmt::format("F = {:.17g}\nw = {:.17g}\nz = {:.17g}\nk = {:.17g}\ng = {:.17g}", F, w, z, k, g),
+            .states = "x = 0\nv = 0",
+            .clock = "w",
+            .first = {"free", "x = 'v', v = 'F*cos(theta) - 2*z*v - x'", "on", "g - x"},
+            .second = {"contact", "x = 'v', v = 'F*cos(theta) - 2*z*v - x - k*(x - g)'", "off", "x - g"},
+            .kind = kind}
+            .model();
     }
     /// The free motion.
     Orbit orbit(const Model& made) const {
         const std::complex<double> i(0, 1), amplitude = F / (1 - w * w + 2.0 * i * z * w);
-        return {parse_signature(made, "free:ph"),
-                made.parameter_values(),
-                {{amplitude.real(), (i * w * amplitude).real(), 0}},
-                {2 * pi / w},
-                {}};
+        return given_orbit(made, "free:start", {{amplitude.real(), (i * w * amplitude).real(), 0}}, {2 * pi / w});
     }
 };
 
@@ -97,8 +61,7 @@ TEST(SmoothSwitch, TouchesExistOnBothSidesOfTheResonance) {
     const double above = std::sqrt(middle + root);
     const SoftStop stop{F, 2.403, z, 0.5, g};
     const Model model = stop.model("section");
-    BranchSettings settings = in_parameter(model, "w", 0.1, 5);
-    settings.direction = -1;
+    const BranchSettings settings = in_parameter(model, "w", 0.1, 5, -1);
     const Branch branch = follow_branch(System(model), stop.orbit(model), settings);
     ASSERT_EQ(names(branch), "GR") << branch.detail;
     EXPECT_NEAR(branch.special[0].parameter, above, 1e-11);
@@ -109,7 +72,7 @@ TEST(SmoothSwitch, PeriodFixedByTheForceHasNoExtremum) {
     const SoftStop stop{1, 1.472, 0.03, 20, 0.2};
     const Model model = stop.model("section");
     const Branch branch =
-        follow_branch(System(model), settled(model, "ph", 400).orbit, in_parameter(model, "w", 0.2, 4));
+        follow_branch(System(model), settled(model, "start", 400).orbit, in_parameter(model, "w", 0.2, 4));
     EXPECT_TRUE(of_type(branch, PointType::extremum).empty()) << names(branch);
     ASSERT_FALSE(of_type(branch, PointType::grazing).empty()) << names(branch);
 }
@@ -117,9 +80,8 @@ TEST(SmoothSwitch, PeriodFixedByTheForceHasNoExtremum) {
 TEST(SmoothSwitch, CurvesOfTouchesMayBeginAtAVanishingContact) {
     const SoftStop stop{0.5, 0.8, 0.1, 5, 1};
     const Model model = stop.model("section");
-    BranchSettings settings = in_parameter(model, "F", 0.1, 2);
-    settings.direction = -1;
-    const Branch branch = follow_branch(System(model), settled(model, "ph").orbit, settings);
+    const BranchSettings settings = in_parameter(model, "F", 0.1, 2, -1);
+    const Branch branch = follow_branch(System(model), settled(model, "start").orbit, settings);
     const auto touches = of_type(branch, PointType::grazing);
     ASSERT_EQ(touches.size(), 1U) << names(branch);
     ASSERT_TRUE(touches[0].at_end);
@@ -136,9 +98,8 @@ TEST(SmoothSwitch, CurvesOfTouchesMayBeginAtAVanishingContact) {
 TEST(SmoothSwitch, SecondContactAppearsAndDisappears) {
     const SoftStop stop{1, 0.641, 0.03, 2, 1};
     const Model model = stop.model("section");
-    BranchSettings settings = in_parameter(model, "w", 0.2, 4);
-    settings.direction = -1;
-    const Branch once = follow_branch(System(model), settled(model, "ph").orbit, settings);
+    const BranchSettings settings = in_parameter(model, "w", 0.2, 4, -1);
+    const Branch once = follow_branch(System(model), settled(model, "start").orbit, settings);
     ASSERT_EQ(names(once), "GR") << once.detail;
     const Branch more = follow(model, branches_at(System(model), once.special[0], settings).front(), settings);
     ASSERT_EQ(names(more), "GR") << more.detail;

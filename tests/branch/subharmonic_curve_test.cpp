@@ -20,11 +20,8 @@ OrbitSolution start_of(const Oscillator& known, double periods) {
     for (const bool upper : {true, false}) {
         const double sigma = known.sigma(after, upper);
         const Model model = oscillator_model(known, sigma);
-        const Orbit orbit{parse_signature(model, "impact"),
-                          model.parameter_values(),
-                          {{sigma, after, known.phase(after, sigma)}},
-                          {2 * std::numbers::pi * periods / known.omega},
-                          {}};
+        const Orbit orbit = given_orbit(model, "impact", {{sigma, after, known.phase(after, sigma)}},
+                                        {2 * std::numbers::pi * periods / known.omega});
         solution = solve_orbit(System(model), orbit);
         if (solution.outcome == OrbitOutcome::converged && solution.certificate.admissible)
             return solution;
@@ -46,8 +43,7 @@ TEST(SubharmonicCurves, FoldsAndFlipsOfSubharmonicsHaveTheirClosedForms) {
         const Model model = oscillator_model(known, 0);
         std::size_t folds = 0, flips = 0;
         for (const int direction : {1, -1}) {
-            BranchSettings settings = in_parameter(model, "sigma", -1, 1);
-            settings.direction = direction;
+            const BranchSettings settings = in_parameter(model, "sigma", -1, 1, direction);
             const Branch branch = follow_branch(System(model), start.orbit, settings);
             for (const SpecialPoint& point : branch.special) {
                 if (point.type != PointType::fold && point.type != PointType::flip)

@@ -15,26 +15,12 @@ using namespace graze::testing;
 using std::numbers::pi;
 
 /// A circle of radius r with r' = r g(r, mu) and frequency w in the plane of x and y; the section is x = level.
-std::string circle(const std::string& growth, double level, const std::string& direction, const std::string& more = "",
-                   const std::string& states = "") {
-    return fmt::format(R"toml(
-[parameters]
-mu = 1
-[states]
-x = 1
-y = 0
-{}
-[definitions]
-w = 1.3
-s = "x^2 + y^2"
-g = "{}"
-[modes.only]
-rates = {{ x = "g*x - w*y", y = "w*x + g*y"{} }}
-[sections.level]
-function = "x - {:.17g}"
-direction = "{}"
-)toml",
-                       states, growth, more, level, direction);
+OneMode circle(const std::string& growth, double level, const std::string& direction) {
+    return {.parameters = "mu = 1",
+            .states = "x = 1\ny = 0",
+            .definitions = fmt::format("w = 1.3\ns = 'x^2 + y^2'\ng = '{}'", growth),
+            .rates = "x = 'g*x - w*y', y = 'w*x + g*y'",
+            .more = section("level", fmt::format("x - {:.17g}", level), direction)};
 }
 constexpr double round = 2 * pi / 1.3;
 
@@ -54,12 +40,8 @@ double radius_of(const BranchPoint& point) {
 TEST(TouchedSection, CircleShrinksThroughIt) {
     for (const bool falling : {true, false})
         for (const double level : {0.5, -0.4}) {
-            const Model model = model_from(circle("mu - s", level, falling ? "falling" : "rising"));
-            BranchSettings settings;
-            settings.parameter = model.independent_parameter("mu");
-            settings.least = 0.01;
-            settings.greatest = 2;
-            settings.direction = -1;
+            const Model model = circle("mu - s", level, falling ? "falling" : "rising").model();
+            BranchSettings settings = in_parameter(model, "mu", 0.01, 2, -1);
             const Branch branch = follow_branch(System(model), on_circle(model, 1, 1, level, falling), settings);
             EXPECT_EQ(branch.outcome, BranchOutcome::bound) << branch.detail;
             EXPECT_EQ(names(branch), "BD") << level << falling;
@@ -84,12 +66,8 @@ TEST(TouchedSection, CircleShrinksThroughIt) {
 /// r' = r (mu + r^2 - r^4): two circles meet at mu = -1/4, inside the section.
 TEST(TouchedSection, FoldBeyondItIsFound) {
     const double level = 0.8;
-    const Model model = model_from(circle("mu + s - s^2", level, "falling"));
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("mu");
-    settings.least = -1;
-    settings.greatest = -0.05;
-    settings.direction = -1;
+    const Model model = circle("mu + s - s^2", level, "falling").model();
+    const BranchSettings settings = in_parameter(model, "mu", -1, -0.05, -1);
     const double mu = -0.1, radius = std::sqrt(0.5 + std::sqrt(0.25 + mu));
     const Branch branch = follow_branch(System(model), on_circle(model, mu, radius, level, true), settings);
     ASSERT_EQ(names(branch), "SN BD") << branch.detail;
@@ -105,19 +83,17 @@ TEST(TouchedSection, FoldBeyondItIsFound) {
 
 /// In addition to the circle (p, q), which rotate by half a turn per period: multipliers -exp(a T) and -exp(-T). Orbits
 /// of twice the period with p^2 = a bifurcate at a = mu - 0.1 = 0.
-const char* const half_turns =
-    R"(, p = "(0.5*(a - 1) - (p^2 + q^2))*p + 0.5*(a + 1)*(c*p + d*q) - 0.5*w*q", q = "(0.5*(a - 1) - (p^2 + q^2))*q + 0.5*(a + 1)*(d*p - c*q) + 0.5*w*p")";
+const char* const half_turns = ", p = '(0.5*(a - 1) - (p^2 + q^2))*p + 0.5*(a + 1)*(c*p + d*q) - 0.5*w*q'"
+                               ", q = '(0.5*(a - 1) - (p^2 + q^2))*q + 0.5*(a + 1)*(d*p - c*q) + 0.5*w*p'";
 
 TEST(TouchedSection, FlipBeyondItIsFoundAndSwitchedAt) {
     const double level = 0.5;
-    std::string text = circle("mu - s", level, "falling", half_turns, "p = 0\nq = 0");
-    text.replace(text.find("w = 1.3"), 7, "w = 1.3\na = \"mu - 0.1\"\nc = \"x/sqrt(s)\"\nd = \"y/sqrt(s)\"");
-    const Model model = model_from(text);
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("mu");
-    settings.least = 0.02;
-    settings.greatest = 0.9;
-    settings.direction = -1;
+    OneMode parts = circle("mu - s", level, "falling");
+    parts.states += "\np = 0\nq = 0";
+    parts.definitions += "\na = 'mu - 0.1'\nc = 'x/sqrt(s)'\nd = 'y/sqrt(s)'";
+    parts.rates += half_turns;
+    const Model model = parts.model();
+    BranchSettings settings = in_parameter(model, "mu", 0.02, 0.9, -1);
     const Branch branch =
         follow_branch(System(model), on_circle(model, 0.9, std::sqrt(0.9), level, true, {0, 0}), settings);
     ASSERT_EQ(names(branch), "PD BD") << branch.detail;
@@ -143,53 +119,17 @@ TEST(TouchedSection, FlipBeyondItIsFoundAndSwitchedAt) {
 
 /// The circle has two frequencies, on both sides of x = 0, and an additional section.
 TEST(TouchedSection, OrbitsWithEventsContinueWithoutIt) {
-    const Model model = model_from(R"toml(
-[initial]
-mode = "right"
-[parameters]
-mu = 1
-[states]
-x = 1
-y = 0
-[definitions]
-g = "mu - x^2 - y^2"
-[events.in]
-function = "x"
-kind = "section"
-[events.out]
-function = "-x"
-kind = "section"
-[modes.right]
-rates = { x = "g*x - 2*y", y = "2*x + g*y" }
-watch = ["in"]
-[modes.left]
-rates = { x = "g*x - y", y = "x + g*y" }
-watch = ["out"]
-[[transitions]]
-mode = "right"
-event = "in"
-next = "left"
-label = "in"
-[[transitions]]
-mode = "left"
-event = "out"
-next = "right"
-label = "out"
-[sections.level]
-function = "x - 0.5"
-direction = "falling"
-)toml");
+    const Model model = TwoModes{.parameters = "mu = 1",
+                                 .states = "x = 1\ny = 0",
+                                 .definitions = "g = 'mu - x^2 - y^2'",
+                                 .first = {"right", "x = 'g*x - 2*y', y = '2*x + g*y'", "in", "x"},
+                                 .second = {"left", "x = 'g*x - y', y = 'x + g*y'", "out", "-x"},
+                                 .more = section("level", "x - 0.5", "falling")}
+                            .model();
     const double y = std::sqrt(0.75), angle = std::atan2(y, 0.5);
-    Orbit orbit{parse_signature(model, "in out level"),
-                {1.0},
-                {{0.5, y}, {0, 1}, {0, -1}},
-                {0.5 * (pi / 2 - angle), pi, 0.5 * (pi / 2 + angle)},
-                std::nullopt};
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("mu");
-    settings.least = 0.04;
-    settings.greatest = 2;
-    settings.direction = -1;
+    const Orbit orbit = given_orbit(model, "in out level", {{0.5, y}, {0, 1}, {0, -1}},
+                                    {0.5 * (pi / 2 - angle), pi, 0.5 * (pi / 2 + angle)});
+    BranchSettings settings = in_parameter(model, "mu", 0.04, 2, -1);
     Branch branch = follow_branch(System(model), orbit, settings);
     EXPECT_EQ(names(branch), "BD") << branch.detail;
     EXPECT_EQ(branch.points.back().parameter, 0.04);
@@ -213,53 +153,22 @@ TEST(TouchedSection, CurvesOfTouchesContinueWhereTheSectionIsTheTouch) {
     // The circle of radius mu^(1/2) touches the wall at its largest x, where the section is; with two walls it touches
     // both all along.
     for (const bool both : {false, true}) {
-        const Model model = model_from(fmt::format(R"toml(
-[parameters]
-mu = 1
-s = 2
-[states]
-x = 1
-y = 0
-[definitions]
-g = "mu - x^2 - y^2"
-[events]
-right = "s - x"
-left = "s + x"
-[modes.free]
-rates = {{ x = "g*x - y", y = "x + g*y" }}
-watch = [{}]
-[jumps.impact]
-y = "-0.5*y"
-[[transitions]]
-mode = "free"
-event = "right"
-label = "R"
-jump = "impact"
-next = "free"
-{}
-[sections.greatest]
-function = "y"
-direction = "rising"
-)toml",
-                                                   both ? "\"right\", \"left\"" : "\"right\"",
-                                                   both ? "[[transitions]]\nmode = \"free\"\nevent = \"left\"\nlabel "
-                                                          "= \"L\"\njump = \"impact\"\nnext = \"free\""
-                                                        : ""));
-        const Orbit circle{parse_signature(model, "free:greatest"), model.parameter_values(), {{1, 0}}, {2 * pi}, {}};
-        BranchSettings settings;
-        settings.parameter = model.independent_parameter("s");
-        settings.least = 0.3;
-        settings.greatest = 3;
-        settings.direction = -1;
+        OneMode parts{.parameters = "mu = 1\ns = 2",
+                      .states = "x = 1\ny = 0",
+                      .definitions = "g = 'mu - x^2 - y^2'",
+                      .rates = "x = 'g*x - y', y = 'x + g*y'",
+                      .stops = {{"right", "s - x", "y = '-0.5*y'", "R"}},
+                      .more = section("greatest", "y")};
+        if (both)
+            parts.stops.push_back({"left", "s + x", "y = '-0.5*y'", "L"});
+        const Model model = parts.model();
+        const Orbit circle = given_orbit(model, "free:greatest", {{1, 0}}, {2 * pi});
+        BranchSettings settings = in_parameter(model, "s", 0.3, 3, -1);
         const Branch branch = follow_branch(System(model), circle, settings);
         ASSERT_EQ(names(branch), "GR") << branch.detail;
         EXPECT_NEAR(branch.special[0].parameter, 1, 1e-12);
-        settings.kept = branch.special[0];
-        settings.free = {model.independent_parameter("mu")};
-        settings.free_bounds = {{settings.free[0], 0.1, 8}};
         for (const int way : {1, -1}) {
-            settings.direction = way;
-            const Branch curve = follow_branch(System(model), branch.special[0].solution.orbit, settings);
+            const Branch curve = curve_of(model, branch.special[0], settings, "mu", 0.1, 8, way);
             EXPECT_EQ(names(curve), "BD") << both << ' ' << curve.detail;
             for (const BranchPoint& one : curve.points)
                 EXPECT_NEAR(one.solution.orbit.parameters[0], one.parameter * one.parameter, 1e-10);

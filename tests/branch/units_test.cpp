@@ -13,43 +13,13 @@ using namespace graze::testing;
 
 /// An oscillator between two stops, with a driven counter, in units of time and length.
 Model between_stops(double time, double length) {
-    return model_from(fmt::format(R"toml(
-[parameters]
-omega = {:.17g}
-T = {:.17g}
-A = {:.17g}
-[states]
-x = 0
-v = "1.2*A/T"
-theta = {{ initial = 0, period = "2*pi" }}
-s = {{ initial = 0, drifting = true }}
-[modes.free]
-rates = {{ x = "v", v = "(2*A*cos(theta) - x)/T^2 - 0.1*v/T", theta = "omega", s = "v^2/A*T" }}
-watch = ["right", "left"]
-[events]
-right = "A - x"
-left = "A + x"
-[jumps.back]
-v = "-0.8*v"
-[[transitions]]
-mode = "free"
-event = "right"
-label = "R"
-jump = "back"
-next = "free"
-[[transitions]]
-mode = "free"
-event = "left"
-label = "L"
-jump = "back"
-next = "free"
-[sections.phase0]
-state = "theta"
-value = 0
-[symmetries.mirror]
-map = {{ x = "-x", v = "-v", theta = "theta + pi" }}
-)toml",
-                                  1.5 / time, time, length));
+    return OneMode{.parameters = fmt::format("omega = {:.17g}\nT = {:.17g}\nA = {:.17g}", 1.5 / time, time, length),
+                   .states = "x = 0\nv = '1.2*A/T'\ns = { initial = 0, drifting = true }",
+                   .rates = "x = 'v', v = '(2*A*cos(theta) - x)/T^2 - 0.1*v/T', s = 'v^2/A*T'",
+                   .clock = "omega",
+                   .stops = {{"right", "A - x", "v = '-0.8*v'", "R"}, {"left", "A + x", "v = '-0.8*v'", "L"}},
+                   .more = "[symmetries.mirror]\nmap = { x = '-x', v = '-v', theta = 'theta + pi' }"}
+        .model();
 }
 
 TEST(Units, BranchDoesNotDependOnUnits) {
@@ -61,10 +31,7 @@ TEST(Units, BranchDoesNotDependOnUnits) {
         ASSERT_TRUE(found);
         ASSERT_EQ(found->outcome, OrbitOutcome::converged) << found->detail;
         ASSERT_TRUE(found->orbit.symmetry) << time << ' ' << length;
-        BranchSettings settings;
-        settings.parameter = model.independent_parameter("omega");
-        settings.least = 0.3 / time;
-        settings.greatest = 6 / time;
+        BranchSettings settings = in_parameter(model, "omega", 0.3 / time, 6 / time);
         settings.orbit.tolerance = 1e-13;
         const Branch branch = follow_branch(System(model), found->orbit, settings);
         ASSERT_GT(branch.points.size(), 5U);

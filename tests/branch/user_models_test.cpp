@@ -25,32 +25,25 @@ struct Sliding {
 };
 
 Model sliding_model(const Sliding& known, double greatest_at_rest) {
-    Model model = load_model("dry-friction-oscillator");
-    model.set_parameter("zeta", 0);
-    model.set_parameter("omega", known.omega);
-    model.set_parameter("friction_dynamic", known.friction);
-    model.set_parameter("friction_static", greatest_at_rest);
-    return model;
+    return shipped_with("dry-friction-oscillator", {{"zeta", 0},
+                                                    {"omega", known.omega},
+                                                    {"friction_dynamic", known.friction},
+                                                    {"friction_static", greatest_at_rest}});
 }
 
 Orbit sliding_orbit(const Sliding& known, const Model& model) {
     // To the left, from a turning point on the right.
     const double x = known.amplitude(),
                  phase = std::atan2(-known.friction * known.damping() / known.response(), x / known.response());
-    Orbit orbit{parse_signature(model, "slip_minus:stop_minus slip_plus:stop_plus"),
-                model.parameter_values(),
-                {{x, 0, phase}, {-x, 0, phase + pi}},
-                {pi / known.omega, pi / known.omega},
-                {}};
+    const Orbit orbit = given_orbit(model, "slip_minus:stop_minus slip_plus:stop_plus",
+                                    {{x, 0, phase}, {-x, 0, phase + pi}}, {pi / known.omega, pi / known.omega});
     return half_orbit(System(model), orbit).value();
 }
 
 TEST(UserModels, DryFrictionSticksWhereDenHartogPredicts) {
     const Sliding known{0.8, 0.3};
     const Model model = sliding_model(known, 0.3);
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("friction_static");
-    settings.greatest = 3;
+    const BranchSettings settings = in_parameter(model, "friction_static", {}, 3);
     const Branch branch = follow_branch(System(model), sliding_orbit(known, model), settings);
     ASSERT_EQ(names(branch), "GU BD");
     EXPECT_NEAR(branch.special[0].parameter, known.force(), 1e-12);
@@ -72,10 +65,7 @@ TEST(UserModels, DryFrictionSlidesWithTheAmplitudeOfDenHartog) {
     for (const char* parameter : {"friction_dynamic", "omega"}) {
         const Sliding begin{0.8, 0.3};
         const Model model = sliding_model(begin, 0.3);
-        BranchSettings settings;
-        settings.parameter = model.independent_parameter(parameter);
-        settings.direction = -1;
-        settings.least = parameter[0] == 'o' ? 0.55 : 0.01;
+        const BranchSettings settings = in_parameter(model, parameter, parameter[0] == 'o' ? 0.55 : 0.01, {}, -1);
         const Branch branch = follow_branch(System(model), sliding_orbit(begin, model), settings);
         ASSERT_GT(branch.points.size(), 3U);
         for (const BranchPoint& point : branch.points) {
@@ -91,51 +81,19 @@ TEST(UserModels, DryFrictionSlidesWithTheAmplitudeOfDenHartog) {
 
 /// A spring that is stiffer on one side: x'' + 2 zeta x' + (1 or stiffness) x = load + cos(omega t).
 Model bilinear(double stiffness) {
-    return model_from(fmt::format(R"toml(
-[parameters]
-stiffness = {:.17g}
-omega = 2.3
-zeta = 0.05
-load = 0
-[states]
-x = 0.5
-v = 0
-theta = {{ initial = 0, period = "2*pi" }}
-[modes.soft]
-rates = {{ x = "v", v = "load + cos(theta) - 2*zeta*v - x", theta = "omega" }}
-watch = ["rise"]
-[modes.stiff]
-rates = {{ x = "v", v = "load + cos(theta) - 2*zeta*v - stiffness*x", theta = "omega" }}
-watch = ["fall"]
-[events]
-rise = "-x"
-fall = "x"
-[[transitions]]
-label = "up"
-mode = "soft"
-event = "rise"
-next = "stiff"
-[[transitions]]
-label = "down"
-mode = "stiff"
-event = "fall"
-next = "soft"
-[sections.start]
-state = "theta"
-value = 0
-[initial]
-mode = "stiff"
-)toml",
-                                  stiffness));
+    return TwoModes{.parameters = fmt::format("stiffness = {:.17g}\nomega = 2.3\nzeta = 0.05\nload = 0", stiffness),
+                    .states = "x = 0.5\nv = 0",
+                    .clock = "omega",
+                    .first = {"stiff", "x = 'v', v = 'load + cos(theta) - 2*zeta*v - stiffness*x'", "fall", "x"},
+                    .second = {"soft", "x = 'v', v = 'load + cos(theta) - 2*zeta*v - x'", "rise", "-x"},
+                    .kind = "barrier"}
+        .model();
 }
 
 TEST(UserModels, BilinearOscillatorIsLinearForEqualSprings) {
     const Model model = bilinear(1.4);
     const Orbit orbit = settled(model, "start").orbit;
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("stiffness");
-    settings.direction = -1;
-    settings.least = 1;
+    const BranchSettings settings = in_parameter(model, "stiffness", 1, {}, -1);
     const Branch branch = follow_branch(System(model), orbit, settings);
     ASSERT_EQ(branch.outcome, BranchOutcome::bound) << names(branch);
     for (const BranchPoint& point : branch.points) {
@@ -158,10 +116,7 @@ TEST(UserModels, BilinearOscillatorLeavesTheStiffSideAtATouch) {
     model.set_initial("x", 3.3);
     const Orbit orbit = settled(model, "start").orbit;
     ASSERT_EQ(orbit.segments(), 1U);
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("load");
-    settings.direction = -1;
-    settings.least = -10;
+    const BranchSettings settings = in_parameter(model, "load", -10, {}, -1);
     const Branch branch = follow_branch(System(model), orbit, settings);
     ASSERT_EQ(names(branch), "GR");
     EXPECT_NEAR(branch.special[0].parameter, 3 / std::hypot(3 - 2.3 * 2.3, 0.23), 1e-12);

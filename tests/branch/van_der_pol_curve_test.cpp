@@ -19,20 +19,7 @@ using namespace graze::testing;
 constexpr double growth = 0.3;
 
 Model van_der_pol() {
-    return model_from(R"toml(
-[parameters]
-F = 2
-omega = 1.2
-[states]
-x = 0
-v = 0
-theta = { initial = 0, period = "2*pi" }
-[modes.only]
-rates = { x = "v", v = "0.3*(1 - x^2)*v - x + F*cos(theta)", theta = "omega" }
-[sections.start]
-state = "theta"
-value = 0
-)toml");
+    return driven("F = 2\nomega = 1.2", "0.3*(1 - x^2)*v - x + F*cos(theta)", "omega");
 }
 
 double omega_of(const Model& model, const OrbitSolution& solution) {
@@ -52,9 +39,8 @@ void expect_torus(const Model& model, const OrbitSolution& solution) {
 
 TEST(VanDerPolCurves, TorusPointsConnectResonances) {
     const Model model = van_der_pol();
-    BranchSettings settings = in_parameter(model, "F", 0.05, 3);
-    settings.direction = -1;
-    const Branch branch = follow_branch(System(model), settled(model, "start").orbit, settings);
+    const Branch branch =
+        follow_branch(System(model), settled(model, "start").orbit, in_parameter(model, "F", 0.05, 3, -1));
     const auto torus = of_type(branch, PointType::torus);
     ASSERT_EQ(torus.size(), 1U) << names(branch);
     // By averaging the amplitude is 2^(1/2) there and the effective growth is halved, up to errors of its square.
@@ -82,9 +68,8 @@ TEST(VanDerPolCurves, TorusPointsConnectResonances) {
 
 TEST(VanDerPolCurves, FoldsMeetTorusPointsInAOneToOneResonance) {
     const Model model = van_der_pol();
-    BranchSettings down = in_parameter(model, "F", 0.02, 3);
-    down.direction = -1;
-    const Branch branch = follow_branch(System(model), settled(model, "start").orbit, down);
+    const Branch branch =
+        follow_branch(System(model), settled(model, "start").orbit, in_parameter(model, "F", 0.02, 3, -1));
     const auto torus = of_type(branch, PointType::torus);
     ASSERT_EQ(torus.size(), 1U) << names(branch);
     const BranchSettings in_omega = in_parameter(model, "omega", 0.8, 3);

@@ -22,51 +22,19 @@ using namespace graze::testing;
 struct SoftLanding {
     double length, time; ///< units
     double g = length / (time * time), omega = 1.3 / time, unit = g / (omega * omega);
-    Model model = model_from(fmt::format(R"toml(
-[parameters]
-A = {}
-H = {}
-g = {}
-omega = {}
-k = {}
-[states]
-x = 1
-v = 0
-w = 1
-clock = 0
-[modes.falling]
-rates = {{ x = "v", v = "-g", w = "-0.1*omega*w", clock = 1 }}
-watch = ["contact"]
-[modes.resting]
-rates = {{ x = "A*omega*cos(omega*clock)", v = "-A*omega^2*sin(omega*clock)", w = "-0.3*omega*w", clock = 1 }}
-watch = ["taken"]
-[events.contact]
-function = "x - A*sin(omega*clock)"
-[events.taken]
-function = "2*pi/omega - clock"
-[jumps.land]
-v = "A*omega*cos(omega*clock)"
-[jumps.take]
-x = "H + k*w"
-v = 0
-w = "w + 1"
-clock = 0
-[[transitions]]
-mode = "falling"
-event = "contact"
-jump = "land"
-next = "resting"
-label = "land"
-[[transitions]]
-mode = "resting"
-event = "taken"
-jump = "take"
-next = "falling"
-label = "take"
-[initial]
-mode = "falling"
-)toml",
-                                         amplitude(first), height(first), g, omega, 0.3 * unit));
+    Model model =
+        TwoModes{
+            .parameters = fmt::format("A = {}\nH = {}\ng = {}\nomega = {}\nk = {}", amplitude(first), height(first), g,
+                                      omega, 0.3 * unit),
+            .states = "x = 1\nv = 0\nw = 1\nclock = 0",
+            .first = {"falling", "x = 'v', v = '-g', w = '-0.1*omega*w', clock = 1", "contact",
+                      "x - A*sin(omega*clock)", "v = 'A*omega*cos(omega*clock)'"},
+            .second =
+                {"resting",
+                 "x = 'A*omega*cos(omega*clock)', v = '-A*omega^2*sin(omega*clock)', w = '-0.3*omega*w', clock = 1",
+                 "taken", "2*pi/omega - clock", "x = 'H + k*w'\nv = 0\nw = 'w + 1'\nclock = 0"},
+            .kind = "barrier"}
+            .model();
 
     static constexpr double first = 2.2; // phase of the touch at the start of curves
 
@@ -93,12 +61,11 @@ mode = "falling"
         while (gap(phase) > 0)
             phase += 1e-3;
         const double t = phase / omega, w = 1 + memory(phase);
-        const Orbit orbit{parse_signature(model, "land take"),
-                          model.parameter_values(),
-                          {{height_then + 0.3 * unit * (w - 1), 0, w, 0},
-                           {a * std::sin(phase), a * omega * std::cos(phase), w * std::exp(-0.1 * phase), t}},
-                          {t, 2 * std::numbers::pi / omega - t},
-                          {}};
+        const Orbit orbit =
+            given_orbit(model, "contact taken",
+                        {{height_then + 0.3 * unit * (w - 1), 0, w, 0},
+                         {a * std::sin(phase), a * omega * std::cos(phase), w * std::exp(-0.1 * phase), t}},
+                        {t, 2 * std::numbers::pi / omega - t});
         BranchSettings settings = in_height();
         settings.direction = direction;
         settings.stop_at = {PointType::grazing};

@@ -54,23 +54,13 @@ INSTANTIATE_TEST_SUITE_P(Maps, ZeroState,
                                            Case{"-(1 + 0.5*p)*x + 0.5*x*(x/unit)^2", PointType::flip, 2, -1}));
 
 TEST(ZeroStateOfSettledOrbit, SymmetricOrbitsAreRecognised) {
-    const Model model = model_from(R"toml(
-[parameters]
-p = -0.3
-[states]
-x = 1
-y = 0
-z = 0.01
-[definitions]
-R = "1 - x^2 - y^2"
-[modes.only]
-rates = { x = "x*R - 1.3*y", y = "y*R + 1.3*x", z = "p*z - z^3" }
-[sections.start]
-function = "y"
-direction = "rising"
-[symmetries.turned]
-map = { x = "-x", y = "-y", z = "-z" }
-)toml");
+    const Model model =
+        OneMode{.parameters = "p = -0.3",
+                .states = "x = 1\ny = 0\nz = 0.01",
+                .definitions = "R = '1 - x^2 - y^2'",
+                .rates = "x = 'x*R - 1.3*y', y = 'y*R + 1.3*x', z = 'p*z - z^3'",
+                .more = section("start", "y") + "[symmetries.turned]\nmap = { x = '-x', y = '-y', z = '-z' }"}
+            .model();
     const OrbitSolution solution = settled(model, "start");
     EXPECT_TRUE(solution.orbit.symmetry.has_value());
     const Branch branch = follow_branch(System(model), solution.orbit, in_parameter(model, "p", -0.5, 0.5));

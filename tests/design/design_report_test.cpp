@@ -45,7 +45,7 @@ TEST(DesignReport, OfTheMemsSwitchHasThePublishedValues) {
 }
 
 TEST(DesignReport, OfAnOscillatorHasExactDerivatives) {
-    const Design design = parse_design(oscillator_text(), "d.toml");
+    const Design design = oscillator_design();
     const DesignReport report = report_of(design, trip_of(design));
     const double omega = 0.5, zeta = 0.1, sigma = 0.2, root = oscillator_value(1, zeta);
     EXPECT_NEAR(of(report, "sigma").derivative, root, 1e-10);
@@ -60,15 +60,14 @@ TEST(DesignReport, OfAnOscillatorHasExactDerivatives) {
 }
 
 TEST(DesignReport, IsInterruptedBetweenItsParts) {
-    const Design design = parse_design(oscillator_text(), "d.toml");
+    const Design design = oscillator_design();
     DesignReportOptions options;
     options.interrupted = [] { return true; };
     EXPECT_TRUE(report_of(design, trip_of(design), options).interrupted);
 }
 
 TEST(DesignReport, EachTableHasAFile) {
-    const Design design = parse_design(oscillator_text(), "d.toml");
-    const TripPoint trip = trip_of(design);
+    const auto [design, trip] = with_trip(oscillator_design());
     std::vector<std::string> names;
     for (const NamedTable& table : tables_of(design, trip, report_of(design, trip))) {
         names.push_back(table.name);

@@ -32,7 +32,7 @@ std::vector<std::string> mistakes_of(const std::string& text) {
 } // namespace
 
 TEST(Design, IsReadWithTolerancesOfEitherKind) {
-    const Design design = parse_design(oscillator_text(), "d.toml");
+    const Design design = oscillator_design();
     EXPECT_EQ(design.name, "oscillator");
     ASSERT_EQ(design.dimensions.size(), 2U);
     const DesignDimension& sigma = design.dimensions[0];

@@ -8,8 +8,7 @@
 namespace graze::testing {
 
 TEST(DeviceTrial, OfTheMemsSwitchAgreesWithItsClass) {
-    const Design design = load_design("mems-switch");
-    const TripPoint trip = trip_of(design);
+    const auto [design, trip] = with_trip(load_design("mems-switch"));
     const DeviceTrial trial = try_device(trip, trip.point.solution.orbit, class_at(trip), design.trip);
     EXPECT_EQ(trial.outcome, TrialOutcome::agreed);
     EXPECT_LT(trial.below, trip.value());
@@ -18,19 +17,7 @@ TEST(DeviceTrial, OfTheMemsSwitchAgreesWithItsClass) {
 }
 
 TEST(DeviceTrial, OfAFoldUsesItsStableBranch) {
-    const Design design = parse_design(R"(name = "beam"
-control = "V"
-[approach]
-study = "microbeam"
-run = "contact"
-point = "SN1"
-[trip]
-until = "penetration=0.009"
-[dimensions.k]
-range = [50, 200]
-)",
-                                       "d.toml");
-    const TripPoint trip = trip_of(design);
+    const auto [design, trip] = with_trip(beam_design("[trip]\nuntil = 'penetration=0.009'\n"));
     const DeviceTrial trial = try_device(trip, trip.point.solution.orbit, class_at(trip), design.trip);
     EXPECT_TRUE(trial.rests_below) << trial.seen_below;
     EXPECT_LT(trial.below, trip.value());
@@ -39,8 +26,7 @@ range = [50, 200]
 }
 
 TEST(DeviceTrial, ContradictsAWrongClass) {
-    const Design design = load_design("mems-switch");
-    const TripPoint trip = trip_of(design);
+    const auto [design, trip] = with_trip(load_design("mems-switch"));
     TripClass wrong = class_at(trip);
     wrong.outcome = GrazingOutcome::persists;
     EXPECT_EQ(try_device(trip, trip.point.solution.orbit, wrong, design.trip).outcome, TrialOutcome::contradicted);

@@ -20,8 +20,7 @@ std::optional<std::size_t> row_of(const Table& facts, const std::string& quantit
 } // namespace
 
 TEST(ReportTables, FactsAreThoseOfTheReport) {
-    const Design design = parse_design(oscillator_text("[wanted]\nvalue = 0.2\n"), "d.toml");
-    const TripPoint trip = trip_of(design);
+    const auto [design, trip] = with_trip(oscillator_design("[wanted]\nvalue = 0.2\n"));
     DesignReport report = report_of(design, trip);
     Table facts = facts_of(design, trip, report);
     ASSERT_TRUE(row_of(facts, "trip_value"));
@@ -36,8 +35,7 @@ TEST(ReportTables, FactsAreThoseOfTheReport) {
 }
 
 TEST(ReportTables, CurvesAndPlanesHaveARowForEachDevice) {
-    const Design design = parse_design(oscillator_text(), "d.toml");
-    const TripPoint trip = trip_of(design);
+    const auto [design, trip] = with_trip(oscillator_design());
     const DesignReport report = report_of(design, trip);
     for (const NamedTable& one : tables_of(design, trip, report)) {
         if (one.name == "curve-sigma") {

@@ -3,11 +3,11 @@
 
 #include "design/reset_steps.hpp"
 
+#include "sweep/model_parts.hpp"
 #include "switches.hpp"
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <utility>
 
 namespace graze::testing {
@@ -25,16 +25,18 @@ constexpr double stiffness = 1, damping = 0.6, drive = 0.1, frequency = 0.7, sto
 /// held by that force and by adhesion, until the spring pulls it off.
 /// @param shakes whether the drive acts on the held mass, too
 std::string latch_text(const Units& units, bool shakes) {
+    const std::string release = shakes ? "P + H - k*delta + A*cos(theta)" : "P + H - k*delta",
+                      next = fmt::format("[{{ when = '{} > 0', mode = 'held' }}, {{ mode = 'free' }}]", release);
     return fmt::format(R"(name = "latch"
 [parameters]
-P = {P:.17g}
-m = {m:.17g}
-k = {k:.17g}
-c = {c:.17g}
-A = {A:.17g}
-H = {H:.17g}
-w = {w:.17g}
-delta = {delta:.17g}
+P = {:.17g}
+m = {:.17g}
+k = {:.17g}
+c = {:.17g}
+A = {:.17g}
+H = {:.17g}
+w = {:.17g}
+delta = {:.17g}
 [states]
 x = 0
 v = 0
@@ -45,43 +47,26 @@ watch = ["stop"]
 [modes.held]
 rates = {{ x = 0, v = 0, theta = "w" }}
 watch = ["release"]
-[events.stop]
-function = "delta - x"
-[events.release]
-function = "P + H - k*delta{shake}"
+[events]
+stop = "delta - x"
+release = "{}"
 [jumps.rest]
 x = "delta"
 v = 0
-[[transitions]]
-mode = "free"
-event = "stop"
-label = "catch"
-jump = "rest"
-next = [{{ when = "P + H - k*delta{shake} > 0", mode = "held" }}, {{ mode = "free" }}]
-[[transitions]]
-mode = "held"
-event = "release"
-label = "release"
-jump = "rest"
-next = "free"
-[sections.phase0]
-state = "theta"
-value = 0
 [initial]
 mode = "free"
 )",
-                       fmt::arg("P", 0.1 * units.force()), fmt::arg("m", units.mass),
-                       fmt::arg("k", stiffness * units.force() / units.length),
-                       fmt::arg("c", damping * units.force() / units.length * units.time),
-                       fmt::arg("A", drive * units.force()), fmt::arg("H", adhesion * units.force()),
-                       fmt::arg("w", frequency / units.time), fmt::arg("delta", stop * units.length),
-                       fmt::arg("shake", shakes ? " + A*cos(theta)" : ""));
+                       0.1 * units.force(), units.mass, stiffness * units.force() / units.length,
+                       damping * units.force() / units.length * units.time, drive * units.force(),
+                       adhesion * units.force(), frequency / units.time, stop * units.length, release) +
+           transition("free", "stop", next, "rest", "catch") +
+           transition("held", "release", "free", "rest", "release") + at_phase(0, "phase0");
 }
 
 void expect_latch(const Units& units, bool shakes) {
     SCOPED_TRACE(fmt::format("units of {} and {}, {}", units.length, units.time, shakes ? "shaken" : "still"));
-    const DesignFolder folder;
-    std::ofstream(folder.path / "latch.toml") << latch_text(units, shakes);
+    const TemporaryFolder folder;
+    folder.write("latch.toml", latch_text(units, shakes));
     const Design design = parse_design(fmt::format(R"(name = "latch"
 model = "latch.toml"
 control = "P"
@@ -92,7 +77,7 @@ event = "stop"
 range = [0, {:.17g}]
 )",
                                                    0.1 * units.force(), units.force(), units.force()),
-                                       (folder.path / "design.toml").string());
+                                       folder / "design.toml");
     const TripPoint trip = trip_of(design);
     const double closed_trip = stop - drive / std::hypot(stiffness - frequency * frequency, damping * frequency);
     EXPECT_NEAR(trip.value() / units.force(), closed_trip, 1e-9);

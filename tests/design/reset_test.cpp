@@ -7,7 +7,7 @@
 namespace graze::testing {
 
 TEST(Reset, OfTheTestbedIsTheFoldOfItsPeriod3Orbit) {
-    const Design design = parse_design(R"(name = "bed"
+    const TripPoint trip = trip_of(parse_design(R"(name = "bed"
 control = "V0"
 [approach]
 study = "electromagnetic-testbed"
@@ -16,8 +16,7 @@ point = "GR1"
 [dimensions.delta]
 range = [0.0005, 0.002]
 )",
-                                       "d.toml");
-    const TripPoint trip = trip_of(design);
+                                                "d.toml"));
     EXPECT_NEAR(trip.value(), 4.833263260865, 1e-8);
     ResetOptions options;
     options.overshoot = 0.001; // below 4.846, where the period-3 orbit loses its symmetry

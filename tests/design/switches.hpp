@@ -1,37 +1,28 @@
 #pragma once
 
+#include "base/temporary_folder.hpp"
 #include "graze/design/trip_point.hpp"
 #include "graze/study/runner.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <string>
-#include <unistd.h>
+#include <utility>
 
 namespace graze::testing {
 
-/// A temporary folder.
-struct DesignFolder {
-    DesignFolder() {
-        static int count = 0;
-        path = std::filesystem::temp_directory_path() /
-               ("graze-design-" + std::to_string(getpid()) + "-" + std::to_string(count++));
-        std::filesystem::create_directories(path);
-    }
-    ~DesignFolder() { std::filesystem::remove_all(path); }
-    DesignFolder(const DesignFolder&) = delete;
-    DesignFolder& operator=(const DesignFolder&) = delete;
-    std::filesystem::path path;
-};
-
 inline TripPoint trip_of(const Design& design) {
-    const DesignFolder folder;
+    const TemporaryFolder folder;
     const Study study = approach_study(design);
-    ResultFile file((folder.path / "results.sqlite").string(), ResultFile::Access::write);
+    ResultFile file(folder / "results.sqlite", ResultFile::Access::write);
     run_study(study, file, {});
     return find_trip_point(design, study, file);
+}
+
+inline std::pair<Design, TripPoint> with_trip(Design design) {
+    TripPoint trip = trip_of(design);
+    return {std::move(design), std::move(trip)};
 }
 
 /// A linear oscillator driven below its resonance up to its stop: an orbit without contact in closed form.
@@ -59,9 +50,28 @@ plane = 3
 devices = 200
 )" + rest;
 }
+
+inline Design oscillator_design(const std::string& rest = "") {
+    return parse_design(oscillator_text(rest), "d.toml");
+}
+
 /// The amplitude at which it touches the stop.
 inline double oscillator_value(double sigma, double zeta, double omega = 0.5) {
     return sigma * std::hypot(1 - omega * omega, 2 * zeta * omega);
+}
+
+/// A point of the shipped study of a beam, as the trip point of a design.
+inline Design beam_design(const std::string& rest = "") {
+    return parse_design(R"(name = "beam"
+control = "V"
+[approach]
+study = "microbeam"
+run = "contact"
+point = "SN1"
+[dimensions.k]
+range = [50, 200]
+)" + rest,
+                        "d.toml");
 }
 
 } // namespace graze::testing

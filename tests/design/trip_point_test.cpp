@@ -14,7 +14,7 @@ namespace graze::testing {
 using ::testing::HasSubstr;
 
 TEST(TripPoint, OfAnOscillatorEqualsTheClosedForm) {
-    const TripPoint trip = trip_of(parse_design(oscillator_text(), "d.toml"));
+    const TripPoint trip = trip_of(oscillator_design());
     EXPECT_TRUE(trip.is_touch());
     // Newton's method ends with a correction below 1e-10, whose square is below round-off.
     EXPECT_NEAR(trip.value(), oscillator_value(0.2, 0.1), 1e-13);
@@ -46,17 +46,7 @@ TEST(TripPoint, OfTheDeviceEqualsThatOfTheScaledModelInVolts) {
 }
 
 TEST(TripPoint, OfAStudyMayBeAFoldAfterATouch) {
-    const Design design = parse_design(R"(name = "beam"
-control = "V"
-[approach]
-study = "microbeam"
-run = "contact"
-point = "SN1"
-[dimensions.k]
-range = [50, 200]
-)",
-                                       "d.toml");
-    const TripPoint trip = trip_of(design);
+    const TripPoint trip = trip_of(beam_design());
     EXPECT_EQ(trip.point.type, PointType::fold);
     EXPECT_NEAR(trip.value(), 0.032825650930776, 1e-8 * 0.0328); // published to at least eight digits
     ASSERT_FALSE(trip.earlier.empty());

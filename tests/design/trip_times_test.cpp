@@ -24,20 +24,8 @@ TEST(TripTimes, OfTheMemsSwitchAreThePublishedOnes) {
 }
 
 TEST(TripTimes, BeyondAFoldScaleWithTheRootOfTheOvershoot) {
-    Design design = parse_design(R"(name = "beam"
-control = "V"
-[approach]
-study = "microbeam"
-run = "contact"
-point = "SN1"
-[trip]
-until = "penetration=0.009"
-overshoots = [1e-6, 1e-8]
-[dimensions.k]
-range = [50, 200]
-)",
-                                 "d.toml");
-    const TripPoint trip = trip_of(design);
+    const auto [design, trip] =
+        with_trip(beam_design("[trip]\nuntil = 'penetration=0.009'\novershoots = [1e-6, 1e-8]\n"));
     const TripTimes times = trip_times(trip, trip.point.solution.orbit, class_at(trip), design.trip);
     ASSERT_EQ(times.rows.size(), 2U);
     ASSERT_TRUE(times.rows[0].best() && times.rows[1].best());
@@ -47,8 +35,7 @@ range = [50, 200]
 }
 
 TEST(TripTimes, AreAbsentIfTheMotionPersists) {
-    const Design design = parse_design(oscillator_text(), "d.toml");
-    const TripPoint trip = trip_of(design);
+    const auto [design, trip] = with_trip(oscillator_design());
     TripClass found = class_at(trip);
     found.outcome = GrazingOutcome::persists;
     const TripTimes times = trip_times(trip, trip.point.solution.orbit, found, design.trip);

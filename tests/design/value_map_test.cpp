@@ -8,8 +8,7 @@
 namespace graze::testing {
 
 TEST(ValueMap, OfAnOscillatorEqualsTheClosedForm) {
-    const Design design = parse_design(oscillator_text(), "d.toml");
-    const TripPoint trip = trip_of(design);
+    const auto [design, trip] = with_trip(oscillator_design());
     MapSettings settings;
     settings.points = 7;
     const std::vector<MappedValue> curve = value_curve(trip, design.dimensions[1], settings);
@@ -38,8 +37,7 @@ TEST(ValueMap, OfAnOscillatorEqualsTheClosedForm) {
 /// The class of a device is the same from the solution's own map and from a map computed anew. The plane extends to
 /// frequencies below 0.976, where the touch is in another segment of the orbit.
 TEST(ValueMap, ClassesOfAPlaneEqualThoseOfMapsComputedAnew) {
-    const Design design = load_design("mems-switch");
-    const TripPoint trip = trip_of(design);
+    const auto [design, trip] = with_trip(load_design("mems-switch"));
     const DesignDimension& delta = design.dimensions[*design.find_dimension("delta")];
     DesignDimension omega = design.dimensions[*design.find_dimension("omega")];
     omega.least = 0.97;
@@ -62,8 +60,7 @@ TEST(ValueMap, ClassesOfAPlaneEqualThoseOfMapsComputedAnew) {
 
 TEST(ValueMap, ClassesEqualThoseOfEachDevicesOwnMap) {
     // The class of a damped oscillator depends on its own cycle: it must agree point by point.
-    const Design design = parse_design(oscillator_text(), "d.toml");
-    const TripPoint trip = trip_of(design);
+    const auto [design, trip] = with_trip(oscillator_design());
     MapSettings settings;
     settings.points = 5;
     for (const MappedValue& one : value_curve(trip, design.dimensions[1], settings)) {
@@ -75,8 +72,7 @@ TEST(ValueMap, ClassesEqualThoseOfEachDevicesOwnMap) {
 }
 
 TEST(Tuning, IsTheInverseOfTheValueCurve) {
-    const Design design = parse_design(oscillator_text(), "d.toml");
-    const TripPoint trip = trip_of(design);
+    const auto [design, trip] = with_trip(oscillator_design());
     MapSettings settings;
     settings.points = 9;
     const Tuning tuning = tuning_curve(trip, design.dimensions[0], settings);

@@ -10,7 +10,7 @@
 namespace graze::testing {
 
 TEST(Wishes, AreMetByTheNearestDevice) {
-    const Design design = parse_design(oscillator_text("[wanted]\nvalue = 0.2\n"), "d.toml");
+    const Design design = oscillator_design("[wanted]\nvalue = 0.2\n");
     const MetWishes met = meet_wishes(design, trip_of(design));
     ASSERT_EQ(met.found.outcome, WishOutcome::met) << met.found.reason;
     const std::vector<double> values = met.values();
@@ -25,7 +25,7 @@ TEST(Wishes, AreMetByTheNearestDevice) {
 }
 
 TEST(Wishes, ThatCannotBeMetNameTheActiveLimits) {
-    const Design design = parse_design(oscillator_text("[wanted]\nvalue = 0.9\n"), "d.toml");
+    const Design design = oscillator_design("[wanted]\nvalue = 0.9\n");
     const MetWishes met = meet_wishes(design, trip_of(design));
     EXPECT_EQ(met.found.outcome, WishOutcome::unmet);
     ASSERT_EQ(met.found.wants.size(), 1U);
@@ -38,7 +38,7 @@ TEST(Wishes, ThatCannotBeMetNameTheActiveLimits) {
 
 TEST(Wishes, ForASensitivityAreMetByTheDerivative) {
     // Relative derivative by zeta: (2 zeta omega)^2 / root^2, which must be at most 1 percent.
-    const Design design = parse_design(oscillator_text("[wanted]\nsensitivity = { zeta = 0.01 }\n"), "d.toml");
+    const Design design = oscillator_design("[wanted]\nsensitivity = { zeta = 0.01 }\n");
     const MetWishes met = meet_wishes(design, trip_of(design));
     ASSERT_EQ(met.found.outcome, WishOutcome::met) << met.found.reason;
     const double zeta = met.values()[1], root = oscillator_value(1, zeta);
@@ -62,8 +62,7 @@ range = [0.3, 1.6]
 [wanted]
 class = "persists"
 )";
-    const Design design = parse_design(text, "d.toml");
-    const TripPoint first = trip_of(design);
+    const auto [design, first] = with_trip(parse_design(text, "d.toml"));
     EXPECT_EQ(class_at(first).outcome, GrazingOutcome::lost);
     const MetWishes met = meet_wishes(design, first);
     ASSERT_EQ(met.found.outcome, WishOutcome::met) << met.found.reason;
@@ -78,7 +77,7 @@ double share_within(double least, double greatest, double value) {
 }
 
 TEST(Wishes, ForAYieldAreMetByCountedDevices) {
-    Design design = parse_design(oscillator_text("[wanted]\nvalue = [0.198, 0.206]\nyield = 0.9\n"), "d.toml");
+    Design design = oscillator_design("[wanted]\nvalue = [0.198, 0.206]\nyield = 0.9\n");
     design.yield.devices = 2000;
     const MetWishes met = meet_wishes(design, trip_of(design));
     ASSERT_EQ(met.found.outcome, WishOutcome::met) << met.found.reason;
@@ -101,7 +100,7 @@ TEST(Wishes, ForAYieldAreMetByCountedDevices) {
 TEST(Wishes, ForAYieldAreDecidedByCountedDevicesHoweverTheSearchEnded) {
     for (const std::size_t evaluations : {1, 3, 8})
         for (const double share : {0.85, 0.9, 0.92, 0.94}) {
-            Design design = parse_design(oscillator_text("[wanted]\nvalue = [0.198, 0.206]\nyield = 0.9\n"), "d.toml");
+            Design design = oscillator_design("[wanted]\nvalue = [0.198, 0.206]\nyield = 0.9\n");
             design.wanted.least_yield = share;
             WishesOptions options;
             options.evaluations = evaluations;
@@ -117,7 +116,7 @@ TEST(Wishes, ForAYieldAreDecidedByCountedDevicesHoweverTheSearchEnded) {
 
 TEST(Wishes, ForAYieldFarFromTheStartAreMet) {
     // No device made like the first is within the limits, nor any near it.
-    Design design = parse_design(oscillator_text("within = [0.29, 0.31]\n[wanted]\nyield = 0.95\n"), "d.toml");
+    Design design = oscillator_design("within = [0.29, 0.31]\n[wanted]\nyield = 0.95\n");
     const MetWishes met = meet_wishes(design, trip_of(design));
     ASSERT_EQ(met.found.outcome, WishOutcome::met) << met.found.reason;
     EXPECT_NEAR(share_within(0.29, 0.31, *met.trip_value), 0.95, 0.06); // for 200 devices
@@ -130,9 +129,8 @@ TEST(Wishes, ForAYieldFarFromTheStartAreMet) {
 }
 
 TEST(Wishes, OfADeviceAreEvaluatedWithoutASearch) {
-    const Design design = parse_design(
-        oscillator_text("[wanted]\nvalue = [0.15, 0.16]\nclass = \"trips\"\nsensitivity = { zeta = 0.001 }\n"),
-        "d.toml");
+    const Design design =
+        oscillator_design("[wanted]\nvalue = [0.15, 0.16]\nclass = \"trips\"\nsensitivity = { zeta = 0.001 }\n");
     const MetWishes at = wishes_at(design, trip_of(design));
     ASSERT_EQ(at.found.wants.size(), 3U);
     EXPECT_EQ(at.values(), (std::vector{0.2, 0.1}));

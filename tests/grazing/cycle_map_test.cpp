@@ -4,8 +4,8 @@
 #include "graze/grazing/cycle_map.hpp"
 #include "graze/grazing/map_motion.hpp"
 #include "graze/grazing/trial.hpp"
-#include "graze/model/catalogue.hpp"
-#include "graze/orbit/solve.hpp"
+#include "orbit/orbits.hpp"
+#include "trajectory/simulate.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,16 +15,14 @@
 namespace graze {
 namespace {
 
+using namespace graze::testing;
+
 using std::numbers::pi;
 
 /// The ball at rest in front of the shaker; with a = b the shaker just touches it.
 Orbit resting_ball(const Model& model) {
-    Orbit orbit;
-    orbit.signature = parse_signature(model, "free:phase0");
-    orbit.parameters = model.parameter_values();
-    orbit.starts = {{0, 0, 0}};
-    orbit.durations = {1 / orbit.parameters[model.independent_parameter("f").place()]};
-    return orbit;
+    const double f = model.parameter_values()[model.independent_parameter("f").place()];
+    return given_orbit(model, "free:phase0", {{0, 0, 0}}, {1 / f});
 }
 
 struct Shaker {
@@ -39,9 +37,7 @@ constexpr Shaker published[] = {{6, 1, 1.01155084345},
 TEST(CycleMap, BallAndShakerHasThePublishedGrowth) {
     constexpr double zeta = 0.0881, omega_n = 25.2, e = 0.55, b = 0.65;
     for (const Shaker& one : published) {
-        Model model = load_model("ball-and-shaker");
-        model.set_parameter("a", b);
-        model.set_parameter("f", one.f);
+        const Model model = shipped_with("ball-and-shaker", {{"a", b}, {"f", one.f}});
         const System system(model);
         const Orbit orbit = resting_ball(model);
         const std::vector<OrbitTouch> touches = touches_of(system, orbit);
@@ -86,11 +82,8 @@ Orbit between_stops(Model& model, bool half) {
     const double in_phase = (1 - omega * omega), out_of_phase = 2 * zeta * omega,
                  square = in_phase * in_phase + out_of_phase * out_of_phase;
     model.set_parameter("sigma", 1 / std::sqrt(square));
-    Orbit orbit;
-    orbit.signature = parse_signature(model, "free:phase0");
-    orbit.parameters = model.parameter_values();
-    orbit.starts = {{in_phase / square, omega * out_of_phase / square, 0}};
-    orbit.durations = {(half ? 1 : 2) * pi / omega};
+    Orbit orbit = given_orbit(model, "free:phase0", {{in_phase / square, omega * out_of_phase / square, 0}},
+                              {(half ? 1 : 2) * pi / omega});
     if (half)
         orbit.symmetry = 0;
     return orbit;
@@ -135,8 +128,7 @@ TEST(CycleMap, OrbitWithTwoTouchesIsUndecided) {
 }
 
 TEST(CycleMap, ReasonTellsWhyTheMapDoesNotExist) {
-    Model model = load_model("ball-and-shaker");
-    model.set_parameter("a", 0.6);
+    const Model model = shipped_with("ball-and-shaker", {{"a", 0.6}});
     const System system(model);
     const Orbit orbit = resting_ball(model);
     EXPECT_TRUE(touches_of(system, orbit).empty());

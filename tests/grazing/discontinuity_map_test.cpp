@@ -4,9 +4,9 @@
 
 #include "graze/base/input_error.hpp"
 #include "graze/flow/mode_flow.hpp"
-#include "graze/model/catalogue.hpp"
-#include "graze/model/model_file.hpp"
 #include "graze/trajectory/trajectory.hpp"
+#include "near_touch.hpp"
+#include "sweep/model_parts.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -20,37 +20,16 @@
 namespace graze {
 namespace {
 
+using namespace graze::testing;
+
 using ::testing::HasSubstr;
 
 /// Returns the largest scaled difference between the simulation and the map for a motion near the touch that would
 /// penetrate to `depth`.
 double error_at(const System& system, const DiscontinuityMap& map, double depth, double time) {
     const TouchState& touch = map.touch;
-    // Find the state of zero rate at this depth: Newton's method along the gradients of function and rate.
-    std::vector<double> state = touch.state;
+    const std::vector<double> state = state_at_depth(system, map, depth);
     const std::size_t n = state.size();
-    const auto inputs = [&](std::vector<double> values) {
-        values.insert(values.end(), touch.parameters.begin(), touch.parameters.end());
-        return values;
-    };
-    for (int iteration = 0; iteration < 30; ++iteration) {
-        const std::vector<double> h = system.event(touch.event)(inputs(state)),
-                                  f = system.mode(touch.mode).rates(inputs(state));
-        double gg = 0, gr = 0, rr = 0, rate = 0;
-        for (std::size_t i = 0; i < n; ++i) {
-            const double unit = touch.scales[i];
-            gg += map.gradient[i] * map.gradient[i] * unit * unit;
-            gr += map.gradient[i] * map.rate_gradient[i] * unit * unit;
-            rr += map.rate_gradient[i] * map.rate_gradient[i] * unit * unit;
-            rate += h[1 + i] * f[i];
-        }
-        const double value = -depth - h[0], determinant = gg * rr - gr * gr;
-        const double by_value = (value * rr + rate * gr) / determinant,
-                     by_rate = (-rate * gg - value * gr) / determinant;
-        for (std::size_t i = 0; i < n; ++i)
-            state[i] +=
-                (by_value * map.gradient[i] + by_rate * map.rate_gradient[i]) * touch.scales[i] * touch.scales[i];
-    }
     const Simulation simulation(system, {}, {}, SimulationOptions{.tolerance = 1e-15, .order = 0, .largest_step = 0});
     ModeFlow flow(system, 1e-15);
     flow.set_parameters(touch.parameters);
@@ -105,15 +84,13 @@ TouchState touch_of(const Model& model, const std::string& mode, const std::stri
     return touch;
 }
 
-/// x'' = 2 + x z - v with z' = 1 - z + v x in front of a wall_model at x = 0. @param contact transitions and further
-/// modes
-Model wall_model(const std::string& parameters, const std::string& contact) {
-    return parse_model(fmt::format(R"toml(
+/// x'' = 2 + x z - v with z' = 1 - z + v x in front of a wall at x = 0. @param contact transitions and further modes
+Model wall_model(const std::string& contact) {
+    return model_from(R"toml(
 [parameters]
 e = 0.7
 k = 3
 c = 0.6
-{}
 [states]
 x = 1
 v = 0
@@ -123,48 +100,34 @@ w = 0
 free = "2 + x*z - v + 0.3*sin(w)"
 [initial]
 mode = "free"
-[events.touch]
-function = "x"
-[events.leave]
-function = "-x"
+[events]
+touch = "x"
+leave = "-x"
 [modes.free]
 watch = ["touch"]
-rates = {{ x = "v", v = "free", z = "1 - z + v*x + 0.2*w", w = "z - 0.4*w" }}
-{}
-)toml",
-                                   parameters, contact),
-                       "wall.toml");
+rates = { x = "v", v = "free", z = "1 - z + v*x + 0.2*w", w = "z - 0.4*w" }
+)toml" + contact);
 }
 
 Model compliant(const std::string& force) {
-    return wall_model("", fmt::format(R"toml(
+    return wall_model(fmt::format(R"toml(
 [modes.on]
 watch = ["leave"]
 rates = {{ x = "v", v = "free + {}", z = "1 - z + v*x + 0.2*w", w = "z - 0.4*w" }}
-[[transitions]]
-mode = "free"
-event = "touch"
-next = "on"
-[[transitions]]
-mode = "on"
-event = "leave"
-next = "free"
 )toml",
-                                      force));
+                                  force) +
+                      transition("free", "touch", "on") + transition("on", "leave", "free"));
+}
+
+/// @param jump lines of its table
+Model jumping(const std::string& jump, const std::string& next = "free") {
+    return wall_model("[jumps.impact]\n" + jump + '\n' + transition("free", "touch", next, "impact"));
 }
 
 const std::vector<double> at_wall{0, 0, 0.3, 0.2};
 
 TEST(DiscontinuityMap, ImpactHasItsClosedForm) {
-    const Model model = wall_model("", R"toml(
-[jumps.impact]
-v = "-e*v"
-[[transitions]]
-mode = "free"
-event = "touch"
-jump = "impact"
-next = "free"
-)toml");
+    const Model model = jumping("v = '-e*v'");
     const DiscontinuityMap map = discontinuity_map(System(model), touch_of(model, "free", "touch", at_wall));
     ASSERT_EQ(map.order, MapOrder::square_root) << map.reason;
     EXPECT_NEAR(map.acceleration, 2 + 0.3 * std::sin(0.2), 1e-15);
@@ -176,17 +139,7 @@ next = "free"
 }
 
 TEST(DiscontinuityMap, ImpactMayChangeSeveralStates) {
-    const Model model = wall_model("", R"toml(
-[jumps.impact]
-v = "-e*v*(1 + 0.2*z)"
-z = "z - 0.4*v + v^2"
-w = "w + 0.3*v*z"
-[[transitions]]
-mode = "free"
-event = "touch"
-jump = "impact"
-next = "free"
-)toml");
+    const Model model = jumping("v = '-e*v*(1 + 0.2*z)'\nz = 'z - 0.4*v + v^2'\nw = 'w + 0.3*v*z'");
     const DiscontinuityMap map = discontinuity_map(System(model), touch_of(model, "free", "touch", at_wall));
     ASSERT_EQ(map.order, MapOrder::square_root) << map.reason;
     EXPECT_NEAR(map.restitution, 0.7 * 1.06, 1e-15);
@@ -196,8 +149,7 @@ next = "free"
 }
 
 TEST(DiscontinuityMap, MovingWallsAndSlipAfterImpactsHaveSquareRootMaps) {
-    Model shaker = load_model("ball-and-shaker");
-    shaker.set_parameter("a", 0.65);
+    const Model shaker = shipped_with("ball-and-shaker", {{"a", 0.65}});
     const DiscontinuityMap moving =
         discontinuity_map(System(shaker), touch_of(shaker, "free", "contact", {0, 0, std::acos(0.0)}, {0.65, 20, 1}));
     ASSERT_EQ(moving.order, MapOrder::square_root) << moving.reason;
@@ -216,7 +168,7 @@ TEST(DiscontinuityMap, MovingWallsAndSlipAfterImpactsHaveSquareRootMaps) {
 /// A touching state of a shipped model, with the scales of its states, a depth and a time that is short for it.
 struct Shipped {
     const char* model;
-    std::vector<std::pair<const char*, double>> parameters;
+    Settings parameters;
     const char* mode;
     const char* event;
     std::vector<double> state, scales;
@@ -254,9 +206,7 @@ TEST(DiscontinuityMap, ErrorForShippedModelsFallsWithTheNextPower) {
     };
     for (const Shipped& one : all) {
         SCOPED_TRACE(fmt::format("{} {}", one.model, one.event));
-        Model model = load_model(one.model);
-        for (const auto& [name, value] : one.parameters)
-            model.set_parameter(name, value);
+        const Model model = shipped_with(one.model, one.parameters);
         const DiscontinuityMap map =
             discontinuity_map(System(model), touch_of(model, one.mode, one.event, one.state, one.scales));
         EXPECT_EQ(map.order, one.order) << map.reason;
@@ -298,7 +248,7 @@ TEST(DiscontinuityMap, CompliantStopsHaveThreeHalvesMaps) {
 /// A relay system: the vector field is `first` where h = x - 0.3 sin(w) is positive, `second` where it is negative, and
 /// on h = 0 the convex combination that keeps h zero (A. F. Filippov). The initial state has h > 0.
 std::string relay_text(const std::string& jump) {
-    return fmt::format(R"toml(
+    return R"toml(
 [states]
 x = 1
 y = 0
@@ -318,17 +268,16 @@ second = "second_x - surface"
 share = "first/(first - second)"
 [initial]
 mode = "free"
-[events.touch]
-function = "x - 0.3*sin(w)"
-[events.leave]
-function = "-first"
+[events]
+touch = "x - 0.3*sin(w)"
+leave = "-first"
 [jumps.put]
 x = "0.3*sin(w)"
 [jumps.shake]
 z = "z + first^2"
 [modes.free]
 watch = ["touch"]
-rates = {{ x = "first_x", y = "first_y", z = "first_z", w = "rate_w" }}
+rates = { x = "first_x", y = "first_y", z = "first_z", w = "rate_w" }
 [modes.slide]
 watch = ["leave"]
 [modes.slide.rates]
@@ -336,20 +285,11 @@ x = "first_x + share*(second_x - first_x)"
 y = "first_y + share*(second_y - first_y)"
 z = "first_z + share*(second_z - first_z)"
 w = "rate_w"
-[[transitions]]
-mode = "free"
-event = "touch"
-jump = "{}"
-next = "slide"
-[[transitions]]
-mode = "slide"
-event = "leave"
-next = "free"
-)toml",
-                       jump);
+)toml" + transition("free", "touch", "slide", jump) +
+           transition("slide", "leave", "free");
 }
 Model relay(const std::string& jump) {
-    return parse_model(relay_text(jump), "relay.toml");
+    return model_from(relay_text(jump));
 }
 
 /// The touching state, where first_x equals the rate of the surface.
@@ -381,9 +321,7 @@ TEST(DiscontinuityMap, GrazingSlidingHasALinearMap) {
 /// that it would have moved back, a/3 (2 d/a)^(3/2).
 TEST(DiscontinuityMap, ShortStickingHasALinearMapWithItsClosedForm) {
     for (const double zeta : {0.0, 0.1}) {
-        Model model = load_model("dry-friction-oscillator");
-        model.set_parameter("zeta", zeta);
-        model.set_parameter("friction_static", 0.3);
+        Model model = shipped_with("dry-friction-oscillator", {{"zeta", zeta}, {"friction_static", 0.3}});
         const double theta = 4, x = std::cos(theta) - 0.3;
         TouchState touch = touch_of(model, "slip_plus", "stop_plus", {x, 0, theta});
         const DiscontinuityMap map = discontinuity_map(System(model), touch);
@@ -420,40 +358,16 @@ TEST(DiscontinuityMap, StickingScalesWithTheUnits) {
     for (const double length : {1.0, 1e-9, 1e6})
         for (const double clock : {1.0, 1e-9, 1e6}) {
             const double velocity = length / clock, force = velocity / clock;
-            const Model model = parse_model(fmt::format(R"toml(
-[parameters]
-w = {:.17g}
-k = {:.17g}
-amplitude = {:.17g}
-friction = {:.17g}
-[states]
-x = 0
-v = 0
-theta = {{ initial = 0, period = "2*pi" }}
-[definitions]
-force = "amplitude*cos(theta) - k*x"
-[initial]
-mode = "slip"
-[modes.slip]
-watch = ["stop"]
-rates = {{ x = "v", v = "force - friction", theta = "w" }}
-[modes.stick]
-watch = ["break"]
-rates = {{ x = 0, v = 0, theta = "w" }}
-[events]
-stop = "v"
-break = "friction - force"
-[[transitions]]
-mode = "slip"
-event = "stop"
-next = "stick"
-[[transitions]]
-mode = "stick"
-event = "break"
-next = "slip"
-)toml",
-                                                        0.4 / clock, 2 / (clock * clock), force, 0.3 * force),
-                                            "sticking.toml");
+            const Model model =
+                TwoModes{.parameters = fmt::format("w = {:.17g}\nk = {:.17g}\namplitude = {:.17g}\nfriction = {:.17g}",
+                                                   0.4 / clock, 2 / (clock * clock), force, 0.3 * force),
+                         .states = "x = 0\nv = 0",
+                         .definitions = "force = 'amplitude*cos(theta) - k*x'",
+                         .clock = "w",
+                         .first = {"slip", "x = 'v', v = 'force - friction'", "stop", "v"},
+                         .second = {"stick", "x = 0, v = 0", "break", "friction - force"},
+                         .kind = "barrier"}
+                    .model();
             const double theta = 4, x = (std::cos(theta) - 0.3) / 2 * length;
             const DiscontinuityMap map =
                 discontinuity_map(System(model), touch_of(model, "slip", "stop", {x, 0, theta}, {length, velocity, 1}));
@@ -469,8 +383,7 @@ next = "slip"
 
 /// The largest force just reaches friction; beyond it the mass slips by the square of the depth.
 TEST(DiscontinuityMap, EndOfSlidingIsRefusedWithTheReason) {
-    Model model = load_model("dry-friction-oscillator");
-    model.set_parameter("friction_static", 0.3);
+    Model model = shipped_with("dry-friction-oscillator", {{"friction_static", 0.3}});
     const DiscontinuityMap map = discontinuity_map(System(model), touch_of(model, "stick", "break_plus", {0.7, 0, 0}));
     EXPECT_FALSE(map.exists());
     EXPECT_THAT(map.reason, HasSubstr("the motion slides along the surface of event 'stop_plus'"));
@@ -492,7 +405,7 @@ TEST(DiscontinuityMap, UnsuitableSlidingIsRefusedWithTheReason) {
         std::string text = relay_text("identity");
         const std::size_t place = text.find(old);
         EXPECT_NE(place, std::string::npos) << old;
-        return parse_model(text.replace(place, old.size(), with), "relay.toml");
+        return model_from(text.replace(place, old.size(), with));
     };
     EXPECT_THAT(reason_of(replaced("first_y + share", "first_y + 0.1*(z - 0.3) + share")),
                 HasSubstr("the field of mode 'slide' is not that of mode 'free' wherever the surface is touched"));
@@ -507,34 +420,19 @@ TEST(DiscontinuityMap, UnsuitableContactsAreRefusedWithTheReason) {
         EXPECT_FALSE(map.exists());
         return map.reason;
     };
-    const auto jumping = [](const std::string& jump, const std::string& next = "\"free\"") {
-        return wall_model("", fmt::format(R"toml(
-[jumps.impact]
-{}
-[[transitions]]
-mode = "free"
-event = "touch"
-jump = "impact"
-next = {}
-)toml",
-                                          jump, next));
-    };
-    EXPECT_THAT(reason(jumping("v = \"1\"")), HasSubstr("is not the identity at zero speed: it changes 'v'"));
-    EXPECT_THAT(reason(jumping("v = \"-e*v\"\nw = \"0.2 + 2*(w - 0.2)\"")),
-                HasSubstr("is not the identity at zero speed"));
-    EXPECT_THAT(reason(jumping("x = \"x + 0.1*v\"\nv = \"-e*v\"")), HasSubstr("moves states off the surface"));
-    EXPECT_THAT(reason(jumping("v = \"0.5*v\"")), HasSubstr("happens again at once"));
-    EXPECT_THAT(reason(jumping("v = \"-e*v\"", "\"end\"")), HasSubstr("the motion ends at event 'touch'"));
-    EXPECT_THAT(reason(jumping("v = \"-e*v\"", "[{ when = \"z > 5\", mode = \"free\" }]")),
+    EXPECT_THAT(reason(jumping("v = '1'")), HasSubstr("is not the identity at zero speed: it changes 'v'"));
+    EXPECT_THAT(reason(jumping("v = '-e*v'\nw = '0.2 + 2*(w - 0.2)'")), HasSubstr("is not the identity at zero speed"));
+    EXPECT_THAT(reason(jumping("x = 'x + 0.1*v'\nv = '-e*v'")), HasSubstr("moves states off the surface"));
+    EXPECT_THAT(reason(jumping("v = '0.5*v'")), HasSubstr("happens again at once"));
+    EXPECT_THAT(reason(jumping("v = '-e*v'", "end")), HasSubstr("the motion ends at event 'touch'"));
+    EXPECT_THAT(reason(jumping("v = '-e*v'", "[{ when = 'z > 5', mode = 'free' }]")),
                 HasSubstr("no alternative of the guard"));
-    EXPECT_THAT(reason(jumping("v = \"-e*v\""), {0, 1, 0.3, 0.2}), HasSubstr("is reached with nonzero speed"));
-    EXPECT_THAT(reason(jumping("v = \"-e*v\""), {0.5, 0, 0.3, 0.2}), HasSubstr("not on the surface"));
-    EXPECT_THAT(
-        reason(wall_model("", "[jumps.impact]\nv = \"-e*v\"\n[[transitions]]\nmode = \"free\"\nevent = \"touch\"\n"
-                              "next = \"held\"\n[modes.held]\nwatch = []\nrates = { x = 0, v = 0, z = 0, w = 0 }")),
-        HasSubstr("from which the motion does not come back at once"));
-    EXPECT_THAT(reason(wall_model("", "[[transitions]]\nmode = \"free\"\nevent = \"touch\"\nnext = \"free\"")),
-                HasSubstr("changes nothing"));
+    EXPECT_THAT(reason(jumping("v = '-e*v'"), {0, 1, 0.3, 0.2}), HasSubstr("is reached with nonzero speed"));
+    EXPECT_THAT(reason(jumping("v = '-e*v'"), {0.5, 0, 0.3, 0.2}), HasSubstr("not on the surface"));
+    EXPECT_THAT(reason(wall_model("[modes.held]\nwatch = []\nrates = { x = 0, v = 0, z = 0, w = 0 }\n" +
+                                  transition("free", "touch", "held"))),
+                HasSubstr("from which the motion does not come back at once"));
+    EXPECT_THAT(reason(wall_model(transition("free", "touch", "free"))), HasSubstr("changes nothing"));
 }
 
 TEST(DiscontinuityMap, NumbersThatDoNotFitAreRefused) {

@@ -2,9 +2,8 @@
 
 #pragma once
 
-#include "graze/model/model_file.hpp"
-#include "graze/orbit/orbit.hpp"
-#include "graze/symbolic/parser.hpp"
+#include "orbit/orbits.hpp"
+#include "sweep/model_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -92,21 +91,10 @@ struct LinearOscillator {
             states += "p = 0\nu = 0\n";
             moving = "[definitions]\nq0 = \"p - wall*sin(theta)\"\nv0 = \"u - wall*omega*cos(theta)\"\n";
         }
-        const std::string rest = contact.empty() ? R"toml(
-[modes.free]
-watch = ["stop"]
-[modes.free.rates]
-RATES
-[jumps.impact]
-JUMP
-[[transitions]]
-mode = "free"
-event = "stop"
-label = "impact"
-jump = "impact"
-next = "free"
-)toml"
-                                                 : contact;
+        const std::string rest =
+            contact.empty() ? "[modes.free]\nwatch = ['stop']\n[modes.free.rates]\nRATES\n[jumps.impact]\nJUMP\n" +
+                                  transition("free", "stop", "free", "impact", "impact")
+                            : contact;
         std::string text = fmt::format(R"toml(
 [parameters]
 force = 1
@@ -118,12 +106,9 @@ wall = {:.17g}
 {}theta = {{ initial = 0, period = "2*pi" }}
 [events.stop]
 function = "sigma - q0"
-[sections.start]
-state = "theta"
-value = 0
 )toml",
                                        stop() * length, omega / clock, restitution, wall * length, moving, states) +
-                           rest;
+                           at_phase(0) + rest;
         for (std::size_t at; (at = text.find("RATES")) != std::string::npos;)
             text.replace(at, 5, rates + "theta = \"omega\"");
         if (const std::size_t at = text.find("JUMP"); at != std::string::npos)
@@ -133,13 +118,10 @@ value = 0
             held.insert(held.find("v0 = \"") + 6, "k*(sigma - q0) + ");
             text.replace(at, 4, held);
         }
-        return parse_model(text, "oscillator.toml");
+        return model_from(text);
     }
     /// Returns the steady motion, which touches the stop.
     Orbit orbit(const Model& made) const {
-        Orbit result;
-        result.signature = parse_signature(made, "free:start");
-        result.parameters = made.parameter_values();
         std::vector<double> start;
         const Eigen::VectorXcd motion = amplitude();
         const std::complex<double> i(0, 1);
@@ -151,9 +133,7 @@ value = 0
             std::rotate(start.begin(), start.begin() + 2, start.end());
         }
         start.push_back(0);
-        result.starts = {start};
-        result.durations = {period() * clock};
-        return result;
+        return given_orbit(made, "free:start", {start}, {period() * clock});
     }
     static Eigen::Index idx(std::size_t i) { return static_cast<Eigen::Index>(i); }
 };

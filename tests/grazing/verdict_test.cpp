@@ -70,31 +70,12 @@ TEST(Verdict, MapsOfLinearOscillatorsHaveTheirClosedFormInAllUnits) {
 /// Returns the contact of an oscillator with a spring behind the stop. @param stiffness relative to the oscillator's
 /// own spring
 std::string spring(double stiffness, const LinearOscillator& oscillator) {
-    return fmt::format(R"toml(
-[parameters.k]
-value = {:.17g}
-[initial]
-mode = "free"
-[events.leave]
-function = "q0 - sigma"
-[modes.free]
-watch = ["stop"]
-[modes.free.rates]
-RATES
-[modes.held]
-watch = ["leave"]
-[modes.held.rates]
-HELD
-[[transitions]]
-mode = "free"
-event = "stop"
-next = "held"
-[[transitions]]
-mode = "held"
-event = "leave"
-next = "free"
-)toml",
-                       stiffness / (oscillator.clock * oscillator.clock));
+    return fmt::format(
+               "[parameters.k]\nvalue = {:.17g}\n[initial]\nmode = 'free'\n[events.leave]\nfunction = 'q0 - sigma'\n",
+               stiffness / (oscillator.clock * oscillator.clock)) +
+           "[modes.free]\nwatch = ['stop']\n[modes.free.rates]\nRATES\n"
+           "[modes.held]\nwatch = ['leave']\n[modes.held.rates]\nHELD\n" +
+           testing::transition("free", "stop", "held") + testing::transition("held", "leave", "free");
 }
 
 TEST(Verdict, CompliantStopsOfLinearOscillatorsHaveTheirClosedForm) {
@@ -216,16 +197,8 @@ TEST(Verdict, TrialIsUndecidedWherePrecisionLimitsGrowth) {
 
 TEST(Verdict, AttractorIsLostWhereTheContactEndsTheMotion) {
     const LinearOscillator one = testing::one_degree(1.2, 1, 0.5);
-    const Model model = one.model(R"toml(
-[modes.free]
-watch = ["stop"]
-[modes.free.rates]
-RATES
-[[transitions]]
-mode = "free"
-event = "stop"
-next = "end"
-)toml");
+    const Model model = one.model("[modes.free]\nwatch = ['stop']\n[modes.free.rates]\nRATES\n" +
+                                  testing::transition("free", "stop", "end"));
     const System system(model);
     const Orbit orbit = one.orbit(model);
     CycleMapOptions options;

@@ -1,9 +1,8 @@
 // Orbits of models with a clock that are their own images: half orbits where the symmetry maps events to events, whole
 // orbits where it does not.
 
-#include "graze/model/model_file.hpp"
-#include "graze/orbit/orbit.hpp"
 #include "graze/orbit/solve.hpp"
+#include "sweep/model_parts.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -14,6 +13,8 @@
 namespace graze {
 namespace {
 
+using namespace graze::testing;
+
 using std::numbers::pi;
 
 /// A linear oscillator under a square wave of force: 0.3 in mode `plus`, -0.3 in `minus`, of the frequency 1.2.
@@ -21,41 +22,15 @@ using std::numbers::pi;
 /// of the clock after the second half
 Model square_wave(const std::string& clock, const std::string& half, const std::string& full, const std::string& reset,
                   const std::string& image) {
-    return parse_model(fmt::format(R"toml(
-[states]
-x = 0.1
-v = 0
-theta = {}
-[modes.plus]
-rates = {{ x = "v", v = "0.3 - 0.3*v - x", theta = 1.2 }}
-watch = ["half"]
-[modes.minus]
-rates = {{ x = "v", v = "-0.3 - 0.3*v - x", theta = 1.2 }}
-watch = ["full"]
-[events]
-half = "{}"
-full = "{}"
-[jumps.reset]
-theta = "{}"
-[[transitions]]
-mode = "plus"
-event = "half"
-label = "half"
-next = "minus"
-[[transitions]]
-mode = "minus"
-event = "full"
-label = "full"
-jump = "reset"
-next = "plus"
-[symmetries.turn]
-map = {{ x = "-x", v = "-v", theta = "{}" }}
-modes = {{ plus = "minus", minus = "plus" }}
-[initial]
-mode = "plus"
-)toml",
-                                   clock, half, full, reset, image),
-                       "test.toml");
+    return TwoModes{.states = "x = 0.1\nv = 0\ntheta = " + clock,
+                    .first = {"plus", "x = 'v', v = '0.3 - 0.3*v - x', theta = 1.2", "half", half},
+                    .second = {"minus", "x = 'v', v = '-0.3 - 0.3*v - x', theta = 1.2", "full", full,
+                               fmt::format("theta = '{}'", reset)},
+                    .kind = "barrier",
+                    .more = fmt::format("[symmetries.turn]\nmap = {{ x = '-x', v = '-v', theta = '{}' }}\n"
+                                        "modes = {{ plus = 'minus', minus = 'plus' }}",
+                                        image)}
+        .model();
 }
 
 /// x where the force turns positive, in closed form: x = -0.3 + u after half a period from -x.
@@ -102,39 +77,13 @@ TEST(HalfOrbit, DoesNotExistForAClockThatIsReset) {
 
 TEST(HalfOrbit, ExistsWhereAStateIsTheSignOfTheForce) {
     // Each switch reverses the sign, so that two switches restore any value of u.
-    const Model model = parse_model(R"toml(
-[states]
-x = 0.1
-v = 0
-u = 1
-theta = { initial = 0.1, period = "2*pi" }
-[modes.m]
-rates = { x = "v", v = "0.3*u - 0.3*v - x", u = 0, theta = 1.2 }
-watch = ["half", "full"]
-[events.half]
-function = "sin(theta)"
-kind = "section"
-[events.full]
-function = "-sin(theta)"
-kind = "section"
-[jumps.turn]
-u = "-u"
-[[transitions]]
-mode = "m"
-event = "half"
-label = "half"
-jump = "turn"
-next = "m"
-[[transitions]]
-mode = "m"
-event = "full"
-label = "full"
-jump = "turn"
-next = "m"
-[symmetries.turn]
-map = { x = "-x", v = "-v", u = "-u", theta = "theta + pi" }
-)toml",
-                                    "test.toml");
+    const Model model =
+        OneMode{.states = "x = 0.1\nv = 0\nu = 1\ntheta = { initial = 0.1, period = '2*pi' }",
+                .rates = "x = 'v', v = '0.3*u - 0.3*v - x', u = 0, theta = 1.2",
+                .stops = {{"half", "sin(theta)", "u = '-u'", "half", "free", "section"},
+                          {"full", "-sin(theta)", "u = '-u'", "full", "free", "section"}},
+                .more = "[symmetries.turn]\nmap = { x = '-x', v = '-v', u = '-u', theta = 'theta + pi' }"}
+            .model();
     expect_orbit(model, true);
     Model plain = model;
     plain.symmetries.clear();

@@ -1,8 +1,7 @@
 // Multipliers of strongly contracting orbits against closed forms.
 
-#include "graze/model/model_file.hpp"
-#include "graze/orbit/solve.hpp"
-#include "graze/trajectory/trajectory.hpp"
+#include "orbits.hpp"
+#include "sweep/model_parts.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -15,6 +14,8 @@
 namespace graze {
 namespace {
 
+using namespace graze::testing;
+
 using std::numbers::pi;
 
 /// x' = c' + A (x - c) about a motion c = (cos, sin): multipliers exp(2 pi a) for eigenvalues a of A.
@@ -23,22 +24,13 @@ Model relaxation(double fast, double slow, double skew) {
     const double d = 1 - 0.3 * skew;
     const double a = (-fast + 0.3 * skew * slow) / d, b = skew * (fast - slow) / d, c = 0.3 * (slow - fast) / d,
                  e = (0.3 * skew * fast - slow) / d;
-    return parse_model(fmt::format(R"toml(
-[states]
-x = 1
-y = 0
-theta = {{ initial = 0, period = "2*pi" }}
-[definitions]
-u = "x - cos(theta)"
-w = "y - sin(theta)"
-[modes.only]
-rates = {{ x = "-sin(theta) + ({:.17g})*u + ({:.17g})*w", y = "cos(theta) + ({:.17g})*u + ({:.17g})*w", theta = 1 }}
-[sections.start]
-state = "theta"
-value = 0
-)toml",
-                                   a, b, c, e),
-                       "relaxation.toml");
+    return OneMode{.states = "x = 1\ny = 0",
+                   .definitions = "u = 'x - cos(theta)'\nw = 'y - sin(theta)'",
+                   .rates = fmt::format("x = '-sin(theta) + ({:.17g})*u + ({:.17g})*w', "
+                                        "y = 'cos(theta) + ({:.17g})*u + ({:.17g})*w'",
+                                        a, b, c, e),
+                   .clock = "1"}
+        .model();
 }
 
 TEST(Multipliers, StiffRelaxationHasItsClosedForm) {
@@ -47,8 +39,7 @@ TEST(Multipliers, StiffRelaxationHasItsClosedForm) {
     for (int trial = 0; trial < 20; ++trial) {
         const double fast = exponent(random) / (2 * pi), rest = slow(random);
         const Model model = relaxation(fast, rest, skew(random));
-        const Orbit orbit{parse_signature(model, "start"), {}, {{1, 0, 0}}, {2 * pi}, {}};
-        const OrbitSolution solution = solve_orbit(System(model), orbit);
+        const OrbitSolution solution = solve_orbit(System(model), given_orbit(model, "start", {{1, 0, 0}}, {2 * pi}));
         ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
         ASSERT_EQ(solution.multipliers.size(), 2U);
         std::vector<double> known{-2 * pi * fast, -2 * pi * rest};
@@ -61,8 +52,7 @@ TEST(Multipliers, StiffRelaxationHasItsClosedForm) {
 
 TEST(Multipliers, ValuesBelowTheSmallestDoubleAreZero) {
     const Model model = relaxation(200, 0.1, 0.5);
-    const Orbit orbit{parse_signature(model, "start"), {}, {{1, 0, 0}}, {2 * pi}, {}};
-    const OrbitSolution solution = solve_orbit(System(model), orbit);
+    const OrbitSolution solution = solve_orbit(System(model), given_orbit(model, "start", {{1, 0, 0}}, {2 * pi}));
     ASSERT_EQ(solution.multipliers.size(), 2U);
     EXPECT_NEAR(solution.multipliers[0].real(), std::exp(-0.2 * pi), 1e-10);
     EXPECT_EQ(std::abs(solution.multipliers[1]), 0);
@@ -71,32 +61,17 @@ TEST(Multipliers, ValuesBelowTheSmallestDoubleAreZero) {
 TEST(Multipliers, RelaxationOscillatorContractsByItsDivergence) {
     // Van der Pol: the multiplier is exp of the integral of the divergence, which an additional state integrates.
     for (const double mu : {3.0, 8.0, 15.0}) {
-        const Model model = parse_model(fmt::format(R"toml(
-[parameters]
-mu = {:.17g}
-[states]
-x = 2
-v = 0
-z = {{ initial = 0, drifting = true }}
-[modes.only]
-rates = {{ x = "v", v = "mu*(1 - x^2)*v - x", z = "mu*(1 - x^2)" }}
-[sections.turn]
-function = "v"
-direction = "falling"
-)toml",
-                                                    mu),
-                                        "vdp.toml");
-        AttractorOptions settle;
-        settle.section = "turn";
-        const OrbitSolution solution = find_orbit(System(model), settle);
+        const Model model = OneMode{.parameters = fmt::format("mu = {:.17g}", mu),
+                                    .states = "x = 2\nv = 0\nz = { initial = 0, drifting = true }",
+                                    .rates = "x = 'v', v = 'mu*(1 - x^2)*v - x', z = 'mu*(1 - x^2)'",
+                                    .more = section("turn", "v", "falling")}
+                                .model();
+        const OrbitSolution solution = settled(model, "turn", 150);
         ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
-        const Simulation simulation{System(model)};
         ASSERT_EQ(solution.multipliers.size(), 1U);
-        Trajectory trajectory(simulation, model.parameter_values());
-        trajectory.start(solution.orbit.starts[0], 0, 0, solution.orbit.period());
-        JetSet jets(simulation, LaneKind::single);
-        run(trajectory, jets);
-        const double divergence = trajectory.state()[2] - solution.orbit.starts[0][2];
+        Experiment motion(model);
+        motion.run_from(solution.orbit.starts[0], 0, solution.orbit.period());
+        const double divergence = motion.state()[2] - solution.orbit.starts[0][2];
         EXPECT_NEAR(std::log(std::abs(solution.multipliers[0])) / divergence, 1, 1e-8) << mu;
     }
 }

@@ -7,7 +7,8 @@
 #include "orbit/shooting.hpp"
 
 #include "graze/base/input_error.hpp"
-#include "graze/model/catalogue.hpp"
+#include "orbits.hpp"
+#include "trajectory/simulate.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,6 +19,8 @@
 
 namespace graze {
 namespace {
+
+using namespace graze::testing;
 
 enum class Method { shooting, collocation };
 
@@ -34,16 +37,9 @@ std::string name_of(const ::testing::TestParamInfo<Case>& info) {
 }
 
 Model model_of(const std::string& name) {
-    Model model = load_model(name);
-    if (name == "impact-oscillator") {
-        model.set_parameter("sigma", 0.5);
-        model.set_parameter("zeta", 0.1);
-        model.set_parameter("omega", 1.7);
-        model.set_parameter("amplitude", 1.3);
-    } else {
-        model.set_parameter("V0", 3.0);
-    }
-    return model;
+    return name == "impact-oscillator"
+               ? shipped_with(name, {{"sigma", 0.5}, {"zeta", 0.1}, {"omega", 1.7}, {"amplitude", 1.3}})
+               : shipped_with(name, {{"V0", 3.0}});
 }
 
 std::string parameter_of(const std::string& name) {
@@ -51,12 +47,7 @@ std::string parameter_of(const std::string& name) {
 }
 
 Orbit orbit_of(const Model& model) {
-    AttractorOptions settle;
-    settle.section = "phase0";
-    settle.cycles = 3000;
-    const OrbitSolution solution = find_orbit(System(model), settle);
-    EXPECT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
-    return solution.orbit;
+    return settled(model, "phase0", 3000).orbit;
 }
 
 class Equations : public ::testing::TestWithParam<Case> {

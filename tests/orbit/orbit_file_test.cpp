@@ -1,8 +1,8 @@
 #include "graze/orbit/orbit_file.hpp"
 
 #include "graze/base/input_error.hpp"
-#include "graze/model/catalogue.hpp"
 #include "graze/orbit/solve.hpp"
+#include "trajectory/simulate.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,6 +14,8 @@
 namespace graze {
 namespace {
 
+using namespace graze::testing;
+
 using ::testing::HasSubstr;
 
 /// The first and the last row of each segment of the linear impact oscillator's orbit.
@@ -22,9 +24,7 @@ const std::string rows =
     "1,free,impact,0.5,0.1,-0.9,2.8\n1,free,impact,2.0,-1.3,-0.1,6\n1,free,impact,3.35,0.1,1.1,2.8\n";
 
 Model oscillator() {
-    Model model = load_model("impact-oscillator");
-    model.set_parameter("omega", 2.2);
-    return model;
+    return shipped_with("impact-oscillator", {{"omega", 2.2}});
 }
 
 TEST(OrbitTable, GivesStartsAndDurations) {

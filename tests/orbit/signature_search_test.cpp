@@ -2,8 +2,8 @@
 
 #include "graze/base/input_error.hpp"
 #include "graze/model/catalogue.hpp"
-#include "graze/model/model_file.hpp"
 #include "graze/orbit/solve.hpp"
+#include "sweep/model_parts.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,6 +12,8 @@
 
 namespace graze {
 namespace {
+
+using namespace graze::testing;
 
 std::string refusal(const Model& model, const std::string& signature, const SignatureSearchOptions& search = {}) {
     try {
@@ -23,8 +25,7 @@ std::string refusal(const Model& model, const std::string& signature, const Sign
 }
 
 TEST(OrbitWithSignature, IdentityTransitionsAndSectionsCountWhereTheSignatureNamesThem) {
-    Model model = load_model("impact-microactuator");
-    model.set_parameter("V", 0.2);
+    const Model model = shipped_with("impact-microactuator", {{"V", 0.2}});
     OrbitSolution at_section;
     for (const char* signature : {"J5", "phase0", "longest", "J5 phase0"}) {
         const auto found = orbit_with_signature(System(model), parse_signature(model, signature));
@@ -54,8 +55,7 @@ TEST(OrbitWithSignature, SearchIsBoundedAndCanBeInterrupted) {
 
 TEST(OrbitWithSignature, InadmissibleOrbitsAreRefusedUnlessAllowed) {
     // Far below resonance the equations have a solution with one impact per period, but it penetrates the stop.
-    Model model = load_model("impact-oscillator");
-    model.set_parameter("sigma", 0.5);
+    Model model = shipped_with("impact-oscillator", {{"sigma", 0.5}});
     for (const double omega : {0.25, 0.35, 0.45}) {
         model.set_parameter("omega", omega);
         EXPECT_NE(refusal(model, "impact").find("is not admissible: event 'stop' happens within segment 1"),
@@ -70,23 +70,12 @@ TEST(OrbitWithSignature, InadmissibleOrbitsAreRefusedUnlessAllowed) {
 }
 
 Model lorenz(double r) {
-    return parse_model("[parameters]\ns = 10\nb = \"8/3\"\nr = " + std::to_string(r) + R"toml(
-[states]
-x = 50
-y = 50
-z = 349
-[modes.m]
-rates = { x = "s*(y - x)", y = "r*x - y - x*z", z = "x*y - b*z" }
-[sections.level]
-function = "z - r + 1"
-direction = "rising"
-[sections.side]
-function = "x"
-direction = "rising"
-[symmetries.mirror]
-map = { x = "-x", y = "-y" }
-)toml",
-                       "lorenz.toml");
+    return OneMode{.parameters = fmt::format("s = 10\nb = '8/3'\nr = {}", r),
+                   .states = "x = 50\ny = 50\nz = 349",
+                   .rates = "x = 's*(y - x)', y = 'r*x - y - x*z', z = 'x*y - b*z'",
+                   .more = section("level", "z - r + 1") + section("side", "x") +
+                           "[symmetries.mirror]\nmap = { x = '-x', y = '-y' }"}
+        .model();
 }
 
 TEST(OrbitWithSignature, SymmetricOrbitsAreReturnedAsHalfOrbits) {

@@ -1,7 +1,6 @@
 #include "graze/base/input_error.hpp"
-#include "graze/model/catalogue.hpp"
-#include "graze/model/model_file.hpp"
-#include "graze/orbit/solve.hpp"
+#include "orbits.hpp"
+#include "sweep/model_parts.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +10,8 @@
 
 namespace graze {
 namespace {
+
+using namespace graze::testing;
 
 using std::numbers::pi;
 
@@ -50,12 +51,9 @@ OneImpact one_impact(double zeta, double omega, double sigma, double e, int n, b
 }
 
 TEST(SolveOrbit, LinearImpactOscillatorHasItsClosedForm) {
-    Model model = load_model("impact-oscillator");
     const double zeta = 0.05, omega = 2.4, sigma = 0.02, e = 0.7;
-    model.set_parameter("zeta", zeta);
-    model.set_parameter("omega", omega);
-    model.set_parameter("sigma", sigma);
-    model.set_parameter("e", e);
+    const Model model =
+        shipped_with("impact-oscillator", {{"zeta", zeta}, {"omega", omega}, {"sigma", sigma}, {"e", e}});
     std::size_t found = 0;
     for (const int n : {1, 2, 3})
         for (const bool upper : {false, true}) {
@@ -63,11 +61,8 @@ TEST(SolveOrbit, LinearImpactOscillatorHasItsClosedForm) {
             if (!known.exists || known.speed >= 0)
                 continue;
             ++found;
-            Orbit guess;
-            guess.signature = parse_signature(model, "impact");
-            guess.parameters = model.parameter_values();
-            guess.starts = {{sigma, known.speed * 1.02, known.phase + 0.02}};
-            guess.durations = {2 * pi * n / omega * 0.99};
+            const Orbit guess = given_orbit(model, "impact", {{sigma, known.speed * 1.02, known.phase + 0.02}},
+                                            {2 * pi * n / omega * 0.99});
             const OrbitSolution solution = solve_orbit(System(model), guess);
             ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
             EXPECT_NEAR(solution.orbit.starts[0][1], known.speed, 1e-12);
@@ -93,22 +88,15 @@ TEST(SolveOrbit, LinearImpactOscillatorHasItsClosedForm) {
 
 TEST(SolveOrbit, PenetratingOrbitsAreMarkedInadmissible) {
     // The upper solution with three periods per impact crosses the stop in between, although Newton's method converges.
-    Model model = load_model("impact-oscillator");
-    model.set_parameter("zeta", 0.05);
-    model.set_parameter("omega", 2.4);
-    model.set_parameter("sigma", 0.02);
-    model.set_parameter("e", 0.7);
+    const Model model =
+        shipped_with("impact-oscillator", {{"zeta", 0.05}, {"omega", 2.4}, {"sigma", 0.02}, {"e", 0.7}});
     std::size_t bad = 0;
     for (const int n : {2, 3, 4, 5})
         for (const bool upper : {false, true}) {
             const OneImpact known = one_impact(0.05, 2.4, 0.02, 0.7, n, upper);
             if (!known.exists)
                 continue;
-            Orbit guess{parse_signature(model, "impact"),
-                        model.parameter_values(),
-                        {{0.02, known.speed, known.phase}},
-                        {2 * pi * n / 2.4},
-                        {}};
+            const Orbit guess = given_orbit(model, "impact", {{0.02, known.speed, known.phase}}, {2 * pi * n / 2.4});
             const OrbitSolution solution = solve_orbit(System(model), guess);
             ASSERT_EQ(solution.outcome, OrbitOutcome::converged);
             // The orbit is admissible if and only if simulation from its start first reaches the stop at its end.
@@ -129,10 +117,7 @@ TEST(SolveOrbit, PenetratingOrbitsAreMarkedInadmissible) {
 TEST(FindOrbit, TestbedHasThePublishedMultipliers) {
     Model model = load_model("electromagnetic-testbed");
     model.set_initial("I", 0.1);
-    AttractorOptions settle;
-    settle.section = "phase0";
-    settle.cycles = 600;
-    const OrbitSolution solution = find_orbit(System(model), settle);
+    const OrbitSolution solution = settled(model, "phase0", 600);
     ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
     ASSERT_TRUE(solution.orbit.symmetry);
     EXPECT_EQ(to_string(model, solution.orbit.signature), "impact^2");
@@ -149,11 +134,8 @@ TEST(FindOrbit, TestbedHasThePublishedMultipliers) {
 }
 
 TEST(FindOrbit, AnOrbitWithoutContactEndsAtTheSection) {
-    Model model = load_model("electromagnetic-testbed");
-    model.set_parameter("V0", 4.5);
-    AttractorOptions settle;
-    settle.section = "phase0";
-    const OrbitSolution solution = find_orbit(System(model), settle);
+    const Model model = shipped_with("electromagnetic-testbed", {{"V0", 4.5}});
+    const OrbitSolution solution = settled(model, "phase0", 150);
     ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
     EXPECT_TRUE(solution.orbit.symmetry);
     EXPECT_EQ(to_string(model, solution.orbit.signature), "phase0");
@@ -163,12 +145,8 @@ TEST(FindOrbit, AnOrbitWithoutContactEndsAtTheSection) {
 }
 
 TEST(SolveOrbit, TheFrameOfAMicroactuatorWithoutImpactsIsNeutral) {
-    Model model = load_model("impact-microactuator");
-    model.set_parameter("V", 0.2);
-    AttractorOptions settle;
-    settle.section = "phase0";
-    settle.cycles = 2000;
-    const OrbitSolution solution = find_orbit(System(model), settle);
+    const Model model = shipped_with("impact-microactuator", {{"V", 0.2}});
+    const OrbitSolution solution = settled(model, "phase0", 2000);
     ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
     EXPECT_EQ(solution.multipliers.size(), 2u);
     // By Liouville's formula the product of multipliers follows from the damping.
@@ -177,14 +155,10 @@ TEST(SolveOrbit, TheFrameOfAMicroactuatorWithoutImpactsIsNeutral) {
 }
 
 TEST(SolveOrbit, SlowForcingHasTheMultipliersOfTheFreeOscillation) {
-    Model model = load_model("impact-oscillator");
-    model.set_parameter("sigma", 0.5);
-    model.set_parameter("amplitude", 0.1);
-    AttractorOptions settle;
-    settle.section = "phase0";
+    Model model = shipped_with("impact-oscillator", {{"sigma", 0.5}, {"amplitude", 0.1}});
     for (const double omega : {0.05, 0.1, 0.15, 0.2, 0.5}) {
         model.set_parameter("omega", omega);
-        const OrbitSolution solution = find_orbit(System(model), settle);
+        const OrbitSolution solution = settled(model, "phase0", 150);
         ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << omega;
         // Disturbances oscillate freely: the multipliers are the pair exp(-zeta T +- i sqrt(1 - zeta^2) T).
         const double T = 2 * pi / omega, zeta = 0.02;
@@ -199,11 +173,7 @@ TEST(SolveOrbit, SlowForcingHasTheMultipliersOfTheFreeOscillation) {
 
 TEST(SolveOrbit, ImpossibleCandidatesAreRefused) {
     const Model model = load_model("impact-oscillator");
-    Orbit orbit;
-    orbit.signature = parse_signature(model, "impact");
-    orbit.parameters = model.parameter_values();
-    orbit.starts = {{0.1, -0.5}};
-    orbit.durations = {2};
+    Orbit orbit = given_orbit(model, "impact", {{0.1, -0.5}}, {2});
     EXPECT_THROW(solve_orbit(System(model), orbit), InputError);
     orbit.starts = {{0.1, -0.5, NAN}};
     EXPECT_THROW(solve_orbit(System(model), orbit), InputError);
@@ -217,30 +187,8 @@ TEST(SolveOrbit, ImpossibleCandidatesAreRefused) {
 }
 
 TEST(SolveOrbit, ASingleStateThatIsResetHasMultiplierZero) {
-    const Model model = parse_model(R"toml(
-name = "integrate and fire"
-[states]
-u = 0
-[modes.only]
-rates = { u = "2 - u" }
-watch = ["fire"]
-[events.fire]
-function = "1 - u"
-[jumps.reset]
-u = 0
-[[transitions]]
-mode = "only"
-event = "fire"
-label = "fire"
-jump = "reset"
-next = "only"
-)toml",
-                                    "integrate and fire");
-    Orbit orbit;
-    orbit.signature = parse_signature(model, "fire");
-    orbit.starts = {{0.1}};
-    orbit.durations = {0.6};
-    const OrbitSolution found = solve_orbit(System(model), orbit);
+    const Model model = integrate_and_fire(2, "barrier");
+    const OrbitSolution found = solve_orbit(System(model), given_orbit(model, "fire", {{0.1}}, {0.6}));
     ASSERT_EQ(found.outcome, OrbitOutcome::converged);
     EXPECT_NEAR(found.orbit.period(), std::log(2.0), 1e-13);
     ASSERT_EQ(found.multipliers.size(), 1u);
@@ -250,14 +198,10 @@ next = "only"
 
 /// Friction exceeds the force: slips shrink without end, and no periodic orbit has slips.
 TEST(FindOrbit, SlipsBelowRoundOffAreNotPartOfAnOrbit) {
-    Model model = load_model("dry-friction-oscillator");
-    model.set_parameter("friction_static", 1.05);
-    model.set_parameter("friction_dynamic", 1.05);
-    model.set_parameter("omega", 2);
-    AttractorOptions settle;
-    settle.section = "phase0";
+    Model model =
+        shipped_with("dry-friction-oscillator", {{"friction_static", 1.05}, {"friction_dynamic", 1.05}, {"omega", 2}});
     model.set_initial("x", 0.2);
-    EXPECT_THROW(find_orbit(System(model), settle), InputError);
+    EXPECT_THROW(find_orbit(System(model), {.section = "phase0"}), InputError);
     // Newton's method from two segments of the motion converges to where they vanish.
     const Simulation simulation(System(model), {}, {}, {});
     for (const double left : {1e-4, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9, 1e-9}) {
@@ -277,7 +221,7 @@ TEST(FindOrbit, SlipsBelowRoundOffAreNotPartOfAnOrbit) {
     // Where the force exceeds friction by 1 %, the orbit has small slips.
     model.set_parameter("friction_static", 0.99);
     model.set_parameter("friction_dynamic", 0.99);
-    const OrbitSolution slips = find_orbit(System(model), settle);
+    const OrbitSolution slips = settled(model, "phase0", 150);
     EXPECT_EQ(slips.outcome, OrbitOutcome::converged) << slips.detail;
     EXPECT_TRUE(slips.certificate.admissible) << slips.certificate.reason;
 }

@@ -24,33 +24,24 @@ std::vector<std::size_t> contacts_of(const Model& model, const std::vector<doubl
     for (std::size_t event = 0; event < model.events.size(); ++event)
         contacts.events.push_back(event);
     returns.section = options.section;
-    const auto factory = transient_searches(System(model), options, {contacts, returns}, model.state_symbols(), {});
-    const auto search = factory->make();
-    search->begin(model.parameter_values(), state, model.initial_mode);
-    JetSet jets(factory->simulation(), LaneKind::single);
-    do
-        run(search->trajectory(), jets);
-    while (search->proceed());
+    const PointResult result = result_of(
+        *transient_searches(System(model), options, {contacts, returns}, model.state_symbols(), {}), model, state);
     std::vector<std::size_t> counts(1);
-    for (const std::size_t sampling : search->result().samples.samplings)
+    for (const std::size_t sampling : result.samples.samplings)
         if (sampling == 0)
             ++counts.back();
         else
             counts.push_back(0);
     if (end)
-        *end = search->result().state;
+        *end = result.state;
     return counts;
 }
 
 TEST(AttractorEvidence, AMotionThatPassesByAnOrbitIsNotLabelledPeriodic) {
     // At 7 Hz, below the voltage at which impacts set in, a stable orbit without impacts lies beside a chaotic motion,
     // so close that the motion passes by every few periods.
-    Model model = load_model("electromagnetic-testbed");
-    model.set_parameter("f", 7);
-    model.set_parameter("V0", 3.68);
-    AttractorOptions options;
-    options.section = "phase0";
-    options.chaos_cycles = 0;
+    Model model = testing::shipped_with("electromagnetic-testbed", {{"f", 7}, {"V0", 3.68}});
+    const AttractorOptions options{.section = "phase0", .chaos_cycles = 0};
     std::vector<double> state = model.initial_state();
     contacts_of(model, state, 637, &state);
     for (const double voltage : {3.675, 3.674}) {
@@ -75,8 +66,7 @@ TEST(AttractorEvidence, PeriodicLabelsHoldForThousandsOfPeriods) {
         model.set_parameter("omega", omega);
         model.set_parameter("e", 0.6 + 0.05 * (k % 6));
         model.set_parameter("sigma", 1.001 / std::abs(1 - omega * omega)); // above the free motion's amplitude
-        AttractorOptions options;
-        options.section = "phase0";
+        const AttractorOptions options{.section = "phase0"};
         const PointResult result = settle(model, options);
         if (result.label != Label::periodic)
             continue;
@@ -127,33 +117,8 @@ TEST(AttractorEvidence, TransientChaosIsDistinguished) {
 
 /// A spiral map with this multiplier, with a contact in every return.
 Model spiral(double radius) {
-    return parse_model(fmt::format(R"toml(
-name = "spiral"
-[states]
-z = 1
-w = 0
-theta = {{ initial = 0, period = 1 }}
-[events]
-tick = {{ function = "cos(2*pi*theta)", kind = "section" }}
-[modes.only]
-rates = {{ z = 0, w = 0, theta = 1 }}
-watch = ["tick"]
-[jumps.map]
-z = "{0}*(z*cos(2.4) - w*sin(2.4))"
-w = "{0}*(z*sin(2.4) + w*cos(2.4))"
-[[transitions]]
-mode = "only"
-event = "tick"
-jump = "map"
-next = "only"
-[sections.half]
-state = "theta"
-value = 0.5
-[initial]
-mode = "only"
-)toml",
-                                   radius),
-                       "spiral");
+    return iterated("z = 1\nw = 0", "z = 0, w = 0",
+                    fmt::format("z = '{0}*(z*cos(2.4) - w*sin(2.4))'\nw = '{0}*(z*sin(2.4) + w*cos(2.4))'", radius));
 }
 
 TEST(AttractorEvidence, AMotionThatShrinksAsAWholeStaysWithItsOrbit) {
@@ -172,28 +137,14 @@ TEST(AttractorEvidence, AMotionThatShrinksAsAWholeStaysWithItsOrbit) {
 /// x' = -x falls to `least` after -log(least), where the motion ends; before, only the clock moves noticeably.
 TEST(AttractorEvidence, AMotionThatSeemsAtRestStillReachesItsEvent) {
     for (const double least : {1e-3, 1e-12, 1e-20, 1e-60, 1e-100, 1e-160}) {
-        const Model model = parse_model(fmt::format(R"toml(
-[states]
-x = 1
-theta = {{ initial = 0, period = 1 }}
-[events]
-low = "x - {:.17g}"
-[modes.only]
-rates = {{ x = "-x", theta = 1 }}
-watch = ["low"]
-[[transitions]]
-mode = "only"
-event = "low"
-next = "end"
-[sections.s]
-state = "theta"
-value = 0.5
-[initial]
-mode = "only"
-)toml",
-                                                    least),
-                                        "end");
-        const PointResult result = settle(model);
+        const PointResult result = settle(
+            testing::OneMode{.states = "x = 1",
+                             .rates = "x = '-x'",
+                             .clock = "1",
+                             .period = "1",
+                             .stops = {{.event = "low", .function = fmt::format("x - {:.17g}", least), .next = "end"}},
+                             .more = testing::at_phase(0.5)}
+                .model());
         EXPECT_EQ(result.label, Label::ended) << least << ": " << name_of(result.label) << result.outcome.detail;
         EXPECT_NEAR(result.time / -std::log(least), 1, 1e-9) << least;
     }
@@ -202,20 +153,10 @@ mode = "only"
 /// The section's function is exp(-t), which finally underflows.
 TEST(AttractorEvidence, RoundOffOfADecayedFunctionIsNoReturn) {
     for (const char* rate : {"1", "0.1*x", "v"}) {
-        const Model model = parse_model(fmt::format(R"toml(
-[states]
-x = 0.5
-v = 1
-[modes.only]
-rates = {{ x = "{}", v = "-v" }}
-[sections.s]
-function = "v"
-[initial]
-mode = "only"
-)toml",
-                                                    rate),
-                                        "decay");
-        const PointResult result = settle(model);
+        const PointResult result = settle(testing::OneMode{.states = "x = 0.5\nv = 1",
+                                                           .rates = fmt::format("x = '{}', v = '-v'", rate),
+                                                           .more = "[sections.s]\nfunction = 'v'"}
+                                              .model());
         EXPECT_EQ(result.cycles, 0U) << rate;
         EXPECT_NE(result.label, Label::periodic) << rate;
         EXPECT_NE(result.label, Label::chaotic) << rate;
@@ -225,11 +166,8 @@ mode = "only"
 /// A ball on a table that comes to rest there, and is released where the table's downward acceleration exceeds gravity
 /// (g = 1): its earlier motion is forgotten each time.
 Model ball_at_rest(double restitution, double omega, double amplitude) {
-    Model model = load_model("bouncing-ball");
-    model.set_parameter("g", 1);
-    model.set_parameter("e", restitution);
-    model.set_parameter("f", omega / (2 * std::numbers::pi));
-    model.set_parameter("a", amplitude);
+    Model model = testing::shipped_with(
+        "bouncing-ball", {{"g", 1}, {"e", restitution}, {"f", omega / (2 * std::numbers::pi)}, {"a", amplitude}});
     model.set_initial("x", 0);
     model.set_initial("v", amplitude * omega);
     model.set_initial_mode("rest");

@@ -15,47 +15,7 @@ constexpr double golden = 1.618033988749895;
 
 /// A model with these states and rates, and a clock of rate q whose phase zero is the section.
 Model beside_a_clock(const std::string& states, const std::string& rates, double q = 1) {
-    return parse_model(fmt::format(R"toml(
-name = "m"
-[states]
-{}
-th = {{ initial = 0, period = "2*pi" }}
-[modes.o]
-rates = {{ {}, th = {:.17g} }}
-[sections.a]
-state = "th"
-value = 0
-)toml",
-                                   states, rates, q),
-                       "m");
-}
-
-/// A model that jumps once in every unit of time.
-Model jumping(const std::string& states, const std::string& rates, const std::string& jumps) {
-    return parse_model(fmt::format(R"toml(
-name = "m"
-[states]
-{}
-s = 0
-[events]
-tick = "1 - s"
-[jumps.j]
-{}
-s = 0
-[modes.o]
-rates = {{ {}, s = 1 }}
-watch = ["tick"]
-[[transitions]]
-mode = "o"
-event = "tick"
-jump = "j"
-next = "o"
-[sections.a]
-function = "s - 0.5"
-direction = "rising"
-)toml",
-                                   states, jumps, rates),
-                       "m");
+    return testing::OneMode{.states = states, .rates = rates, .clock = fmt::format("{:.17g}", q)}.model();
 }
 
 TEST(AttractorPlane, ASecondClockThatDoesNotReturnHasNoPeriod) {
@@ -63,7 +23,7 @@ TEST(AttractorPlane, ASecondClockThatDoesNotReturnHasNoPeriod) {
     for (const double w : {0.98, 1.02, 1.001, 1.0001, 1.00001, 2.02}) {
         const PointResult result =
             settle(beside_a_clock("x = 0\nph = { initial = 0, period = \"2*pi\" }",
-                                  fmt::format("x = \"-0.1*x + cos(th) + sin(ph)\", ph = {:.17g}", w)));
+                                  fmt::format("x = \"-0.1*x + cos(theta) + sin(ph)\", ph = {:.17g}", w)));
         EXPECT_NE(result.label, Label::periodic) << w;
         EXPECT_GE(result.state[1], 0) << w;
         EXPECT_LT(result.state[1], 2 * std::numbers::pi) << w;
@@ -71,7 +31,7 @@ TEST(AttractorPlane, ASecondClockThatDoesNotReturnHasNoPeriod) {
     for (const auto& [w, period] : {std::pair{1.0, 1}, std::pair{2.0, 1}, std::pair{1.5, 2}, std::pair{0.25, 4}}) {
         const PointResult result =
             settle(beside_a_clock("x = 0\nph = { initial = 0, period = \"2*pi\" }",
-                                  fmt::format("x = \"-0.1*x + cos(th) + sin(ph)\", ph = {:.17g}", w)));
+                                  fmt::format("x = \"-0.1*x + cos(theta) + sin(ph)\", ph = {:.17g}", w)));
         EXPECT_EQ(result.label, Label::periodic) << w;
         EXPECT_EQ(result.period, static_cast<std::size_t>(period)) << w;
         EXPECT_NEAR(std::abs(result.multipliers.front()), std::exp(-0.1 * 2 * std::numbers::pi * period), 1e-9) << w;
@@ -85,7 +45,7 @@ TEST(AttractorPlane, AGrowingLinearModeIsNotChaotic) {
               std::pair{"x = 0\nv = 1", "x = \"0.3*x\", v = \"-v\""},
               std::pair{"x = 1\nv = 1", "x = \"0.3*x\", v = \"0.3*v\""},
               std::pair{"x = 1\nv = 1", "x = \"0.3*x + 0.1*v\", v = \"0.2*v\""},
-              std::pair{"x = 0\nv = 0", "x = \"1 + 0.05*x\", v = \"-v + sin(th)\""}}) {
+              std::pair{"x = 0\nv = 0", "x = \"1 + 0.05*x\", v = \"-v + sin(theta)\""}}) {
             const PointResult result = settle(beside_a_clock(states, rates, q));
             EXPECT_TRUE(result.label == Label::unbounded || result.label == Label::unsettled)
                 << rates << " " << q << " " << name_of(result.label);
@@ -99,7 +59,7 @@ TEST(AttractorPlane, ATorusOnAnUnstablePlaneIsLeft) {
     for (const double y : {0.0, 1e-30, 1e-9}) {
         const PointResult result = settle(
             beside_a_clock(fmt::format("x = 0\ny = {:.17g}\nph = {{ initial = 0, period = \"2*pi\" }}", y),
-                           fmt::format("x = \"-x + cos(th) + sin(ph)\", y = \"y - y^3\", ph = {:.17g}", golden)));
+                           fmt::format("x = \"-x + cos(theta) + sin(ph)\", y = \"y - y^3\", ph = {:.17g}", golden)));
         // The search may end before averages are even enough, but not with chaos.
         EXPECT_TRUE(result.label == Label::quasi_periodic || result.label == Label::unsettled)
             << y << " " << name_of(result.label);
@@ -110,7 +70,7 @@ TEST(AttractorPlane, ATorusOnAnUnstablePlaneIsLeft) {
     still.disturbance = 0;
     const PointResult result =
         settle(beside_a_clock("x = 0\ny = 0\nph = { initial = 0, period = \"2*pi\" }",
-                              fmt::format("x = \"-x + cos(th) + sin(ph)\", y = \"y - y^3\", ph = {:.17g}", golden)),
+                              fmt::format("x = \"-x + cos(theta) + sin(ph)\", y = \"y - y^3\", ph = {:.17g}", golden)),
                still);
     EXPECT_EQ(result.label, Label::unsettled);
     EXPECT_NE(result.outcome.detail.find("plane"), std::string::npos);
@@ -120,10 +80,10 @@ TEST(AttractorPlane, ChaosOnAnUnstablePlaneIsLeft) {
     // Two coupled logistic maps in synchrony, which neighbours leave: the transverse exponent is 0.35 + log(1 - 2c) >
     // 0.
     const auto coupled = [](double c) {
-        return jumping("x = 0.3\ny = 0.3", "x = 0, y = 0",
-                       fmt::format("x = \"(1-{0})*3.7*x*(1-x) + {0}*3.7*y*(1-y)\"\n"
-                                   "y = \"(1-{0})*3.7*y*(1-y) + {0}*3.7*x*(1-x)\"",
-                                   c));
+        return testing::ticking("x = 0.3\ny = 0.3", "x = 0, y = 0",
+                                fmt::format("x = \"(1-{0})*3.7*x*(1-x) + {0}*3.7*y*(1-y)\"\n"
+                                            "y = \"(1-{0})*3.7*y*(1-y) + {0}*3.7*x*(1-x)\"",
+                                            c));
     };
     const PointResult apart = settle(coupled(0.1));
     EXPECT_EQ(apart.label, Label::periodic);
@@ -136,9 +96,9 @@ TEST(AttractorPlane, ChaosOnAnUnstablePlaneIsLeft) {
     // y = 0 is unstable; the motion goes to y^2 = 0.5, where x has period 2.
     for (const double y : {0.0, 1e-118}) {
         // As in a sweep that carries on a state that has decayed from 0.1.
-        const PointResult left = settle(
-            jumping("x = 0.3\ny = 0.1", "x = 0, y = 0", "x = \"(3.9 - 1.6*y^2)*x*(1-x)\"\ny = \"y*(1.5 - y^2)\""), {},
-            {0.3, y, 0});
+        const PointResult left = settle(testing::ticking("x = 0.3\ny = 0.1", "x = 0, y = 0",
+                                                         "x = \"(3.9 - 1.6*y^2)*x*(1-x)\"\ny = \"y*(1.5 - y^2)\""),
+                                        {}, {0.3, y, 0});
         // From so close to the plane it may take longer than the search.
         EXPECT_NE(left.label, Label::chaotic) << y;
         if (y == 0) {
@@ -150,38 +110,12 @@ TEST(AttractorPlane, ChaosOnAnUnstablePlaneIsLeft) {
 
 /// A focus with one growth rate for x > 0 and another for x < 0: all motions look alike on all scales.
 Model two_zones(double left) {
-    return parse_model(fmt::format(R"toml(
-name = "m"
-[parameters]
-a = {}
-[states]
-x = 1
-v = 0
-[events]
-toL = {{ function = "x", kind = "section" }}
-toR = {{ function = "-x", kind = "section" }}
-[modes.R]
-rates = {{ x = "v", v = "0.2*v - 1.01*x" }}
-watch = ["toL"]
-[modes.L]
-rates = {{ x = "v", v = "2*a*v - (a^2 + 4)*x" }}
-watch = ["toR"]
-[[transitions]]
-mode = "R"
-event = "toL"
-next = "L"
-[[transitions]]
-mode = "L"
-event = "toR"
-next = "R"
-[sections.a]
-function = "v"
-direction = "falling"
-[initial]
-mode = "R"
-)toml",
-                                   left),
-                       "m");
+    return testing::TwoModes{.parameters = fmt::format("a = {}", left),
+                             .states = "x = 1\nv = 0",
+                             .first = {"R", "x = 'v', v = '0.2*v - 1.01*x'", "toL", "x"},
+                             .second = {"L", "x = 'v', v = '2*a*v - (a^2 + 4)*x'", "toR", "-x"},
+                             .more = testing::section("a", "v", "falling")}
+        .model();
 }
 
 TEST(AttractorPlane, AMotionThatShrinksIntoACornerIsNotLabelledPeriodic) {
@@ -195,10 +129,8 @@ TEST(AttractorPlane, AMotionThatShrinksIntoACornerIsNotLabelledPeriodic) {
 }
 
 TEST(AttractorPlane, ABallAtRestOnAMovingTableIsPeriodic) {
-    Model model = load_model("bouncing-ball");
-    model.set_parameter("f", 3);
-    AttractorOptions options;
-    options.section = "phase0";
+    Model model = testing::shipped_with("bouncing-ball", {{"f", 3}});
+    const AttractorOptions options{.section = "phase0"};
     for (const double a : {0.001, 0.005, 0.02}) { // the table's acceleration is below g: a omega^2 < 7.2
         model.set_parameter("a", a);
         const PointResult result = settle(model, options);

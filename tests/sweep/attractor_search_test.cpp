@@ -13,12 +13,6 @@ namespace {
 
 using std::numbers::pi;
 
-PointResult settle(const Model& model, const std::string& section) {
-    AttractorOptions options;
-    options.section = section;
-    return settle(model, options);
-}
-
 /// z -> r z (1 - z) once in every unit of time.
 Model logistic(double r, double start = 0.3) {
     return iterated(fmt::format("{:.17g}*z*(1 - z)", r), start);
@@ -31,10 +25,7 @@ TEST(AttractorSearch, LogisticMapHasItsKnownPeriods) {
         double r;
         std::size_t period;
     };
-    AttractorOptions options;
-    options.section = "half";
-    options.largest_period = 8;
-    options.cycles = 2000;
+    const AttractorOptions options{.section = "half", .cycles = 2000, .largest_period = 8};
     for (const Case& known : {Case{2.5, 1},
                               {2.99, 1},
                               {3.01, 2},
@@ -62,10 +53,7 @@ TEST(AttractorSearch, LogisticMapHasItsKnownPeriods) {
 }
 
 TEST(AttractorSearch, LogisticMapIsChaoticWithExponentLog2) {
-    AttractorOptions options;
-    options.section = "half";
-    options.cycles = 4000;
-    options.lyapunov_cycles = 3900;
+    const AttractorOptions options{.section = "half", .cycles = 4000, .lyapunov_cycles = 3900};
     const PointResult result = settle(logistic(4, 0.1234), options);
     EXPECT_EQ(result.label, Label::chaotic);
     ASSERT_TRUE(result.lyapunov && result.lyapunov_error);
@@ -77,8 +65,7 @@ TEST(AttractorSearch, LogisticMapIsChaoticWithExponentLog2) {
 
 TEST(AttractorSearch, SlowTransientsNextToAFlipAreNotLabelledDoubled) {
     // At 1e-4 before the flip, distances shrink by 1e-4 in each step: distances of samples suggest period 2 forever.
-    AttractorOptions options;
-    options.section = "half";
+    const AttractorOptions options{.section = "half"};
     for (const double r : {2.9999, 2.99999}) {
         const PointResult result = settle(logistic(r), options);
         EXPECT_NE(result.period, 2u) << r;
@@ -87,8 +74,7 @@ TEST(AttractorSearch, SlowTransientsNextToAFlipAreNotLabelledDoubled) {
 }
 
 TEST(AttractorSearch, AMotionOnAnUnstableOrbitLeavesIt) {
-    AttractorOptions options;
-    options.section = "half";
+    const AttractorOptions options{.section = "half"};
     // The motion starts exactly on the unstable fixed point; the cycle of period 2 is the attractor.
     const PointResult result = settle(logistic(3.2, 1 - 1 / 3.2), options);
     EXPECT_EQ(result.label, Label::periodic);
@@ -107,9 +93,7 @@ TEST(AttractorSearch, BouncingBallDoublesItsPeriodAtTheClosedFormThreshold) {
         model.set_parameter("a", a);
         // Start close to the orbit: just after the impact, moving upwards for half a period.
         const double phase = std::acos(g / (omega * omega) * cosine / a);
-        AttractorOptions options;
-        options.section = "phase0";
-        options.cycles = 4000;
+        const AttractorOptions options{.section = "phase0", .cycles = 4000};
         std::vector<double> state{a * std::sin(phase) + 1e-6, g * pi / omega, phase};
         const PointResult result = settle(model, options, state);
         ASSERT_EQ(result.label, Label::periodic) << factor;
@@ -128,9 +112,7 @@ TEST(AttractorSearch, LinearImpactOscillatorHasTheExponentOfItsClosedForm) {
     // Between impacts areas shrink by exp(-2 zeta t), at each impact by e^2. With one impact per period T of the force
     // the product of the multipliers is e^2 exp(-2 zeta T); if they are complex, each exponent is half its logarithm.
     Model model = load_model("impact-oscillator");
-    AttractorOptions options;
-    options.section = "phase0";
-    options.cycles = 3000;
+    const AttractorOptions options{.section = "phase0", .cycles = 3000};
     const double zeta = 0.1, e = 0.8;
     std::size_t complex = 0;
     for (const double omega : {1.8, 2.0, 2.2, 2.5, 2.9}) {
@@ -158,12 +140,9 @@ TEST(AttractorSearch, LinearImpactOscillatorHasTheExponentOfItsClosedForm) {
 }
 
 TEST(AttractorSearch, LinearOscillatorWithoutContactHasTheExponentOfItsDamping) {
-    Model model = load_model("impact-oscillator");
-    model.set_parameter("zeta", 0.05);
-    model.set_parameter("sigma", 50);
+    Model model = testing::shipped_with("impact-oscillator", {{"zeta", 0.05}, {"sigma", 50}});
     model.set_initial("x", 0.2);
-    AttractorOptions options;
-    options.section = "phase0";
+    const AttractorOptions options{.section = "phase0"};
     const PointResult result = settle(model, options);
     ASSERT_EQ(result.label, Label::periodic);
     EXPECT_EQ(result.signature, "");
@@ -173,11 +152,7 @@ TEST(AttractorSearch, LinearOscillatorWithoutContactHasTheExponentOfItsDamping) 
 
 TEST(AttractorSearch, ExponentAlongAMotionEqualsThatOfTheMultipliers) {
     // For the stable orbit of period two; with largest_period 1 the search does not find it.
-    AttractorOptions options;
-    options.section = "half";
-    options.cycles = 1200;
-    options.lyapunov_cycles = 1000;
-    options.largest_period = 1;
+    const AttractorOptions options{.section = "half", .cycles = 1200, .largest_period = 1, .lyapunov_cycles = 1000};
     const double r = 3.2;
     const PointResult averaged = settle(logistic(r), options);
     EXPECT_NE(averaged.label, Label::chaotic);
@@ -186,32 +161,17 @@ TEST(AttractorSearch, ExponentAlongAMotionEqualsThatOfTheMultipliers) {
 }
 
 TEST(AttractorSearch, TwoIncommensurateFrequenciesAreQuasiPeriodic) {
-    const Model model = parse_model(R"toml(
-name = "rotation"
-[states]
-x = { initial = 1 }
-v = { initial = 0 }
-theta = { initial = 0, period = "2*pi" }
-[modes.only]
-rates = { x = "v", v = "-x", theta = "(sqrt(5) + 1)/2" }
-[sections.phase0]
-state = "theta"
-value = 0
-[initial]
-mode = "only"
-)toml",
-                                    "rotation");
-    const PointResult result = settle(model, "phase0");
+    const Model model =
+        testing::OneMode{.states = "x = 1\nv = 0", .rates = "x = 'v', v = '-x'", .clock = "(sqrt(5) + 1)/2"}.model();
+    const PointResult result = settle(model);
     EXPECT_EQ(result.label, Label::quasi_periodic);
     ASSERT_TRUE(result.lyapunov);
     EXPECT_NEAR(*result.lyapunov, 0, 1e-3);
 }
 
 TEST(AttractorSearch, TestbedHasThePublishedAttractors) {
-    Model model = load_model("electromagnetic-testbed");
-    model.set_parameter("V0", 4.833);
-    AttractorOptions options;
-    options.section = "phase0";
+    Model model = testing::shipped_with("electromagnetic-testbed", {{"V0", 4.833}});
+    AttractorOptions options{.section = "phase0"};
     // From rest the motion reaches the stop; in small steps of the voltage the orbit without impacts is followed.
     PointResult still;
     std::vector<double> state;
@@ -239,30 +199,9 @@ TEST(AttractorSearch, TestbedHasThePublishedAttractors) {
 }
 
 TEST(AttractorSearch, AResetMakesASingleStateSuperstable) {
-    // Integrate and fire: u' = I - u up to 1, then reset to 0; the period is log(I / (I - 1)).
     for (const double current : {1.001, 1.5, 20.0}) {
-        const PointResult result = settle(parse_model(fmt::format(R"toml(
-name = "integrate and fire"
-[states]
-u = 0
-[modes.only]
-rates = {{ u = "{} - u" }}
-watch = ["fire"]
-[events.fire]
-function = "1 - u"
-[jumps.reset]
-u = 0
-[[transitions]]
-mode = "only"
-event = "fire"
-jump = "reset"
-next = "only"
-[sections.threshold]
-function = "1 - u"
-direction = "falling"
-)toml",
-                                                                  current),
-                                                      "integrate and fire"));
+        const PointResult result =
+            settle(testing::integrate_and_fire(current, "barrier", testing::section("threshold", "1 - u", "falling")));
         ASSERT_EQ(result.label, Label::periodic) << current;
         EXPECT_EQ(result.period, 1u);
         EXPECT_NEAR(result.duration, std::log(current / (current - 1)), 1e-11);
@@ -273,23 +212,13 @@ direction = "falling"
 
 TEST(AttractorSearch, AStateMovedOnlyByRoundingDoesNotKeepOthersFromSettling) {
     // The second oscillator is driven by cancelling terms.
-    const PointResult result = settle(parse_model(R"toml(
-name = "symmetric"
-[states]
-x = 0
-v = 0
-q = 0
-r = 0
-theta = { initial = 0, period = "2*pi" }
-[definitions]
-F = "cos(theta)"
-[modes.only]
-rates = { x = "v", v = "F - x*2 - 0.3*v", q = "r", r = "(0.1*v + 0.2*F) - 0.3*(v/3 + F*(2/3)) - 7.3*q - 0.3*r", theta = 1 }
-[sections.clock]
-state = "theta"
-value = 0
-)toml",
-                                                  "symmetric"));
+    const PointResult result =
+        settle(testing::OneMode{.states = "x = 0\nv = 0\nq = 0\nr = 0",
+                                .definitions = "F = 'cos(theta)'",
+                                .rates = "x = 'v', v = 'F - x*2 - 0.3*v', q = 'r', "
+                                         "r = '(0.1*v + 0.2*F) - 0.3*(v/3 + F*(2/3)) - 7.3*q - 0.3*r'",
+                                .clock = "1"}
+                   .model());
     EXPECT_EQ(result.label, Label::periodic);
     EXPECT_EQ(result.period, 1u);
     EXPECT_NEAR(std::abs(result.multipliers.front()), std::exp(-0.15 * 2 * 3.14159265358979), 1e-9);
@@ -297,32 +226,8 @@ value = 0
 
 TEST(AttractorSearch, ZeroMultipliersAreExactlyZero) {
     for (const double current : {1.001, 1.1, 1.5, 3.0, 1e3}) {
-        // x' = I - x, reset from 1 to 0: period log(I/(I - 1)).
-        const Model neuron = parse_model(fmt::format(R"toml(
-name = "neuron"
-[states]
-x = 0
-[events]
-fires = {{ function = "1 - x", kind = "section" }}
-[jumps.reset]
-x = 0
-[modes.only]
-rates = {{ x = "{:.17g} - x" }}
-watch = ["fires"]
-[[transitions]]
-mode = "only"
-event = "fires"
-jump = "reset"
-next = "only"
-[sections.half]
-function = "x - 0.5"
-direction = "rising"
-[initial]
-mode = "only"
-)toml",
-                                                     current),
-                                         "neuron");
-        const PointResult result = settle(neuron);
+        const PointResult result =
+            settle(testing::integrate_and_fire(current, "section", testing::section("half", "u - 0.5")));
         EXPECT_EQ(result.label, Label::periodic) << current;
         EXPECT_NEAR(result.duration, std::log(current / (current - 1)), 1e-11 * result.duration);
         ASSERT_EQ(result.multipliers.size(), 1u);

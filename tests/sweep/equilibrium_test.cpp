@@ -52,24 +52,11 @@ TEST(Equilibrium, ALimitCycleAboutAStableEquilibriumIsDistinguished) {
     // r' = -r (1 - r^2) (4 - r^2), rotating: r = 0 and r = 2 are stable, r = 1 separates them. Where the motion crosses
     // x = 0 the field may look linear.
     for (const double start : {0.1, 0.9, 1.1, 1.9, 2.5}) {
-        const Model model = parse_model(fmt::format(R"toml(
-name = "two attractors"
-[states]
-x = {{ initial = {} }}
-y = {{ initial = 0 }}
-[definitions]
-g = "0.05*(1 - x^2 - y^2)*(4 - x^2 - y^2)"
-[modes.only]
-rates = {{ x = "-g*x - y", y = "x - g*y" }}
-[sections.s]
-function = "x"
-direction = "rising"
-[initial]
-mode = "only"
-)toml",
-                                                    start),
-                                        "two attractors");
-        const PointResult result = settle(model);
+        const PointResult result = settle(testing::OneMode{.states = fmt::format("x = {}\ny = 0", start),
+                                                           .definitions = "g = '0.05*(1 - x^2 - y^2)*(4 - x^2 - y^2)'",
+                                                           .rates = "x = '-g*x - y', y = 'x - g*y'",
+                                                           .more = testing::section("s", "x")}
+                                              .model());
         EXPECT_EQ(result.label, start < 1 ? Label::equilibrium : Label::periodic) << start;
     }
 }
@@ -138,20 +125,11 @@ TEST(Equilibrium, DrivenParametersAreJudgedByMultipliers) {
 /// A body stuck to a table that a clock moves up and down.
 TEST(Equilibrium, ABodyOnAMovingTableIsNotAtRest) {
     for (const double amplitude : {1e-9, 1e-2, 1e3}) {
-        const PointResult result = settle(parse_model(fmt::format(R"toml(
-name = "ride"
-[states]
-x = 0
-v = {{ initial = {0:.17g} }}
-p = {{ initial = 0, period = "2*pi" }}
-[modes.stuck]
-rates = {{ x = "v", v = "-{0:.17g}*sin(p)", p = 1 }}
-[sections.clock]
-state = "p"
-value = 0
-)toml",
-                                                                  amplitude),
-                                                      "ride"));
+        const PointResult result =
+            settle(testing::OneMode{.states = fmt::format("x = 0\nv = {:.17g}", amplitude),
+                                    .rates = fmt::format("x = 'v', v = '-{:.17g}*sin(theta)'", amplitude),
+                                    .clock = "1"}
+                       .model());
         EXPECT_NE(result.label, Label::equilibrium) << amplitude;
     }
 }
@@ -159,31 +137,12 @@ value = 0
 TEST(Equilibrium, CarriedStatesKeepTheirSigns) {
     // Above mu = 0 x grows, below it decays, and never becomes negative: from 0 - the pulses leave it there - too.
     const auto sweep = [](double mu, double x) {
-        return settle(parse_model(fmt::format(R"toml(
-name = "pulses"
-[states]
-x = {{ initial = {} }}
-y = 1
-p = {{ initial = 0, period = 1 }}
-[modes.only]
-rates = {{ x = "x*({} + y - 1 - x)", y = "1 - y", p = 0.2 }}
-watch = ["tick"]
-[events.tick]
-function = "0.5 - p"
-kind = "section"
-[jumps.pulse]
-y = "y"
-[[transitions]]
-mode = "only"
-event = "tick"
-jump = "pulse"
-next = "only"
-[sections.clock]
-state = "p"
-value = 0
-)toml",
-                                              x, mu),
-                                  "pulses"));
+        return settle(testing::OneMode{.states = fmt::format("x = {{ initial = {} }}\ny = 1", x),
+                                       .rates = fmt::format("x = 'x*({} + y - 1 - x)', y = '1 - y'", mu),
+                                       .clock = "0.2",
+                                       .period = "1",
+                                       .stops = {{"tick", "0.5 - theta", "y = 'y'", "", "free", "section"}}}
+                          .model());
     };
     double x = 0.5;
     for (const double mu : {-1.0, -0.5, -2.0, 0.5, -1.0, 1.0}) {

@@ -37,8 +37,8 @@ TEST(GrowthWatch, GrowthThatEndsIsNotLabelledUnbounded) {
 
 /// An oscillator that grows at the rate a/2 about zero and is damped where |x| > 1.
 Model damped_outside(double a, double x, double length = 1) {
-    return parse_model(fmt::format(R"toml(
-name = "damped outside"
+    return testing::model_from(
+        fmt::format(R"toml(
 [states]
 x = {{ initial = {1:.17g} }}
 v = 0
@@ -56,30 +56,13 @@ watch = ["in_right"]
 [modes.left]
 rates = {{ x = "v", v = "-0.5*v - x" }}
 watch = ["in_left"]
-[[transitions]]
-mode = "inner"
-event = "up"
-next = "right"
-[[transitions]]
-mode = "inner"
-event = "down"
-next = "left"
-[[transitions]]
-mode = "right"
-event = "in_right"
-next = "inner"
-[[transitions]]
-mode = "left"
-event = "in_left"
-next = "inner"
-[sections.top]
-function = "v"
-direction = "falling"
 [initial]
 mode = "inner"
 )toml",
-                                   a, x * length, length),
-                       "damped outside");
+                    a, x * length, length) +
+        testing::transition("inner", "up", "right") + testing::transition("inner", "down", "left") +
+        testing::transition("right", "in_right", "inner") + testing::transition("left", "in_left", "inner") +
+        testing::section("top", "v", "falling"));
 }
 
 TEST(GrowthWatch, GrowthThatALaterEventEndsIsNotLabelledUnbounded) {

@@ -86,7 +86,7 @@ public:
 TEST(MotionDerivatives, EqualThoseOfTheTrajectory) {
     struct Case {
         std::string model, section;
-        std::vector<std::pair<std::string, double>> parameters;
+        testing::Settings parameters;
         double time;
         std::vector<double> scale;
         int contacts;
@@ -99,9 +99,7 @@ TEST(MotionDerivatives, EqualThoseOfTheTrajectory) {
         {"microbeam", "phase0", {}, 3, {1e-6, 1, 1}, 0},
     };
     for (const Case& one : cases) {
-        Model model = load_model(one.model);
-        for (const auto& [name, value] : one.parameters)
-            model.set_parameter(name, value);
+        const Model model = testing::shipped_with(one.model, one.parameters);
         for (const double tolerance : {1e-8, 1e-12}) {
             Followed motion(model, one.section, {.tolerance = tolerance});
             motion.run(model.initial_state(), model.initial_mode, one.time, one.scale);
@@ -173,31 +171,13 @@ TEST(MotionDerivatives, OfAStepDoNotDependOnOtherLanes) {
 
 TEST(MotionDerivatives, DoNotExistAcrossGrazingAndAccumulations) {
     // At its greatest height the motion just touches the surface.
-    const Model grazing = parse_model(R"toml(
-name = "grazing"
-[states]
-x = { initial = -1 }
-v = { initial = 0 }
-theta = { initial = 0, period = 1 }
-[modes.only]
-rates = { x = "v", v = "-x", theta = 1 }
-watch = ["wall"]
-[events]
-wall = { function = "1 - x" }
-[jumps.impact]
-v = "-0.5*v"
-[[transitions]]
-mode = "only"
-event = "wall"
-jump = "impact"
-next = "only"
-[sections.s]
-state = "theta"
-value = 0.5
-[initial]
-mode = "only"
-)toml",
-                                      "grazing");
+    const Model grazing = testing::OneMode{.states = "x = -1\nv = 0",
+                                           .rates = "x = 'v', v = '-x'",
+                                           .clock = "1",
+                                           .period = "1",
+                                           .stops = {{"wall", "1 - x", "v = '-0.5*v'"}},
+                                           .more = testing::at_phase(0.5, "s")}
+                              .model();
     Followed touching(grazing, "s");
     touching.run(grazing.initial_state(), 0, 2, {1, 1, 1});
     EXPECT_TRUE(touching.derivatives.valid());

@@ -11,63 +11,13 @@
 namespace graze {
 namespace {
 
-/// States that are constant except for a map at each tick of a clock, which is reset; the section is crossed halfway
-/// between ticks.
-Model ticking(const std::string& states, const std::string& rates, const std::string& map) {
-    return parse_model(fmt::format(R"toml(
-[states]
-{}
-c = 0
-[events]
-tick = "1 - c"
-[modes.only]
-rates = {{ {}, c = 1 }}
-watch = ["tick"]
-[jumps.map]
-{}
-c = 0
-[[transitions]]
-mode = "only"
-event = "tick"
-jump = "map"
-next = "only"
-[sections.half]
-function = "c - 0.5"
-direction = "rising"
-[initial]
-mode = "only"
-)toml",
-                                   states, rates, map),
-                       "ticking");
-}
-
 /// An elastic ball, from rest at x = 1 with g = 2: it returns after 2 units of time.
 Model elastic_ball(const std::string& state, const std::string& rate) {
-    return parse_model(fmt::format(R"toml(
-[states]
-x = 1
-v = 0
-{}
-[events]
-floor = "x"
-[modes.flight]
-rates = {{ x = "v", v = -2{} }}
-watch = ["floor"]
-[jumps.hit]
-v = "-v"
-[[transitions]]
-mode = "flight"
-event = "floor"
-jump = "hit"
-next = "flight"
-[sections.top]
-function = "v"
-direction = "falling"
-[initial]
-mode = "flight"
-)toml",
-                                   state, rate),
-                       "ball");
+    return testing::OneMode{.states = "x = 1\nv = 0\n" + state,
+                            .rates = "x = 'v', v = -2" + rate,
+                            .stops = {{"floor", "x", "v = '-v'"}},
+                            .more = testing::section("top", "v", "falling")}
+        .model();
 }
 
 void expect_multipliers(const PointResult& result, const std::vector<double>& known, double error = 1e-10) {
@@ -109,16 +59,16 @@ TEST(OrbitFinder, AnElasticBallHasTheMultiplierOne) {
 }
 
 TEST(OrbitFinder, EachStateThatReturnsAfterTwoTicksHasAMultiplierOne) {
-    expect_multipliers(settle(ticking("x = 0.25", "x = 0", "x = \"1 - x\"")), {1});
-    expect_multipliers(settle(ticking("x = 0.25\ny = 0.5", "x = 0, y = 0", "x = \"y\"\ny = \"x\"")), {1, 1});
-    expect_multipliers(settle(ticking("x = 0.25\ny = 0.5", "x = 0, y = 0", "x = \"y\"\ny = \"-x\"")), {1, 1});
-    expect_multipliers(
-        settle(ticking("x = 0.25\ny = 0.5\nz = 0", "x = 0, y = 0, z = 0", "x = \"y\"\ny = \"x\"\nz = \"0.5*z + x\"")),
-        {1, 1, 0.25});
+    expect_multipliers(settle(testing::ticking("x = 0.25", "x = 0", "x = \"1 - x\"")), {1});
+    expect_multipliers(settle(testing::ticking("x = 0.25\ny = 0.5", "x = 0, y = 0", "x = \"y\"\ny = \"x\"")), {1, 1});
+    expect_multipliers(settle(testing::ticking("x = 0.25\ny = 0.5", "x = 0, y = 0", "x = \"y\"\ny = \"-x\"")), {1, 1});
+    expect_multipliers(settle(testing::ticking("x = 0.25\ny = 0.5\nz = 0", "x = 0, y = 0, z = 0",
+                                               "x = \"y\"\ny = \"x\"\nz = \"0.5*z + x\"")),
+                       {1, 1, 0.25});
 }
 
 TEST(OrbitFinder, ConstantStatesHaveNoMultiplier) {
-    expect_multipliers(settle(ticking("x = 0.25\nz = 0", "x = 0, z = 0", "z = \"0.5*z + x\"")), {0.5});
+    expect_multipliers(settle(testing::ticking("x = 0.25\nz = 0", "x = 0, z = 0", "z = \"0.5*z + x\"")), {0.5});
 }
 
 } // namespace

@@ -1,7 +1,7 @@
 #include "graze/sweep/plan.hpp"
 
 #include "graze/model/catalogue.hpp"
-#include "graze/model/model_file.hpp"
+#include "sweep/model_parts.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -19,10 +19,7 @@ struct Setting {
     Plan plan;
 
     explicit Setting(std::size_t chains, std::size_t length, bool carry) {
-        AttractorOptions options;
-        options.section = "phase0";
-        options.cycles = 60;
-        options.lyapunov_cycles = 40;
+        const AttractorOptions options{.section = "phase0", .cycles = 60, .lyapunov_cycles = 40};
         Sampling sampling;
         sampling.name = "phase0";
         sampling.section = "phase0";
@@ -117,34 +114,13 @@ TEST(Plan, ExecutionStopsOnRequestAndPassesErrorsOn) {
 
 /// A forced oscillator in front of a wall whose position is the parameter.
 Model walled(double start) {
-    return parse_model(fmt::format(R"toml(
-name = "walled"
-[parameters]
-wall = 1
-[states]
-x = {{ initial = {} }}
-v = 0
-theta = {{ initial = 0, period = "2*pi" }}
-[events.stop]
-function = "wall - x"
-[jumps.impact]
-v = "-0.5*v"
-[modes.only]
-rates = {{ x = "v", v = "-x - 0.4*v + 2*cos(theta)", theta = 1.3 }}
-watch = ["stop"]
-[[transitions]]
-mode = "only"
-event = "stop"
-jump = "impact"
-next = "only"
-[sections.s]
-state = "theta"
-value = 2.5
-[initial]
-mode = "only"
-)toml",
-                                   start),
-                       "walled");
+    return testing::OneMode{.parameters = "wall = 1",
+                            .states = fmt::format("x = {}\nv = 0", start),
+                            .rates = "x = 'v', v = '-x - 0.4*v + 2*cos(theta)'",
+                            .clock = "1.3",
+                            .stops = {{"stop", "wall - x", "v = '-0.5*v'"}},
+                            .more = testing::at_phase(2.5, "s")}
+        .model();
 }
 
 TEST(Plan, AChainContinuesWhereACarriedStateIsInadmissible) {

@@ -1,5 +1,4 @@
-#include "graze/model/model_file.hpp"
-#include "graze/sweep/point_search.hpp"
+#include "settle.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -12,54 +11,24 @@ namespace graze {
 namespace {
 
 /// x'' + x = 0 from x = 0.5 at rest, and a wall at x = `wall`.
-Model oscillator(double wall, double time = 1) {
-    return parse_model(fmt::format(R"toml(
-name = "oscillator"
-[parameters]
-T = {:.17g}
-[states]
-x = 0.5
-v = 0
-theta = {{ initial = 0, period = "2*pi" }}
-[modes.only]
-rates = {{ x = "v/T", v = "-x/T", theta = "1/T" }}
-watch = ["wall"]
-[events]
-wall = "x + {}"
-[jumps.back]
-v = "-v"
-[[transitions]]
-mode = "only"
-event = "wall"
-jump = "back"
-next = "only"
-[sections.rest]
-function = "v"
-direction = "falling"
-[sections.turn]
-state = "theta"
-value = 0
-[sections.never]
-function = "x - 9"
-)toml",
-                                   time, wall),
-                       "oscillator.toml");
+Model before_wall(double wall, double time = 1) {
+    return testing::OneMode{.parameters = fmt::format("T = {:.17g}", time),
+                            .states = "x = 0.5\nv = 0",
+                            .rates = "x = 'v/T', v = '-x/T'",
+                            .clock = "1/T",
+                            .stops = {{"wall", fmt::format("x + {}", wall), "v = '-v'"}},
+                            .more = testing::section("rest", "v", "falling") + testing::at_phase(0, "turn") +
+                                    "[sections.never]\nfunction = 'x - 9'"}
+        .model();
 }
 
 PointResult simulated(const Model& model, const TransientOptions& options) {
-    const auto factory = transient_searches(System(model), options, {}, {}, {});
-    const auto search = factory->make();
-    search->begin(model.parameter_values(), model.initial_state(), model.initial_mode);
-    JetSet jets(factory->simulation(), LaneKind::single);
-    do
-        run(search->trajectory(), jets);
-    while (search->proceed());
-    return std::move(search->result());
+    return result_of(*transient_searches(System(model), options, {}, {}, {}), model, model.initial_state());
 }
 
 TEST(TransientSearch, EndsAfterTheRequestedContacts) {
     // The wall at the middle is met after pi/2, then every pi.
-    const PointResult result = simulated(oscillator(0), {.contacts = 3, .counted = {0}});
+    const PointResult result = simulated(before_wall(0), {.contacts = 3, .counted = {0}});
     EXPECT_EQ(result.label, Label::ended);
     EXPECT_NEAR(result.time, 2.5 * std::acos(-1.0), 1e-10);
 }
@@ -67,7 +36,7 @@ TEST(TransientSearch, EndsAfterTheRequestedContacts) {
 /// In any unit of time: the limit is a number of steps.
 TEST(TransientSearchSlow, GivesUpEventsThatDoNotHappen) {
     for (const double time : {1.0, 1e-9, 1e9}) {
-        const PointResult result = simulated(oscillator(1, time), {.contacts = 3, .counted = {0}});
+        const PointResult result = simulated(before_wall(1, time), {.contacts = 3, .counted = {0}});
         EXPECT_EQ(result.label, Label::failed);
         EXPECT_EQ(result.outcome.ending, Ending::step_limit);
         EXPECT_GT(result.time, 1e5 * time);
@@ -75,20 +44,20 @@ TEST(TransientSearchSlow, GivesUpEventsThatDoNotHappen) {
         EXPECT_THAT(result.outcome.detail, ::testing::HasSubstr("give a time too"));
     }
     // A motion at rest takes a single step, in which only the phase passes the section.
-    Model rest = oscillator(1);
+    Model rest = before_wall(1);
     rest.set_initial("x", 0);
     EXPECT_EQ(simulated(rest, {.section = "turn", .contacts = 3, .counted = {0}}).outcome.ending, Ending::step_limit);
     // There are contacts, but too slow ones.
-    const PointResult slow = simulated(oscillator(0), {.counted = {0}, .greatest_speed = 2});
+    const PointResult slow = simulated(before_wall(0), {.counted = {0}, .greatest_speed = 2});
     EXPECT_EQ(slow.outcome.ending, Ending::step_limit);
     const PointResult skipped =
-        simulated(oscillator(0), {.section = "never", .time = 1, .skip_periods = 1, .counted = {0}});
+        simulated(before_wall(0), {.section = "never", .time = 1, .skip_periods = 1, .counted = {0}});
     EXPECT_EQ(skipped.label, Label::failed);
     EXPECT_THAT(skipped.outcome.detail, ::testing::HasSubstr("skip a time instead of periods"));
 }
 
 TEST(TransientSearchSlow, WaitsForTheRequestedTime) {
-    const PointResult result = simulated(oscillator(1), {.time = 4e6, .contacts = 3, .counted = {0}});
+    const PointResult result = simulated(before_wall(1), {.time = 4e6, .contacts = 3, .counted = {0}});
     EXPECT_EQ(result.label, Label::ended);
     EXPECT_EQ(result.time, 4e6);
 }

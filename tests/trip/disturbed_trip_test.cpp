@@ -250,10 +250,7 @@ TEST(DisturbedTrip, RampOfTheSwitchTripsAtItsTouch) {
     const Switch one(1);
     const System system(one.model);
     const SpecialPoint touch = of_type(one.branch, PointType::grazing).at(0);
-    CycleMapOptions with;
-    with.parameter = one.parameter;
-    const CycleMap map =
-        cycle_map(system, touch.solution.orbit, {touch.segment, touch.event, touch.time, touch.at_end}, with);
+    const CycleMap map = cycle_at(one.model, touch, one.parameter);
     const double point = touch.parameter, cycle = 2 * pi;
     EXPECT_NEAR(point, 0.2013662121541341, 1e-11);
     double cycles_before = 0;

@@ -120,7 +120,6 @@ TEST(FoldPassage, HenonAndLogisticMapsHaveTheirCoefficients) {
     }
     // The period 3 of the logistic map is born at r = 1 + 8^(1/2): of its third iterate, by differences.
     const Model logistic = map_model("r = 3.84", {"r*x*(1 - x)", "0.1*y"});
-    AttractorOptions none;
     const double r = 1 + std::sqrt(8.0);
     const auto thrice = [](double growth, double x) {
         for (int i = 0; i < 3; ++i)

@@ -21,7 +21,7 @@
 namespace graze {
 namespace {
 
-using testing::LinearOscillator;
+using namespace graze::testing;
 
 struct Touching {
     Touching(const Model& model, const Orbit& orbit, const char* name)
@@ -47,23 +47,24 @@ Touching touching(const LinearOscillator& one) {
 /// The switch of chapter 6, at the voltage at which its free motion just touches the stop.
 Touching mems_switch() {
     constexpr double voltage = 0.2013662121541341, phase = 0.7306205700512591, pi = std::numbers::pi;
-    Model model = load_model("mems-switch");
-    model.set_parameter("V", voltage);
+    const Model model = shipped_with("mems-switch", {{"V", voltage}});
     const System system(model);
-    Orbit guess;
-    guess.signature = parse_signature(model, "on:switch_off off:switch_on");
-    guess.parameters = model.parameter_values();
     ModeFlow flow(system, 1e-14);
-    flow.set_parameters(guess.parameters);
-    std::vector<double> state{-0.6, 0, phase};
-    flow.run(0, state, -phase);
-    guess.starts.push_back(state);
-    flow.run(0, state, pi);
-    guess.starts.push_back(state);
-    guess.durations = {pi, pi};
-    const OrbitSolution solution = solve_orbit(system, guess);
+    flow.set_parameters(model.parameter_values());
+    std::vector<double> begin{-0.6, 0, phase};
+    flow.run(0, begin, -phase);
+    std::vector<double> middle = begin;
+    flow.run(0, middle, pi);
+    const OrbitSolution solution =
+        solve_orbit(system, given_orbit(model, "on:switch_off off:switch_on", {begin, middle}, {pi, pi}));
     EXPECT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
     return {model, solution.orbit, "V"};
+}
+
+TripEnd at_speed(double speed) {
+    TripEnd end;
+    end.speed = speed;
+    return end;
 }
 
 /// Compares prediction and simulation of the time until the same approach speed.
@@ -71,8 +72,7 @@ void expect_agreement(const Touching& one, double overshoot, double speeds_alike
     SCOPED_TRACE(overshoot);
     const PredictedTrip predicted = predicted_trip(one.map, one.verdict, overshoot);
     ASSERT_TRUE(predicted.ended);
-    TripEnd end;
-    end.speed = predicted.level;
+    const TripEnd end = at_speed(predicted.level);
     const TripTime simulated = simulated_trip(one.system, one.map, one.parameter, overshoot, end);
     ASSERT_TRUE(simulated.ended) << simulated.ending;
     EXPECT_EQ(simulated.ending, "speed");
@@ -98,8 +98,7 @@ TEST(TripTime, SwitchAgreesWithSimulationAndThePublishedMotion) {
     EXPECT_EQ(published.ending, "singular");
     EXPECT_EQ(published.contacts, 4U);
     EXPECT_NEAR(published.time, 27.31773570163, 1e-8);
-    TripEnd end;
-    end.speed = 1e-3;
+    const TripEnd end = at_speed(1e-3);
     EXPECT_NEAR(simulated_trip(mems.system, mems.map, mems.parameter, 1e-4, end).time, 6.267394614702, 1e-9);
 }
 
@@ -193,9 +192,8 @@ TEST(TripTime, LinearOscillatorsHaveTheirClosedFormInAllUnits) {
     for (const double length : {1.0, 1e-9, 1e6})
         for (const double clock : {1.0, 1e-9, 1e6})
             for (LinearOscillator linear :
-                 {testing::one_degree(0.05, 1.3, 0.8), testing::one_degree(0.02, 2.7, 0.5),
-                  testing::one_degree(0.01, 0.77, 0.9), testing::two_degrees(0.3, 0.04, 1.1, 0.8, 0.4),
-                  testing::two_degrees(2.1, 0.3, 2.7, 0, -0.7)}) {
+                 {one_degree(0.05, 1.3, 0.8), one_degree(0.02, 2.7, 0.5), one_degree(0.01, 0.77, 0.9),
+                  two_degrees(0.3, 0.04, 1.1, 0.8, 0.4), two_degrees(2.1, 0.3, 2.7, 0, -0.7)}) {
                 linear.length = length;
                 linear.clock = clock;
                 const Touching one = touching(linear);
@@ -221,22 +219,15 @@ TEST(TripTime, LinearOscillatorsHaveTheirClosedFormInAllUnits) {
 }
 
 TEST(TripTime, OscillatorsAndTheShakerAgreeWithSimulation) {
-    for (const LinearOscillator& linear :
-         {testing::one_degree(0.05, 1.3, 0.8), testing::two_degrees(0.3, 0.04, 1.1, 0.8, 0.4)}) {
+    for (const LinearOscillator& linear : {one_degree(0.05, 1.3, 0.8), two_degrees(0.3, 0.04, 1.1, 0.8, 0.4)}) {
         const Touching one = touching(linear);
         for (const double overshoot : {1e-4, 1e-6, 1e-8})
             expect_agreement(one, overshoot, 0.1, 0.1);
     }
     // The head itself moves, so that the motion would start beyond it.
     for (const double f : {6.0, 10.0, 14.0, 18.0, 22.0}) {
-        Model model = load_model("ball-and-shaker");
-        model.set_parameter("a", 0.65);
-        model.set_parameter("f", f);
-        Orbit orbit;
-        orbit.signature = parse_signature(model, "free:phase0");
-        orbit.parameters = model.parameter_values();
-        orbit.starts = {{0, 0, 0}};
-        orbit.durations = {1 / f};
+        const Model model = shipped_with("ball-and-shaker", {{"a", 0.65}, {"f", f}});
+        const Orbit orbit = given_orbit(model, "free:phase0", {{0, 0, 0}}, {1 / f});
         const Touching one(model, orbit, "a");
         for (const double overshoot : {1e-6, 1e-8, 1e-10}) {
             SCOPED_TRACE(f);
@@ -306,13 +297,9 @@ TEST(TripTime, CyclesOfAHalfOrbitAreHalfPeriods) {
     constexpr double zeta = 0.02, omega = 1.2, pi = std::numbers::pi;
     constexpr double in_phase = 1 - omega * omega, out_of_phase = 2 * zeta * omega,
                      square = in_phase * in_phase + out_of_phase * out_of_phase;
-    Model model = load_model("impact-oscillator-two-stops");
-    model.set_parameter("sigma", 1 / std::sqrt(square));
-    Orbit orbit;
-    orbit.signature = parse_signature(model, "free:phase0");
-    orbit.parameters = model.parameter_values();
-    orbit.starts = {{in_phase / square, omega * out_of_phase / square, 0}};
-    orbit.durations = {pi / omega};
+    const Model model = shipped_with("impact-oscillator-two-stops", {{"sigma", 1 / std::sqrt(square)}});
+    Orbit orbit =
+        given_orbit(model, "free:phase0", {{in_phase / square, omega * out_of_phase / square, 0}}, {pi / omega});
     orbit.symmetry = 0;
     const Touching one(model, orbit, "amplitude");
     ASSERT_TRUE(one.map.half);
@@ -320,8 +307,7 @@ TEST(TripTime, CyclesOfAHalfOrbitAreHalfPeriods) {
     for (const double overshoot : {1e-3, 1e-5, 1e-7, 1e-9}) {
         expect_agreement(one, overshoot, 0.1, 0.1);
         const PredictedTrip predicted = predicted_trip(one.map, one.verdict, overshoot);
-        TripEnd end;
-        end.speed = predicted.level;
+        const TripEnd end = at_speed(predicted.level);
         const TripTime whole = simulated_trip(one.system, one.map, one.parameter, overshoot, end);
         const TripTime continued = continued_trip(one.system, one.map, one.parameter, overshoot, predicted, end);
         EXPECT_EQ(std::fmod(predicted.handed_cycles, 2), 0);
@@ -331,8 +317,7 @@ TEST(TripTime, CyclesOfAHalfOrbitAreHalfPeriods) {
     const PredictedTrip tiny = predicted_trip(one.map, one.verdict, 1e-20);
     EXPECT_GT(tiny.handed_cycles, 0);
     EXPECT_EQ(std::fmod(tiny.handed_cycles, 2), 0);
-    TripEnd end;
-    end.speed = tiny.level;
+    const TripEnd end = at_speed(tiny.level);
     EXPECT_NEAR(continued_trip(one.system, one.map, one.parameter, 1e-20, tiny, end).time, tiny.time,
                 0.1 * one.map.time);
 }
@@ -344,16 +329,15 @@ TEST(TripTime, AgreesWithSimulationOnRandomOscillators) {
     for (int trial = 0; trial < 150; ++trial) {
         const double zeta = std::pow(10, -2.5 + 2.5 * uniform(random)), omega = 0.4 + 5 * uniform(random),
                      e = 0.95 * uniform(random);
-        const LinearOscillator linear =
-            trial % 2 == 0 ? testing::one_degree(zeta, omega, e)
-                           : testing::two_degrees(3 * uniform(random), zeta, omega, e, 2 * uniform(random) - 1);
+        const LinearOscillator linear = trial % 2 == 0
+                                            ? one_degree(zeta, omega, e)
+                                            : two_degrees(3 * uniform(random), zeta, omega, e, 2 * uniform(random) - 1);
         const Touching one = touching(linear);
         if (one.verdict.outcome != GrazingOutcome::lost)
             continue;
         for (const double overshoot : {1e-5, 1e-8}) {
             const PredictedTrip predicted = predicted_trip(one.map, one.verdict, overshoot);
-            TripEnd end;
-            end.speed = predicted.level;
+            const TripEnd end = at_speed(predicted.level);
             const TripTime whole = simulated_trip(one.system, one.map, one.parameter, overshoot, end);
             const TripTime continued = continued_trip(one.system, one.map, one.parameter, overshoot, predicted, end);
             ++compared;
@@ -371,7 +355,7 @@ TEST(TripTime, AgreesWithSimulationOnRandomOscillators) {
 }
 
 TEST(TripTime, DisturbanceAloneMayStartATrip) {
-    const Touching one = touching(testing::one_degree(0.05, 1.3, 0.8));
+    const Touching one = touching(one_degree(0.05, 1.3, 0.8));
     PredictionOptions predicted;
     predicted.disturbance = {0, 1e-5, 0}; // towards the stop
     TripOptions simulated;
@@ -379,8 +363,7 @@ TEST(TripTime, DisturbanceAloneMayStartATrip) {
     const PredictedTrip map = predicted_trip(one.map, one.verdict, 0, predicted);
     EXPECT_EQ(map.first_cycles, 0);
     EXPECT_NEAR(map.first_speed, 1e-5, 1e-10);
-    TripEnd end;
-    end.speed = map.level;
+    const TripEnd end = at_speed(map.level);
     const TripTime motion = simulated_trip(one.system, one.map, one.parameter, 0, end, simulated);
     EXPECT_TRUE(map.ended && motion.ended);
     EXPECT_EQ(motion.contacts, map.contacts);
@@ -388,7 +371,7 @@ TEST(TripTime, DisturbanceAloneMayStartATrip) {
 }
 
 TEST(TripTime, ImpossibleTripsAreRefused) {
-    const Touching one = touching(testing::one_degree(0.05, 1.3, 0.8));
+    const Touching one = touching(one_degree(0.05, 1.3, 0.8));
     EXPECT_THROW(predicted_trip(one.map, one.verdict, -1e-6), InputError);
     EXPECT_THROW(predicted_trip(one.map, one.verdict, 0), InputError);
     EXPECT_THROW(predicted_trip(one.map, one.verdict, std::nan("")), InputError);
@@ -399,7 +382,7 @@ TEST(TripTime, ImpossibleTripsAreRefused) {
     TripOptions none;
     none.cycles = 0;
     EXPECT_THROW(simulated_trip(one.system, one.map, one.parameter, 1e-6, {}, none), InputError);
-    const Touching calm = touching(testing::one_degree(1.3, 3, 0.8));
+    const Touching calm = touching(one_degree(1.3, 3, 0.8));
     ASSERT_EQ(calm.verdict.outcome, GrazingOutcome::persists);
     try {
         predicted_trip(calm.map, calm.verdict, 1e-6);
@@ -454,16 +437,13 @@ TEST(TripTime, TheLevelOfAStopIsReachedAtTheFirstContact) {
 /// The depth of sliding grows by a factor from one time to the next, so the number of cycles grows logarithmically. The
 /// orbit's other, much harder contacts do not count.
 TEST(TripTime, SlidingOnABeltGrowsLogarithmically) {
-    Model model = testing::belt();
+    Model model = belt();
     model.set_parameter("nu", 2.2);
-    const BranchSettings settings = testing::along(model, "nu", -1, 2, 2.4);
-    const Branch branch = follow_branch(System(model), testing::settled(model, "phase0").orbit, settings);
+    const BranchSettings settings = in_parameter(model, "nu", 2, 2.4, -1);
+    const Branch branch = follow_branch(System(model), settled(model, "phase0").orbit, settings);
     std::size_t folds = 0;
-    for (const SpecialPoint& point : testing::of_type(branch, PointType::grazing)) {
-        CycleMapOptions options;
-        options.parameter = settings.parameter;
-        const CycleMap map = cycle_map(System(model), point.solution.orbit,
-                                       {point.segment, point.event, point.time, point.at_end}, options);
+    for (const SpecialPoint& point : of_type(branch, PointType::grazing)) {
+        const CycleMap map = cycle_at(model, point, settings.parameter);
         const Verdict verdict = verdict_of(map);
         if (verdict.outcome == GrazingOutcome::undecided)
             continue;
@@ -471,8 +451,7 @@ TEST(TripTime, SlidingOnABeltGrowsLogarithmically) {
         for (const double overshoot : {-1e-5, -1e-7, -1e-9}) {
             const PredictedTrip predicted = predicted_trip(map, verdict, overshoot);
             ASSERT_TRUE(predicted.ended) << predicted.ending;
-            TripEnd end;
-            end.speed = predicted.level;
+            const TripEnd end = at_speed(predicted.level);
             const TripTime simulated = simulated_trip(System(model), map, settings.parameter, overshoot, end);
             EXPECT_EQ(simulated.ending, "speed");
             EXPECT_NEAR(simulated.cycles, predicted.cycles, 1.1) << overshoot;
