@@ -4,8 +4,6 @@
 #include "base/median.hpp"
 #include "graze/base/input_error.hpp"
 
-#include <Eigen/Core>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -10,8 +10,6 @@
 
 #include <cmath>
 #include <limits>
-#include <memory>
-#include <vector>
 
 namespace graze {
 

@@ -6,7 +6,6 @@
 #include "graze/identify/impedance.hpp"
 #include "graze/identify/residual_test.hpp"
 #include "graze/identify/restitution.hpp"
-#include "graze/record/impacts.hpp"
 #include "identify/common_units.hpp"
 #include "identify/estimate_checks.hpp"
 #include "identify/impact_proportion.hpp"

@@ -2,7 +2,6 @@
 
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
-#include "graze/record/harmonic.hpp"
 #include "graze/record/period.hpp"
 #include "graze/record/spectrum.hpp"
 #include "identify/row_gap.hpp"

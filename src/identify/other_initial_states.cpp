@@ -3,12 +3,9 @@
 #include "base/linear_systems.hpp"
 #include "graze/model/model.hpp"
 
-#include <Eigen/Core>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <span>
 
 namespace graze {
 

@@ -1,6 +1,5 @@
 #include "graze/record/record_file.hpp"
 
-#include "graze/base/input_error.hpp"
 #include "record/hdf5_record.hpp"
 #include "record/text_record.hpp"
 

@@ -13,7 +13,6 @@
 #include <set>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 namespace graze {
 

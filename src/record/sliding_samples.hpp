@@ -2,7 +2,6 @@
 
 #include "graze/record/samples.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <utility>

@@ -4,7 +4,6 @@
 #include "graze/base/input_errors.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <random>
 
 namespace graze {

@@ -7,8 +7,6 @@
 
 #include <algorithm>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <limits>
 
 namespace graze {
 namespace {

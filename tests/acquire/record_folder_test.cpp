@@ -3,7 +3,6 @@
 #include "acquire/bench_experiment.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 namespace graze {
 namespace {

@@ -2,9 +2,7 @@
 
 #include "acquire/scripted_line.hpp"
 
-#include <chrono>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <thread>
 
 namespace graze {

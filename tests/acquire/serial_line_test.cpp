@@ -12,7 +12,6 @@
 #include <cstdlib>
 #include <fcntl.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <mutex>
 #include <numbers>
 #include <poll.h>

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <string>
 #include <vector>
 
 /// Coverage of the program's 95 % intervals over grids of noise, steps, lengths and damping, from whole records: 90 to

@@ -8,10 +8,8 @@
 
 #include <gmock/gmock.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
 
 namespace graze::testing {
 

@@ -4,12 +4,9 @@
 #include "identify/noise.hpp"
 
 #include <cmath>
-#include <functional>
 #include <gmock/gmock.h>
 #include <numbers>
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace graze::testing {
 

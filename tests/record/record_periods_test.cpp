@@ -4,7 +4,6 @@
 #include "record/waves.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>

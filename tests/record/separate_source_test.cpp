@@ -16,7 +16,6 @@
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
-#include <functional>
 #include <thread>
 
 namespace graze::testing {

@@ -2,14 +2,11 @@
 
 #include "base/temporary_folder.hpp"
 #include "graze/base/input_error.hpp"
-#include "graze/record/record_file.hpp"
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <string>
 #include <tuple>
-#include <vector>
 
 namespace graze::testing {
 
