@@ -1,8 +1,7 @@
 #include "graze/acquire/acquisition.hpp"
 
+#include "acquire/instrument_failure.hpp"
 #include "graze/acquire/settling.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -93,11 +92,7 @@ private:
     void choose_channels() {
         const RecordHeader& all = device_.header();
         header_.time = all.time;
-        if (experiment_.channels.empty())
-            for (std::size_t c = 0; c < all.channels.size(); ++c)
-                chosen_.push_back(c);
-        for (const std::string& name : experiment_.channels)
-            chosen_.push_back(all.channel(name, "samples.channels"));
+        chosen_ = all.chosen_channels(experiment_.channels, "samples.channels");
         for (const std::size_t c : chosen_)
             header_.channels.push_back(all.channels[c]);
         const SettlingOptions& settling = experiment_.settling;
@@ -188,19 +183,16 @@ private:
     /// Checks that the amplitude was not changed during the record.
     void require_unchanged(const Level& level) {
         double told = 0;
-        const auto is_same = [&] {
+        for (int attempt = 1;; ++attempt) { // a character may have been lost
             told = generator_.amplitude();
-            return std::abs(told - level.amplitude) <= experiment_.generator.tolerance * level.amplitude;
-        };
-        bool same = is_same();
-        for (int again = 1; !same && again < experiment_.generator.attempts; ++again) // a character may have been lost
-            same = is_same();
-        if (!same)
-            throw InstrumentError(
-                AcquisitionEnding::clipped,
-                fmt::format("the generator gives an amplitude of {} V, which was {} V when the record "
-                            "began; the record is not kept",
-                            told, level.amplitude));
+            if (std::abs(told - level.amplitude) <= experiment_.generator.tolerance * level.amplitude)
+                return;
+            if (attempt >= experiment_.generator.attempts)
+                break;
+        }
+        fail(AcquisitionEnding::clipped,
+             "the generator gives an amplitude of {} V, which was {} V when the record began; the record is not kept",
+             told, level.amplitude);
     }
 
     const Experiment& experiment_;

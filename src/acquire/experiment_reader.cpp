@@ -1,13 +1,13 @@
 #include "acquire/experiment_reader.hpp"
 
 #include "graze/base/file_name.hpp"
+#include "graze/base/rounded.hpp"
 #include "graze/base/trimmed.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -22,18 +22,15 @@ constexpr double most_hertz = 1e9;
 constexpr double most_rate = 1e7;
 constexpr double most_rows = 1e9;
 
-/// Rounds to 12 digits: sums of steps differ from the intended value in the last bits.
-double tidy(double value) {
-    const std::string text = fmt::format("{:.12g}", value);
-    double result = 0;
-    std::from_chars(text.data(), text.data() + text.size(), result);
-    return result;
-}
-
 template <class Work>
 void with(const std::map<std::string, TomlEntry>& keys, const char* name, const Work& work) {
     if (const auto found = keys.find(name); found != keys.end())
         work(found->second);
+}
+
+/// A table that lacks one of its keys.
+[[noreturn]] void fail_missing(const TomlEntry& entry, std::string_view key, const std::string& remedy) {
+    throw InputError(entry.place, fmt::format("{} has no {}", entry.path, key), remedy);
 }
 
 } // namespace
@@ -127,7 +124,8 @@ std::vector<ExperimentReader::Stepped> ExperimentReader::values(const TomlEntry&
     const int direction = to > from ? 1 : -1;
     const auto last = static_cast<std::size_t>(steps);
     for (std::size_t i = 0; i <= last; ++i)
-        result.push_back({i == last ? to : tidy(from + direction * static_cast<double>(i) * step), direction});
+        // Sums of steps differ from the intended value in the last bits.
+        result.push_back({i == last ? to : rounded(from + direction * static_cast<double>(i) * step, 12), direction});
     bool back = false;
     with(keys, "back", [&](const TomlEntry& e) { back = toml_.boolean(e); });
     for (std::size_t i = 0; back && i <= last; ++i)
@@ -221,9 +219,9 @@ void ExperimentReader::read_limits(const TomlEntry& entry) {
     GeneratorLimits& limits = experiment_.generator.limits;
     for (const char* name : {"amplitude", "safe"})
         if (!keys.contains(name))
-            throw InputError(entry.place, fmt::format("{} has no {}", entry.path, name),
-                             name[0] == 's' ? "give the amplitude at which the output may be left, as safe = 0.1"
-                                            : "give the largest one that does no harm, as amplitude = 7");
+            fail_missing(entry, name,
+                         name[0] == 's' ? "give the amplitude at which the output may be left, as safe = 0.1"
+                                        : "give the largest one that does no harm, as amplitude = 7");
     limits.amplitude = number(keys.at("amplitude"), 0, most_volts);
     experiment_.safe = number(keys.at("safe"), 0, limits.amplitude);
     with(keys, "offset", [&](const TomlEntry& e) { limits.offset = number(e, 0, most_volts); });
@@ -249,7 +247,7 @@ void ExperimentReader::read_samples(const TomlEntry& entry) {
     with(keys, "baud",
          [&](const TomlEntry& e) { experiment_.sample_baud = static_cast<unsigned>(count(e, 50, 4'000'000)); });
     if (!keys.contains("rate"))
-        throw InputError(entry.place, fmt::format("{} has no rate", entry.path), "give rate = 1000, in a second");
+        fail_missing(entry, "rate", "give rate = 1000, in a second");
     experiment_.rate = number(keys.at("rate"), 1e-3, most_rate);
     with(keys, "timeout", [&](const TomlEntry& e) { experiment_.sample_timeout = number(e, 0.01, 3600); });
     with(keys, "patience", [&](const TomlEntry& e) { experiment_.sample_patience = number(e, 1, 1e6); });
@@ -260,8 +258,7 @@ void ExperimentReader::read_sweep(const TomlEntry& entry) {
     const Keys keys = keys_of(entry, {"frequency", "amplitude", "offset"});
     for (const char* name : {"frequency", "amplitude"})
         if (!keys.contains(name))
-            throw InputError(entry.place, fmt::format("{} has no {}", entry.path, name),
-                             "give a number, a list of them, or { from = A, to = B, step = S, back = true }");
+            fail_missing(entry, name, "give a number, a list of them, or { from = A, to = B, step = S, back = true }");
     const GeneratorLimits& limits = experiment_.generator.limits;
     with(keys, "offset", [&](const TomlEntry& e) { experiment_.offset = number(e, -most_volts, most_volts); });
     const auto frequencies = values(keys.at("frequency"), 1e-6, most_hertz);
@@ -307,9 +304,9 @@ void ExperimentReader::read_settle(const TomlEntry& entry) {
         return;
     for (const char* name : {"most", "tolerance"})
         if (!keys.contains(name))
-            throw InputError(entry.place, fmt::format("{} has no {}", entry.path, name),
-                             name[0] == 'm' ? "give the time after which it is recorded in any case, most = SECONDS"
-                                            : "give by how much sections differ by noise, tolerance = { v = 0.002 }");
+            fail_missing(entry, name,
+                         name[0] == 'm' ? "give the time after which it is recorded in any case, most = SECONDS"
+                                        : "give by how much sections differ by noise, tolerance = { v = 0.002 }");
     settling.most = number(keys.at("most"), settling.time, longest_time);
     const TomlEntry& tolerance = keys.at("tolerance");
     for (const TomlEntry& one : toml_.entries(toml_.table(tolerance), tolerance.path))
@@ -321,7 +318,7 @@ void ExperimentReader::read_settle(const TomlEntry& entry) {
 void ExperimentReader::read_record(const TomlEntry& entry) {
     const Keys keys = keys_of(entry, {"time", "format"});
     if (!keys.contains("time"))
-        throw InputError(entry.place, fmt::format("{} has no time", entry.path), "give time = SECONDS");
+        fail_missing(entry, "time", "give time = SECONDS");
     const double rows = std::round(number(keys.at("time"), 0, longest_time) * experiment_.rate);
     if (!(rows >= 1 && rows <= most_rows) && experiment_.rate > 0)
         fail(keys.at("time"), fmt::format("a record would have {} samples", rows),

@@ -2,6 +2,7 @@
 
 #include "graze/base/printable.hpp"
 #include "graze/base/text_file.hpp"
+#include "record/text_table.hpp"
 
 #include <fmt/format.h>
 
@@ -53,16 +54,6 @@ std::optional<std::uint64_t> size_of(const std::string& path) {
     if (lstat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode))
         return std::nullopt;
     return static_cast<std::uint64_t>(status.st_size);
-}
-
-std::vector<std::string_view> cells_of(std::string_view line) {
-    std::vector<std::string_view> cells;
-    for (std::size_t begin = 0; begin <= line.size();) {
-        const std::size_t end = std::min(line.find(',', begin), line.size());
-        cells.push_back(line.substr(begin, end - begin));
-        begin = end + 1;
-    }
-    return cells;
 }
 
 template <class Number>
@@ -205,7 +196,7 @@ void RecordFolder::read_manifest() {
         begin = end + 1;
         if (++number == 1)
             continue;
-        const auto cells = cells_of(line);
+        const auto cells = row_fields(line, ',');
         RecordEntry entry;
         std::size_t level = 0;
         int settled = 0;

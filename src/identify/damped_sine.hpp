@@ -1,6 +1,6 @@
 #pragma once
 
-#include "graze/identify/decay_wave.hpp"
+#include "graze/identify/decay_peaks.hpp"
 #include "graze/record/period.hpp"
 
 #include <Eigen/Core>

@@ -1,6 +1,6 @@
 #include "identify/impact_proportion.hpp"
 
-#include "identify/chi_square.hpp"
+#include "graze/identify/estimate.hpp"
 
 #include <algorithm>
 #include <cmath>

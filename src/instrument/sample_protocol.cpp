@@ -21,10 +21,6 @@ bool read_argument(std::string_view text, Number& value) {
     return error == std::errc() && next == text.data() + text.size();
 }
 
-std::string titled(const Channel& channel) {
-    return channel.unit.empty() ? channel.name : fmt::format("{} [{}]", channel.name, channel.unit);
-}
-
 } // namespace
 
 bool SampleProtocol::receive(std::string_view line) {
@@ -98,12 +94,8 @@ std::string SampleProtocol::answer(std::string_view line) {
     const std::size_t blank = std::min(line.find(' '), line.size());
     const std::string_view word = line.substr(0, blank);
     const std::string_view rest = blank < line.size() ? line.substr(blank + 1) : std::string_view();
-    if (word == "CHANNELS" && rest.empty()) {
-        std::string text = titled(bench_->header().time);
-        for (const Channel& channel : bench_->header().channels)
-            text += ", " + titled(channel);
-        return text + '\n';
-    }
+    if (word == "CHANNELS" && rest.empty())
+        return bench_->header().heading() + '\n';
     if (double rate = 0; word == "RATE" && read_argument(rest, rate)) {
         try {
             bench_->set_rate(rate);

@@ -18,7 +18,6 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t least_window = 5, most_window = 100'000;
 constexpr std::size_t nearest_samples = 4; ///< impacts closer than this are one
 constexpr std::size_t parabola = 2;
 
@@ -139,16 +138,12 @@ RecordedImpact ImpactFinder::State::impact_at(std::size_t i, std::size_t from, s
     const std::size_t before = std::min(settings.window, i + 1 - std::min(i + 1, from + settings.transition)),
                       after = std::min(settings.window, to - std::min(to, i + 1 + settings.transition));
     const auto rows_before = [&](const std::vector<double>& column) {
-        std::vector<double> result;
-        for (std::size_t k = 0; k < std::max<std::size_t>(before, 1); ++k)
-            result.push_back(column[i - settings.transition - k]);
-        return result;
+        const auto nearest = column.rend() - static_cast<std::ptrdiff_t>(i - settings.transition + 1);
+        return std::vector<double>(nearest, nearest + static_cast<std::ptrdiff_t>(std::max<std::size_t>(before, 1)));
     };
     const auto rows_after = [&](const std::vector<double>& column) {
-        std::vector<double> result;
-        for (std::size_t k = 0; k < std::max<std::size_t>(after, 1); ++k)
-            result.push_back(column[i + 1 + settings.transition + k]);
-        return result;
+        const auto nearest = column.begin() + static_cast<std::ptrdiff_t>(i + 1 + settings.transition);
+        return std::vector<double>(nearest, nearest + static_cast<std::ptrdiff_t>(std::max<std::size_t>(after, 1)));
     };
     RecordedImpact impact;
     double offset = 0.5; // time of the impact after row i, in samples
@@ -191,7 +186,8 @@ ImpactFinder::ImpactFinder(std::shared_ptr<SampleSource> source, const ImpactSet
     require_index(settings.velocity, channels, "channel");
     if (settings.displacement)
         require_index(*settings.displacement, channels, "channel");
-    if (settings.window < least_window || settings.window > most_window || settings.transition > most_window)
+    if (settings.window < settings.least_window || settings.window > settings.most_window ||
+        settings.transition > settings.most_window)
         throw InputError(fmt::format("{} samples do not determine the velocities at an impact", settings.window),
                          "take 5 or more, and up to 100000");
     if (!(settings.significance > 0) || !std::isfinite(settings.significance) || !(settings.least_jump >= 0) ||

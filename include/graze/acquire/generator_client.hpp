@@ -73,6 +73,7 @@ public:
 
 private:
     struct Setting; // a numeric setting
+    static const Setting of_amplitude, of_offset, of_frequency;
     /// A setting chosen from words, or a load.
     struct Choice {
         std::string command, value;                       ///< command and value that are sent
@@ -84,7 +85,7 @@ private:
     template <class Work>
     void attempt(const Work& work, int factor = 1);
     double set(const Setting& setting, double value, const std::function<void()>& at_once = {});
-    void check(const Setting& setting, double value);
+    double checked(const Setting& setting, double value);
     bool is_in_step();
     bool choose(const Choice& choice, bool needed);
     void require(const Choice& choice);
