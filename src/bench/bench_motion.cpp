@@ -8,12 +8,6 @@ namespace graze {
 
 namespace {
 
-SimulationOptions options_of(const BenchSettings& settings) {
-    SimulationOptions options;
-    options.tolerance = settings.tolerance;
-    return options;
-}
-
 std::vector<Expression> values_of(const BenchSettings& settings) {
     std::vector<Expression> values;
     for (const BenchChannel& channel : settings.channels)
@@ -25,7 +19,7 @@ std::vector<Expression> values_of(const BenchSettings& settings) {
 
 BenchMotion::BenchMotion(const BenchSettings& settings)
     : model_(settings.model), amplitude_(settings.amplitude), frequency_(settings.frequency), offset_(settings.offset),
-      time_unit_(settings.time_unit), simulation_(System(settings.model), {}, {}, options_of(settings)),
+      time_unit_(settings.time_unit), simulation_(System(settings.model), {}, {}, {.tolerance = settings.tolerance}),
       jets_(simulation_, LaneKind::single), channels_(simulation_.system().function_of(values_of(settings))),
       parameters_(model_.parameter_values()), inputs_(channels_.inputs()), values_(channels_.outputs()),
       work_(channels_.workspace()) {
@@ -74,13 +68,6 @@ void BenchMotion::go_on(double spacing, std::size_t count) {
     run(*trajectory_, jets_);
 }
 
-void BenchMotion::note_end() {
-    const Outcome& outcome = trajectory_->outcome();
-    if (outcome.ending != Ending::end_time)
-        now_.ended = fmt::format("the model's motion has ended ({}){}", name_of(outcome.ending),
-                                 outcome.detail.empty() ? std::string() : ": " + outcome.detail);
-}
-
 void BenchMotion::advance(double spacing, std::size_t count, const Receiver& receiver) {
     // Limits the work between two calls of the receiver.
     constexpr std::size_t part = 1024;
@@ -102,7 +89,9 @@ void BenchMotion::advance(double spacing, std::size_t count, const Receiver& rec
         now_.mode = trajectory_->mode();
         now_.state.assign(trajectory_->state().begin(), trajectory_->state().end());
         now_.time = began_ + trajectory_->time() * time_unit_;
-        note_end();
+        if (const Outcome& outcome = trajectory_->outcome(); outcome.ending != Ending::end_time)
+            now_.ended = fmt::format("the model's motion has ended ({}){}", name_of(outcome.ending),
+                                     outcome.detail.empty() ? std::string() : ": " + outcome.detail);
         count -= now;
     }
 }

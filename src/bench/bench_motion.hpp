@@ -51,7 +51,6 @@ private:
         }
     };
     void go_on(double spacing, std::size_t count);
-    void note_end();
 
     Model model_;
     DrivenInput amplitude_, frequency_;

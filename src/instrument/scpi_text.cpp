@@ -1,5 +1,6 @@
 #include "instrument/scpi_text.hpp"
 
+#include "base/letter_case.hpp"
 #include "graze/base/trimmed.hpp"
 #include "instrument/function_generator.hpp"
 
@@ -9,13 +10,6 @@
 #include <utility>
 
 namespace graze {
-
-std::string capitals(std::string_view text) {
-    std::string result(text);
-    for (char& letter : result)
-        letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
-    return result;
-}
 
 std::vector<std::string_view> parts(std::string_view text, char separator) {
     std::vector<std::string_view> result;
@@ -29,7 +23,7 @@ std::vector<std::string_view> parts(std::string_view text, char separator) {
 }
 
 bool is_form_of(std::string_view word, std::string_view pattern) {
-    const std::string whole = capitals(pattern);
+    const std::string whole = in_capitals(pattern);
     const auto small = std::find_if(pattern.begin(), pattern.end(),
                                     [](char letter) { return std::islower(static_cast<unsigned char>(letter)) != 0; });
     return word == whole ||

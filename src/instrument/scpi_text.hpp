@@ -1,12 +1,10 @@
 #pragma once
 
-#include <string>
 #include <string_view>
 #include <vector>
 
 namespace graze {
 
-std::string capitals(std::string_view text);
 /// Splits a text at separators, and trims the parts.
 std::vector<std::string_view> parts(std::string_view text, char separator);
 /// Whether a word is the long or the short form of a keyword such as "FREQuency", whose capitals are the short form.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "instrument/descriptor.hpp"
+
 #include <string>
 
 namespace graze {
@@ -14,12 +16,11 @@ public:
     Terminal(const Terminal&) = delete;
     Terminal& operator=(const Terminal&) = delete;
 
-    int file() const { return master_; }
+    int file() const { return master_.get(); }
 
 private:
-    void close_both() const;
     std::string name_, target_;
-    int master_ = -1, slave_ = -1;
+    Descriptor master_, slave_;
 };
 
 } // namespace graze
