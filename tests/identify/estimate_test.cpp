@@ -54,7 +54,7 @@ TEST(Estimate, IntervalOfSetsThatDifferByMoreCoversTheirMean) {
             sets.push_back({own + error * noise.normal(), error, 200});
         }
         const Combined all = combine(sets);
-        covered += std::abs(all.mean.value - 0.866) < all.mean.half_width() ? 1 : 0;
+        covered += covers(all.mean, 0.866) ? 1 : 0;
     }
     expect_coverage(covered, "mean of sets");
 }

@@ -112,13 +112,8 @@ TEST(PieceMotion, DerivativesEqualFiniteDifferences) {
 TEST(PieceMotion, DerivativesAreRightForPeriodsThatDependOnParameters) {
     const Model model = parse_model(R"(
 name = "clock"
-[parameters]
-w = 3
-wall = 0.9
-[states]
-x = { initial = -0.3 }
-v = { initial = 0 }
-tau = { initial = 0.4, period = "2*pi/w" }
+parameters = { w = 3, wall = 0.9 }
+states = { x = -0.3, v = 0, tau = { initial = 0.4, period = "2*pi/w" } }
 [modes.swing]
 rates = { x = "v", v = "cos(w*tau) - 4*x - 0.1*v", tau = 1 }
 watch = ["hit"]

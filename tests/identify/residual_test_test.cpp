@@ -1,11 +1,10 @@
 #include "graze/identify/residual_test.hpp"
 
 #include "graze/base/input_error.hpp"
-#include "graze/identify/decay_peaks.hpp"
 #include "graze/identify/decrement.hpp"
 #include "graze/identify/estimate.hpp"
 #include "graze/identify/identification.hpp"
-#include "identify/noise.hpp"
+#include "identify/releases.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -68,17 +67,12 @@ TEST(ResidualTest, FindsAClockThatJitters) {
     for (std::uint64_t seed = 0; seed < 40; ++seed)
         for (const double jitter : {0.0, 0.2}) {
             Noise noise(seed);
-            Samples samples;
-            samples.clear(1);
-            for (int i = 0; i < 1000; ++i) {
-                const double t = step * (i + jitter * (noise.uniform() - 0.5));
-                samples.times.push_back(step * i);
-                samples.values[0].push_back(std::exp(-zeta * w0 * t) *
-                                                std::cos(w0 * std::sqrt(1 - zeta * zeta) * t + 0.3) +
-                                            0.002 * noise.normal());
-            }
-            StoredSamples source({{"t", "s"}, {{"v", "m/s"}}}, std::move(samples));
-            (jitter > 0 ? told : wrong) += decay_peaks(source, 0, 10).wave.residual_test.is_noise() ? 0 : 1;
+            const Wave wave = [&](double t) {
+                const double late = step * jitter * (noise.uniform() - 0.5);
+                return damped_cosine(w0, zeta, t + late, 0.3) + 0.002 * noise.normal();
+            };
+            const DecayPeaks peaks = peaks_in(sampled(1 / step, 1000, {wave}));
+            (jitter > 0 ? told : wrong) += peaks.wave.residual_test.is_noise() ? 0 : 1;
         }
     EXPECT_GE(told, 38U);
     EXPECT_LE(wrong, 1U);
@@ -144,21 +138,12 @@ TEST(DampedOscillationSlow, IntervalsCoverTheTruthForCoarselyRoundedReadings) {
     for (std::uint64_t seed = 0; seed < 300; ++seed) {
         Noise noise(7000 + seed);
         const double phase = 1000 * noise.normal();
-        Samples samples;
-        samples.clear(1);
-        for (int i = 0; i < 400; ++i) {
-            const double t = i * 2 * pi / w0 / 30;
-            samples.times.push_back(t);
-            samples.values[0].push_back(
-                step *
-                std::round(std::exp(-zeta * w0 * t) * std::cos(w0 * std::sqrt(1 - zeta * zeta) * t + phase) / step));
-        }
-        StoredSamples source({{"t", "s"}, {{"v", "m/s"}}}, std::move(samples));
-        const std::vector<DecayWave> waves{decay_peaks(source, 0, 10).wave};
+        const Wave wave = [&](double t) { return step * std::round(damped_cosine(w0, zeta, t, phase) / step); };
+        const std::vector<DecayWave> waves{peaks_in(sampled(30 * w0 / (2 * pi), 400, {wave})).wave};
         const DampedOscillation found = damped_oscillation(waves);
         ++answers;
-        frequencies += std::abs(found.frequency.value - w0) < found.frequency.half_width() ? 1 : 0;
-        dampings += std::abs(found.damping.value - zeta) < found.damping.half_width() ? 1 : 0;
+        frequencies += covers(found.frequency, w0) ? 1 : 0;
+        dampings += covers(found.damping, zeta) ? 1 : 0;
     }
     EXPECT_GE(frequencies, 270U) << "285 +- 4 of " << answers;
     EXPECT_GE(dampings, 270U);
@@ -175,22 +160,15 @@ TEST(DampedOscillationSlow, IntervalsCoverTheTruthAtAnyNoise) {
                 Noise noise(1000 + seed);
                 std::vector<DecayWave> waves;
                 for (int release = 0; release < 2; ++release) {
-                    Samples samples;
-                    samples.clear(1);
-                    for (int i = 0; i < 4000; ++i) {
-                        const double t = 2e-4 * i;
-                        samples.times.push_back(t);
-                        samples.values[0].push_back(0.35 * std::exp(-zeta * w0 * t) *
-                                                        std::sin(w0 * std::sqrt(1 - zeta * zeta) * t) +
-                                                    sigma * noise.normal());
-                    }
-                    StoredSamples source({{"t", "s"}, {{"v", "m/s"}}}, std::move(samples));
-                    waves.push_back(decay_peaks(source, 0, 10).wave);
+                    const Wave wave = [&](double t) {
+                        return 0.35 * damped_cosine(w0, zeta, t, -std::numbers::pi / 2) + sigma * noise.normal();
+                    };
+                    waves.push_back(peaks_in(sampled(5000, 4000, {wave})).wave);
                     doubted += waves.back().residual_test.is_noise() ? 0 : 1;
                 }
                 const DampedOscillation found = damped_oscillation(waves);
-                dampings += std::abs(found.damping.value - zeta) < found.damping.half_width() ? 1 : 0;
-                frequencies += std::abs(found.frequency.value - w0) < found.frequency.half_width() ? 1 : 0;
+                dampings += covers(found.damping, zeta) ? 1 : 0;
+                frequencies += covers(found.frequency, w0) ? 1 : 0;
             }
             EXPECT_GE(dampings, 51U) << zeta << " " << sigma; // 57 +- 1.7
             EXPECT_GE(frequencies, 51U) << zeta << " " << sigma;

@@ -2,7 +2,6 @@
 
 #include "graze/base/input_error.hpp"
 #include "record/recorded_model.hpp"
-#include "record/waves.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,6 @@
 #include "graze/base/input_error.hpp"
 #include "graze/record/section.hpp"
 #include "record/recorded_model.hpp"
-#include "record/waves.hpp"
 
 #include <cmath>
 #include <gmock/gmock.h>
