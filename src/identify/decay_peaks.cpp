@@ -330,7 +330,7 @@ DecayPeaks decay_peaks(SampleSource& source, std::size_t channel, std::size_t mo
                         name, periods.size() == 1 ? "one period" : "no period", level),
             "give the whole record of a decaying oscillation; damping may be too strong for this");
     require_no_gap(periods, samples, name);
-    const std::optional<DecayFit> found = DampedSine(periods, samples, channel, level).fit();
+    const std::optional<DecayFit> found = fit_damped_sine(periods, samples, channel, level);
     if (!found)
         throw InputError(fmt::format("'{}' is not a decaying oscillation", name),
                          "give the record of a single one, from its release on");

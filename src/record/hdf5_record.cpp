@@ -1,4 +1,4 @@
-#include "record/hdf5_record.hpp"
+#include "record/record_formats.hpp"
 
 #include "graze/base/physical_unit.hpp"
 #include "graze/base/printable.hpp"
