@@ -93,11 +93,7 @@ std::vector<double> smoothed(const Samples& samples, std::size_t channel, double
 std::vector<Period> periods_above(double hysteresis, const Samples& seen, const Samples& samples,
                                   const RecordHeader& header, std::size_t channel, double level, std::size_t most) {
     StoredSamples source(header, seen);
-    PeriodSettings settings;
-    settings.reference = channel;
-    settings.level = level;
-    settings.hysteresis = hysteresis;
-    PeriodSplitter splitter(borrowed(source), settings);
+    PeriodSplitter splitter(borrowed(source), {channel, level, hysteresis});
     std::vector<Period> periods;
     for (Period period; periods.size() < most && splitter.next(period);) {
         const auto row_of = [&](double time) {

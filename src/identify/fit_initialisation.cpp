@@ -11,11 +11,7 @@ namespace graze {
 namespace {
 
 FitStage soft_stage() {
-    FitStage stage;
-    stage.joint = 1;
-    stage.tolerance = 1e-3;
-    stage.most_iterations = 15;
-    return stage;
+    return {.joint = 1, .most_iterations = 15, .tolerance = 1e-3};
 }
 
 } // namespace

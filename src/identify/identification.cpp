@@ -262,13 +262,12 @@ Identification identify_coupling(const EachRecord& records, const Identification
         for (std::size_t row = 0; row < all.rows() && !settings.one_load_a_record; ++row)
             loads.push_back({all.values[q][row], all.values[i][row]});
     });
-    CouplingSettings known;
-    known.gap = *settings.gap;
-    known.gap_error = settings.gap_error;
-    known.stiffness = *settings.stiffness;
-    known.stiffness_error = settings.stiffness_error;
-    known.displacement_noise = settings.displacement_noise;
-    known.current_noise = settings.current_noise;
+    const CouplingSettings known{*settings.gap,
+                                 settings.gap_error,
+                                 *settings.stiffness,
+                                 settings.stiffness_error,
+                                 settings.displacement_noise,
+                                 settings.current_noise};
     const Coupling constants = coupling(loads, known);
     const std::string &length = displacement.unit, &ampere = current.unit;
     // The stiffness is in N/m if lengths are in m.
