@@ -1,4 +1,4 @@
-#include "identify/alternative_solutions.hpp"
+#include "identify/fit_findings.hpp"
 
 #include "graze/base/input_error.hpp"
 

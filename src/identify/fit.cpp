@@ -2,14 +2,11 @@
 
 #include "base/median.hpp"
 #include "graze/base/input_error.hpp"
-#include "identify/alternative_solutions.hpp"
 #include "identify/fit_callbacks.hpp"
 #include "identify/fit_findings.hpp"
 #include "identify/fit_initialisation.hpp"
-#include "identify/fit_mismatch.hpp"
 #include "identify/fit_solver.hpp"
 #include "identify/fit_start.hpp"
-#include "identify/joined_descent.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,6 @@
 
 #include "base/median.hpp"
 #include "identify/fit_start.hpp"
-#include "identify/other_initial_states.hpp"
 
 #include <algorithm>
 

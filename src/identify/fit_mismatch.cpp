@@ -1,4 +1,4 @@
-#include "identify/fit_mismatch.hpp"
+#include "identify/fit_findings.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "identify/joined_descent.hpp"
+#include "identify/fit_solver.hpp"
 
 #include "base/decompositions.hpp"
 #include "graze/base/input_error.hpp"

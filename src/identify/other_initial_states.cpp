@@ -1,4 +1,4 @@
-#include "identify/other_initial_states.hpp"
+#include "identify/fit_start.hpp"
 
 #include "base/linear_systems.hpp"
 #include "graze/model/model.hpp"

@@ -1,4 +1,4 @@
-#include "identify/joined_descent.hpp"
+#include "identify/fit_solver.hpp"
 
 #include "identify/models.hpp"
 #include "identify/recorded_motion.hpp"

@@ -1,4 +1,4 @@
-#include "identify/other_initial_states.hpp"
+#include "identify/fit_start.hpp"
 
 #include "identify/models.hpp"
 #include "identify/recorded_motion.hpp"
