@@ -160,12 +160,9 @@ Identification identify_decrement(const EachRecord& records, const Identificatio
         Identification::Shown& shown = found.shown.emplace_back();
         for (std::size_t k = 0; k < releases[r].times.size(); ++k) {
             const double t = releases[r].times[k] - first, height = decrement.fitted[r].heights[k];
-            shown.measured.x.push_back(t);
-            shown.measured.y.push_back(releases[r].heights[k]);
-            shown.fitted.x.push_back(decrement.fitted[r].times[k] - first);
-            shown.fitted.y.push_back(height);
-            shown.left.x.push_back(t);
-            shown.left.y.push_back(releases[r].heights[k] - height);
+            shown.measured.add(t, releases[r].heights[k]);
+            shown.fitted.add(decrement.fitted[r].times[k] - first, height);
+            shown.left.add(t, releases[r].heights[k] - height);
         }
     }
     return found;
@@ -203,10 +200,8 @@ Identification identify_restitution(const EachRecord& records, const Identificat
         names.push_back(name);
         Identification::Shown& shown = found.shown.emplace_back();
         for (std::size_t i = 0; i < impacts.size(); ++i) {
-            shown.measured.x.push_back(impacts[i].before);
-            shown.measured.y.push_back(impacts[i].after);
-            shown.left.x.push_back(impacts[i].before);
-            shown.left.y.push_back(one.residuals[i]);
+            shown.measured.add(impacts[i].before, impacts[i].after);
+            shown.left.add(impacts[i].before, one.residuals[i]);
         }
     });
     if (sets.empty()) { // no record has three impacts: use one with two
@@ -214,10 +209,8 @@ Identification identify_restitution(const EachRecord& records, const Identificat
         names.emplace_back();
         Identification::Shown& shown = found.shown.emplace_back();
         for (const ImpactSpeeds& one : few) {
-            shown.measured.x.push_back(one.before);
-            shown.measured.y.push_back(one.after);
-            shown.left.x.push_back(one.before);
-            shown.left.y.push_back(one.after + sets.front().value * one.before);
+            shown.measured.add(one.before, one.after);
+            shown.left.add(one.before, one.after + sets.front().value * one.before);
         }
     }
     const Combined all = combine(sets);
@@ -291,18 +284,15 @@ Identification identify_coupling(const EachRecord& records, const Identification
     Identification::Shown& shown = found.shown.emplace_back();
     double furthest = 0;
     for (std::size_t i = 0; i < loads.size(); ++i) {
-        shown.measured.x.push_back(loads[i].current);
-        shown.measured.y.push_back(loads[i].displacement);
-        shown.left.x.push_back(loads[i].current);
-        shown.left.y.push_back(constants.residuals[i]);
+        shown.measured.add(loads[i].current, loads[i].displacement);
+        shown.left.add(loads[i].current, constants.residuals[i]);
         furthest = std::max(furthest, loads[i].displacement);
     }
     constexpr int points = 200;
     for (int i = 0; i <= points && constants.beta1.value > 0; ++i) {
         const double q = furthest * i / points;
-        shown.fitted.x.push_back((known.gap + constants.beta2.value - q) *
-                                 std::sqrt(2 * known.stiffness * q / constants.beta1.value));
-        shown.fitted.y.push_back(q);
+        shown.fitted.add(
+            (known.gap + constants.beta2.value - q) * std::sqrt(2 * known.stiffness * q / constants.beta1.value), q);
     }
     return found;
 }
@@ -321,11 +311,9 @@ Identification::Shown shown_current(const Samples& all, std::size_t current, con
         const double angle = one.frequency * (t - middle);
         const double value =
             one.current.offset + one.current.sine * std::sin(angle) + one.current.cosine * std::cos(angle);
-        for (auto [curve, y] : {std::pair{&shown.measured, all.values[current][i]}, std::pair{&shown.fitted, value},
-                                std::pair{&shown.left, all.values[current][i] - value}}) {
-            curve->x.push_back(t);
-            curve->y.push_back(y);
-        }
+        shown.measured.add(t, all.values[current][i]);
+        shown.fitted.add(t, value);
+        shown.left.add(t, all.values[current][i] - value);
     }
     return shown;
 }

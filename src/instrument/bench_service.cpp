@@ -1,8 +1,6 @@
 #include "instrument/bench_service.hpp"
 
 #include "base/random_number.hpp"
-#include "instrument/descriptor.hpp"
-#include "instrument/line_cutter.hpp"
 #include "instrument/sample_protocol.hpp"
 #include "instrument/terminal.hpp"
 
@@ -25,6 +23,39 @@
 namespace graze {
 
 namespace {
+
+/// Splits received text into lines, which end with carriage returns or line feeds.
+class LineCutter {
+public:
+    explicit LineCutter(std::size_t longest) : longest_(longest) {}
+    /// @param take called with each line, and whether it was too long, in which case it is truncated
+    template <class Take>
+    void add(std::string_view text, const Take& take) {
+        for (const char letter : text) {
+            if (letter == '\n' || letter == '\r') {
+                if (!line_.empty())
+                    take(line_, too_long_);
+                line_.clear();
+                too_long_ = false;
+            } else if (line_.size() > longest_) {
+                too_long_ = true;
+            } else {
+                line_ += letter;
+            }
+        }
+    }
+    /// Whether the present, incomplete line is already too long.
+    bool is_too_long() const { return too_long_; }
+    void clear() {
+        line_.clear();
+        too_long_ = false;
+    }
+
+private:
+    std::size_t longest_;
+    std::string line_;
+    bool too_long_ = false;
+};
 
 constexpr std::size_t most_to_send = std::size_t{1} << 18; ///< bytes buffered for the client
 constexpr std::size_t most_on_line = 4096;                 ///< as a serial line, it drops what exceeds this

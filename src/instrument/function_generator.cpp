@@ -3,7 +3,6 @@
 #include "base/letter_case.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/trimmed.hpp"
-#include "instrument/generator_unit.hpp"
 #include "instrument/scpi_text.hpp"
 
 #include <fmt/format.h>
@@ -204,9 +203,9 @@ void FunctionGenerator::common(Unit& unit) {
     }
 }
 
-/// Parses a number with its unit. @param least, most values of MIN and MAX @param value in Hz, or in V peak to peak
-/// @return false for an invalid number or unit
-bool FunctionGenerator::read_number(const std::string& text, bool is_frequency, double least, double most,
+/// Parses a number with its unit. @param least, most values of MIN and MAX @param unit of a voltage without one; none:
+/// it is a frequency @param value in Hz, or in V peak to peak. @return false for an invalid number or unit
+bool FunctionGenerator::read_number(const std::string& text, std::optional<VoltageUnit> unit, double least, double most,
                                     double& value) {
     if (is_form_of(text, "MINimum") || is_form_of(text, "MAXimum")) {
         value = text.starts_with("MIN") ? least : most;
@@ -223,11 +222,11 @@ bool FunctionGenerator::read_number(const std::string& text, bool is_frequency, 
     static constexpr std::array<std::pair<std::string_view, double>, 4> of_frequency{
         {{"", 1}, {"HZ", 1}, {"KHZ", 1e3}, {"MHZ", 1e6}}};
     for (const auto& [name, factor] : of_frequency)
-        if (is_frequency && name == suffix) {
+        if (!unit && name == suffix) {
             value *= factor;
             return true;
         }
-    if (!is_frequency && read_voltage(suffix, unit_, output_.shape, value))
+    if (unit && read_voltage(suffix, *unit, output_.shape, value))
         return true;
     note_error(-131);
     return false;
@@ -266,12 +265,11 @@ void FunctionGenerator::apply(Unit& unit) {
     const std::array<std::pair<double, double>, 3> limits{{{least_frequency, most_frequency},
                                                            {least_amplitude * factor, most_amplitude * factor},
                                                            {-most_voltage * factor, most_voltage * factor}}};
+    const std::optional<VoltageUnit> units[]{std::nullopt, unit_, VoltageUnit::vpp}; // an offset is in V
     bool good = true;
     for (std::size_t i = 0; i < unit.arguments.size() && good; ++i) {
-        const VoltageUnit unit_before = i == 2 ? std::exchange(unit_, VoltageUnit::vpp) : unit_; // an offset is in V
         good = is_form_of(unit.arguments[i], "DEFault") ||
-               read_number(unit.arguments[i], i == 0, limits[i].first, limits[i].second, values[i]);
-        unit_ = unit_before;
+               read_number(unit.arguments[i], units[i], limits[i].first, limits[i].second, values[i]);
     }
     if (good && !(values[0] >= least_frequency && values[0] <= most_frequency)) {
         note_error(-222);
@@ -287,7 +285,8 @@ void FunctionGenerator::apply(Unit& unit) {
 
 void FunctionGenerator::frequency(Unit& unit) {
     double value = output_.frequency;
-    if (!unit.arguments.empty() && !read_number(unit.arguments[0], true, least_frequency, most_frequency, value))
+    if (!unit.arguments.empty() &&
+        !read_number(unit.arguments[0], std::nullopt, least_frequency, most_frequency, value))
         return;
     if (unit.query)
         unit.answer = fmt::format("{:+.12E}", value);
@@ -301,7 +300,7 @@ void FunctionGenerator::amplitude(Unit& unit) {
     const double factor = load_factor();
     double value = output_.amplitude * factor;
     if (!unit.arguments.empty() &&
-        !read_number(unit.arguments[0], false, least_amplitude * factor, most_amplitude * factor, value))
+        !read_number(unit.arguments[0], unit_, least_amplitude * factor, most_amplitude * factor, value))
         return;
     if (unit.query)
         unit.answer = fmt::format("{:+.6E}", shown_voltage(value, unit_, output_.shape));
@@ -312,12 +311,8 @@ void FunctionGenerator::amplitude(Unit& unit) {
 void FunctionGenerator::offset(Unit& unit) {
     const double factor = load_factor();
     double value = output_.offset * factor;
-    // An offset is always in volts.
-    const VoltageUnit before = std::exchange(unit_, VoltageUnit::vpp);
-    const bool good = unit.arguments.empty() ||
-                      read_number(unit.arguments[0], false, -most_voltage * factor, most_voltage * factor, value);
-    unit_ = before;
-    if (!good)
+    if (!unit.arguments.empty() && !read_number(unit.arguments[0], VoltageUnit::vpp, -most_voltage * factor,
+                                                most_voltage * factor, value)) // always in volts
         return;
     if (unit.query)
         unit.answer = fmt::format("{:+.6E}", value);

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -57,7 +58,8 @@ private:
     struct Command; // an entry of the table of commands
     static std::span<const Command> commands();
     void execute_unit(Unit& unit);
-    bool read_number(const std::string& text, bool is_frequency, double least, double most, double& value);
+    bool read_number(const std::string& text, std::optional<VoltageUnit> unit, double least, double most,
+                     double& value);
     bool set_voltages(double amplitude, double offset);
     double load_factor() const { return high_load_ ? 2 : 1; }
 

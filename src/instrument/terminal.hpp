@@ -1,10 +1,28 @@
 #pragma once
 
-#include "instrument/descriptor.hpp"
+#include <unistd.h>
 
 #include <string>
 
 namespace graze {
+
+/// Owns a file descriptor.
+class Descriptor {
+public:
+    explicit Descriptor(int file = -1) : file_(file) {}
+    ~Descriptor() { reset(); }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    int get() const { return file_; }
+    void reset(int file = -1) {
+        if (file_ >= 0)
+            close(file_);
+        file_ = file;
+    }
+
+private:
+    int file_;
+};
 
 /// The instrument's end of a pseudo-terminal, which a link names.
 class Terminal {
