@@ -141,27 +141,17 @@ struct PeakFit {
     double noise = 0; ///< standard error of the height
     std::vector<double> powers{};
 
-    double height(double t) const {
-        const double x = (t - middle) / width;
-        double sum = 0;
-        for (std::size_t k = powers.size(); k-- > 0;)
-            sum = sum * x + powers[k];
-        return sum;
-    }
+    double height(double t) const { return polynomial_at(powers, (t - middle) / width); }
 };
 
 /// Smallest degree whose truncation error for a cosine is below the noise: a higher degree would follow the noise.
 std::size_t powers_for(double noise_by_height) {
-    struct Left {
-        std::size_t degree;
-        double size;
-    };
     // Error of Chebyshev's polynomials for a cosine over 0.15 of its period on each side of its maximum.
-    constexpr Left left[] = {{2, 4e-3}, {4, 3e-5}, {6, 1.2e-7}};
+    constexpr std::pair<std::size_t, double> left[] = {{2, 4e-3}, {4, 3e-5}, {6, 1.2e-7}};
     constexpr double share = 0.1;
-    for (const Left& one : left)
-        if (one.size < share * noise_by_height)
-            return one.degree;
+    for (const auto& [degree, error] : left)
+        if (error < share * noise_by_height)
+            return degree;
     return 8;
 }
 
@@ -233,14 +223,10 @@ bool fit_peak(const Period& period, std::size_t channel, const DecayFit& rest, c
         if (std::abs(change) < 1e-15)
             break;
     }
-    peak.middle = middle;
-    peak.width = width;
-    peak.powers = powers;
-    peak.time = middle + width * x;
     double squares = 0;
     for (std::size_t k = 0; k <= fit.degree(); ++k)
         squares += fit.at_zero(k) * fit.at_zero(k);
-    peak.noise = rest.noise * std::sqrt(squares);
+    peak = {middle + width * x, middle, width, rest.noise * std::sqrt(squares), powers};
     // Compare the fitted envelope, not the peak itself, with the noise: else peaks that noise has raised would be
     // selected.
     constexpr double stands_out = 5;

@@ -308,9 +308,7 @@ Identification::Shown shown_current(const Samples& all, std::size_t current, con
         const double t = all.times[i];
         if (t > all.times.front() + periods * 2 * std::numbers::pi / one.frequency)
             break;
-        const double angle = one.frequency * (t - middle);
-        const double value =
-            one.current.offset + one.current.sine * std::sin(angle) + one.current.cosine * std::cos(angle);
+        const double value = one.current.at(t - middle);
         shown.measured.add(t, all.values[current][i]);
         shown.fitted.add(t, value);
         shown.left.add(t, all.values[current][i] - value);

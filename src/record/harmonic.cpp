@@ -19,6 +19,10 @@ constexpr std::size_t unknowns = 3;
 
 } // namespace
 
+double Harmonic::at(double time) const {
+    return offset + sine * std::sin(frequency * time) + cosine * std::cos(frequency * time);
+}
+
 double Harmonic::amplitude() const {
     return std::hypot(sine, cosine);
 }

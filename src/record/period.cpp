@@ -67,12 +67,7 @@ double PeriodSplitter::locate(std::size_t below, std::size_t above) const {
     constexpr std::size_t cubic = 3;
     const LocalPolynomial polynomial(places, std::min(cubic, places.size() - 1));
     const std::vector<double> powers = polynomial.powers(heights.data());
-    const auto height = [&](double x) {
-        double sum = 0;
-        for (std::size_t k = powers.size(); k-- > 0;)
-            sum = sum * x + powers[k];
-        return sum;
-    };
+    const auto height = [&](double x) { return polynomial_at(powers, x); };
     // The samples change their sign between the two rows. If the polynomial does not, use a straight line.
     double low = (buffer_.times[below] - middle) / scale, high = (buffer_.times[above] - middle) / scale;
     if (!(height(low) < 0 && height(high) > 0)) {
