@@ -14,12 +14,8 @@ using ::testing::HasSubstr;
 
 /// The error message for a text of which a part is replaced.
 std::string message(const std::string& part, const std::string& by) {
-    std::string text = experiment_text();
-    const std::size_t at = text.find(part);
-    EXPECT_NE(at, std::string::npos) << part;
-    text.replace(at, part.size(), by);
     try {
-        parse_experiment(text, "e.toml");
+        parse_experiment(testing::replaced(experiment_text(), part, by), "e.toml");
     } catch (const InputError& error) {
         return error.what();
     }
@@ -46,10 +42,9 @@ TEST(Experiment, HasTheLevelsOfItsSweep) {
 }
 
 TEST(Experiment, MayStepTheFrequency) {
-    std::string text = experiment_text();
-    text.replace(text.find("frequency = 6.1"), 15, "frequency = { from = 6, to = 7, step = 0.5, back = true }");
-    text.replace(text.find("amplitude = { from"), text.find("true }\n[settle]") - text.find("amplitude = { from") + 6,
-                 "amplitude = 9");
+    const std::string text = testing::replaced(
+        testing::replaced(experiment_text(), "{ from = 9.4, to = 9.6, step = 0.1, back = true }", "9"), "= 6.1",
+        "= { from = 6, to = 7, step = 0.5, back = true }");
     const Experiment experiment = parse_experiment(text, "e.toml");
     ASSERT_EQ(experiment.levels.size(), 6U);
     EXPECT_EQ(experiment.levels[1].frequency, 6.5);
