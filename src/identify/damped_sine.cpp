@@ -102,16 +102,15 @@ private:
 
     /// Converts frequency and decay, which the fit has over the whole window, to rates in time.
     DecayWave wave_of(const Eigen::MatrixXd& covariance, const Eigen::VectorXd& left) const {
-        DecayWave wave;
-        wave.residual_test = test_residuals({left.data(), static_cast<std::size_t>(left.size())}, values_);
-        const double scale = std::pow(wave.residual_test.widening / length_, 2);
-        wave.turn = turn_ / length_;
-        wave.decay = decay_ / length_;
-        wave.turn_variance = scale * covariance(3, 3);
-        wave.decay_variance = scale * covariance(4, 4);
-        wave.covariance = scale * covariance(3, 4);
-        wave.freedom = static_cast<double>(left.size() - covariance.rows());
-        return wave;
+        const ResidualTest test = test_residuals({left.data(), static_cast<std::size_t>(left.size())}, values_);
+        const double scale = std::pow(test.widening / length_, 2);
+        return {turn_ / length_,
+                decay_ / length_,
+                scale * covariance(3, 3),
+                scale * covariance(4, 4),
+                scale * covariance(3, 4),
+                static_cast<double>(left.size() - covariance.rows()),
+                test};
     }
 
     double level_, begin_ = 0, length_ = 1, turn_ = 0, decay_ = 0;

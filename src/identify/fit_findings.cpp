@@ -50,6 +50,13 @@ double square_sum(const std::vector<double>& values) {
     return std::transform_reduce(values.begin(), values.end(), 0.0, std::plus<>(), [](double x) { return x * x; });
 }
 
+bool is_at_bound(const FitRows& rows, const FitPoint& point, std::size_t parameter) {
+    const UnknownParameter& unknown = rows.task().parameters[parameter];
+    const auto column = static_cast<Eigen::Index>(parameter);
+    const double scale = rows.layout.shared_scale[column], value = point.shared[column] * scale, near = 1e-9 * scale;
+    return value - unknown.least <= near || unknown.greatest - value <= near;
+}
+
 /// The fitted numbers in the order of FitInformation: initial states first, then shared ones.
 std::vector<FittedNumber> numbers_at(const FitRows& rows, const FitPoint& point, std::vector<double>& scales) {
     const FitTask& task = rows.task();
@@ -68,6 +75,7 @@ std::vector<FittedNumber> numbers_at(const FitRows& rows, const FitPoint& point,
                                i,
                                {point.states[k][c] * scales.back(), 0, 0}});
         }
+    const std::size_t states = numbers.size();
     Eigen::Index column = 0;
     const auto add = [&](FittedNumber::Kind kind, const std::string& name, const std::string& unit, std::size_t index) {
         scales.push_back(layout.shared_scale[column]);
@@ -78,8 +86,7 @@ std::vector<FittedNumber> numbers_at(const FitRows& rows, const FitPoint& point,
         const std::string& name = names[unknown.parameter.place()];
         add(FittedNumber::Kind::parameter, name, model.parameters[*model.find_parameter(name)].unit,
             unknown.parameter.place());
-        const double value = numbers.back().estimate.value, near = 1e-9 * scales.back();
-        numbers.back().at_bound = value - unknown.least <= near || unknown.greatest - value <= near;
+        numbers.back().at_bound = is_at_bound(rows, point, numbers.size() - 1 - states);
     }
     for (const std::size_t output : layout.gains)
         add(FittedNumber::Kind::gain, "gain of " + task.outputs[output].name, "", output);
@@ -340,13 +347,10 @@ FitChecks check_point(const FitRows& rows, const FitPoint& point, const std::vec
 }
 
 std::vector<int> parameters_at_bounds(const FitRows& rows, const FitPoint& point) {
-    std::vector<double> scales;
     std::vector<int> bounded;
-    for (const FittedNumber& number : numbers_at(rows, point, scales))
-        if (number.at_bound)
-            for (std::size_t j = 0; j < rows.task().parameters.size(); ++j)
-                if (rows.task().parameters[j].parameter.place() == number.index)
-                    bounded.push_back(static_cast<int>(j));
+    for (std::size_t j = 0; j < rows.task().parameters.size(); ++j)
+        if (is_at_bound(rows, point, j))
+            bounded.push_back(static_cast<int>(j));
     return bounded;
 }
 

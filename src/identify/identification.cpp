@@ -40,15 +40,15 @@ double mean_of(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Passes samples on, and refuses records without rows and numbers whose squares and ratios would overflow or
+/// A record in common units; refuses records without rows and numbers whose squares and ratios would overflow or
 /// underflow.
-class UsableSource : public SampleSource {
+class UsableSource : public CommonUnitSource {
 public:
-    UsableSource(SampleSource& source, std::vector<std::size_t> channels)
-        : source_(&source), channels_(std::move(channels)), greatest_(channels_.size()) {}
-    const RecordHeader& header() const override { return source_->header(); }
+    UsableSource(SampleSource& source, CommonUnits& units, const std::vector<std::size_t>& channels,
+                 Times times = Times::common)
+        : CommonUnitSource(source, units, channels, times), channels_(channels), greatest_(channels.size()) {}
     bool read(Samples& samples) override {
-        const bool more = source_->read(samples);
+        const bool more = CommonUnitSource::read(samples);
         if (samples.rows() > 0 && !has_rows_)
             first_ = samples.times.front();
         has_rows_ = has_rows_ || samples.rows() > 0;
@@ -76,7 +76,6 @@ private:
             fmt::format("use another unit (scale {}={:.0e})", name, std::min(1 / value, 1e300)));
     }
 
-    SampleSource* source_;
     std::vector<std::size_t> channels_;
     std::vector<double> greatest_; ///< largest magnitudes so far
     double first_ = 0, last_ = 0;
@@ -120,9 +119,8 @@ Identification identify_decrement(const EachRecord& records, const Identificatio
     CommonUnits units;
     records([&](const std::string& name, SampleSource& record) {
         channel = record.header().channel(settings.channel, settings.asked_as + "channel");
-        CommonUnitSource common(record, units, {channel});
-        header = common.header();
-        UsableSource usable(common, {channel});
+        UsableSource usable(record, units, {channel});
+        header = usable.header();
         releases.push_back(decay_peaks(usable, channel, settings.peaks));
         names.push_back(name);
     });
@@ -182,9 +180,8 @@ Identification identify_restitution(const EachRecord& records, const Identificat
         std::vector used{of_impacts.velocity};
         if (of_impacts.displacement)
             used.push_back(*of_impacts.displacement);
-        CommonUnitSource common(record, units, used, CommonUnitSource::Times::as_they_are);
-        velocity = common.header().channels[of_impacts.velocity];
-        UsableSource usable(common, used);
+        UsableSource usable(record, units, used, UsableSource::Times::as_they_are);
+        velocity = usable.header().channels[of_impacts.velocity];
         VelocityWatch watched(usable, of_impacts.velocity);
         const std::vector<RecordedImpact> recorded = find_impacts(watched, of_impacts);
         for (const RecordedImpact& impact : recorded)
@@ -245,10 +242,9 @@ Identification identify_coupling(const EachRecord& records, const Identification
         const RecordHeader& header = record.header();
         const std::size_t q = header.channel(name_or(settings.displacement, "q"), settings.asked_as + "displacement"),
                           i = header.channel(settings.current, settings.asked_as + "current");
-        CommonUnitSource common(record, units, {q, i}, CommonUnitSource::Times::as_they_are);
-        displacement = common.header().channels[q];
-        current = common.header().channels[i];
-        UsableSource usable(common, {q, i});
+        UsableSource usable(record, units, {q, i}, UsableSource::Times::as_they_are);
+        displacement = usable.header().channels[q];
+        current = usable.header().channels[i];
         const Samples all = read_all(usable, most_samples);
         if (settings.one_load_a_record)
             loads.push_back({mean_of(all.values[q]), mean_of(all.values[i])});
@@ -331,9 +327,8 @@ Identification identify_impedance(const EachRecord& records, const Identificatio
     records([&](const std::string& name, SampleSource& record) {
         const std::size_t v = record.header().channel(settings.voltage, asked + "voltage"),
                           c = record.header().channel(settings.current, asked + "current");
-        CommonUnitSource common(record, units, {v, c});
-        const RecordHeader& header = common.header();
-        UsableSource usable(common, {v, c});
+        UsableSource usable(record, units, {v, c});
+        const RecordHeader& header = usable.header();
         const Samples all = read_all(usable, most_samples);
         const Impedance one = impedance(all.times, all.values[v], all.values[c],
                                         settings.frequency ? 2 * std::numbers::pi * *settings.frequency : 0);

@@ -70,20 +70,12 @@ Harmonic fit_harmonic(std::span<const double> times, std::span<const double> val
         throw InputError("the samples cover too short a part of a period to determine its amplitude",
                          "record a period or more");
     const Eigen::Matrix3d inverse = triangle.triangularView<Eigen::Upper>().solve(Eigen::Matrix3d::Identity());
-    Harmonic fit;
-    fit.frequency = frequency;
-    fit.offset = solution[0];
-    fit.sine = solution[1];
-    fit.cosine = solution[2];
-    fit.samples = times.size();
-    const double squares = (right - matrix * solution).squaredNorm();
-    fit.noise = std::sqrt(squares / static_cast<double>(times.size() - unknowns));
-    const Eigen::Matrix3d covariance = fit.noise * fit.noise * inverse * inverse.transpose();
-    fit.offset_error = std::sqrt(covariance(0, 0));
-    fit.sine_error = std::sqrt(covariance(1, 1));
-    fit.cosine_error = std::sqrt(covariance(2, 2));
-    fit.covariance = covariance(1, 2);
-    return fit;
+    const double squares = (right - matrix * solution).squaredNorm(),
+                 noise = std::sqrt(squares / static_cast<double>(times.size() - unknowns));
+    const Eigen::Matrix3d covariance = noise * noise * inverse * inverse.transpose();
+    const Eigen::Vector3d errors = covariance.diagonal().cwiseSqrt();
+    return {frequency, solution[0], solution[1],      solution[2], errors[0],
+            errors[1], errors[2],   covariance(1, 2), noise,       times.size()};
 }
 
 double fit_frequency(std::span<const double> times, std::span<const std::span<const double>> channels, double guess) {

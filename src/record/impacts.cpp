@@ -145,9 +145,7 @@ RecordedImpact ImpactFinder::State::impact_at(std::size_t i, std::size_t from, s
         const auto nearest = column.begin() + static_cast<std::ptrdiff_t>(i + 1 + settings.transition);
         return std::vector<double>(nearest, nearest + static_cast<std::ptrdiff_t>(std::max<std::size_t>(after, 1)));
     };
-    RecordedImpact impact;
-    double offset = 0.5; // time of the impact after row i, in samples
-    impact.time_error = spacing / std::sqrt(12.0);
+    double offset = 0.5, time_error = spacing / std::sqrt(12.0); // offset: time of the impact after row i, in samples
     if (settings.displacement) {
         const std::vector<double>& places = rows.values[*settings.displacement];
         const std::vector<double> first = rows_before(places), second = rows_after(places);
@@ -161,7 +159,7 @@ RecordedImpact ImpactFinder::State::impact_at(std::size_t i, std::size_t from, s
                 break;
             const double limit = static_cast<double>(settings.transition) + 1;
             const double moved = std::clamp(offset - difference / slope, -limit, limit + 1);
-            impact.time_error = spacing * std::hypot(a.error, b.error) / std::abs(slope);
+            time_error = spacing * std::hypot(a.error, b.error) / std::abs(slope);
             const bool stands = std::abs(moved - offset) < 1e-12;
             offset = moved;
             if (stands)
@@ -170,15 +168,11 @@ RecordedImpact ImpactFinder::State::impact_at(std::size_t i, std::size_t from, s
     }
     const Continued a = continued(rows_before(values), settings.transition, offset, noise),
                     b = continued(rows_after(values), settings.transition, 1 - offset, noise);
-    impact.time = rows.times[i] + offset * spacing;
-    impact.before = a.value;
-    impact.after = b.value;
-    // The error of the time adds to those of the velocities.
-    const double late = impact.time_error / spacing;
-    impact.before_error = std::hypot(a.error, a.slope * late);
-    impact.after_error = std::hypot(b.error, b.slope * late);
-    impact.covariance = -(a.slope * late) * (b.slope * late); // slopes are in the direction away from the impact
-    return impact;
+    // The error of the time adds to those of the velocities. Slopes are in the direction away from the impact.
+    const double late = time_error / spacing, off_before = a.slope * late, off_after = b.slope * late;
+    return {rows.times[i] + offset * spacing, time_error, a.value,
+            std::hypot(a.error, off_before),  b.value,    std::hypot(b.error, off_after),
+            -off_before * off_after};
 }
 
 ImpactFinder::ImpactFinder(std::shared_ptr<SampleSource> source, const ImpactSettings& settings) {
