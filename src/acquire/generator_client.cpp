@@ -423,10 +423,6 @@ double GeneratorClient::amplitude() {
     return told;
 }
 
-double GeneratorClient::frequency() {
-    return asked_number("FREQ?");
-}
-
 void GeneratorClient::try_safe(double amplitude) {
     identify();
     take_control();

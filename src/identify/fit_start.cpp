@@ -18,12 +18,10 @@ public:
     }
 
     /// Whether a state violates no barrier of the mode.
-    bool is_admissible(std::size_t mode, std::span<const double> state, std::span<const double> parameters) {
-        const System::CompiledMode& compiled = system_.mode(mode);
-        std::vector<double> inputs(state.begin(), state.end());
-        inputs.insert(inputs.end(), parameters.begin(), parameters.end());
+    bool is_admissible(const FitPiece& piece, const std::vector<double>& state, const Eigen::VectorXd& shared) {
+        const System::CompiledMode& compiled = system_.mode(piece.mode);
         values_.resize(compiled.events.outputs());
-        compiled.events.evaluate(inputs, values_, work_);
+        compiled.events.evaluate(rows_->inputs(piece.record, state, shared), values_, work_);
         for (std::size_t w = 0; w < compiled.watched.size(); ++w)
             if (system_.model().events[compiled.watched[w]].kind == EventKind::barrier && !(values_[w] >= 0))
                 return false;
@@ -33,7 +31,6 @@ public:
     /// Replaces states that an output shows directly by their readings, unless that would violate a barrier.
     void take_readings(const FitPiece& piece, std::size_t time, const Eigen::VectorXd& shared,
                        std::vector<double>& state) {
-        const std::vector<double> parameters = rows_->parameters(piece.record, shared);
         const FitTask& task = rows_->task();
         const FitRecord& record = task.records[piece.record];
         for (const FitRecord::Readings& readings : record.readings) {
@@ -47,10 +44,10 @@ public:
             if (!free)
                 continue;
             const double before = state[*index];
-            const bool well = is_admissible(piece.mode, state, parameters);
+            const bool well = is_admissible(piece, state, shared);
             state[*index] =
                 (readings.values[time] - rows_->offset(readings.output, shared)) / rows_->gain(readings.output, shared);
-            if (well && !is_admissible(piece.mode, state, parameters))
+            if (well && !is_admissible(piece, state, shared))
                 state[*index] = before;
         }
     }

@@ -19,11 +19,20 @@ double velocity(double t, double displacement) {
     return -displacement * frequency * frequency / damped * std::exp(-damping * frequency * t) * std::sin(damped * t);
 }
 
-DecayPeaks peaks_of(Noise& noise, double sigma, double rate, std::size_t most = 10, double rest = 0) {
+DecayPeaks peaks_of(Noise& noise, double sigma, double rest = 0) {
+    constexpr double rate = 1000;
     const double begin = 0.001 * noise.uniform();
     const auto clock = [&](std::size_t i) { return begin + static_cast<double>(i) / rate; };
     const Wave wave = [&](double t) { return rest + velocity(t, 0.762e-3) + sigma * noise.normal(); };
-    return peaks_in(sampled_at(clock, static_cast<std::size_t>(rate), {wave}), most);
+    return peaks_in(sampled_at(clock, static_cast<std::size_t>(rate), {wave}));
+}
+
+/// Peaks of several releases at 1 kHz.
+std::vector<DecayPeaks> releases_of(Noise& noise, int count, double sigma, double rest = 0) {
+    std::vector<DecayPeaks> releases;
+    for (int r = 0; r < count; ++r)
+        releases.push_back(peaks_of(noise, sigma, rest));
+    return releases;
 }
 
 } // namespace
@@ -48,9 +57,7 @@ TEST(Decrement, IsExactForExactPeaks) {
 
 TEST(Decrement, HasNineDigitsWithoutNoise) {
     Noise noise(1);
-    std::vector<DecayPeaks> releases;
-    for (int r = 0; r < 10; ++r)
-        releases.push_back(peaks_of(noise, 0, 1000));
+    const std::vector<DecayPeaks> releases = releases_of(noise, 10, 0);
     const Decrement found = logarithmic_decrement(releases);
     EXPECT_EQ(releases[0].times.size(), 10U);
     EXPECT_NEAR(found.frequency.value, frequency, 1e-9 * frequency);
@@ -63,10 +70,7 @@ TEST(Decrement, IntervalsCoverTheTruth) {
     double scatter = 0, pairs = 0;
     for (std::size_t seed = 0; seed < experiments; ++seed) {
         Noise noise(seed);
-        std::vector<DecayPeaks> releases;
-        for (int r = 0; r < 10; ++r)
-            releases.push_back(peaks_of(noise, 5e-4, 1000));
-        const Decrement found = logarithmic_decrement(releases);
+        const Decrement found = logarithmic_decrement(releases_of(noise, 10, 5e-4));
         frequencies += covers(found.frequency, frequency) ? 1 : 0;
         dampings += covers(found.damping, damping) ? 1 : 0;
         scatter += std::pow(found.damping.value - damping, 2);
@@ -155,9 +159,7 @@ TEST(Decrement, FindsTheRestPosition) {
     std::size_t dampings = 0, rests = 0;
     for (std::size_t seed = 0; seed < experiments; ++seed) {
         Noise noise(seed);
-        std::vector<DecayPeaks> releases;
-        for (int r = 0; r < 3; ++r)
-            releases.push_back(peaks_of(noise, 2e-3, 1000, 10, rest));
+        const std::vector<DecayPeaks> releases = releases_of(noise, 3, 2e-3, rest);
         const Decrement found = logarithmic_decrement(releases);
         dampings += covers(found.damping, damping) ? 1 : 0;
         rests += std::abs(releases[0].rest - rest) < 1.96 * releases[0].rest_error ? 1 : 0;
@@ -165,7 +167,7 @@ TEST(Decrement, FindsTheRestPosition) {
     expect_coverage(dampings, "damping ratio");
     expect_coverage(rests, "rest position");
     Noise none(1);
-    const DecayPeaks exact = peaks_of(none, 0, 1000, 10, rest);
+    const DecayPeaks exact = peaks_of(none, 0, rest);
     EXPECT_NEAR(exact.rest, rest, 1e-12);
 }
 
@@ -174,17 +176,14 @@ TEST(Decrement, UsesThePeaksThatStandOutFromNoise) {
     std::size_t frequencies = 0;
     for (std::size_t seed = 0; seed < experiments; ++seed) {
         Noise noise(seed);
-        std::vector<DecayPeaks> releases;
-        for (int r = 0; r < 4; ++r)
-            releases.push_back(peaks_of(noise, 0.02, 1000));
-        const Decrement found = logarithmic_decrement(releases);
+        const Decrement found = logarithmic_decrement(releases_of(noise, 4, 0.02));
         frequencies += covers(found.frequency, frequency) ? 1 : 0;
         EXPECT_NEAR(found.damping.value, damping, 5 * found.damping.error) << seed;
     }
     expect_coverage(frequencies, "natural frequency");
     Noise noise(3);
     try {
-        peaks_of(noise, 0.3, 1000);
+        peaks_of(noise, 0.3);
         ADD_FAILURE() << "noise of four times the first peak";
     } catch (const InputError& error) {
         EXPECT_EQ(std::string(error.what()).find("about nought"), std::string::npos) << error.what();

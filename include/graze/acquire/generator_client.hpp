@@ -59,7 +59,6 @@ public:
     double set_frequency(double frequency);
     /// Returns the present amplitude. Unit, shape, load, modulations, offset and frequency are read back, too.
     double amplitude();
-    double frequency();
     /// The generator's answer to *IDN?.
     const std::string& identity() const { return identity_; }
 
