@@ -233,9 +233,9 @@ private:
     StageReport pass(bool by_prediction, Fit& fit) {
         const std::vector<FitStage> stages = stages_of(rows_, *settings_);
         const int count = static_cast<int>(stages.size());
-        FitInitialisation initialisation(rows_, point_,
-                                         [&](const FitStage& stage) { return make(stage, 0, count + 1, fit); });
-        StageReport report = by_prediction ? initialisation.by_prediction() : initialisation.by_readings();
+        const FitMinimiser minimiser = [&](const FitStage& stage) { return make(stage, 0, count + 1, fit); };
+        StageReport report = by_prediction ? initialise_by_prediction(rows_, point_, minimiser)
+                                           : initialise_by_readings(rows_, point_, minimiser);
         for (int s = by_prediction ? 2 : 0; s + 1 < count && !report.interrupted; ++s) {
             FitStage stage = stages[static_cast<std::size_t>(s)];
             stage.prior = s == 0 ? prior_weight(rows_) : 0;

@@ -84,7 +84,4 @@ private:
     std::vector<int> errors_;
 };
 
-/// Returns the text of an SCPI error number, such as "Undefined header".
-std::string_view scpi_error_text(int number);
-
 } // namespace graze

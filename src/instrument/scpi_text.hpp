@@ -15,6 +15,8 @@ bool is_form_of(std::string_view word, std::string_view pattern);
 /// Whether a header such as FREQ:MODE matches a pattern such as "FREQuency:MODE".
 bool matches(std::string_view header, std::string_view pattern);
 
+/// Returns the text of an SCPI error number, such as "Undefined header".
+std::string_view scpi_error_text(int number);
 /// Converts an amplitude to the number that the display shows. @param peaks in V peak to peak
 double shown_voltage(double peaks, VoltageUnit unit, WaveShape shape);
 /// Converts an amplitude with a suffix to V peak to peak. @param suffix in capitals; empty: the present unit

@@ -12,7 +12,6 @@
 #include <filesystem>
 #include <system_error>
 #include <termios.h>
-#include <unistd.h>
 #include <utility>
 
 namespace graze {

@@ -7,7 +7,6 @@
 #include <gmock/gmock.h>
 
 #include <array>
-#include <cmath>
 
 namespace graze::testing {
 
