@@ -27,16 +27,20 @@ public:
         } catch (const InstrumentError& error) {
             report_.ending = error.ending();
             report_.detail = error.problem();
-        } catch (...) { // rethrown when the output is safe
+        } catch (const std::exception& error) { // rethrown when the output is safe
             failure = std::current_exception();
+            report_.detail = error.what();
+        } catch (...) {
+            failure = std::current_exception();
+            report_.detail = "a callback has thrown what is no std::exception";
         }
         if (begun_)
             report_.safe = generator_.make_safe(experiment_.safe, report_.unsafe_because);
         report_.off = !report_.safe && generator_.is_switched_off();
         if (failure && report_.safe)
             std::rethrow_exception(failure);
-        if (failure)
-            tell_failure(failure);
+        if (failure) // an unsafe output is worse than its cause, and both must be reported
+            report_.ending = AcquisitionEnding::interrupted;
         return report_;
     }
 
@@ -45,18 +49,6 @@ private:
         GeneratorOptions result = experiment.generator;
         result.interrupted = options.interrupted;
         return result;
-    }
-
-    /// Puts the failure into the report: an unsafe output is worse than its cause, and both must be reported.
-    void tell_failure(const std::exception_ptr& failure) {
-        try {
-            std::rethrow_exception(failure);
-        } catch (const std::exception& error) {
-            report_.detail = error.what();
-        } catch (...) {
-            report_.detail = "a callback has thrown what is no std::exception";
-        }
-        report_.ending = AcquisitionEnding::interrupted;
     }
 
     void record_all() {

@@ -169,16 +169,12 @@ void TextSampleDevice::stop() {
     drain();
 }
 
-bool TextSampleDevice::done(const char* word, std::uint64_t number) {
-    return asked(fmt::format("{} {}", word, number)).starts_with("OK");
-}
-
 bool TextSampleDevice::mark(std::uint64_t number) {
-    return done("MARK", number);
+    return asked(fmt::format("MARK {}", number)).starts_with("OK");
 }
 
 bool TextSampleDevice::return_to(std::uint64_t number) {
-    return done("RETURN", number);
+    return asked(fmt::format("RETURN {}", number)).starts_with("OK");
 }
 
 } // namespace graze

@@ -389,6 +389,15 @@ private:
     double greatest_mismatch_ = 0; ///< its size, relative to the range of the readings
 };
 
+Fit fit_unless_interrupted(const System& system, const FitTask& task, const FitSettings& settings) {
+    try {
+        return Fitter(system, task, settings).run();
+    } catch (const FitInterruption&) { // interrupted before the starting point was complete
+        return {.ending = FitEnding::interrupted,
+                .detail = "the fit was ended before the first motions were known: " + extent_of(task)};
+    }
+}
+
 } // namespace
 
 const std::vector<std::string>& names_of_losses() {
@@ -401,19 +410,6 @@ std::string_view name_of(FitEnding ending) {
                                               "broken",    "undetermined", "misfit"};
     return names[static_cast<std::size_t>(ending)];
 }
-
-namespace {
-
-Fit fit_unless_interrupted(const System& system, const FitTask& task, const FitSettings& settings) {
-    try {
-        return Fitter(system, task, settings).run();
-    } catch (const FitInterruption&) { // interrupted before the starting point was complete
-        return {.ending = FitEnding::interrupted,
-                .detail = "the fit was ended before the first motions were known: " + extent_of(task)};
-    }
-}
-
-} // namespace
 
 Fit fit_model(const System& system, const FitTask& task, const FitSettings& settings) {
     require_task(system, task, settings);

@@ -109,6 +109,23 @@ void require_impacts(const std::string& name, const std::string& channel, const 
                          "stop");
 }
 
+/// The measured current in the first periods of a record, with its fitted sine.
+Identification::Shown shown_current(const Samples& all, std::size_t current, const Impedance& one) {
+    constexpr double periods = 3;
+    const double middle = 0.5 * (all.times.front() + all.times.back());
+    Identification::Shown shown;
+    for (std::size_t i = 0; i < all.rows(); ++i) {
+        const double t = all.times[i];
+        if (t > all.times.front() + periods * 2 * std::numbers::pi / one.frequency)
+            break;
+        const double value = one.current.at(t - middle);
+        shown.measured.add(t, all.values[current][i]);
+        shown.fitted.add(t, value);
+        shown.left.add(t, all.values[current][i] - value);
+    }
+    return shown;
+}
+
 } // namespace
 
 Identification identify_decrement(const EachRecord& records, const IdentificationSettings& settings) {
@@ -292,27 +309,6 @@ Identification identify_coupling(const EachRecord& records, const Identification
     }
     return found;
 }
-
-namespace {
-
-/// The measured current in the first periods of a record, with its fitted sine.
-Identification::Shown shown_current(const Samples& all, std::size_t current, const Impedance& one) {
-    constexpr double periods = 3;
-    const double middle = 0.5 * (all.times.front() + all.times.back());
-    Identification::Shown shown;
-    for (std::size_t i = 0; i < all.rows(); ++i) {
-        const double t = all.times[i];
-        if (t > all.times.front() + periods * 2 * std::numbers::pi / one.frequency)
-            break;
-        const double value = one.current.at(t - middle);
-        shown.measured.add(t, all.values[current][i]);
-        shown.fitted.add(t, value);
-        shown.left.add(t, all.values[current][i] - value);
-    }
-    return shown;
-}
-
-} // namespace
 
 Identification identify_impedance(const EachRecord& records, const IdentificationSettings& settings) {
     const std::string& asked = settings.asked_as;

@@ -8,17 +8,10 @@
 #include <gmock/gmock.h>
 #include <thread>
 
-namespace graze {
+namespace graze::testing {
 namespace {
 
-using testing::contents;
-using testing::different_files;
-using testing::experiment_text;
-using testing::files_of;
 using ::testing::HasSubstr;
-using testing::replaced;
-using testing::TemporaryFolder;
-using testing::testbed_bench;
 
 AcquisitionReport run_on(ScpiBench& bench, const std::string& text, const std::string& folder,
                          const AcquisitionOptions& options = {}) {
@@ -198,4 +191,4 @@ TEST(Acquisition, ChecksTheChannelsOfTheDeviceBeforeAnythingIsSent) {
     EXPECT_FALSE(bench.generator().is_remote());
 }
 
-} // namespace graze
+} // namespace graze::testing

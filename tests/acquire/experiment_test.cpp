@@ -7,16 +7,15 @@
 #include <gmock/gmock.h>
 #include <random>
 
-namespace graze {
+namespace graze::testing {
 namespace {
 
-using testing::experiment_text;
 using ::testing::HasSubstr;
 
 /// The error message for a text of which a part is replaced.
 std::string message(const std::string& part, const std::string& by) {
     try {
-        parse_experiment(testing::replaced(experiment_text(), part, by), "e.toml");
+        parse_experiment(replaced(experiment_text(), part, by), "e.toml");
     } catch (const InputError& error) {
         return error.what();
     }
@@ -43,9 +42,9 @@ TEST(Experiment, HasTheLevelsOfItsSweep) {
 }
 
 TEST(Experiment, MayStepTheFrequency) {
-    const std::string text = testing::replaced(
-        testing::replaced(experiment_text(), "{ from = 9.4, to = 9.6, step = 0.1, back = true }", "9"), "= 6.1",
-        "= { from = 6, to = 7, step = 0.5, back = true }");
+    const std::string text =
+        replaced(replaced(experiment_text(), "{ from = 9.4, to = 9.6, step = 0.1, back = true }", "9"), "= 6.1",
+                 "= { from = 6, to = 7, step = 0.5, back = true }");
     const Experiment experiment = parse_experiment(text, "e.toml");
     ASSERT_EQ(experiment.levels.size(), 6U);
     EXPECT_EQ(experiment.levels[1].frequency, 6.5);
@@ -123,4 +122,4 @@ TEST(Experiment, RefusesUnknownKeys) {
     }
 }
 
-} // namespace graze
+} // namespace graze::testing

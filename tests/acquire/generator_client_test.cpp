@@ -8,11 +8,10 @@
 #include <algorithm>
 #include <gmock/gmock.h>
 
-namespace graze {
+namespace graze::testing {
 namespace {
 
 using ::testing::HasSubstr;
-using testing::ScriptedLine;
 
 GeneratorOptions options(double largest = 5) {
     GeneratorOptions result;
@@ -53,8 +52,6 @@ std::string expect_ending(AcquisitionEnding ending, const std::string& problem, 
     }
     return "";
 }
-
-using testing::ArbitraryGenerator;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
@@ -461,4 +458,4 @@ TEST(GeneratorClient, MakesAPlainSineOfTheBenchGenerator) {
     EXPECT_EQ(altered.generator.execute("VOLT:UNIT?;:FUNC:SHAP?;:AM:STAT?"), "VPP;SIN;0");
 }
 
-} // namespace graze
+} // namespace graze::testing

@@ -4,14 +4,10 @@
 
 #include <gmock/gmock.h>
 
-namespace graze {
+namespace graze::testing {
 namespace {
 
-using testing::contents;
-using testing::experiment_text;
-using testing::files_of;
 using ::testing::HasSubstr;
-using testing::TemporaryFolder;
 
 const RecordHeader header{{"t", "s"}, {{"x", ""}}};
 const Experiment experiment = parse_experiment(experiment_text(), "e.toml");
@@ -25,10 +21,7 @@ void write(RecordFolder& records, const Level& level) {
 
 void commit(RecordFolder& records, const Level& level) {
     write(records, level);
-    RecordEntry entry;
-    entry.level = level;
-    entry.samples = 2;
-    records.commit(entry);
+    records.commit({.level = level, .samples = 2});
 }
 
 std::string message(const std::string& path) {
@@ -105,7 +98,7 @@ TEST(RecordFolder, BelongsToOneExperimentAndOneProcess) {
     const TemporaryFolder folder;
     RecordFolder records(folder / "r", experiment, 0);
     EXPECT_THAT(message(folder / "r"), HasSubstr("another experiment is recorded into this folder"));
-    const Experiment other = parse_experiment(testing::replaced(experiment_text(), "= 500", "= 250"), "e.toml");
+    const Experiment other = parse_experiment(replaced(experiment_text(), "= 500", "= 250"), "e.toml");
     RecordFolder(folder / "other", other, 0);
     EXPECT_THAT(message(folder / "other"),
                 HasSubstr("the folder has records of other settings: 'rate 250' there, 'rate 500' here"));
@@ -138,4 +131,4 @@ TEST(RecordFolder, RefusesAnInvalidList) {
     EXPECT_THAT(message("/dev/null/x"), HasSubstr("it cannot be opened as a folder"));
 }
 
-} // namespace graze
+} // namespace graze::testing

@@ -19,14 +19,10 @@
 #include <thread>
 #include <unistd.h>
 
-namespace graze {
+namespace graze::testing {
 namespace {
 
-using testing::different_files;
-using testing::experiment_text;
 using ::testing::HasSubstr;
-using testing::TemporaryFolder;
-using testing::testbed_bench;
 
 /// The far end of a serial line, controlled by a test.
 class FarEnd {
@@ -347,4 +343,4 @@ TEST(Acquisition, MakesTheOutputSafeAfterSamplesStop) {
     EXPECT_EQ(served.output().amplitude, 0.1);
 }
 
-} // namespace graze
+} // namespace graze::testing

@@ -28,10 +28,7 @@ std::vector<StaticLoad> loads_of(Noise& noise, double noise_q, double noise_i) {
 }
 
 CouplingSettings known() {
-    CouplingSettings settings;
-    settings.gap = gap;
-    settings.stiffness = stiffness;
-    return settings;
+    return {.gap = gap, .stiffness = stiffness};
 }
 
 } // namespace

@@ -143,9 +143,7 @@ TEST(CoverageSlow, RestitutionsCoverTheTruth) {
 
 TEST(CoverageSlow, CouplingsCoverTheTruth) {
     constexpr double beta1 = 1.87e-5, beta2 = 1.66e-3, gap = 4.79e-3, stiffness = 5948;
-    IdentificationSettings settings;
-    settings.gap = gap;
-    settings.stiffness = stiffness;
+    IdentificationSettings settings{.gap = gap, .stiffness = stiffness};
     Coverage all({"q", "I"});
     for (const double of_displacement : {1e-8, 1e-6, 2e-5})
         for (const double of_current : {1e-5, 1e-3, 1e-2})

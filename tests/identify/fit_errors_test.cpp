@@ -18,6 +18,18 @@ RecordedMotion wall_motion(std::size_t readings = 120) {
     return motion;
 }
 
+/// Fifteen impacts, some of them slow: noise hides them, or creates others. (Their number is not tested: one may be so
+/// slow that the readings are as likely without it.)
+void expect_found_with_slow_impacts(std::uint64_t seed, double factor) {
+    SCOPED_TRACE("seed " + std::to_string(seed) + ", guesses " + std::to_string(factor));
+    RecordedMotion motion(load_model("impact-oscillator"), {"x", "v"}, 0, 0.05, 601);
+    motion.forget_all({"zeta", "omega", "sigma", "e"}, factor);
+    motion.add_noise(0.005, seed);
+    const Fit fit = motion.converged();
+    // With 4 numbers in 18 fits, one exceeds four errors by chance in one of 200 such tests.
+    motion.expect_within_errors(fit);
+}
+
 } // namespace
 
 /// 95 % intervals of every parameter cover the truth in 90 to 99 % of 200 experiments.
@@ -153,22 +165,6 @@ TEST(FitErrorsSlow, ChaoticMotionWithNoiseIsFitted) {
     const Fit fit = motion.converged();
     motion.expect_within_errors(fit);
 }
-
-namespace {
-
-/// Fifteen impacts, some of them slow: noise hides them, or creates others. (Their number is not tested: one may be so
-/// slow that the readings are as likely without it.)
-void expect_found_with_slow_impacts(std::uint64_t seed, double factor) {
-    SCOPED_TRACE("seed " + std::to_string(seed) + ", guesses " + std::to_string(factor));
-    RecordedMotion motion(load_model("impact-oscillator"), {"x", "v"}, 0, 0.05, 601);
-    motion.forget_all({"zeta", "omega", "sigma", "e"}, factor);
-    motion.add_noise(0.005, seed);
-    const Fit fit = motion.converged();
-    // With 4 numbers in 18 fits, one exceeds four errors by chance in one of 200 such tests.
-    motion.expect_within_errors(fit);
-}
-
-} // namespace
 
 /// Records for which the first pass ends with one impact too few or too many, and seems converged.
 TEST(FitErrors, SlowImpactsAreFound) {

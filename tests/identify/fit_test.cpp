@@ -20,6 +20,14 @@ void expect_found(const RecordedMotion& motion, const FitSettings& settings = {}
     EXPECT_LE(motion.error(fit), nine_digits);
 }
 
+/// Replaces the readings by the squares of a displacement.
+void read_squares(RecordedMotion& motion) {
+    motion.task.outputs[0].value = pow(motion.task.outputs[0].value, 2);
+    for (double& value : motion.task.records[0].readings[0].values)
+        value *= value;
+    motion.task.records[0].start = motion.first;
+}
+
 } // namespace
 
 TEST(Fit, FindsTheParametersOfAnImpactOscillator) {
@@ -241,18 +249,6 @@ TEST(Fit, AConstantChannelHasAnIntervalAboveZero) {
     EXPECT_TRUE(fit.outputs[0].unchanging);
     EXPECT_GT(fit.numbers[0].estimate.half_width(), 0);
 }
-
-namespace {
-
-/// Replaces the readings by the squares of a displacement.
-void read_squares(RecordedMotion& motion) {
-    motion.task.outputs[0].value = pow(motion.task.outputs[0].value, 2);
-    for (double& value : motion.task.records[0].readings[0].values)
-        value *= value;
-    motion.task.records[0].start = motion.first;
-}
-
-} // namespace
 
 /// Squares of a displacement do not show the side: the mirror image is reported as alternative, found by the signs of
 /// all states, or by a symmetry of the model, through impacts.

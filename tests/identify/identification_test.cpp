@@ -123,8 +123,7 @@ TEST(Identification, DecrementHasUnitsAndCurves) {
 }
 
 TEST(Identification, RestitutionsOfSeveralRecordsAreCombined) {
-    IdentificationSettings settings;
-    settings.impacts.least_jump = 1;
+    const IdentificationSettings settings{.impacts = {.least_jump = 1}};
     const Identification one = identify_restitution(each({drops("a", 0.8)}), settings);
     // Between two samples the time of an impact is uncertain by half a millisecond: 9.81 m/s^2 makes 0.005 m/s of that,
     // before and after, of speeds of 1.8 m/s and more.
@@ -147,8 +146,7 @@ TEST(Identification, RestitutionsOfSeveralRecordsAreCombined) {
 /// An offset that is small relative to the velocities is detected by their errors; the scatter about the line would
 /// hide it, since the offset enlarges it.
 TEST(Identification, WarnsOfAnOffsetOfTheVelocity) {
-    IdentificationSettings settings;
-    settings.impacts.least_jump = 1;
+    const IdentificationSettings settings{.impacts = {.least_jump = 1}};
     NamedRecord ball = drops("a", 0.85);
     Noise noise(3);
     for (double& v : ball.samples.values[0])
@@ -164,14 +162,12 @@ TEST(Identification, WarnsOfAnOffsetOfTheVelocity) {
 /// reaches below one, by the velocities' own errors it does not. For an elastic impact, errors alone may give more than
 /// one.
 TEST(Identification, WarnsOfARestitutionAboveOne) {
-    IdentificationSettings settings;
-    settings.impacts.least_jump = 1;
+    const IdentificationSettings settings{.impacts = {.least_jump = 1}};
     for (const double offset : {0.0, 0.1}) {
         std::size_t told = 0;
         for (int seed = 1; seed <= 20; ++seed) {
             Noise noise(static_cast<unsigned>(seed));
-            NamedRecord one{"a", {{"t", "s"}, {{"v", "m/s"}}}, {}};
-            one.samples.clear(1);
+            NamedRecord one{"a", {{"t", "s"}, {{"v", "m/s"}}}, {{}, {{}}}};
             double first = 2.3;
             for (int k = 0; k < 5; ++k, first *= offset == 0 ? 1 : 0.93)
                 for (int i = 0; i < 100; ++i) {
@@ -194,8 +190,7 @@ TEST(Identification, WarnsOfARestitutionAboveOne) {
 TEST(Identification, WarnsOfARestitutionThatChangesFromImpactToImpact) {
     for (const double other : {0.8, 0.6}) {
         Noise noise(7);
-        NamedRecord one{"a", {{"t", "s"}, {{"v", "m/s"}}}, {}};
-        one.samples.clear(1);
+        NamedRecord one{"a", {{"t", "s"}, {{"v", "m/s"}}}, {{}, {{}}}};
         double first = 0.8, last = 0.9;
         for (int k = 0; k < 20; ++k) {
             for (int i = 0; i < 50; ++i) {
@@ -224,9 +219,7 @@ TEST(Identification, CouplingIsLeftOutWhereNoMagnetHasIt) {
             "loads", {{"q", ""}, {"I", "A"}}, 1, 12,
             {[&](double t) { return unit * 1e-4 * (1 + t); }, [](double t) { return current_at(1e-4 * (1 + t)); }});
     };
-    IdentificationSettings settings;
-    settings.gap = gap;
-    settings.stiffness = stiffness;
+    IdentificationSettings settings{.gap = gap, .stiffness = stiffness};
     EXPECT_THAT(message_of([&] { identify_coupling(each({loads(1e3)}), settings); }),
                 HasSubstr("a displacement of 0.1 is larger than the gap at rest, 0.004791"));
     settings.gap = 0.05; // beta2 would have to be gap + beta2 less 50 mm
@@ -278,9 +271,7 @@ TEST(Identification, ImpedanceWarnsOfSigns) {
     const Identification turned = identify_impedance(each({coil(-1)}), {});
     ASSERT_EQ(turned.warnings.size(), 2U) << "resistance and inductance are both negative";
     EXPECT_THAT(turned.warnings[0], HasSubstr("the resistance comes out below zero"));
-    IdentificationSettings half;
-    half.asked_as = "--";
-    half.beta1 = Estimate{1.9e-5, 0, 0};
+    const IdentificationSettings half{.beta1 = Estimate{1.9e-5, 0, 0}, .asked_as = "--"};
     EXPECT_THAT(message_of([&] { identify_impedance(each({coil(1)}), half); }),
                 HasSubstr("give --beta1, --beta2 and --gap, or none"));
 }
@@ -343,9 +334,7 @@ TEST(Identification, RefusesRecordsWithoutUsableNumbers) {
     for (double& value : huge.samples.values[0])
         value *= 1e150;
     EXPECT_THAT(message_of([&] { identify_decrement(each({huge}), {}); }), HasSubstr("(scale v="));
-    IdentificationSettings other;
-    other.channel = "w";
-    other.asked_as = "--";
+    const IdentificationSettings other{.channel = "w", .asked_as = "--"};
     EXPECT_THAT(message_of([&] { identify_decrement(each({release(0.1)}), other); }), HasSubstr("--channel"));
 }
 

@@ -38,13 +38,7 @@ void expect_differences(const Case& one) {
     const std::vector<double> parameters = model.parameter_values(), usual = model.initial_state();
     std::vector<double> start = usual;
     start[1] += one.velocity;
-    MotionPiece piece;
-    piece.mode = model.initial_mode;
-    piece.begin = one.begin;
-    piece.end = one.end;
-    piece.times = times;
-    piece.seeds = seeds;
-    piece.reach = 1.5 * (times[1] - times[0]);
+    MotionPiece piece{{}, seeds, model.initial_mode, one.begin, one.end, times, 1.5 * (times[1] - times[0])};
     const auto follow = [&](const std::vector<double>& values, const std::vector<double>& state) {
         motion.set_parameters(values);
         piece.state = state;

@@ -75,10 +75,8 @@ struct RecordedMotion {
     }
     /// Makes a parameter unknown, with its value times a factor as guess.
     void forget(const std::string& parameter, double factor) {
-        UnknownParameter unknown;
-        unknown.parameter = model.independent_parameter(parameter);
-        unknown.guess = factor * model.parameter_values()[unknown.parameter.place()];
-        task.parameters.push_back(unknown);
+        const ParameterId unknown = model.independent_parameter(parameter);
+        task.parameters.push_back({unknown, factor * model.parameter_values()[unknown.place()]});
     }
     void forget_states() {
         for (FitRecord& record : task.records)

@@ -36,6 +36,35 @@ std::string refusal_of(const std::string& text, const RecordLayout& layout = {})
     return "nothing";
 }
 
+RecordHeader example_header() {
+    return {{"t", "s"}, {{"I", "A"}, {"q", ""}}};
+}
+
+Samples example_samples(std::size_t rows) {
+    Samples samples;
+    samples.clear(2);
+    for (std::size_t i = 0; i < rows; ++i) {
+        const double t = static_cast<double>(i) / 3;
+        samples.times.push_back(t);
+        samples.values[0].push_back(std::sin(t));
+        samples.values[1].push_back(1e-300 * t);
+    }
+    return samples;
+}
+
+std::string written(const TemporaryFolder& folder, const std::string& name, std::size_t rows) {
+    RecordWriter writer(folder / name, example_header());
+    const Samples samples = example_samples(rows);
+    Samples part;
+    for (std::size_t first = 0; first < rows; first += 1000) {
+        part.clear(2);
+        part.append(samples, first, std::min(rows, first + 1000));
+        writer.write(part);
+    }
+    writer.close();
+    return folder / name;
+}
+
 } // namespace
 
 TEST(RecordFile, HeaderGivesNamesAndUnits) {
@@ -105,39 +134,6 @@ TEST(RecordFile, ErrorsHaveTheirPlace) {
     EXPECT_THROW(open_record("/tmp"), InputError);
     EXPECT_THROW(open_record("/dev/zero"), InputError);
 }
-
-namespace {
-
-RecordHeader example_header() {
-    return {{"t", "s"}, {{"I", "A"}, {"q", ""}}};
-}
-
-Samples example_samples(std::size_t rows) {
-    Samples samples;
-    samples.clear(2);
-    for (std::size_t i = 0; i < rows; ++i) {
-        const double t = static_cast<double>(i) / 3;
-        samples.times.push_back(t);
-        samples.values[0].push_back(std::sin(t));
-        samples.values[1].push_back(1e-300 * t);
-    }
-    return samples;
-}
-
-std::string written(const TemporaryFolder& folder, const std::string& name, std::size_t rows) {
-    RecordWriter writer(folder / name, example_header());
-    const Samples samples = example_samples(rows);
-    Samples part;
-    for (std::size_t first = 0; first < rows; first += 1000) {
-        part.clear(2);
-        part.append(samples, first, std::min(rows, first + 1000));
-        writer.write(part);
-    }
-    writer.close();
-    return folder / name;
-}
-
-} // namespace
 
 TEST(RecordFile, WrittenRecordsAreReadBackBitForBit) {
     const TemporaryFolder folder;

@@ -52,7 +52,6 @@ public:
 
 private:
     std::string asked(std::string_view question);
-    bool done(const char* word, std::uint64_t number);
     void parse(const std::string& row, Samples& samples);
     [[noreturn]] void refuse(const std::string& line, const char* wanted) const;
     void drain();
