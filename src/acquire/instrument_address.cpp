@@ -1,11 +1,11 @@
 #include "graze/acquire/instrument_address.hpp"
 
 #include "base/letter_case.hpp"
+#include "record/text_number.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <string_view>
 #include <vector>
 
@@ -18,8 +18,7 @@ bool are_digits(std::string_view text) {
 }
 
 bool read_port(std::string_view text, unsigned short& port) {
-    const auto [next, error] = std::from_chars(text.data(), text.data() + text.size(), port);
-    return error == std::errc() && next == text.data() + text.size() && port > 0;
+    return read_whole(text, port) && port > 0;
 }
 
 /// Splits a name at double colons, except within brackets, which hold an IPv6 address.

@@ -184,21 +184,13 @@ void open_port(const SerialSettings& settings, asio::serial_port& port) {
         fail(AcquisitionEnding::line_lost, "serial line '{}' cannot be opened ({})", name, error.message());
     set_option(port, Base::baud_rate(settings.baud), name, "rate");
     set_option(port, Base::character_size(settings.data_bits), name, "number of data bits");
-    set_option(port,
-               Base::parity(settings.parity == Parity::none  ? Base::parity::none
-                            : settings.parity == Parity::odd ? Base::parity::odd
-                                                             : Base::parity::even),
-               name, "parity");
-    set_option(port,
-               Base::stop_bits(settings.stop_bits == StopBits::one   ? Base::stop_bits::one
-                               : settings.stop_bits == StopBits::two ? Base::stop_bits::two
-                                                                     : Base::stop_bits::onepointfive),
-               name, "number of stop bits");
-    set_option(port,
-               Base::flow_control(settings.flow == FlowControl::none       ? Base::flow_control::none
-                                  : settings.flow == FlowControl::software ? Base::flow_control::software
-                                                                           : Base::flow_control::hardware),
-               name, "flow control");
+    // Asio lists parities, stop bits and flow controls in the same order.
+    const auto parity = static_cast<Base::parity::type>(settings.parity);
+    const auto stop_bits = static_cast<Base::stop_bits::type>(settings.stop_bits);
+    const auto flow = static_cast<Base::flow_control::type>(settings.flow);
+    set_option(port, Base::parity(parity), name, "parity");
+    set_option(port, Base::stop_bits(stop_bits), name, "number of stop bits");
+    set_option(port, Base::flow_control(flow), name, "flow control");
 }
 
 void open_socket(const std::string& host, unsigned short number, double timeout, asio::io_context& context,

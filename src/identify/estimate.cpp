@@ -97,15 +97,15 @@ Combined combine(std::span<const Estimate> sets) {
         least = set.error > 0 && (least == 0 || set.error < least) ? set.error : least;
     const auto variance_of = [&](const Estimate& set) { return std::pow(std::max(set.error, 1e-3 * least), 2); };
     const auto mean_of = [&](double spread, double& weights, double& departures) {
+        const auto weight_of = [&](const Estimate& set) { return least > 0 ? 1 / (variance_of(set) + spread) : 1; };
         double sum = 0;
         weights = departures = 0;
         for (const Estimate& set : sets) {
-            const double weight = least > 0 ? 1 / (variance_of(set) + spread) : 1;
-            weights += weight;
-            sum += weight * set.value;
+            weights += weight_of(set);
+            sum += weight_of(set) * set.value;
         }
         for (const Estimate& set : sets)
-            departures += (least > 0 ? 1 / (variance_of(set) + spread) : 1) * std::pow(set.value - sum / weights, 2);
+            departures += weight_of(set) * std::pow(set.value - sum / weights, 2);
         return sum / weights;
     };
     double weights = 0, departures = 0, squares = 0;

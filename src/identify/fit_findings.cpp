@@ -120,14 +120,6 @@ double variance_of(const FitRows& rows, const Residuals& residuals, double freed
     return mean > 0 ? unit * unit * squares / freedom / (mean * mean) : 0;
 }
 
-std::string text_of_combination(const std::vector<FreeCombination::Part>& parts,
-                                const std::vector<FittedNumber>& numbers) {
-    std::string text;
-    for (const FreeCombination::Part& part : parts)
-        text += fmt::format("{}{} ({:+.3g} %)", text.empty() ? "" : ", ", numbers[part.number].name, part.change);
-    return text;
-}
-
 FreeCombination combination(const FitDecomposition& parts, Eigen::Index k, const std::vector<FittedNumber>& numbers,
                             const std::vector<double>& scales, const std::vector<std::size_t>& order) {
     constexpr double least = 0.01, negligible = 1e-6;
@@ -149,7 +141,9 @@ FreeCombination combination(const FitDecomposition& parts, Eigen::Index k, const
     }
     std::stable_sort(result.parts.begin(), result.parts.end(),
                      [](const auto& one, const auto& other) { return std::abs(one.change) > std::abs(other.change); });
-    result.text = text_of_combination(result.parts, numbers);
+    for (const FreeCombination::Part& part : result.parts)
+        result.text +=
+            fmt::format("{}{} ({:+.3g} %)", result.text.empty() ? "" : ", ", numbers[part.number].name, part.change);
     return result;
 }
 

@@ -83,7 +83,7 @@ private:
         StageReport report = best_initial_state(alone(piece), piece);
         const auto readings = [&](std::size_t k) { return static_cast<double>(pieces()[k].last - pieces()[k].first); };
         if (pieces()[piece].is_first || usual_costs_.empty() || report.interrupted ||
-            report.cost < suspicious * readings(piece) * usual_cost()) {
+            report.cost < suspicious * readings(piece) * median(usual_costs_)) {
             usual_costs_.push_back(report.cost / readings(piece));
             return report;
         }
@@ -93,7 +93,7 @@ private:
             report = other;
         else
             point_->states[piece] = first;
-        if (report.cost < suspicious * readings(piece) * usual_cost())
+        if (report.cost < suspicious * readings(piece) * median(usual_costs_))
             return report;
         const FitPoint apart = *point_;
         const FitLayout layout = rows_->layout;
@@ -107,9 +107,6 @@ private:
         rows_->layout = layout;
         return report;
     }
-
-    /// Median cost per reading of the pieces fitted so far.
-    double usual_cost() { return median(usual_costs_); }
 
     /// Minimises from each candidate of the initial state, and keeps the best result.
     StageReport best_initial_state(const FitStage& stage, std::size_t piece) {

@@ -2,9 +2,7 @@
 
 #include "identify/fit_solver.hpp"
 
-#include <cstddef>
 #include <functional>
-#include <vector>
 
 namespace graze {
 

@@ -24,10 +24,6 @@ namespace {
 
 constexpr std::size_t most_samples = 10'000'000;
 
-std::string name_or(const std::string& given, const char* usual) {
-    return given.empty() ? usual : given;
-}
-
 /// Fills in the diagonal of the covariance matrix.
 void set_variances(Identification& found) {
     const std::size_t count = found.values.size();
@@ -252,12 +248,13 @@ Identification identify_coupling(const EachRecord& records, const Identification
     if (!settings.gap || !settings.stiffness)
         throw InputError("gap or stiffness are not known",
                          fmt::format("give {0}gap and {0}stiffness, in the units of the record", settings.asked_as));
+    const std::string place = settings.displacement.empty() ? "q" : settings.displacement;
     std::vector<StaticLoad> loads;
     Channel displacement, current;
     CommonUnits units;
     records([&](const std::string&, SampleSource& record) {
         const RecordHeader& header = record.header();
-        const std::size_t q = header.channel(name_or(settings.displacement, "q"), settings.asked_as + "displacement"),
+        const std::size_t q = header.channel(place, settings.asked_as + "displacement"),
                           i = header.channel(settings.current, settings.asked_as + "current");
         UsableSource usable(record, units, {q, i}, UsableSource::Times::as_they_are);
         displacement = usable.header().channels[q];

@@ -13,18 +13,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-GeneratorOptions options(double largest = 5) {
-    GeneratorOptions result;
-    result.limits = {largest, 1, 0.5, 50};
-    result.timeout = 0.01;
-    result.reopen = 0.4;
-    return result;
-}
-
-GeneratorOptions hasty_options(double largest = 5) {
-    GeneratorOptions result = options(largest);
-    result.reopen = 0.02;
-    return result;
+GeneratorOptions options(double largest = 5, double reopen = 0.4) {
+    return {.limits = {largest, 1, 0.5, 50}, .timeout = 0.01, .reopen = reopen};
 }
 
 /// A client of a faultless generator, of which a test alters some answers.
@@ -120,7 +110,7 @@ TEST(GeneratorClient, NamesTheFaultOfAnAnswer) {
         {"-2.500000E+00", AcquisitionEnding::clipped},
     };
     for (const auto& [text, ending] : answers) {
-        AlteredGenerator altered(hasty_options());
+        AlteredGenerator altered(options(5, 0.02));
         altered.client.begin(6, 1, 0);
         altered.alter = [&, bad = text](const std::string& said, std::string answer) {
             return said == "VOLT?" ? bad : answer;
@@ -243,7 +233,7 @@ TEST(GeneratorClient, SendsNoLevelIfASettingIsStuck) {
     std::size_t refused = 0;
     for (unsigned seed = 0; seed < 160; ++seed) {
         const unsigned stuck = 16U << (seed % 4), habits = stuck | (seed % 2 == 0 ? 13U : 4U);
-        Arbitrary arbitrary(seed, habits, hasty_options(2));
+        Arbitrary arbitrary(seed, habits, options(2, 0.02));
         std::string what, problem;
         try {
             arbitrary.client.begin(6, 0.1, 0);
@@ -413,7 +403,7 @@ TEST(GeneratorClient, SwitchesOffAnOutputThatCannotBeMadeSafe) {
         for (const bool has_switch : {true, false}) {
             const unsigned habits = ArbitraryGenerator::modulation_is_stuck | ArbitraryGenerator::unit_is_stuck |
                                     ArbitraryGenerator::shape_is_stuck | (has_switch ? 13U : 4U);
-            Arbitrary arbitrary(seed, habits, hasty_options());
+            Arbitrary arbitrary(seed, habits, options(5, 0.02));
             std::string problem;
             if (arbitrary.client.make_safe(0.1, problem))
                 continue; // its initial state was right

@@ -18,10 +18,6 @@
 namespace graze {
 namespace {
 
-BenchSettings testbed() {
-    return testing::testbed({"I"});
-}
-
 /// A bench service in a thread of its own, with clients of its connections.
 class Served {
 public:
@@ -76,7 +72,7 @@ public:
 
 private:
     testing::TemporaryFolder folder_;
-    ScpiBench bench_{testbed()};
+    ScpiBench bench_{testing::testbed({"I"})};
     std::optional<BenchService> service_;
     std::atomic<bool> stop_{false};
     std::thread thread_;
@@ -143,7 +139,7 @@ TEST(BenchService, IsReachedFromThisMachineAlone) {
 TEST(BenchService, ReplacesOnlyStaleLinks) {
     const testing::TemporaryFolder folder;
     const std::string file = folder.write("taken", "mine");
-    ScpiBench bench(testbed());
+    ScpiBench bench(testing::testbed({"I"}));
     for (const ServiceSettings& wrong :
          {ServiceSettings{.port = file}, {.port = "/nowhere/at/all"}, {.port = folder / "free", .speed = 0}})
         EXPECT_THROW(BenchService service(bench, wrong), InputError);

@@ -22,7 +22,7 @@ struct GeneratorLimits {
 
 /// Options of `GeneratorClient`.
 struct GeneratorOptions {
-    GeneratorLimits limits;
+    GeneratorLimits limits{};
     double load = 50;        ///< load of the output in ohm; infinity: high impedance
     double timeout = 2;      ///< longest wait for an answer, in s
     int attempts = 3;        ///< attempts for each setting if lines are lost or garbled
